@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* How every layer says what went wrong: a kind, a place, and a sentence. No logging, no exit. */
+#ifndef PROTOCOL_ERROR_H
+#define PROTOCOL_ERROR_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* X(NAME, "wire-code", http-status): the one list of kinds of error. */
+#define ERROR_KINDS(X)                                                                             \
+    X(NONE, "none", 200)                                                                           \
+    X(SYNTAX, "syntax", 400)           /* not JSON, not UTF-8, not the expected shape */           \
+    X(INVALID, "invalid", 422)         /* well formed, but a value breaks a rule */                \
+    X(LIMIT, "limit", 422)             /* a limit of limits.h is exceeded */                       \
+    X(TOO_LARGE, "too_large", 413)     /* more bytes than accepted */                              \
+    X(NOT_FOUND, "not_found", 404)     /* the thing addressed does not exist */                    \
+    X(CONFLICT, "conflict", 409)       /* id in use, still referenced, cycle */                    \
+    X(PRECONDITION, "precondition", 412) /* If-Match names another revision */                     \
+    X(FORBIDDEN, "forbidden", 403)     /* not with these rights */                                 \
+    X(COMPILE, "compile", 422)         /* a shader does not compile */                             \
+    X(UNAVAILABLE, "unavailable", 503) /* not now: worker restarting, queue full, draining */      \
+    X(INTERNAL, "internal", 500)       /* our fault */
+
+enum error_kind {
+#define X(name, wire, status) ERROR_##name,
+    ERROR_KINDS(X)
+#undef X
+};
+
+/* A caller-owned value; zero-initialise. `place` is a JSON path such as /nodes/body/params/radius,
+ * a file name, or "". */
+struct error {
+    enum error_kind kind;
+    char place[192];
+    char message[320];
+};
+
+/* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well. */
+bool error_set(struct error *err, enum error_kind kind, const char *place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* "place: message", or the message alone where the place is empty. */
+void error_print(const struct error *err, FILE *out);
+
+const char *error_kind_name(enum error_kind kind);
+int error_kind_status(enum error_kind kind);
+
+#endif

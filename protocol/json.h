@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* Strict JSON: one pass over the bytes refuses what cJSON would let through, before cJSON sees
+ * them. RFC 8259, UTF-8 (RFC 3629), depth, counts, string and number lengths, duplicate keys,
+ * finite numbers, no NUL. */
+#ifndef PROTOCOL_JSON_H
+#define PROTOCOL_JSON_H
+
+#include <cjson/cJSON.h>
+#include <stddef.h>
+
+#include "error.h"
+
+/* Pre-scan and parse exactly `length` bytes. NULL and `err` ("line 3, column 7") on failure. */
+cJSON *json_parse(const char *text, size_t length, struct error *err);
+
+/* The shortest decimal text that reads back as the same double; `out` holds 32 bytes. */
+void json_number(double value, char out[32]);
+/* Compact or pretty text; caller frees. Same input, same bytes;
+ * numbers as json_number writes them (cJSON's own printer rounds). */
+char *json_print(const cJSON *json, bool pretty);
+
+#endif

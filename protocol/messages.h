@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* What client and server say on a live connection: a table of client messages, checked the same
+ * way as documents, and the binary header of a frame. The wire form is in README.md. */
+#ifndef PROTOCOL_MESSAGES_H
+#define PROTOCOL_MESSAGES_H
+
+#include <stdint.h>
+
+#include "record.h"
+
+enum message_kind {
+    MESSAGE_HELLO,
+    MESSAGE_VIEW,
+    MESSAGE_EDIT,
+    MESSAGE_UNDO,
+    MESSAGE_REDO,
+    MESSAGE_PICK,
+    MESSAGE_ACK,
+    MESSAGE_COUNT
+};
+
+struct message {
+    enum message_kind kind;
+    cJSON *json; /* the whole object, checked: members known, types and ranges right */
+};
+
+/* Reads one client message; pre-scan included. On success the caller calls message_finish. */
+bool message_read(const char *text, size_t length, struct message *out, struct error *err);
+void message_finish(struct message *message);
+const char *message_name(enum message_kind kind);
+/* Descriptions of all messages, both directions, for the schema. */
+cJSON *messages_describe(void);
+
+/* Members of a checked object; the fallback where absent. */
+double json_member_number(const cJSON *object, const char *name, double fallback);
+const char *json_member_text(const cJSON *object, const char *name, const char *fallback);
+bool json_member_bool(const cJSON *object, const char *name, bool fallback);
+
+/* --- frames --- */
+
+enum { FRAME_HEADER_BYTES = 64, FRAME_PART_HEADER_BYTES = 8 };
+
+enum frame_codec { FRAME_JPEG = 1, FRAME_PNG = 2 };
+
+enum frame_flag {
+    FRAME_KEY = 1,      /* decodes without earlier frames */
+    FRAME_STILL = 2,    /* full resolution, the view rests */
+    FRAME_LOSSLESS = 4, /* these are the pixels of image.png at this revision and view */
+    FRAME_STALE = 8,    /* the scene is already newer than the picture: its shader compiles */
+};
+
+struct frame_header {
+    uint8_t codec;
+    uint8_t flags;
+    uint32_t number;        /* 1, 2, 3... on this connection */
+    uint32_t payload_bytes; /* of the whole frame, over all its parts */
+    uint64_t revision;
+    uint32_t input;         /* `seq` of the newest view message that the picture shows */
+    uint16_t width, height; /* of the picture */
+    uint16_t view_width, view_height; /* of the view that it fills */
+    uint32_t queue_us, march_us, light_us, read_us, encode_us;
+};
+
+void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEADER_BYTES]);
+bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_header *out);
+void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES]);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* The scene document in memory: a tree of nodes plus named resources, every value checked.
+ * Not thread-safe; whoever owns a scene is the only one that touches it. */
+#ifndef PROTOCOL_SCENE_H
+#define PROTOCOL_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "nodes.h"
+
+struct node {
+    char *id;
+    const struct node_type *type;
+    struct record common;    /* node_common_type */
+    struct record transform; /* transform_type */
+    struct record params;    /* type->record */
+    struct node *parent;     /* NULL for the root */
+    struct node **children;
+    size_t child_count;
+};
+
+/* A light or a material: a record with a name of its own. */
+struct resource {
+    char *name; /* a light's id, a material's name */
+    struct record record;
+};
+
+struct resource_list {
+    struct resource **items;
+    size_t count;
+};
+
+struct node_index; /* id -> node, private to scene.c */
+
+struct scene {
+    struct record info, camera, environment, render;
+    struct resource_list lights, materials;
+    struct node *root;
+    size_t node_count;
+    struct node_index *index;
+};
+
+/* Strictly reads a document; NULL and `err` when it breaks a rule. A node without an id gets one
+ * derived from its type and position. Caller destroys. */
+struct scene *scene_parse(const char *text, size_t length, struct error *err);
+struct scene *scene_read(const cJSON *document, struct error *err);
+struct scene *scene_create_empty(void);
+struct scene *scene_copy(const struct scene *scene);
+void scene_destroy(struct scene *scene);
+
+/* The canonical text: parse(print(s)) equals s, and print(parse(print(s))) is print(s) byte for
+ * byte. Caller frees. `pretty` adds line breaks. */
+char *scene_print(const struct scene *scene, bool pretty);
+cJSON *scene_to_json(const struct scene *scene);
+cJSON *node_to_json(const struct node *node);
+
+struct node *scene_find(const struct scene *scene, const char *id);
+struct resource *resource_find(const struct resource_list *list, const char *name);
+/* Index among the parent's children; 0 for the root. */
+size_t node_position(const struct node *node);
+/* The material that applies: own or inherited; NULL where none is named up to the root. */
+const struct resource *node_material(const struct scene *scene, const struct node *node);
+/* Pre-order walk including hidden nodes; the callback's `index` counts from 0 at the root. */
+void scene_walk(const struct scene *scene,
+                void (*visit)(void *data, const struct node *node, size_t index), void *data);
+
+#endif

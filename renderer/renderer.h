@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes seen by cameras become pixels. With worker.h the only header of this layer that others
+ * include. Knows nothing of HTTP, clients, sessions or users.
+ *
+ * Threads: one thread owns a renderer and everything made from it. (Inside, a second thread
+ * compiles; nobody sees it.) Nothing here logs but through renderer_params.log. */
+#ifndef RENDERER_RENDERER_H
+#define RENDERER_RENDERER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "protocol/limits.h"
+#include "protocol/scene.h"
+
+struct renderer; /* a GL context on a device */
+struct resident; /* a scene held ready for drawing, at a revision */
+struct job;      /* one picture being drawn, tile by tile */
+
+enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_SOFTWARE };
+
+struct renderer_params {
+    enum device_kind device; /* DEVICE_GPU: an error where there is only software */
+    int device_index;        /* among renderer_devices(); -1: the best */
+    const char *cache_dir;   /* for Mesa's shader cache; NULL: the driver's default */
+    void (*log)(void *data, const char *line);
+    void *log_data;
+};
+
+struct renderer_info {
+    char name[128], version[128], device[192]; /* GL_RENDERER, GL_VERSION, path to the device */
+    bool software;
+    int max_texture;
+};
+
+/* What `doctor` shows: one line per EGL device, why it was or was not chosen. */
+struct device_report {
+    char name[192];
+    char verdict[192];
+    bool software, usable, chosen;
+};
+
+/* Loads GL, makes the context; NULL and `err` below GL 4.3 core or without a device. */
+struct renderer *renderer_create(const struct renderer_params *params, struct error *err);
+void renderer_destroy(struct renderer *renderer);
+const struct renderer_info *renderer_info(const struct renderer *renderer);
+/* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */
+size_t renderer_devices(const struct renderer_params *params, struct device_report *out,
+                        size_t max);
+
+struct renderer_counters {
+    uint64_t compilations; /* programs compiled and linked since the start */
+    uint64_t cache_hits;   /* scenes whose shape was there already */
+    uint64_t tiles, pictures;
+};
+struct renderer_counters renderer_counters(const struct renderer *renderer);
+
+/* --- scenes --- */
+
+/* Takes `scene`. Compiling starts in the background. */
+struct resident *resident_create(struct renderer *renderer, struct scene *scene,
+                                 uint64_t revision);
+void resident_destroy(struct resident *resident);
+/* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
+bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
+                   struct error *err);
+const struct scene *resident_scene(const struct resident *resident);
+uint64_t resident_revision(const struct resident *resident);       /* newest told */
+uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
+/* ERROR_NONE while all is well; else why the newest shape cannot be drawn. */
+const struct error *resident_error(const struct resident *resident);
+/* Takes finished compilations over; true when some resident can show something newer. `wait_ms`
+ * > 0 blocks at most that long for one. Call it between tiles. */
+bool renderer_poll(struct renderer *renderer, int wait_ms);
+
+/* --- pictures --- */
+
+enum aov { AOV_COLOR, AOV_DEPTH, AOV_NORMAL, AOV_ID, AOV_COUNT };
+const char *aov_name(enum aov aov);
+int aov_find(const char *name); /* -1: none */
+
+struct job_desc {
+    int width, height;
+    const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
+    enum aov aov;
+    int samples;     /* per axis, 1..4; 0: the scene's render settings. Only AOV_COLOR uses it */
+    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
+    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
+};
+
+enum job_state { JOB_WAITING /* for a compilation */, JOB_RUNNING, JOB_DONE, JOB_FAILED };
+
+/* The job draws the scene as it is now: later edits do not touch it. */
+struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
+/* Draws one tile and returns soon. */
+enum job_state job_step(struct job *job);
+const struct error *job_error(const struct job *job);
+uint64_t job_revision(const struct job *job);
+struct job_times { uint32_t march_us, light_us, read_us; };
+struct job_times job_times(const struct job *job);
+void job_destroy(struct job *job); /* at any time: cancels */
+
+/* Rows from the top, no padding. */
+enum pixel_format { PIXEL_RGBA8, PIXEL_GRAY16, PIXEL_FLOAT, PIXEL_UINT32 };
+struct image {
+    int width, height;
+    int channels;
+    enum pixel_format format;
+    void *pixels; /* owned */
+    size_t bytes;
+};
+void image_finish(struct image *image);
+/* Hands the finished picture over; valid once, after JOB_DONE. */
+struct image job_take_image(struct job *job);
+/* create + poll + step until done; for the command line and tests. */
+bool renderer_render(struct resident *resident, const struct job_desc *desc,
+                     struct image *out_image, struct error *err);
+
+enum image_format { IMAGE_PNG, IMAGE_JPEG, IMAGE_NPY };
+int image_format_find(const char *name); /* "png" "jpg" "jpeg" "npy"; -1: none */
+const char *image_format_mime(enum image_format format);
+struct encode_params {
+    enum image_format format;
+    int quality;         /* JPEG 1..100; 0: 90 */
+    bool chroma_halved;  /* JPEG 4:2:0 */
+    bool fast;           /* PNG level 1, filter SUB: for streaming; the pixels are the same */
+};
+/* `*out_bytes` is malloc'ed. */
+bool image_encode(const struct image *image, const struct encode_params *params,
+                  uint8_t **out_bytes, size_t *out_length, struct error *err);
+
+/* --- questions --- */
+
+struct pick_result {
+    bool hit;
+    char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface */
+    double position[3], normal[3], distance;
+};
+/* On the CPU, with the C evaluator; x and y in pixels of a width×height view. */
+struct pick_result resident_pick(const struct resident *resident, const struct record *camera,
+                                 int width, int height, double x, double y);
+
+#endif

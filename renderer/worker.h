@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/* The render process and how the front speaks with it, over one Unix socketpair.
+ *
+ * A packet is: u32 json_length, u32 payload_length (native byte order, same machine), the JSON
+ * object, the payload (encoded picture). Bytes go through the socket rather than through shared
+ * memory: a copy of 200 kB costs tens of microseconds, and nothing is left behind when a worker is
+ * killed in the middle.
+ *
+ * front -> worker                                     worker -> front
+ *   scene  {scene, revision, document}                  ready    {renderer{...}}
+ *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
+ *   drop   {scene}                                      broken   {scene, revision, code, message}
+ *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width, height,
+ *           camera?, aov, samples, format, quality,               mime, march_us, light_us, read_us,
+ *           chroma_halved, fast, exact}                           encode_us, queue_us} + payload
+ *   cancel {job}                                        failed   {job, code, place, message}
+ *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position, normal, distance}
+ *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
+ *   stop   {}                                                     tiles, pictures, resident_bytes}
+ *
+ * A render of a scene that is not known, or a malformed packet, is answered by `failed`. `newest`
+ * is false where the picture is older than the scene because its shader still compiles. Jobs run
+ * tile by tile; the lowest priority number goes first, so a viewer's frame interrupts a long
+ * picture between two tiles. The worker answers pings between tiles too: silence means a hang. */
+#ifndef RENDERER_WORKER_H
+#define RENDERER_WORKER_H
+
+#include <cjson/cJSON.h>
+#include <stdint.h>
+
+#include "renderer.h"
+
+enum { WORKER_FD = 3 }; /* where the front leaves the socket for the child */
+
+struct worker_params {
+    struct renderer_params renderer;
+    size_t memory_limit_bytes; /* RLIMIT_AS above what the driver needs; 0: none */
+};
+
+/* The whole life of the render process; returns its exit status. */
+int worker_run(int fd, const struct worker_params *params);
+
+/* --- packets, used by both ends --- */
+
+struct packet {
+    cJSON *json;
+    uint8_t *payload;
+    size_t payload_length;
+};
+void packet_finish(struct packet *packet);
+/* Bytes of a packet, ready to send; caller frees. `payload` may be NULL. */
+uint8_t *packet_pack(const cJSON *json, const void *payload, size_t payload_length,
+                     size_t *out_length);
+/* Collects bytes from a stream and gives out whole packets. */
+struct packet_reader {
+    uint8_t *bytes;
+    size_t length, capacity;
+};
+void packet_reader_finish(struct packet_reader *reader);
+void packet_reader_add(struct packet_reader *reader, const void *bytes, size_t length);
+/* 1: `*out` holds a packet. 0: more bytes needed. -1: the stream is broken. */
+int packet_reader_next(struct packet_reader *reader, struct packet *out);
+
+#endif
