@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT
+# Builds, runs and tests fieldcast. `make help` lists the targets. GNU make 4 or newer.
+#
+#   CONFIG=release|debug|asan|tsan|cov   objects under $(BUILD)/$(CONFIG)/
+#   BUILD=DIR    where everything built goes; `make -f ../src/Makefile` builds in the current folder
+#   V=1          show the commands;  WERROR= lets warnings pass
+#   CC CFLAGS CPPFLAGS LDFLAGS PREFIX DESTDIR   yours; the project's own flags stand apart from them
+
+S := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
+VERSION := 0.1.0
+CONFIG ?= release
+BUILD ?= build
+PREFIX ?= /usr/local
+DESTDIR ?=
+WERROR ?= -Werror
+PKG_CONFIG ?= pkg-config
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+OUT := $(BUILD)/$(CONFIG)
+-include config.mk
+
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+.SUFFIXES:
+.DELETE_ON_ERROR:
+.PHONY: all fieldcast web run test programs bench lint format check golden-accept clean install \
+        uninstall dist help deps FORCE
+
+Q := $(if $(filter 1,$(V)),,@)
+say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' '$(1)' '$(2)')
+again = +$(Q)$(MAKE) -f $(firstword $(MAKEFILE_LIST))
+
+all: web ## the program with the page in it (the default)
+	$(again) fieldcast
+
+# --- flags ---
+
+# pkg-config module:Debian package
+LIBRARIES := libcjson:libcjson-dev libpng:libpng-dev libturbojpeg:libturbojpeg0-dev egl:libegl-dev \
+             gl:libgl-dev libmicrohttpd:libmicrohttpd-dev libwebsockets:libwebsockets-dev \
+             sqlite3:libsqlite3-dev
+modules := $(foreach l,$(LIBRARIES),$(firstword $(subst :, ,$(l))))
+
+hardening := -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong \
+             -fstack-clash-protection -ftrivial-auto-var-init=zero -fPIE \
+             $(if $(filter x86_64% i686%,$(shell uname -m)),-fcf-protection=full)
+config_release := -O2 -g $(hardening)
+config_debug := -Og -g3
+config_asan := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+config_tsan := -O1 -g -fsanitize=thread
+config_cov := -O0 -g --coverage
+link_release := -pie -Wl,-z,relro,-z,now,-z,noexecstack
+ifndef config_$(CONFIG)
+$(error CONFIG=$(CONFIG) is unknown: release, debug, asan, tsan or cov)
+endif
+
+warnings := -Wall -Wextra -Wshadow -Wvla -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith \
+            -Wformat=2 -Werror=format-security -Werror=implicit $(WERROR)
+ours := -std=gnu17 -D_GNU_SOURCE -DFIELDCAST_VERSION='"$(VERSION)"' -I$(S) $(warnings) \
+        $(config_$(CONFIG)) -pthread
+compile = $(CC) $(ours) $(packages_cflags) $(CPPFLAGS) $(CFLAGS)
+link = $(CC) $(config_$(CONFIG)) $(link_$(CONFIG)) -pthread $(CFLAGS) $(LDFLAGS)
+
+# Goals that compile nothing themselves do without packages: they install them, remove files, or call
+# this Makefile again.
+ifneq ($(filter-out all web run test bench lint format check golden-accept clean install uninstall \
+                    dist help deps,$(or $(MAKECMDGOALS),all)),)
+missing := $(foreach l,$(LIBRARIES),$(shell $(PKG_CONFIG) --exists $(firstword $(subst :, ,$(l))) \
+               2>/dev/null || echo $(lastword $(subst :, ,$(l)))))
+ifneq ($(strip $(missing)),)
+$(error $(PKG_CONFIG) finds nothing of $(strip $(missing)): run deploy/install-deps.sh, which installs the Debian packages)
+endif
+packages_cflags := $(shell $(PKG_CONFIG) --cflags $(modules))
+# Only the headers of GL are used: functions are loaded through EGL.
+packages_libs := $(shell $(PKG_CONFIG) --libs $(filter-out gl,$(modules))) -lm -ldl
+endif
+
+# --- the program ---
+
+sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c))
+object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
+main := $(OUT)/server/main.o
+glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
+examples := $(sort $(wildcard $(S)/protocol/examples/*.json))
+page := $(sort $(shell find $(S)/web/dist -type f 2>/dev/null))
+# What is embedded: C made by deploy/embed.sh, for the headers renderer/glsl.h and server/assets.h.
+embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
+            $(if $(wildcard $(S)/server/assets.h),$(OUT)/generated/assets.o)
+objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
+
+fieldcast: $(OUT)/fieldcast ## the program with the page that web/dist holds now, if any (C only)
+
+$(OUT)/fieldcast: $(main) $(objects) $(OUT)/link-flags
+	$(call say,LD,$@)
+	$(Q)$(link) -o $@ $(filter %.o,$^) $(packages_libs)
+
+$(OUT)/%.o: $(S)/%.c $(OUT)/flags
+	$(call say,CC,$<)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(compile) -MMD -MP -c -o $@ $<
+
+$(OUT)/generated/%.o: $(OUT)/generated/%.c $(OUT)/flags
+	$(call say,CC,$<)
+	$(Q)$(compile) -MMD -MP -c -o $@ $<
+
+# The lists of names are prerequisites too, so that a removed file is noticed.
+$(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
+	$(call say,GEN,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)sh $< glsl $(abspath $(glsl)) >$@
+
+$(OUT)/generated/assets.c: $(S)/deploy/embed.sh $(page) $(examples) $(OUT)/asset-names
+	$(call say,GEN,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)sh $< assets $(abspath $(S)) $(@D) >$@
+
+# stamp NAME TEXT: a file that changes only when its text does.
+define stamp
+$(OUT)/$(1): FORCE
+	@mkdir -p $$(@D)
+	@printf '%s\n' $$(call quote,$(2)) | cmp -s - $$@ || printf '%s\n' $$(call quote,$(2)) >$$@
+endef
+quote = '$(subst ','\'',$(1))'
+$(eval $(call stamp,flags,$$(compile)))
+$(eval $(call stamp,link-flags,$$(link) $$(packages_libs) $$(objects)))
+$(eval $(call stamp,glsl-names,$$(glsl)))
+$(eval $(call stamp,asset-names,$$(page) $$(examples)))
+
+# --- the page ---
+
+web_sources := $(wildcard $(S)/web/index.html $(S)/web/*.ts $(S)/web/package.json) \
+               $(shell find $(S)/web/src $(S)/web/public -type f 2>/dev/null)
+
+web: $(if $(wildcard $(S)/web/package.json),$(S)/web/dist/index.html) ## the page alone, into web/dist
+
+$(S)/web/dist/index.html: $(web_sources) $(S)/web/node_modules/.package-lock.json
+	$(call say,WEB,$@)
+	$(Q)cd $(S)/web && npm run --silent build
+	$(Q)touch $@
+
+$(S)/web/node_modules/.package-lock.json: $(S)/web/package-lock.json
+	@printf '%s\n' 'web/node_modules is missing or older than web/package-lock.json.' \
+	  'deploy/install-deps.sh installs it; `make fieldcast` builds the program without the page.' >&2
+	@exit 1
+
+# --- tests and checks ---
+
+test_sources := $(wildcard $(S)/tests/*/test_*.c)
+test_programs := $(patsubst %.o,%,$(call object,$(test_sources)))
+support := $(call object,$(wildcard $(S)/tests/support/*.c))
+
+programs: $(OUT)/fieldcast $(test_programs) $(BUILD)/compile_commands.json ## the program and all C tests
+
+$(test_programs): %: %.o $(support) $(objects) $(OUT)/link-flags
+	$(call say,LD,$@)
+	$(Q)$(link) -o $@ $(filter %.o,$^) -lcmocka $(packages_libs)
+
+$(BUILD)/compile_commands.json: $(OUT)/flags $(sources) $(test_sources)
+	$(Q)for f in $(filter %.c,$^); do printf '{"directory":"%s","file":"%s","command":"%s"},\n' \
+	  "$(CURDIR)" "$$f" $(call quote,$(subst ",\",$(compile)))" -c $$f"; \
+	done | sed -e '1s/^/[/' -e '$$s/,$$/]/' >$@
+
+# Everything, with the sanitizers on; the last line is `N passed, N failed`.
+test: deps ## install what is missing, build with ASan and UBSan, run all tests
+	$(again) web
+	$(again) CONFIG=asan programs
+	+$(Q)cd $(S) && tests/run $(abspath $(BUILD)/asan) $(SUITE)
+
+bench: deps ## measure; prints JSON
+	$(again) all
+	$(Q)cd $(S) && tests/run --bench $(abspath $(OUT))
+
+lint: ## the rules of the house
+	$(Q)cd $(S) && tests/lint/lint.sh
+
+format: ## rewrite the C sources by .clang-format, the page by biome
+	$(Q)cd $(S) && clang-format -i $$(git ls-files '*.c' '*.h')
+	$(Q)cd $(S)/web && if [ -x node_modules/.bin/biome ]; then node_modules/.bin/biome format --write .; fi
+
+check: ## lint and test
+	$(again) lint
+	$(again) test
+
+golden-accept: ## take the picture just drawn as the reference of CASE=name
+	$(again) CONFIG=release programs
+	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
+
+# --- use ---
+
+data := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/fieldcast
+
+run: deps ## install what is missing, build, and serve on http://127.0.0.1:8080/
+	$(again) all
+	$(Q)exec $(OUT)/fieldcast serve --host 127.0.0.1 --port 8080 --data '$(data)'
+
+deps:
+	$(Q)$(S)/deploy/install-deps.sh
+
+install: ## copy program and service files to $(DESTDIR)$(PREFIX)
+	$(again) all
+	install -Dm755 $(OUT)/fieldcast $(DESTDIR)$(PREFIX)/bin/fieldcast
+	install -Dm644 $(S)/deploy/fieldcast.conf $(DESTDIR)$(PREFIX)/share/doc/fieldcast/fieldcast.conf
+	install -Dm644 $(S)/README.md $(DESTDIR)$(PREFIX)/share/doc/fieldcast/README.md
+	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
+	sed 's|@PREFIX@|$(PREFIX)|' $(S)/deploy/fieldcast.service \
+	  >$(DESTDIR)$(PREFIX)/lib/systemd/system/fieldcast.service
+
+uninstall: ## remove what install copied
+	rm -f $(DESTDIR)$(PREFIX)/bin/fieldcast $(DESTDIR)$(PREFIX)/lib/systemd/system/fieldcast.service
+	rm -rf $(DESTDIR)$(PREFIX)/share/doc/fieldcast
+
+dist: ## a source archive of the last commit
+	$(Q)mkdir -p $(BUILD)
+	$(Q)git -C $(S) archive --prefix=fieldcast-$(VERSION)/ HEAD | gzip -9n >$(BUILD)/fieldcast-$(VERSION).tar.gz
+	@echo $(BUILD)/fieldcast-$(VERSION).tar.gz
+
+clean: ## remove everything built
+	rm -rf $(BUILD) $(S)/web/dist
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
+	@sed -n '4,9s/^#//p' $(firstword $(MAKEFILE_LIST))
+
+-include $(patsubst %.o,%.d,$(main) $(objects) $(support) $(test_programs:=.o))
