@@ -6,41 +6,42 @@
 
 #include <stddef.h>
 
-/* X(NAME, value, "unit", "what it bounds") */
+/* X(NAME, "name", value, "unit", "what it bounds") */
 #define LIMITS(X)                                                                                  \
-    X(DOCUMENT_BYTES, 16777216, "bytes", "a scene document")                                       \
-    X(MESSAGE_BYTES, 1048576, "bytes", "a WebSocket message from a client")                        \
-    X(JSON_DEPTH, 160, "levels", "nesting of JSON")                                                \
-    X(JSON_KEYS, 4096, "keys", "members of one JSON object")                                       \
-    X(JSON_STRING_BYTES, 65536, "bytes", "one JSON string")                                        \
-    X(JSON_NUMBER_BYTES, 32, "characters", "one JSON number")                                      \
-    X(JSON_VALUES, 2000000, "values", "JSON values in one text")                                   \
-    X(NODES, 100000, "nodes", "nodes of a scene")                                                  \
-    X(NODE_DEPTH, 64, "levels", "nesting of nodes")                                                \
-    X(CHILDREN, 10000, "nodes", "children of one node")                                            \
-    X(LIGHTS, 16, "lights", "lights of a scene")                                                   \
-    X(MATERIALS, 1024, "materials", "materials of a scene")                                        \
-    X(ID_BYTES, 64, "characters", "an id or a resource name")                                      \
-    X(NAME_BYTES, 200, "bytes", "a display name")                                                  \
-    X(COORDINATE, 1000000, "scene units", "magnitude of any number in a document")                 \
-    X(OPERATIONS, 10000, "operations", "operations of one edit")                                   \
-    X(UNDO_GROUPS, 1000, "groups", "undo steps kept for one author")                               \
-    X(IMAGE_SIDE, 16384, "pixels", "width or height of a picture")                                 \
-    X(IMAGE_PIXELS, 33554432, "pixels", "width times height of a picture")                         \
-    X(VIEW_SIDE, 4096, "pixels", "width or height of a live view")                                 \
-    X(FRAMES_IN_FLIGHT, 2, "frames", "frames sent and not yet acknowledged, per client")           \
-    X(SESSIONS, 256, "sessions", "live connections")                                               \
-    X(IMAGE_QUEUE, 64, "requests", "pictures waiting to be rendered")                              \
-    X(HEAD_BYTES, 16384, "bytes", "the head of an HTTP request")
+    X(DOCUMENT_BYTES, "document_bytes", 16777216, "bytes", "a scene document")                     \
+    X(MESSAGE_BYTES, "message_bytes", 1048576, "bytes", "a WebSocket message from a client")       \
+    X(JSON_DEPTH, "json_depth", 160, "levels", "nesting of JSON")                                  \
+    X(JSON_KEYS, "json_keys", 4096, "keys", "members of one JSON object")                          \
+    X(JSON_STRING_BYTES, "json_string_bytes", 65536, "bytes", "one JSON string")                   \
+    X(JSON_NUMBER_BYTES, "json_number_bytes", 32, "characters", "one JSON number")                 \
+    X(JSON_VALUES, "json_values", 2000000, "values", "JSON values in one text")                    \
+    X(NODES, "nodes", 100000, "nodes", "nodes of a scene")                                         \
+    X(NODE_DEPTH, "node_depth", 64, "levels", "nesting of nodes")                                  \
+    X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
+    X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \
+    X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
+    X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
+    X(NAME_BYTES, "name_bytes", 200, "bytes", "a display name")                                    \
+    X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \
+    X(OPERATIONS, "operations", 10000, "operations", "operations of one edit")                     \
+    X(UNDO_GROUPS, "undo_groups", 1000, "groups", "undo steps kept for one author")                \
+    X(IMAGE_SIDE, "image_side", 16384, "pixels", "width or height of a picture")                   \
+    X(IMAGE_PIXELS, "image_pixels", 33554432, "pixels", "width times height of a picture")         \
+    X(VIEW_SIDE, "view_side", 4096, "pixels", "width or height of a live view")                    \
+    X(FRAMES_IN_FLIGHT, "frames_in_flight", 2, "frames",                                           \
+      "frames sent and not yet acknowledged, per client")                                          \
+    X(SESSIONS, "sessions", 256, "sessions", "live connections")                                   \
+    X(IMAGE_QUEUE, "image_queue", 64, "requests", "pictures waiting to be rendered")               \
+    X(HEAD_BYTES, "head_bytes", 16384, "bytes", "the head of an HTTP request")
 
 enum {
-#define X(name, value, unit, doc) LIMIT_##name = value,
+#define X(NAME, name, value, unit, doc) LIMIT_##NAME = value,
     LIMITS(X)
 #undef X
 };
 
 struct limit {
-    const char *name; /* lower case, e.g. "document_bytes" */
+    const char *name; /* e.g. "document_bytes" */
     long value;
     const char *unit;
     const char *doc;

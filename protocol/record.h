@@ -18,7 +18,7 @@ enum param_type {
     PARAM_VEC3,
     PARAM_BVEC3, /* three booleans */
     PARAM_IVEC3, /* three integers */
-    PARAM_COLOR, /* linear RGB, three numbers >= 0 */
+    PARAM_COLOR, /* linear RGB, three numbers >= 0; a zero pair bounds it by LIMIT_COORDINATE */
     PARAM_ENUM,  /* one of `choices`; number[0] is its index */
     PARAM_TEXT,  /* free text, at most LIMIT_NAME_BYTES */
     PARAM_MATERIAL, /* name of a material of the scene, or "" for the parent's */
@@ -35,6 +35,8 @@ struct param {
     double min, max;
     bool above_min;   /* the minimum itself is excluded (radius > 0) */
     bool nonzero;     /* every component differs from 0 (scale) */
+    bool direction;   /* a vector with a length: not all three are 0 */
+    bool uniform;     /* a vector that is also read from one number, for all three */
     double step;      /* what one arrow key adds; 0 lets the editor choose */
     const char *const *choices; /* PARAM_ENUM: NULL-terminated */
     bool main;        /* among the two that a compact view shows */
@@ -61,11 +63,21 @@ struct record {
     struct value *values;
 };
 
+/* [A-Za-z0-9_.-]{1,64}: what ids of nodes and lights and names of materials look like. */
+bool record_name_valid(const char *name);
+
 size_t record_type_count(const struct record_type *type);
 int record_type_find(const struct record_type *type, const char *name); /* -1: none */
+/* Fills `err` for a name that record_type_find does not know, with the nearest one; false. */
+bool record_type_unknown(const struct record_type *type, const char *name, const char *place,
+                         struct error *err);
 int param_components(enum param_type type); /* 1, 3, or 0 for text */
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
+/* The range that holds, also where the row names none. */
+void param_range(const struct param *param, double *out_min, double *out_max);
+/* JSON of a value of this row; `text` is for the text types. Caller frees. */
+cJSON *param_value_json(const struct param *param, const double number[3], const char *text);
 
 void record_init(struct record *record, const struct record_type *type);
 void record_finish(struct record *record);

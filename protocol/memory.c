@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* Allocation that never fails. */
+#include "memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+void *memory_alloc(size_t count, size_t size)
+{
+    void *block = calloc(count ? count : 1, size ? size : 1);
+    if (!block) {
+        abort();
+    }
+    return block;
+}
+
+void *memory_resize(void *block, size_t count, size_t size)
+{
+    if (size && count > SIZE_MAX / size) {
+        abort();
+    }
+    size_t bytes = count * size;
+    void *resized = realloc(block, bytes > 0 ? bytes : 1);
+    if (!resized) {
+        abort();
+    }
+    return resized;
+}
+
+char *memory_text(const char *text)
+{
+    size_t bytes = strlen(text) + 1;
+    return memcpy(memory_alloc(bytes, 1), text, bytes);
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* Allocation that never fails: without memory the program aborts and its supervisor starts a new
+ * one. Everything given out here is freed with free(). */
+#ifndef PROTOCOL_MEMORY_H
+#define PROTOCOL_MEMORY_H
+
+#include <stddef.h>
+
+/* Zeroed; never NULL, even for nothing. */
+void *memory_alloc(size_t count, size_t size);
+void *memory_resize(void *block, size_t count, size_t size);
+char *memory_text(const char *text);
+
+#endif
