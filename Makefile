@@ -82,7 +82,7 @@ object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
 examples := $(sort $(wildcard $(S)/protocol/examples/*.json))
-page := $(sort $(shell find $(S)/web/dist -type f 2>/dev/null))
+page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 # What is embedded: C made by deploy/embed.sh, for the headers renderer/glsl.h and server/assets.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
             $(if $(wildcard $(S)/server/assets.h),$(OUT)/generated/assets.o)
@@ -112,7 +112,7 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 $(OUT)/generated/assets.c: $(S)/deploy/embed.sh $(page) $(examples) $(OUT)/asset-names
 	$(call say,GEN,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)sh $< assets $(abspath $(S)) $(@D) >$@
+	$(Q)sh $< assets $(abspath $(S)) $(abspath $(@D)) >$@
 
 # stamp NAME TEXT: a file that changes only when its text does.
 define stamp
@@ -131,9 +131,9 @@ $(eval $(call stamp,asset-names,$$(page) $$(examples)))
 web_sources := $(wildcard $(S)/web/index.html $(S)/web/*.ts $(S)/web/package.json) \
                $(shell find $(S)/web/src $(S)/web/public -type f 2>/dev/null)
 
-web: $(if $(wildcard $(S)/web/package.json),$(S)/web/dist/index.html) ## the page alone, into web/dist
+web: $(if $(wildcard $(S)/web/package.json),$(S)/web/dist/.built) ## the page alone, into web/dist
 
-$(S)/web/dist/index.html: $(web_sources) $(S)/web/node_modules/.package-lock.json
+$(S)/web/dist/.built: $(web_sources) $(S)/web/node_modules/.package-lock.json
 	$(call say,WEB,$@)
 	$(Q)cd $(S)/web && npm run --silent build
 	$(Q)touch $@

@@ -3,7 +3,10 @@
 # Writes C that embeds files in the program: the shader files, the page, the examples. The bytes are
 # taken in by the assembler, which is much faster than arrays in C.
 #
-#   embed.sh glsl FILE...       struct glsl_file glsl_files[], for renderer/glsl.h
+#   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
+#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist) and examples_table[]
+#                                  (SOURCE/protocol/examples) of server/assets.h; WORK takes the
+#                                  compressed files. Without web/dist the page's table is empty
 set -eu
 
 # bytes LABEL FILE: LABEL and LABEL_end enclose the file; one NUL follows, so text is a C string.
@@ -28,6 +31,68 @@ glsl() {
         printf '    {"%s", (const char *)glsl_%d},\n' "$(basename "$file")" "$n"
     done
     printf '    {0},\n};\n'
+}
+
+mime() {
+    case $1 in
+    *.html) echo 'text/html; charset=utf-8' ;;
+    *.js) echo 'text/javascript; charset=utf-8' ;;
+    *.css) echo 'text/css; charset=utf-8' ;;
+    *.svg) echo 'image/svg+xml' ;;
+    *.json | *.webmanifest) echo 'application/json' ;;
+    *.png) echo 'image/png' ;;
+    *.jpg) echo 'image/jpeg' ;;
+    *.woff2) echo 'font/woff2' ;;
+    *.wasm) echo 'application/wasm' ;;
+    *.txt) echo 'text/plain; charset=utf-8' ;;
+    *)
+        echo "embed.sh: no media type is known for $1" >&2
+        exit 1
+        ;;
+    esac
+}
+
+# table NAME PREFIX: rows from lines `path file gzip` on stdin, and the count.
+table() {
+    rows=
+    n=0
+    while read -r path file gzip; do
+        n=$((n + 1))
+        bytes "$2$n" "$file"
+        type=$(mime "$path")
+        [ "$1" = examples ] && path=${path%.json}
+        rows="$rows    {\"$path\", \"$type\", $2$n, $(($(wc -c <"$file"))), $gzip},
+"
+    done
+    printf 'const struct asset %s_table[] = {\n%s    {0},\n};\n' "$1" "$rows"
+    printf 'const size_t %s_count = %d;\n' "$1" "$n"
+}
+
+# Text travels compressed: the browser unpacks it, and the program is smaller.
+page() {
+    [ -d "$1/web/dist" ] || return 0
+    (cd "$1/web/dist" && find . -type f ! -name .built | LC_ALL=C sort) | while read -r name; do
+        case $name in
+        *.png | *.jpg | *.woff2) echo "${name#.} $1/web/dist/$name false" ;;
+        *)
+            mkdir -p "$2/page/$(dirname "$name")"
+            gzip -9nc "$1/web/dist/$name" >"$2/page/$name.gz"
+            echo "${name#.} $2/page/$name.gz true"
+            ;;
+        esac
+    done
+}
+
+examples() {
+    for file in "$1"/protocol/examples/*.json; do
+        [ -e "$file" ] && echo "$(basename "$file") $file false"
+    done
+}
+
+assets() {
+    echo '#include "server/assets.h"'
+    page "$1" "$2" | table assets asset_
+    examples "$1" | LC_ALL=C sort | table examples example_
 }
 
 "$@"
