@@ -433,3 +433,11 @@ const char *record_text(const struct record *record, const char *name)
 {
     return named_value(record, name)->text;
 }
+
+bool record_is(const struct record *record, const char *name, const char *choice)
+{
+    int index = record_type_find(record->type, name);
+    assert(index >= 0 && record->type->params[index].choices);
+    return strcmp(record->type->params[index].choices[(int)record->values[index].number[0]],
+                  choice) == 0;
+}

@@ -101,5 +101,7 @@ cJSON *param_describe(const struct param *param);
 double record_number(const struct record *record, const char *name);
 const double *record_vector(const struct record *record, const char *name);
 const char *record_text(const struct record *record, const char *name);
+/* Whether an enum holds this choice. */
+bool record_is(const struct record *record, const char *name, const char *choice);
 
 #endif
