@@ -13,7 +13,8 @@
 /* Pre-scan and parse exactly `length` bytes. NULL and `err` ("line 3, column 7") on failure. */
 cJSON *json_parse(const char *text, size_t length, struct error *err);
 
-/* The shortest decimal text that reads back as the same double; `out` holds 32 bytes. */
+/* The shortest decimal text that reads back as the same number, in the form of ECMAScript's
+ * Number::toString (-0 becomes 0, what is not finite becomes null); `out` holds 32 bytes. */
 void json_number(double value, char out[32]);
 /* Compact or pretty text; caller frees. Same input, same bytes;
  * numbers as json_number writes them (cJSON's own printer rounds). */
