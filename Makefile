@@ -87,12 +87,16 @@ page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
             $(if $(wildcard $(S)/server/assets.h),$(OUT)/generated/assets.o)
 objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
+library := $(OUT)/libfieldcast.a
 
 fieldcast: $(OUT)/fieldcast ## the program with the page that web/dist holds now, if any (C only)
 
-$(OUT)/fieldcast: $(main) $(objects) $(OUT)/link-flags
+$(OUT)/fieldcast: $(main) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
-	$(Q)$(link) -o $@ $(filter %.o,$^) $(packages_libs)
+	$(Q)$(link) -o $@ $(filter %.o %.a,$^) $(packages_libs)
+
+$(library): $(objects) $(OUT)/link-flags
+	$(Q)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
 
 $(OUT)/%.o: $(S)/%.c $(OUT)/flags
 	$(call say,CC,$<)
@@ -151,9 +155,9 @@ support := $(call object,$(wildcard $(S)/tests/support/*.c))
 
 programs: $(OUT)/fieldcast $(test_programs) $(BUILD)/compile_commands.json ## the program and all C tests
 
-$(test_programs): %: %.o $(support) $(objects) $(OUT)/link-flags
+$(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
-	$(Q)$(link) -o $@ $(filter %.o,$^) -lcmocka $(packages_libs)
+	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(packages_libs)
 
 $(BUILD)/compile_commands.json: $(OUT)/flags $(sources) $(test_sources)
 	$(Q)for f in $(filter %.c,$^); do printf '{"directory":"%s","file":"%s","command":"%s"},\n' \

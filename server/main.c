@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The program: finds the command and runs it. */
-int main(void)
+/* The program's entry; apart from the rest so that tests can link everything else. */
+#include "command.h"
+
+int main(int argc, char **argv)
 {
-    return 0;
+    return command_main(argc, argv);
 }

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* What the commands that draw have in common: the device from the options, scenes by name. */
+#ifndef SERVER_DRAWING_H
+#define SERVER_DRAWING_H
+
+#include "options.h"
+#include "renderer/renderer.h"
+
+/* The renderer's parameters by the options; strings stay the options'. The renderer's lines go to
+ * stderr. Makes the cache directory, and does without one where that fails. */
+void drawing_params(const struct options *options, struct renderer_params *out);
+
+/* The scene called `name`: a file, "-" for stdin, or "example:NAME". NULL and `err`, whose place
+ * starts with the name. Caller destroys. */
+struct scene *scene_open(const char *name, struct error *err);
+
+#endif

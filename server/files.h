@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* Whole files: read, replaced at once, and the directories they stand in. */
+#ifndef SERVER_FILES_H
+#define SERVER_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "protocol/error.h"
+
+/* At most `limit` bytes of a file, or of stdin for "-", with a NUL behind them. NULL and `err`
+ * (its place is `path`) on failure. Caller frees. */
+char *file_read(const char *path, size_t limit, size_t *out_length, struct error *err);
+
+/* Makes `path` hold exactly these bytes, or leaves it as it was: writes beside it and renames.
+ * "-" is stdout; what is no regular file (a pipe, a device) is written in place. */
+bool file_replace(const char *path, const void *bytes, size_t length, struct error *err);
+
+/* mkdir -p, for the user alone. */
+bool directory_make(const char *path, struct error *err);
+
+#endif

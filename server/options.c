@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/* The table of options, and the check of one value against its row. */
+#include "options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "protocol/memory.h"
+#include "renderer/renderer.h"
+
+#define FOR(command) (1U << COMMAND_##command)
+
+enum { DRAWING = FOR(SERVE) | FOR(RENDER) | FOR(DOCTOR) | FOR(BENCH) | FOR(WORKER) };
+
+static const char *word_of(const char *const *words, size_t count, size_t index)
+{
+    return index < count ? words[index] : NULL;
+}
+
+static const char *aov_choice(size_t index)
+{
+    return index < AOV_COUNT ? aov_name((enum aov)index) : NULL;
+}
+
+static const char *format_choice(size_t index)
+{
+    static const char *const words[] = {"png", "jpg", "npy"};
+    return word_of(words, 3, index);
+}
+
+static const char *device_choice(size_t index)
+{
+    static const char *const words[] = {
+        [DEVICE_AUTO] = "auto", [DEVICE_GPU] = "gpu", [DEVICE_SOFTWARE] = "software"};
+    return word_of(words, 3, index);
+}
+
+static const char *log_level_choice(size_t index)
+{
+    static const char *const words[] = {"error", "warning", "info", "debug"};
+    return word_of(words, 4, index);
+}
+
+/* clang-format off */
+static const struct option_row table[OPTION_COUNT] = {
+    [OPTION_HOST] = { "host", 0, "ADDRESS", OPTION_TEXT, .fallback = "127.0.0.1",
+        .commands = FOR(SERVE) | FOR(DOCTOR), .stored = true,
+        .doc = "Address to listen on. Any but a loopback address needs --token-file." },
+    [OPTION_PORT] = { "port", 0, "PORT", OPTION_INT, .fallback = "8080", .min = 0, .max = 65535,
+        .commands = FOR(SERVE) | FOR(DOCTOR), .stored = true,
+        .doc = "Port to listen on; 0 takes a free one." },
+    [OPTION_DATA] = { "data", 0, "DIR", OPTION_PATH, .base = BASE_DATA, .fallback = "fieldcast",
+        .commands = FOR(SERVE) | FOR(DOCTOR), .stored = true,
+        .doc = "Where scenes and their edits are kept." },
+    [OPTION_TOKEN_FILE] = { "token-file", 0, "FILE", OPTION_PATH,
+        .commands = FOR(SERVE), .stored = true,
+        .doc = "File whose first line every request must carry as its bearer token." },
+    [OPTION_ALLOW_ORIGIN] = { "allow-origin", 0, "ORIGINS", OPTION_LIST,
+        .commands = FOR(SERVE), .stored = true,
+        .doc = "Origins of pages that may speak with the server besides its own, as "
+               "https://example.org, with commas between them." },
+    [OPTION_ALLOW_HOST] = { "allow-host", 0, "HOSTS", OPTION_LIST,
+        .commands = FOR(SERVE), .stored = true,
+        .doc = "Host names under which the server may be addressed besides localhost, with "
+               "commas between them." },
+    [OPTION_WEB] = { "web", 0, "DIR", OPTION_PATH,
+        .commands = FOR(SERVE), .stored = true,
+        .doc = "Serve the page from this directory instead of the one built in." },
+    [OPTION_LOG_LEVEL] = { "log-level", 0, "LEVEL", OPTION_CHOICE, .choice = log_level_choice,
+        .fallback = "info", .commands = FOR(SERVE), .stored = true,
+        .doc = "What is written to stderr." },
+    [OPTION_WORKER_SILENCE] = { "worker-silence", 0, "MS", OPTION_INT, .fallback = "5000",
+        .min = 100, .max = 600000, .commands = FOR(SERVE), .stored = true,
+        .doc = "A render process silent for this many milliseconds is replaced." },
+    [OPTION_WORKER_MEMORY] = { "worker-memory", 0, "MIB", OPTION_INT, .fallback = "0",
+        .min = 0, .max = 1048576, .commands = FOR(SERVE) | FOR(WORKER), .stored = true,
+        .doc = "Memory that the render process may take besides the driver's; 0 sets no limit." },
+    [OPTION_DEVICE] = { "device", 0, "KIND", OPTION_CHOICE, .choice = device_choice,
+        .fallback = "auto", .commands = DRAWING, .stored = true,
+        .doc = "What draws. `auto` prefers a GPU; `gpu` fails where there is none." },
+    [OPTION_DEVICE_INDEX] = { "device-index", 0, "N", OPTION_INT, .fallback = "-1",
+        .min = -1, .max = 255, .commands = DRAWING, .stored = true,
+        .doc = "Which device, counted as `fieldcast doctor` lists them; -1 takes the best." },
+    [OPTION_CACHE] = { "cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
+        .commands = DRAWING, .stored = true,
+        .doc = "Where compiled shaders are kept." },
+    [OPTION_OUTPUT] = { "output", 'o', "FILE", OPTION_PATH, .commands = FOR(RENDER),
+        .doc = "The picture to write; `-` is stdout. Needed." },
+    [OPTION_WIDTH] = { "width", 0, "PIXELS", OPTION_INT, .fallback = "1280",
+        .min = 1, .max = LIMIT_IMAGE_SIDE, .commands = FOR(RENDER),
+        .doc = "Width of the picture." },
+    [OPTION_HEIGHT] = { "height", 0, "PIXELS", OPTION_INT, .fallback = "720",
+        .min = 1, .max = LIMIT_IMAGE_SIDE, .commands = FOR(RENDER),
+        .doc = "Height of the picture." },
+    [OPTION_AOV] = { "aov", 0, "WHAT", OPTION_CHOICE, .choice = aov_choice, .fallback = "color",
+        .commands = FOR(RENDER),
+        .doc = "What the picture shows." },
+    [OPTION_FORMAT] = { "format", 0, "FORMAT", OPTION_CHOICE, .choice = format_choice,
+        .commands = FOR(RENDER),
+        .doc = "Format of the picture. By default the output's extension says it." },
+    [OPTION_SAMPLES] = { "samples", 0, "N", OPTION_INT, .fallback = "0", .min = 0, .max = 4,
+        .commands = FOR(RENDER),
+        .doc = "Samples per pixel along each axis; 0 takes the scene's." },
+    [OPTION_QUALITY] = { "quality", 0, "N", OPTION_INT, .fallback = "90", .min = 1, .max = 100,
+        .commands = FOR(RENDER),
+        .doc = "Quality of a JPEG." },
+    [OPTION_POSITION] = { "position", 0, "X,Y,Z", OPTION_VECTOR, .min = -LIMIT_COORDINATE,
+        .max = LIMIT_COORDINATE, .commands = FOR(RENDER),
+        .doc = "Where the camera stands; by default where the scene says." },
+    [OPTION_TARGET] = { "target", 0, "X,Y,Z", OPTION_VECTOR, .min = -LIMIT_COORDINATE,
+        .max = LIMIT_COORDINATE, .commands = FOR(RENDER),
+        .doc = "What the camera looks at; by default what the scene says." },
+    [OPTION_FOV] = { "fov", 0, "DEGREES", OPTION_NUMBER, .min = 1, .max = 170,
+        .commands = FOR(RENDER),
+        .doc = "Vertical angle of view; by default the scene's." },
+    [OPTION_ROUNDS] = { "rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,
+        .commands = FOR(BENCH),
+        .doc = "How often each thing is measured; the median counts." },
+    [OPTION_ONLY] = { "only", 0, "EXAMPLE", OPTION_TEXT, .commands = FOR(BENCH),
+        .doc = "Measure this example scene alone." },
+    [OPTION_CONFIG] = { "config", 0, "FILE", OPTION_PATH, .base = BASE_CONFIG,
+        .fallback = "fieldcast/fieldcast.conf", .commands = DRAWING,
+        .doc = "The config file; the default one may be absent." },
+    [OPTION_HELP] = { "help", 'h', NULL, OPTION_FLAG, .commands = ~0U,
+        .doc = "Say what the command does and takes." },
+};
+/* clang-format on */
+
+const struct option_row *option_row(enum option option)
+{
+    return &table[option];
+}
+
+void option_variable(const struct option_row *row, char *out, size_t size)
+{
+    snprintf(out, size, "FIELDCAST_%s", row->name);
+    for (char *c = out; *c; c++) {
+        *c = *c == '-' ? '_' : (char)toupper((unsigned char)*c);
+    }
+}
+
+static char *joined(const char *directory, const char *rest)
+{
+    char *path = NULL;
+    if (asprintf(&path, "%s/%s", directory, rest) < 0) {
+        abort();
+    }
+    return path;
+}
+
+static const char *home(void)
+{
+    const char *directory = getenv("HOME");
+    return directory && *directory ? directory : "/";
+}
+
+/* XDG Base Directory Specification: a variable, and a place below the home directory without it. */
+char *option_default(const struct option_row *row)
+{
+    static const struct {
+        const char *variable, *below_home;
+    } bases[] = {[BASE_DATA] = {"XDG_DATA_HOME", ".local/share"},
+                 [BASE_CONFIG] = {"XDG_CONFIG_HOME", ".config"},
+                 [BASE_CACHE] = {"XDG_CACHE_HOME", ".cache"}};
+    if (!row->fallback || row->base == BASE_NONE) {
+        return row->fallback ? memory_text(row->fallback) : NULL;
+    }
+    const char *directory = getenv(bases[row->base].variable);
+    if (directory && directory[0] == '/') {
+        return joined(directory, row->fallback);
+    }
+    char *base = joined(home(), bases[row->base].below_home);
+    char *path = joined(base, row->fallback);
+    free(base);
+    return path;
+}
+
+/* --- one value --- */
+
+static bool read_number(const struct option_row *row, const char *text, const char *end,
+                        double *out, const char *place, struct error *err)
+{
+    char *stop;
+    errno = 0;
+    double number = strtod(text, &stop);
+    int length = (int)(end - text);
+    if (stop != end || length == 0 || isspace((unsigned char)*text) || !isfinite(number)) {
+        return error_set(err, ERROR_INVALID, place, "'%.*s' is not a number", length, text);
+    }
+    if (row->type == OPTION_INT && number != floor(number)) {
+        return error_set(err, ERROR_INVALID, place, "%.*s is not a whole number", length, text);
+    }
+    if (number < row->min) {
+        return error_set(err, ERROR_INVALID, place, "%.*s is below the minimum %g", length, text,
+                         row->min);
+    }
+    if (number > row->max) {
+        return error_set(err, ERROR_INVALID, place, "%.*s is above the maximum %g", length, text,
+                         row->max);
+    }
+    *out = number;
+    return true;
+}
+
+static bool read_vector(const struct option_row *row, const char *text, double *out,
+                        const char *place, struct error *err)
+{
+    for (int i = 0; i < 3; i++) {
+        const char *end = i < 2 ? strchr(text, ',') : text + strlen(text);
+        if (!end || (i == 2 && strchr(text, ','))) {
+            return error_set(err, ERROR_INVALID, place, "needs three numbers, as 0,1.5,6");
+        }
+        if (!read_number(row, text, end, &out[i], place, err)) {
+            return false;
+        }
+        text = end + 1;
+    }
+    return true;
+}
+
+static bool read_choice(const struct option_row *row, const char *text, double *out,
+                        const char *place, struct error *err)
+{
+    char list[128] = "";
+    for (size_t i = 0; row->choice(i); i++) {
+        if (strcmp(row->choice(i), text) == 0) {
+            *out = (double)i;
+            return true;
+        }
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", row->choice(i));
+    }
+    return error_set(err, ERROR_INVALID, place, "'%s' is none of %s", text, list);
+}
+
+static bool read_flag(const char *text, double *out, const char *place, struct error *err)
+{
+    bool yes = strcmp(text, "yes") == 0;
+    if (!yes && strcmp(text, "no") != 0) {
+        return error_set(err, ERROR_INVALID, place, "'%s' is neither yes nor no", text);
+    }
+    *out = yes;
+    return true;
+}
+
+static bool read_value(const struct option_row *row, const char *text, double *number,
+                       const char *place, struct error *err)
+{
+    switch (row->type) {
+    case OPTION_FLAG:
+        return read_flag(text, number, place, err);
+    case OPTION_INT:
+    case OPTION_NUMBER:
+        return read_number(row, text, text + strlen(text), number, place, err);
+    case OPTION_VECTOR:
+        return read_vector(row, text, number, place, err);
+    case OPTION_CHOICE:
+        return read_choice(row, text, number, place, err);
+    case OPTION_TEXT:
+    case OPTION_LIST:
+    case OPTION_PATH:
+        break;
+    }
+    if (*text == '\0') {
+        return error_set(err, ERROR_INVALID, place, "is empty");
+    }
+    return true;
+}
+
+bool option_set(struct options *options, enum option option, const char *text,
+                enum option_source source, const char *place, struct error *err)
+{
+    const struct option_row *row = &table[option];
+    struct option_value value = {.source = source};
+    if (!read_value(row, text, value.number, place, err)) {
+        return false;
+    }
+    bool at_home = row->type == OPTION_PATH && text[0] == '~' && text[1] == '/';
+    value.text = at_home ? joined(home(), text + 2) : memory_text(text);
+    free(options->values[option].text);
+    options->values[option] = value;
+    return true;
+}
+
+const char *option_text(const struct options *options, enum option option)
+{
+    return options->values[option].text;
+}
+
+double option_number(const struct options *options, enum option option)
+{
+    return options->values[option].number[0];
+}
+
+int option_int(const struct options *options, enum option option)
+{
+    return (int)options->values[option].number[0];
+}
+
+bool option_flag(const struct options *options, enum option option)
+{
+    return options->values[option].number[0] != 0;
+}
+
+const double *option_vector(const struct options *options, enum option option)
+{
+    const struct option_value *value = &options->values[option];
+    return value->source == SOURCE_NONE ? NULL : value->number;
+}

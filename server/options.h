@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+/* What a user can set. One table of options gives the command line, the environment, the config
+ * file, --help and the table in the README. Reads no option's meaning: that is up to the commands.
+ *
+ * The first of these that names an option gives its value:
+ *   --name VALUE or --name=VALUE     on the command line
+ *   FIELDCAST_NAME                   in the environment     } only for rows that are `stored`
+ *   name = VALUE                     in the config file     }
+ *   the table's default */
+#ifndef SERVER_OPTIONS_H
+#define SERVER_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "protocol/error.h"
+
+enum option {
+    OPTION_CONFIG,
+    OPTION_HOST,
+    OPTION_PORT,
+    OPTION_DATA,
+    OPTION_TOKEN_FILE,
+    OPTION_ALLOW_ORIGIN,
+    OPTION_ALLOW_HOST,
+    OPTION_WEB,
+    OPTION_LOG_LEVEL,
+    OPTION_WORKER_SILENCE,
+    OPTION_WORKER_MEMORY,
+    OPTION_DEVICE,
+    OPTION_DEVICE_INDEX,
+    OPTION_CACHE,
+    OPTION_OUTPUT,
+    OPTION_WIDTH,
+    OPTION_HEIGHT,
+    OPTION_AOV,
+    OPTION_FORMAT,
+    OPTION_SAMPLES,
+    OPTION_QUALITY,
+    OPTION_POSITION,
+    OPTION_TARGET,
+    OPTION_FOV,
+    OPTION_ROUNDS,
+    OPTION_ONLY,
+    OPTION_HELP,
+    OPTION_COUNT
+};
+
+enum option_type {
+    OPTION_FLAG, /* true when named; elsewhere `yes` or `no` */
+    OPTION_INT,
+    OPTION_NUMBER,
+    OPTION_VECTOR, /* x,y,z */
+    OPTION_TEXT,
+    OPTION_LIST, /* texts with commas between them */
+    OPTION_PATH, /* a leading ~/ is the home directory */
+    OPTION_CHOICE,
+};
+
+/* Where a relative default path starts: the XDG base directories. */
+enum option_base { BASE_NONE, BASE_DATA, BASE_CONFIG, BASE_CACHE };
+
+struct option_row {
+    const char *name;  /* long form without dashes; also the key of the config file */
+    char letter;       /* short form, or 0 */
+    const char *value; /* what help calls the value; NULL for flags */
+    enum option_type type;
+    enum option_base base; /* OPTION_PATH: what the default is relative to */
+    const char *fallback;  /* the default as text; NULL: not set */
+    double min, max;       /* OPTION_INT, OPTION_NUMBER and every component of OPTION_VECTOR */
+    const char *(*choice)(size_t index); /* OPTION_CHOICE: its words; NULL past the last */
+    unsigned commands;                   /* bits 1 << enum command_id */
+    bool stored;                         /* also read from environment and config file */
+    const char *doc;
+};
+
+const struct option_row *option_row(enum option option);
+/* "FIELDCAST_TOKEN_FILE" for "token-file". */
+void option_variable(const struct option_row *row, char *out, size_t size);
+/* The default with its base directory resolved; malloc'ed, NULL where there is none. */
+char *option_default(const struct option_row *row);
+
+enum option_source {
+    SOURCE_NONE,
+    SOURCE_DEFAULT,
+    SOURCE_FILE,
+    SOURCE_ENVIRONMENT,
+    SOURCE_ARGUMENT
+};
+
+struct option_value {
+    enum option_source source; /* SOURCE_NONE: not set and no default */
+    char *text;                /* owned; NULL where not set */
+    double number[3];          /* flags 0 or 1; choices their index */
+};
+
+struct command;
+
+struct options {
+    const struct command *command;
+    struct option_value values[OPTION_COUNT];
+    char **operands; /* into argv */
+    int operand_count;
+};
+
+/* Reads the arguments after the command's name, the environment and the config file. `--help`
+ * stops reading: then only option_flag(OPTION_HELP) is meaningful. The caller calls
+ * options_finish also after a failure. */
+bool options_read(struct options *options, const struct command *command, int argc, char **argv,
+                  struct error *err);
+void options_finish(struct options *options);
+
+/* Checks `text` as the value of `option` and keeps it. `place` names where it stands. */
+bool option_set(struct options *options, enum option option, const char *text,
+                enum option_source source, const char *place, struct error *err);
+
+const char *option_text(const struct options *options, enum option option); /* NULL: not set */
+double option_number(const struct options *options, enum option option);
+int option_int(const struct options *options, enum option option); /* also a choice's index */
+bool option_flag(const struct options *options, enum option option);
+const double *option_vector(const struct options *options, enum option option); /* NULL: not set */
+
+/* --- words for the user --- */
+
+void options_help(const struct command *command, FILE *out);
+/* The README's table of all options, in Markdown. */
+void options_table(FILE *out);
+
+#endif
