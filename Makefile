@@ -24,7 +24,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
 .PHONY: all fieldcast web run test programs bench lint format check golden-accept clean install \
-        uninstall dist help deps FORCE
+        uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' '$(1)' '$(2)')
@@ -36,9 +36,7 @@ all: web ## the program with the page in it (the default)
 # --- flags ---
 
 # pkg-config module:Debian package
-LIBRARIES := libcjson:libcjson-dev libpng:libpng-dev libturbojpeg:libturbojpeg0-dev egl:libegl-dev \
-             gl:libgl-dev libmicrohttpd:libmicrohttpd-dev libwebsockets:libwebsockets-dev \
-             sqlite3:libsqlite3-dev
+LIBRARIES := $(shell awk '$$1 == "module" && $$4 == "run" { print $$2 ":" $$3 }' $(S)/deploy/packages)
 modules := $(foreach l,$(LIBRARIES),$(firstword $(subst :, ,$(l))))
 
 hardening := -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong \
@@ -64,7 +62,7 @@ link = $(CC) $(config_$(CONFIG)) $(link_$(CONFIG)) -pthread $(CFLAGS) $(LDFLAGS)
 # Goals that compile nothing themselves do without packages: they install them, remove files, or call
 # this Makefile again.
 ifneq ($(filter-out all web run test bench lint format check golden-accept clean install uninstall \
-                    dist help deps,$(or $(MAKECMDGOALS),all)),)
+                    dist help deps test-deps,$(or $(MAKECMDGOALS),all)),)
 missing := $(foreach l,$(LIBRARIES),$(shell $(PKG_CONFIG) --exists $(firstword $(subst :, ,$(l))) \
                2>/dev/null || echo $(lastword $(subst :, ,$(l)))))
 ifneq ($(strip $(missing)),)
@@ -165,12 +163,12 @@ $(BUILD)/compile_commands.json: $(OUT)/flags $(sources) $(test_sources)
 	done | sed -e '1s/^/[/' -e '$$s/,$$/]/' >$@
 
 # Everything, with the sanitizers on; the last line is `N passed, N failed`.
-test: deps ## install what is missing, build with ASan and UBSan, run all tests
+test: test-deps ## install what is missing, build with ASan and UBSan, run all tests
 	$(again) web
 	$(again) CONFIG=asan programs
 	+$(Q)cd $(S) && tests/run $(abspath $(BUILD)/asan) $(SUITE)
 
-bench: deps ## measure; prints JSON
+bench: test-deps ## measure; prints JSON
 	$(again) all
 	$(Q)cd $(S) && tests/run --bench $(abspath $(OUT))
 
@@ -197,8 +195,8 @@ run: deps ## install what is missing, build, and serve on http://127.0.0.1:8080/
 	$(again) all
 	$(Q)exec $(OUT)/fieldcast serve --host 127.0.0.1 --port 8080 --data '$(data)'
 
-deps:
-	$(Q)$(S)/deploy/install-deps.sh
+deps test-deps:
+	$(Q)$(S)/deploy/install-deps.sh $(if $(filter test-%,$@),test)
 
 install: ## copy program and service files to $(DESTDIR)$(PREFIX)
 	$(again) all
