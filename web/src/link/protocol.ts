@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT */
+/* Everything that page and server say to each other on a live connection, and the binary header of
+ * frames. Mirrors protocol/README.md, whose examples run against this file. */
+import { isObject, type Json, type JsonObject } from "../model/json.ts";
+import type { OutgoingEdit, SessionMessage } from "../model/session.ts";
+import type { Level, RendererInfo } from "../model/stores.ts";
+import type { Aov, Quality } from "../model/view.ts";
+
+export const SUBPROTOCOL = "fieldcast.v1";
+export const TOKEN_PREFIX = "fieldcast.token.";
+
+/* --- client to server --- */
+
+export interface HelloMessage {
+    readonly type: "hello";
+    readonly client: string;
+    readonly name?: string;
+    readonly revision?: number;
+    readonly epoch?: string | number;
+}
+
+export interface ViewMessage {
+    readonly type: "view";
+    readonly seq: number;
+    /* Device pixels. */
+    readonly width: number;
+    readonly height: number;
+    readonly camera?: JsonObject;
+    readonly aov: Aov;
+    readonly quality: Quality;
+    readonly visible: boolean;
+}
+
+export interface PickMessage {
+    readonly type: "pick";
+    readonly pick: number;
+    readonly x: number;
+    readonly y: number;
+    readonly seq: number;
+}
+
+export interface AckMessage {
+    readonly type: "ack";
+    readonly frame: number;
+}
+
+export type ClientMessage = HelloMessage | ViewMessage | OutgoingEdit | PickMessage | AckMessage;
+
+/* --- server to client --- */
+
+export interface WelcomeExtra {
+    readonly session: string | number;
+    readonly scene: string;
+    readonly renderer: RendererInfo;
+    readonly limits?: JsonObject;
+}
+
+export interface PickedMessage {
+    readonly type: "picked";
+    readonly pick: number;
+    readonly revision: number;
+    readonly node: string | null;
+    readonly position: readonly number[] | null;
+    readonly normal: readonly number[] | null;
+    readonly distance: number | null;
+}
+
+export interface NoticeMessage {
+    readonly type: "notice";
+    readonly level: Level;
+    readonly code: string;
+    readonly message: string;
+    readonly place?: string;
+}
+
+export interface ByeMessage {
+    readonly type: "bye";
+    readonly reason: string;
+    /* Absent: do not come back. */
+    readonly retry_ms?: number;
+}
+
+export type ServerMessage =
+    | (Extract<SessionMessage, { type: "welcome" }> & WelcomeExtra)
+    | Exclude<SessionMessage, { type: "welcome" }>
+    | PickedMessage
+    | NoticeMessage
+    | ByeMessage;
+
+const SERVER_TYPES: readonly string[] = [
+    "welcome",
+    "document",
+    "applied",
+    "changed",
+    "rejected",
+    "picked",
+    "notice",
+    "bye",
+] satisfies readonly ServerMessage["type"][];
+
+/* One text frame of the server; null for what this client does not know. */
+export function readMessage(text: string): ServerMessage | null {
+    let json: Json;
+    try {
+        json = JSON.parse(text) as Json;
+    } catch {
+        return null;
+    }
+    return isObject(json) && typeof json.type === "string" && SERVER_TYPES.includes(json.type)
+        ? (json as unknown as ServerMessage)
+        : null;
+}
+
+/* --- frames --- */
+
+export const FRAME_HEADER_BYTES = 64;
+export const FRAME_PART_HEADER_BYTES = 8;
+
+export type Codec = "jpeg" | "png";
+const CODECS: Record<number, Codec> = { 1: "jpeg", 2: "png" };
+
+const FLAG_KEY = 1;
+const FLAG_STILL = 2;
+const FLAG_LOSSLESS = 4;
+const FLAG_STALE = 8;
+
+export interface FrameHeader {
+    readonly codec: Codec;
+    readonly key: boolean;
+    readonly still: boolean;
+    readonly lossless: boolean;
+    readonly stale: boolean;
+    readonly number: number;
+    /* Of the whole frame, over all its parts. */
+    readonly payloadBytes: number;
+    readonly revision: number;
+    /* `seq` of the view shown. */
+    readonly input: number;
+    readonly width: number;
+    readonly height: number;
+    readonly viewWidth: number;
+    readonly viewHeight: number;
+    /* Microseconds. */
+    readonly queue: number;
+    readonly march: number;
+    readonly light: number;
+    readonly read: number;
+    readonly encode: number;
+}
+
+/* "FCF1" and "FCFP", read little-endian. */
+const MAGIC_FRAME = 0x31464346;
+const MAGIC_PART = 0x50464346;
+
+export type Packet =
+    | {
+          readonly kind: "head";
+          readonly header: FrameHeader;
+          readonly payload: Uint8Array<ArrayBuffer>;
+      }
+    | {
+          readonly kind: "part";
+          readonly number: number;
+          readonly payload: Uint8Array<ArrayBuffer>;
+      };
+
+function readHeader(view: DataView): FrameHeader | null {
+    const codec = CODECS[view.getUint8(5)];
+    if (view.byteLength < FRAME_HEADER_BYTES || view.getUint8(4) !== 1 || !codec) {
+        return null;
+    }
+    const flags = view.getUint8(6);
+    return {
+        codec,
+        key: (flags & FLAG_KEY) !== 0,
+        still: (flags & FLAG_STILL) !== 0,
+        lossless: (flags & FLAG_LOSSLESS) !== 0,
+        stale: (flags & FLAG_STALE) !== 0,
+        number: view.getUint32(8, true),
+        payloadBytes: view.getUint32(12, true),
+        revision: Number(view.getBigUint64(16, true)),
+        input: view.getUint32(24, true),
+        width: view.getUint16(28, true),
+        height: view.getUint16(30, true),
+        viewWidth: view.getUint16(32, true),
+        viewHeight: view.getUint16(34, true),
+        queue: view.getUint32(36, true),
+        march: view.getUint32(40, true),
+        light: view.getUint32(44, true),
+        read: view.getUint32(48, true),
+        encode: view.getUint32(52, true),
+    };
+}
+
+/* One binary message; null for what is none of ours. */
+export function readPacket(data: ArrayBuffer): Packet | null {
+    if (data.byteLength < FRAME_PART_HEADER_BYTES) {
+        return null;
+    }
+    const view = new DataView(data);
+    const magic = view.getUint32(0, true);
+    if (magic === MAGIC_PART) {
+        return {
+            kind: "part",
+            number: view.getUint32(4, true),
+            payload: new Uint8Array(data, FRAME_PART_HEADER_BYTES),
+        };
+    }
+    const header = magic === MAGIC_FRAME ? readHeader(view) : null;
+    return header
+        ? { kind: "head", header, payload: new Uint8Array(data, FRAME_HEADER_BYTES) }
+        : null;
+}
+
+/* The first message of a frame, as the server writes it; for tests and recordings. */
+export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer {
+    const data = new ArrayBuffer(FRAME_HEADER_BYTES + payload.length);
+    const view = new DataView(data);
+    const flag = (on: boolean, bit: number): number => (on ? bit : 0);
+    view.setUint32(0, MAGIC_FRAME, true);
+    view.setUint8(4, 1);
+    view.setUint8(5, header.codec === "jpeg" ? 1 : 2);
+    view.setUint8(
+        6,
+        flag(header.key, FLAG_KEY) |
+            flag(header.still, FLAG_STILL) |
+            flag(header.lossless, FLAG_LOSSLESS) |
+            flag(header.stale, FLAG_STALE),
+    );
+    view.setUint32(8, header.number, true);
+    view.setUint32(12, header.payloadBytes, true);
+    view.setBigUint64(16, BigInt(header.revision), true);
+    view.setUint32(24, header.input, true);
+    [header.width, header.height, header.viewWidth, header.viewHeight].forEach((size, i) => {
+        view.setUint16(28 + 2 * i, size, true);
+    });
+    [header.queue, header.march, header.light, header.read, header.encode].forEach((time, i) => {
+        view.setUint32(36 + 4 * i, time, true);
+    });
+    new Uint8Array(data, FRAME_HEADER_BYTES).set(payload);
+    return data;
+}
+
+export function packPart(number: number, payload: Uint8Array): ArrayBuffer {
+    const data = new ArrayBuffer(FRAME_PART_HEADER_BYTES + payload.length);
+    const view = new DataView(data);
+    view.setUint32(0, MAGIC_PART, true);
+    view.setUint32(4, number, true);
+    new Uint8Array(data, FRAME_PART_HEADER_BYTES).set(payload);
+    return data;
+}

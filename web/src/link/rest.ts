@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/* The REST side of the server: scenes, examples, pictures, schema, files. */
+import { isObject, type Json, listOf, numberOf, textOf } from "../model/json.ts";
+import { readSchema, type Schema } from "../model/schema.ts";
+
+export interface SceneEntry {
+    readonly id: string;
+    readonly name: string;
+    readonly revision: number;
+    readonly nodes: number;
+    /* As the server writes it: a date text or seconds. */
+    readonly modified: string | number;
+    readonly viewers: number;
+}
+
+export interface ExampleEntry {
+    readonly id: string;
+    readonly name: string;
+    readonly description: string;
+}
+
+/* A problem+json answer, or a network that did not answer (status 0). */
+export class RestError extends Error {
+    readonly status: number;
+    readonly code: string;
+    readonly place: string;
+    constructor(status: number, code: string, place: string, message: string) {
+        super(message);
+        this.name = "RestError";
+        this.status = status;
+        this.code = code;
+        this.place = place;
+    }
+}
+
+export interface Rest {
+    listScenes(): Promise<readonly SceneEntry[]>;
+    /* Each answers the new scene's id. */
+    createScene(document: Json): Promise<string>;
+    createFromExample(example: string): Promise<string>;
+    createFromScene(scene: string): Promise<string>;
+    deleteScene(id: string): Promise<void>;
+    readScene(id: string): Promise<Json>;
+    replaceScene(id: string, document: Json): Promise<void>;
+    listExamples(): Promise<readonly ExampleEntry[]>;
+    readSchema(): Promise<Schema>;
+    /* Addresses for <img> and links. */
+    imageUrl(id: string, width: number, height: number, format?: "jpg" | "png"): string;
+    exampleImageUrl(id: string): string;
+    /* The picture as an object URL, with the token where there is one; the caller revokes it. */
+    fetchImage(url: string): Promise<string>;
+    readonly token: string | null;
+}
+
+async function problemOf(response: Response): Promise<RestError> {
+    let json: Json = null;
+    try {
+        json = (await response.json()) as Json;
+    } catch {
+        /* A proxy may answer something that is not JSON; the status still tells. */
+    }
+    const problem = isObject(json) ? json : {};
+    const title = textOf(problem.title, `the server answered ${response.status}`);
+    return new RestError(
+        response.status,
+        textOf(problem.code, "unknown"),
+        textOf(problem.place),
+        textOf(problem.detail, title),
+    );
+}
+
+const segment = encodeURIComponent;
+
+/* `base` is the server's address without a slash at the end; "" is the page's own server. */
+export function createRest(base: string, token: string | null): Rest {
+    const request = async (path: string, init: RequestInit = {}): Promise<Response> => {
+        const headers = new Headers(init.headers);
+        if (token !== null) {
+            headers.set("Authorization", `Bearer ${token}`);
+        }
+        if (init.body !== undefined && !headers.has("Content-Type")) {
+            headers.set("Content-Type", "application/json");
+        }
+        let response: Response;
+        try {
+            response = await fetch(base + path, { ...init, headers });
+        } catch {
+            throw new RestError(0, "unreachable", "", "the server cannot be reached");
+        }
+        if (!response.ok) {
+            throw await problemOf(response);
+        }
+        return response;
+    };
+    const get = async (path: string): Promise<Json> => (await (await request(path)).json()) as Json;
+    const create = async (body: Json): Promise<string> => {
+        const response = await request("/v1/scenes", {
+            method: "POST",
+            body: JSON.stringify(body),
+        });
+        const location = response.headers.get("Location") ?? "";
+        return decodeURIComponent(location.split("/").at(-1) ?? "");
+    };
+    const list = async (path: string, member: string) => {
+        const json = await get(path);
+        return listOf(isObject(json) ? json[member] : []).filter(isObject);
+    };
+    return {
+        token,
+        listScenes: async () =>
+            (await list("/v1/scenes", "scenes")).map((scene) => ({
+                id: textOf(scene.id),
+                name: textOf(scene.name),
+                revision: numberOf(scene.revision),
+                nodes: numberOf(scene.nodes),
+                modified:
+                    typeof scene.modified === "number"
+                        ? scene.modified
+                        : textOf(scene.modified),
+                viewers: numberOf(scene.viewers),
+            })),
+        createScene: create,
+        createFromExample: (example) => create({ from: `example:${example}` }),
+        createFromScene: (scene) => create({ from: `scene:${scene}` }),
+        deleteScene: async (id) => {
+            await request(`/v1/scenes/${segment(id)}`, { method: "DELETE" });
+        },
+        readScene: (id) => get(`/v1/scenes/${segment(id)}`),
+        replaceScene: async (id, document) => {
+            await request(`/v1/scenes/${segment(id)}`, {
+                method: "PUT",
+                body: JSON.stringify(document),
+            });
+        },
+        listExamples: async () =>
+            (await list("/v1/examples", "examples")).map((example) => ({
+                id: textOf(example.id),
+                name: textOf(example.name),
+                description: textOf(example.description),
+            })),
+        readSchema: async () => readSchema(await get("/v1/schema.json")),
+        imageUrl: (id, width, height, format = "jpg") =>
+            `${base}/v1/scenes/${segment(id)}/image.${format}?width=${width}&height=${height}`,
+        exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/image.jpg`,
+        fetchImage: async (url) => {
+            const path = url.startsWith(base) ? url.slice(base.length) : url;
+            return URL.createObjectURL(await (await request(path)).blob());
+        },
+    };
+}
+
+const TOKEN_KEY = "fieldcast.token";
+
+/* The access token: taken once from `#token=…` in the address and kept for this tab. */
+export function takeToken(location: Location, storage: Storage): string | null {
+    const given = new URLSearchParams(location.hash.slice(1)).get("token");
+    if (given !== null) {
+        storage.setItem(TOKEN_KEY, given);
+        location.hash = "";
+    }
+    return storage.getItem(TOKEN_KEY);
+}
+
+/* Offers a document as a file. */
+export function download(name: string, json: Json): void {
+    const blob = new Blob([JSON.stringify(json, null, 2)], { type: "application/json" });
+    const anchor = document.createElement("a");
+    anchor.href = URL.createObjectURL(blob);
+    anchor.download = `${name.replace(/[^\w.-]+/g, "-") || "scene"}.json`;
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
+}
+
+/* Reads a file as JSON; throws SyntaxError where it is none. */
+export async function upload(file: Blob): Promise<Json> {
+    return JSON.parse(await file.text()) as Json;
+}

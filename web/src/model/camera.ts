@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/* Camera moves as pure functions of the camera before: orbit, pan, dolly, frame, fixed views.
+ * Right-handed, +Y up unless the camera's `up` says else; `fov` is vertical, in degrees. */
+import type { JsonObject } from "./json.ts";
+import { numbersOf, type Values } from "./schema.ts";
+import {
+    add,
+    cross,
+    dot,
+    length,
+    normalize,
+    scale,
+    subtract,
+    type Vector,
+    vectorOf,
+} from "./transform.ts";
+
+export interface Camera {
+    readonly position: Vector;
+    readonly target: Vector;
+    readonly up: Vector;
+    readonly fov: number;
+}
+
+export const DEFAULT_CAMERA: Camera = {
+    position: [0, 1.5, 6],
+    target: [0, 0, 0],
+    up: [0, 1, 0],
+    fov: 45,
+};
+
+/* The camera that a document (or its absence) describes; `defaults` come from the schema. */
+export function cameraOf(values: Values, defaults: Values = {}): Camera {
+    const read = (name: "position" | "target" | "up"): Vector => {
+        const value = values[name] ?? defaults[name];
+        return value === undefined ? DEFAULT_CAMERA[name] : vectorOf(numbersOf(value));
+    };
+    return {
+        position: read("position"),
+        target: read("target"),
+        up: read("up"),
+        fov: Number(values.fov ?? defaults.fov ?? DEFAULT_CAMERA.fov),
+    };
+}
+
+/* Digits that a document keeps of a number. */
+const tidy = (x: number): number => Number(x.toPrecision(6));
+
+/* As an edit or a view message says it. */
+export function printCamera(camera: Camera): JsonObject {
+    return {
+        position: camera.position.map(tidy),
+        target: camera.target.map(tidy),
+        up: camera.up.map(tidy),
+        fov: tidy(camera.fov),
+    };
+}
+
+/* Unit vectors: right and up in the picture, forward into it. */
+export function axes(camera: Camera): { right: Vector; up: Vector; forward: Vector } {
+    const forward = normalize(subtract(camera.target, camera.position), [0, 0, -1]);
+    const side = cross(forward, camera.up);
+    const right = normalize(length(side) > 1e-9 ? side : cross(forward, [0, 0, -1]), [1, 0, 0]);
+    return { right, up: cross(right, forward), forward };
+}
+
+export function distance(camera: Camera): number {
+    return length(subtract(camera.position, camera.target));
+}
+
+/* Nearest and farthest that a dolly goes; scene units. */
+const NEAREST = 1e-3;
+const FARTHEST = 1e5;
+/* How near to the pole an orbit ends, radians. */
+const POLE = 0.01;
+
+/* Rotation of `v` about the unit vector `axis`: Rodrigues' formula. */
+function turn(v: Vector, axis: Vector, angle: number): Vector {
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const along = scale(axis, dot(axis, v) * (1 - c));
+    return add(add(scale(v, c), scale(cross(axis, v), s)), along);
+}
+
+/* Turns about the target: `azimuth` about `up`, positive moves the camera to the right;
+ * `elevation` towards `up`. Radians. Ends short of the poles. */
+export function orbit(camera: Camera, azimuth: number, elevation: number): Camera {
+    const up = normalize(camera.up);
+    const arm = subtract(camera.position, camera.target);
+    const polar = Math.acos(Math.min(1, Math.max(-1, dot(normalize(arm), up))));
+    const wanted = Math.min(Math.PI - POLE, Math.max(POLE, polar - elevation));
+    const { right } = axes(camera);
+    const lifted = turn(arm, right, wanted - polar);
+    return { ...camera, position: add(camera.target, turn(lifted, up, azimuth)) };
+}
+
+/* World units per pixel at the target's distance. */
+export function unitsPerPixel(camera: Camera, height: number): number {
+    return (2 * distance(camera) * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, height);
+}
+
+/* Moves position and target so that what is at the target's distance follows the pointer. */
+export function pan(camera: Camera, dx: number, dy: number, height: number): Camera {
+    const { right, up } = axes(camera);
+    const units = unitsPerPixel(camera, height);
+    const shift = add(scale(right, -dx * units), scale(up, dy * units));
+    return {
+        ...camera,
+        position: add(camera.position, shift),
+        target: add(camera.target, shift),
+    };
+}
+
+/* Where in the view: x and y from the left top, and its size; any unit. */
+export interface Pointer {
+    readonly x: number;
+    readonly y: number;
+    readonly width: number;
+    readonly height: number;
+}
+
+/* Unit direction of the ray through a point of the view. */
+export function ray(camera: Camera, pointer: Pointer): Vector {
+    const { right, up, forward } = axes(camera);
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const aspect = pointer.width / Math.max(1, pointer.height);
+    const u = ((2 * pointer.x) / Math.max(1, pointer.width) - 1) * tangent * aspect;
+    const v = (1 - (2 * pointer.y) / Math.max(1, pointer.height)) * tangent;
+    return normalize(add(forward, add(scale(right, u), scale(up, v))));
+}
+
+/* Changes the distance by `factor` (< 1 is nearer), keeping what lies under the pointer at the
+ * target's distance in place. */
+export function dolly(camera: Camera, factor: number, pointer?: Pointer): Camera {
+    const before = distance(camera);
+    const after = Math.min(FARTHEST, Math.max(NEAREST, before * factor));
+    const applied = before > 0 ? after / before : 1;
+    const { forward } = axes(camera);
+    let anchor = camera.target;
+    if (pointer) {
+        const direction = ray(camera, pointer);
+        anchor = add(camera.position, scale(direction, before / dot(direction, forward)));
+    }
+    const shrink = (p: Vector): Vector => add(anchor, scale(subtract(p, anchor), applied));
+    return { ...camera, position: shrink(camera.position), target: shrink(camera.target) };
+}
+
+export interface Ball {
+    readonly center: Vector;
+    readonly radius: number;
+}
+
+/* Looks at a ball from where the camera is, so that it fills the view. `aspect` = width/height. */
+export function frame(camera: Camera, ball: Ball, aspect: number): Camera {
+    const half = (camera.fov * Math.PI) / 360;
+    const narrow = aspect < 1 ? Math.atan(Math.tan(half) * aspect) : half;
+    const away = Math.max(NEAREST, (1.15 * ball.radius) / Math.sin(narrow));
+    const { forward } = axes(camera);
+    return {
+        ...camera,
+        target: ball.center,
+        position: subtract(ball.center, scale(forward, away)),
+    };
+}
+
+export type ViewName = "front" | "back" | "right" | "left" | "top" | "bottom";
+
+const VIEWS: Record<ViewName, Vector> = {
+    front: [0, 0, 1],
+    back: [0, 0, -1],
+    right: [1, 0, 0],
+    left: [-1, 0, 0],
+    /* A touch off the pole keeps the picture's up at -Z. */
+    top: [0, Math.cos(POLE), Math.sin(POLE)],
+    bottom: [0, -Math.cos(POLE), Math.sin(POLE)],
+};
+
+/* Looks at the same target from a fixed side. */
+export function viewFrom(camera: Camera, name: ViewName): Camera {
+    const position = add(camera.target, scale(VIEWS[name], distance(camera)));
+    return { ...camera, position, up: [0, 1, 0] };
+}
+
+export function equalCamera(a: Camera, b: Camera): boolean {
+    return (
+        a.fov === b.fov &&
+        (["position", "target", "up"] as const).every((name) =>
+            a[name].every((x, i) => x === b[name][i]),
+        )
+    );
+}

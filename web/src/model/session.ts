@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: MIT */
+/* One editor's side of a live scene: what the server has confirmed, what is still on its way, and
+ * the document to show, which is the one with the other on top. Pure functions on an immutable
+ * state; sending, time and sockets are the link's. */
+import type { Json } from "./json.ts";
+import { readDocument, type SceneDocument } from "./document.ts";
+import { apply, join, type Operation, type Problem } from "./operations.ts";
+import type { Schema } from "./schema.ts";
+
+export type Epoch = string | number;
+
+/* Something of ours that the server has not settled yet. */
+export interface PendingEdit {
+    readonly edit: number;
+    readonly kind: "edit" | "undo" | "redo";
+    readonly ops: readonly Operation[];
+    readonly group: string;
+    readonly label: string;
+    readonly sent: boolean;
+}
+
+export interface Session {
+    readonly schema: Schema;
+    readonly client: string;
+    readonly confirmed: SceneDocument | null;
+    readonly shown: SceneDocument | null;
+    readonly revision: number;
+    readonly epoch: Epoch | null;
+    /* Not yet part of `confirmed`, in the order made. */
+    readonly pending: readonly PendingEdit[];
+    /* Part of `confirmed`, not yet told durable: sent again if the server comes back without. */
+    readonly settling: readonly PendingEdit[];
+    readonly nextEdit: number;
+    /* Steps that the server can undo and redo for us. */
+    readonly undo: number;
+    readonly redo: number;
+    readonly online: boolean;
+    /* After a reconnect: our edits up to `landedEdit` are in the log and will have arrived when
+     * `revision` reaches `landedRevision`. */
+    readonly landedEdit: number;
+    readonly landedRevision: number;
+}
+
+/* The messages that a session understands; protocol.ts has all of them. */
+export type SessionMessage =
+    | {
+          readonly type: "welcome";
+          readonly revision: number;
+          readonly epoch: Epoch;
+          readonly last_edit: number;
+      }
+    | { readonly type: "document"; readonly revision: number; readonly document: Json }
+    | {
+          readonly type: "applied";
+          readonly edit: number;
+          readonly revision: number;
+          readonly durable: boolean;
+          readonly undo: number;
+          readonly redo: number;
+      }
+    | {
+          readonly type: "changed";
+          readonly revision: number;
+          readonly author: string;
+          readonly ops: readonly Operation[];
+          readonly edit?: number;
+      }
+    | {
+          readonly type: "rejected";
+          readonly edit: number;
+          readonly code: string;
+          readonly place: string;
+          readonly message: string;
+      };
+
+/* What else a message meant. `resync`: the state does not fit the server's; ask for the document
+ * by connecting anew without a revision. */
+export type SessionEvent =
+    | { readonly kind: "rejected"; readonly pending: PendingEdit | null; readonly problem: Problem }
+    | { readonly kind: "done"; readonly pending: PendingEdit }
+    | { readonly kind: "changed"; readonly author: string; readonly ops: readonly Operation[] }
+    | { readonly kind: "reset" }
+    | { readonly kind: "resync" };
+
+export interface Outcome {
+    readonly session: Session;
+    readonly events: readonly SessionEvent[];
+}
+
+/* Names the same edit that goes over the wire; protocol.ts adds nothing. */
+export type OutgoingEdit =
+    | {
+          readonly type: "edit";
+          readonly edit: number;
+          readonly ops: readonly Operation[];
+          readonly group?: string;
+          readonly label?: string;
+      }
+    | { readonly type: "undo"; readonly edit: number }
+    | { readonly type: "redo"; readonly edit: number };
+
+export function createSession(client: string, schema: Schema): Session {
+    return {
+        schema,
+        client,
+        confirmed: null,
+        shown: null,
+        revision: 0,
+        epoch: null,
+        pending: [],
+        settling: [],
+        nextEdit: 1,
+        undo: 0,
+        redo: 0,
+        online: false,
+        landedEdit: 0,
+        landedRevision: 0,
+    };
+}
+
+/* Puts the pending edits on top of `confirmed` again. One that no longer fits is left out here;
+ * the server will refuse it and say why. */
+function rebase(session: Session): Session {
+    let shown = session.confirmed;
+    for (const pending of session.pending) {
+        const result = shown && apply(shown, pending.ops, session.schema);
+        shown = result?.ok ? result.document : shown;
+    }
+    return { ...session, shown };
+}
+
+/* --- ours --- */
+
+/* Shows an edit at once and queues it. Edits of one group that were not sent yet become one. */
+export function edit(
+    session: Session,
+    ops: readonly Operation[],
+    options: { readonly group?: string; readonly label?: string } = {},
+): { readonly session: Session; readonly problem: Problem | null } {
+    if (session.shown === null) {
+        const problem = { code: "unavailable", place: "", message: "the scene is not loaded yet" };
+        return { session, problem };
+    }
+    const result = apply(session.shown, ops, session.schema);
+    if (!result.ok) {
+        return { session, problem: result.problem };
+    }
+    const group = options.group ?? "";
+    const label = options.label ?? "";
+    const last = session.pending.at(-1);
+    const shown = { ...session, shown: result.document };
+    if (last && !last.sent && last.kind === "edit" && group !== "" && last.group === group) {
+        const joined = { ...last, ops: join(last.ops, ops), label: label || last.label };
+        const pending = [...session.pending.slice(0, -1), joined];
+        return { session: { ...shown, pending }, problem: null };
+    }
+    return { session: queue(shown, { kind: "edit", ops, group, label }), problem: null };
+}
+
+function queue(
+    session: Session,
+    entry: Pick<PendingEdit, "kind" | "ops" | "group" | "label">,
+): Session {
+    const pending = { ...entry, edit: session.nextEdit, sent: false };
+    return {
+        ...session,
+        pending: [...session.pending, pending],
+        nextEdit: session.nextEdit + 1,
+    };
+}
+
+/* Asks for an undo or redo. What it changes is the server's to say. */
+export function askHistory(session: Session, kind: "undo" | "redo"): Session {
+    return queue(session, { kind, ops: [], group: "", label: "" });
+}
+
+function outgoing(pending: PendingEdit): OutgoingEdit {
+    if (pending.kind !== "edit") {
+        return { type: pending.kind, edit: pending.edit };
+    }
+    return {
+        type: "edit",
+        edit: pending.edit,
+        ops: pending.ops,
+        ...(pending.group ? { group: pending.group } : {}),
+        ...(pending.label ? { label: pending.label } : {}),
+    };
+}
+
+/* Takes what is to be sent now; nothing while offline. */
+export function takeOutbox(session: Session): {
+    readonly session: Session;
+    readonly messages: readonly OutgoingEdit[];
+} {
+    const unsent = session.pending.filter((pending) => !pending.sent);
+    if (!session.online || unsent.length === 0) {
+        return { session, messages: [] };
+    }
+    const pending = session.pending.map((entry) => (entry.sent ? entry : { ...entry, sent: true }));
+    return { session: { ...session, pending }, messages: unsent.map(outgoing) };
+}
+
+/* The connection is gone: nothing is lost, what was sent may have to be sent again. */
+export function disconnect(session: Session): Session {
+    return { ...session, online: false };
+}
+
+/* Edits that the user has made and the server does not hold yet. */
+export function waiting(session: Session): number {
+    return session.pending.length;
+}
+
+export function isSaved(session: Session): boolean {
+    return session.pending.length === 0 && session.settling.length === 0;
+}
+
+/* --- the server's --- */
+
+function welcome(
+    session: Session,
+    message: Extract<SessionMessage, { type: "welcome" }>,
+): Outcome {
+    const last = message.last_edit;
+    const lost = session.settling.filter((entry) => entry.edit > last);
+    const pending = [...lost, ...session.pending].map((entry) => ({
+        ...entry,
+        sent: entry.edit <= last,
+    }));
+    return {
+        session: dropLanded({
+            ...session,
+            online: true,
+            epoch: message.epoch,
+            pending,
+            settling: [],
+            nextEdit: Math.max(session.nextEdit, last + 1),
+            landedEdit: last,
+            landedRevision: message.revision,
+        }),
+        events: [],
+    };
+}
+
+function dropLanded(session: Session): Session {
+    if (session.confirmed === null || session.revision < session.landedRevision) {
+        return session;
+    }
+    const pending = session.pending.filter((entry) => entry.edit > session.landedEdit);
+    return pending.length === session.pending.length ? session : { ...session, pending };
+}
+
+function document(
+    session: Session,
+    message: Extract<SessionMessage, { type: "document" }>,
+): Outcome {
+    const next = {
+        ...session,
+        confirmed: readDocument(message.document),
+        revision: message.revision,
+    };
+    return { session: rebase(dropLanded(next)), events: [{ kind: "reset" }] };
+}
+
+function without(session: Session, edit: number): Session {
+    return { ...session, pending: session.pending.filter((entry) => entry.edit !== edit) };
+}
+
+/* Brings `confirmed` to `revision` by `ops`; null where that does not fit. */
+function advance(session: Session, revision: number, ops: readonly Operation[]): Session | null {
+    if (session.confirmed === null || revision !== session.revision + 1) {
+        return null;
+    }
+    const result = apply(session.confirmed, ops, session.schema);
+    return result.ok ? { ...session, confirmed: result.document, revision } : null;
+}
+
+const RESYNC: readonly SessionEvent[] = [{ kind: "resync" }];
+
+function applied(
+    session: Session,
+    message: Extract<SessionMessage, { type: "applied" }>,
+): Outcome {
+    const entry = session.pending.find((pending) => pending.edit === message.edit);
+    let next: Session = { ...session, undo: message.undo, redo: message.redo };
+    if (message.durable) {
+        const settling = next.settling.filter((settled) => settled.edit > message.edit);
+        next = { ...next, settling };
+    }
+    if (!entry) {
+        return { session: next, events: [] };
+    }
+    if (message.revision > session.revision) {
+        if (entry.kind !== "edit") {
+            return { session: next, events: [] }; /* its `changed` is still to come */
+        }
+        const advanced = advance(next, message.revision, entry.ops);
+        if (!advanced) {
+            return { session: next, events: RESYNC };
+        }
+        const settling = message.durable ? [] : [{ ...entry, sent: true }];
+        next = { ...advanced, settling: [...advanced.settling, ...settling] };
+    }
+    const settled = rebase(dropLanded(without(next, message.edit)));
+    return { session: settled, events: [{ kind: "done", pending: entry }] };
+}
+
+function changed(
+    session: Session,
+    message: Extract<SessionMessage, { type: "changed" }>,
+): Outcome {
+    const entry = session.pending.find((pending) => pending.edit === message.edit);
+    const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry }] : [];
+    let next = entry ? without(session, entry.edit) : session;
+    if (message.revision > session.revision) {
+        const advanced = advance(next, message.revision, message.ops);
+        if (!advanced) {
+            return { session: next, events: [...events, ...RESYNC] };
+        }
+        next = advanced;
+        events.push({ kind: "changed", author: message.author, ops: message.ops });
+    }
+    return { session: rebase(dropLanded(next)), events };
+}
+
+function rejected(
+    session: Session,
+    message: Extract<SessionMessage, { type: "rejected" }>,
+): Outcome {
+    const pending = session.pending.find((entry) => entry.edit === message.edit) ?? null;
+    const { code, place, message: text } = message;
+    return {
+        session: rebase(without(session, message.edit)),
+        events: [{ kind: "rejected", pending, problem: { code, place, message: text } }],
+    };
+}
+
+/* Takes one message of the server. */
+export function receive(session: Session, message: SessionMessage): Outcome {
+    switch (message.type) {
+        case "welcome":
+            return welcome(session, message);
+        case "document":
+            return document(session, message);
+        case "applied":
+            return applied(session, message);
+        case "changed":
+            return changed(session, message);
+        case "rejected":
+            return rejected(session, message);
+    }
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/* The stores that the page reads: document, view, link, notices, and the camera, which changes too
+ * often for React. Plain Zustand; the link and the commands write them, `ui` subscribes. */
+import { createStore, type StoreApi } from "zustand/vanilla";
+import type { Camera } from "./camera.ts";
+import { DEFAULT_CAMERA } from "./camera.ts";
+import type { SceneDocument } from "./document.ts";
+import { EMPTY_HISTORY, type History } from "./history.ts";
+import type { Problem } from "./operations.ts";
+import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
+import { INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
+
+/* --- document: what is shown, confirmed plus pending --- */
+
+export interface DocumentState {
+    readonly scene: string | null;
+    readonly schema: Schema;
+    readonly document: SceneDocument | null;
+    readonly revision: number;
+    /* Edits made here that the server does not hold yet. */
+    readonly waiting: number;
+    /* Everything of ours is durable. */
+    readonly saved: boolean;
+    readonly canUndo: boolean;
+    readonly canRedo: boolean;
+    readonly history: History;
+    /* Errors that belong to a node, by its id. */
+    readonly problems: ReadonlyMap<string, Problem>;
+}
+
+export const EMPTY_DOCUMENT_STATE: DocumentState = {
+    scene: null,
+    schema: EMPTY_SCHEMA,
+    document: null,
+    revision: 0,
+    waiting: 0,
+    saved: true,
+    canUndo: false,
+    canRedo: false,
+    history: EMPTY_HISTORY,
+    problems: new Map(),
+};
+
+/* --- link: the connection and the picture --- */
+
+export type Connection =
+    | "idle" /* no scene open */
+    | "connecting"
+    | "live"
+    | "offline" /* lost; tries again by itself */
+    | "refused"; /* told not to come back */
+
+export type FrameState = "none" | "moving" | "still" | "lossless";
+
+export interface RendererInfo {
+    readonly name: string;
+    readonly version: string;
+    readonly software: boolean;
+    readonly device: string;
+}
+
+/* Of the frame on screen. */
+export interface FrameInfo {
+    readonly state: FrameState;
+    /* The scene is newer than the picture: its shader is being compiled. */
+    readonly stale: boolean;
+    readonly number: number;
+    readonly revision: number;
+    readonly width: number;
+    readonly height: number;
+    /* Picture width over view width, 1 = every device pixel. */
+    readonly scale: number;
+}
+
+/* Averages over the last second, milliseconds; what was not measured is null. */
+export interface Statistics {
+    readonly fps: number;
+    readonly queue: number;
+    readonly march: number;
+    readonly light: number;
+    readonly read: number;
+    readonly encode: number;
+    /* First byte of a frame here until its last. */
+    readonly receive: number;
+    readonly decode: number;
+    readonly present: number;
+    /* From sending a view to showing the first frame with it. */
+    readonly photonP50: number | null;
+    readonly photonP95: number | null;
+    readonly bytesPerFrame: number;
+    readonly bytesPerSecond: number;
+    readonly dropped: number;
+}
+
+export interface LinkState {
+    readonly connection: Connection;
+    /* Why the connection was refused or lost, for people. */
+    readonly reason: string;
+    /* When the next attempt is made, by performance.now(); null: none planned. */
+    readonly retryAt: number | null;
+    readonly renderer: RendererInfo | null;
+    readonly frame: FrameInfo;
+    readonly statistics: Statistics | null;
+    /* A shader of this scene is being compiled. */
+    readonly compiling: boolean;
+}
+
+export const NO_FRAME: FrameInfo = {
+    state: "none",
+    stale: false,
+    number: 0,
+    revision: 0,
+    width: 0,
+    height: 0,
+    scale: 1,
+};
+
+export const IDLE_LINK: LinkState = {
+    connection: "idle",
+    reason: "",
+    retryAt: null,
+    renderer: null,
+    frame: NO_FRAME,
+    statistics: null,
+    compiling: false,
+};
+
+/* --- notices --- */
+
+export type Level = "info" | "warning" | "error";
+
+export interface Notice {
+    readonly id: number;
+    readonly level: Level;
+    readonly code: string;
+    readonly message: string;
+    readonly place: string;
+    /* How often it came in a row. */
+    readonly count: number;
+}
+
+export interface NoticeState {
+    readonly notices: readonly Notice[];
+}
+
+const NOTICES_KEPT = 50;
+
+/* Adds a notice; one like the newest only counts up. */
+export function addNotice(
+    notices: StoreApi<NoticeState>,
+    notice: Pick<Notice, "level" | "code" | "message"> & { readonly place?: string },
+): void {
+    notices.setState(({ notices: old }) => {
+        const { level, code, message, place = "" } = notice;
+        const last = old.at(-1);
+        if (last && last.code === code && last.message === message && last.place === place) {
+            return { notices: [...old.slice(0, -1), { ...last, count: last.count + 1 }] };
+        }
+        const added = { id: (last?.id ?? 0) + 1, level, code, message, place, count: 1 };
+        return { notices: [...old, added].slice(-NOTICES_KEPT) };
+    });
+}
+
+export function dismissNotice(notices: StoreApi<NoticeState>, id: number): void {
+    notices.setState(({ notices: old }) => ({ notices: old.filter((one) => one.id !== id) }));
+}
+
+/* --- camera --- */
+
+export interface CameraState {
+    readonly camera: Camera;
+    /* False until the user moves: the document's own camera is followed. */
+    readonly own: boolean;
+}
+
+/* --- all of them --- */
+
+export interface Stores {
+    readonly document: StoreApi<DocumentState>;
+    readonly view: StoreApi<View>;
+    readonly link: StoreApi<LinkState>;
+    readonly notices: StoreApi<NoticeState>;
+    readonly camera: StoreApi<CameraState>;
+}
+
+/* Where preferences live; the browser's localStorage fits. */
+export interface Storage {
+    getItem(key: string): string | null;
+    setItem(key: string, value: string): void;
+}
+
+const PREFERENCES_KEY = "fieldcast.preferences";
+
+export function createStores(storage: Storage | null): Stores {
+    const preferences = readPreferences(storage?.getItem(PREFERENCES_KEY) ?? null);
+    const view = createStore<View>(() => ({ ...INITIAL_VIEW, preferences }));
+    view.subscribe((now, before) => {
+        if (now.preferences !== before.preferences) {
+            storage?.setItem(PREFERENCES_KEY, JSON.stringify(now.preferences));
+        }
+    });
+    return {
+        document: createStore<DocumentState>(() => EMPTY_DOCUMENT_STATE),
+        view,
+        link: createStore<LinkState>(() => IDLE_LINK),
+        notices: createStore<NoticeState>(() => ({ notices: [] })),
+        camera: createStore<CameraState>(() => ({ camera: DEFAULT_CAMERA, own: false })),
+    };
+}
+
+export function setPreferences(view: StoreApi<View>, part: Partial<Preferences>): void {
+    view.setState(({ preferences }) => ({ preferences: { ...preferences, ...part } }));
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+/* Vectors, rotations R = Rz·Ry·Rx and back, and the step between a node's space and the world's. */
+import { pathTo, type SceneDocument, type SceneNode } from "./document.ts";
+import { numbersOf } from "./schema.ts";
+
+export type Vector = readonly [number, number, number];
+/* Rows of a 3 × 3 matrix. */
+export type Matrix = readonly [Vector, Vector, Vector];
+
+export const add = (a: Vector, b: Vector): Vector => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+export const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const scale = (a: Vector, s: number): Vector => [a[0] * s, a[1] * s, a[2] * s];
+export const multiply = (a: Vector, b: Vector): Vector => [a[0] * b[0], a[1] * b[1], a[2] * b[2]];
+export const divide = (a: Vector, b: Vector): Vector => [a[0] / b[0], a[1] / b[1], a[2] / b[2]];
+export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a: Vector, b: Vector): Vector => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+];
+export const length = (a: Vector): number => Math.hypot(a[0], a[1], a[2]);
+
+/* `fallback` where the length is 0. */
+export function normalize(a: Vector, fallback: Vector = [0, 1, 0]): Vector {
+    const size = length(a);
+    return size > 0 ? scale(a, 1 / size) : fallback;
+}
+
+export function vectorOf(value: readonly number[]): Vector {
+    return [value[0] ?? 0, value[1] ?? 0, value[2] ?? 0];
+}
+
+export const apply = (m: Matrix, v: Vector): Vector => [dot(m[0], v), dot(m[1], v), dot(m[2], v)];
+
+export function transpose(m: Matrix): Matrix {
+    return [
+        [m[0][0], m[1][0], m[2][0]],
+        [m[0][1], m[1][1], m[2][1]],
+        [m[0][2], m[1][2], m[2][2]],
+    ];
+}
+
+export function product(a: Matrix, b: Matrix): Matrix {
+    const columns = transpose(b);
+    const row = (r: Vector): Vector => [
+        dot(r, columns[0]),
+        dot(r, columns[1]),
+        dot(r, columns[2]),
+    ];
+    return [row(a[0]), row(a[1]), row(a[2])];
+}
+
+/* R = Rz·Ry·Rx from angles about x, y, z in radians. */
+export function rotation(angles: Vector): Matrix {
+    const [cx, cy, cz] = angles.map(Math.cos) as unknown as Vector;
+    const [sx, sy, sz] = angles.map(Math.sin) as unknown as Vector;
+    return [
+        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+        [-sy, cy * sx, cy * cx],
+    ];
+}
+
+const TURN = 2 * Math.PI;
+const nearestTurn = (angle: number, near: number): number =>
+    angle + TURN * Math.round((near - angle) / TURN);
+
+/* Angles whose rotation is `m`. Of the two triples and their full turns the one nearest to `near`
+ * is taken, so that fields do not jump while something turns. */
+export function anglesOf(m: Matrix, near: Vector = [0, 0, 0]): Vector {
+    const sy = Math.min(1, Math.max(-1, -m[2][0]));
+    const y = Math.asin(sy);
+    if (Math.abs(sy) > 1 - 1e-12) {
+        /* Gimbal lock: only x ∓ z is known; z keeps its value. */
+        const z = near[2];
+        const sum = Math.atan2(-m[1][2], m[1][1]);
+        const x = sy > 0 ? sum + z : sum - z;
+        return [nearestTurn(x, near[0]), nearestTurn(y, near[1]), z];
+    }
+    const first: Vector = [Math.atan2(m[2][1], m[2][2]), y, Math.atan2(m[1][0], m[0][0])];
+    const second: Vector = [first[0] + Math.PI, Math.PI - y, first[2] + Math.PI];
+    const fit = (a: Vector): Vector => [
+        nearestTurn(a[0], near[0]),
+        nearestTurn(a[1], near[1]),
+        nearestTurn(a[2], near[2]),
+    ];
+    const [a, b] = [fit(first), fit(second)];
+    return length(subtract(a, near)) <= length(subtract(b, near)) ? a : b;
+}
+
+/* --- nodes --- */
+
+export interface Transform {
+    readonly translation: Vector;
+    readonly rotation: Vector;
+    readonly scale: Vector;
+}
+
+export function transformOf(node: SceneNode): Transform {
+    const read = (name: string, fallback: number): Vector =>
+        vectorOf(numbersOf(node.transform[name] ?? fallback));
+    return {
+        translation: read("translation", 0),
+        rotation: read("rotation", 0),
+        scale: read("scale", 1),
+    };
+}
+
+/* p_parent = R·S·p + translation. */
+export function toParent(transform: Transform, point: Vector): Vector {
+    const turned = apply(rotation(transform.rotation), multiply(point, transform.scale));
+    return add(turned, transform.translation);
+}
+
+export function fromParent(transform: Transform, point: Vector): Vector {
+    const inverse = transpose(rotation(transform.rotation));
+    return divide(apply(inverse, subtract(point, transform.translation)), transform.scale);
+}
+
+/* From a node's own space to the world's. */
+export function toWorld(document: SceneDocument, id: string, point: Vector): Vector {
+    return pathTo(document, id).reduceRight((p, node) => toParent(transformOf(node), p), point);
+}
+
+/* From the world to a node's own space. To place a node under a new parent, ask for the parent. */
+export function fromWorld(document: SceneDocument, id: string, point: Vector): Vector {
+    return pathTo(document, id).reduce((p, node) => fromParent(transformOf(node), p), point);
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* What one user's page looks like: selection, panels, theme, hints. Pure state and its changes;
+ * never part of a document, never sent to others. */
+
+export type Theme = "auto" | "light" | "dark";
+export type Aov = "color" | "depth" | "normal" | "id";
+export type Quality = "auto" | "smooth" | "sharp";
+export type Pointing = "mouse" | "trackpad";
+export type Drawer = "history" | "problems";
+/* What covers the page; one at a time, Esc closes it. */
+export type Popup = "commands" | "add" | "scenes" | "help" | "statistics" | null;
+export type Sheet = "none" | "add" | "edit" | "tree" | "view";
+
+export const AOVS: readonly Aov[] = ["color", "depth", "normal", "id"];
+export const QUALITIES: readonly Quality[] = ["auto", "smooth", "sharp"];
+
+/* What stays from visit to visit. */
+export interface Preferences {
+    readonly theme: Theme;
+    readonly pointing: Pointing;
+    readonly quality: Quality;
+    readonly panels: { readonly scene: boolean; readonly inspector: boolean };
+    /* Names of hints that were followed or closed. */
+    readonly hintsDone: readonly string[];
+    /* Single keys (G, H, F …) act as commands; some assistive tools need that off. */
+    readonly singleKeys: boolean;
+    /* Node types last added, newest first. */
+    readonly recent: readonly string[];
+}
+
+export const PREFERENCES: Preferences = {
+    theme: "auto",
+    pointing: "mouse",
+    quality: "auto",
+    panels: { scene: true, inspector: true },
+    hintsDone: [],
+    singleKeys: true,
+    recent: [],
+};
+
+/* What the inspector shows when no node is selected or a resource is. */
+export type Subject =
+    | { readonly kind: "nodes" }
+    | { readonly kind: "light"; readonly name: string }
+    | { readonly kind: "material"; readonly name: string }
+    | { readonly kind: "camera" | "environment" | "render" };
+
+export interface View {
+    /* Selected node ids, the active one last. */
+    readonly selection: readonly string[];
+    readonly subject: Subject;
+    readonly hovered: string | null;
+    readonly collapsed: ReadonlySet<string>;
+    /* The node whose name is being typed. */
+    readonly renaming: string | null;
+    readonly popup: Popup;
+    readonly drawer: Drawer | null;
+    readonly sheet: Sheet;
+    /* Ctrl+\ hides all but the picture. */
+    readonly chromeHidden: boolean;
+    readonly aov: Aov;
+    readonly preferences: Preferences;
+}
+
+export const INITIAL_VIEW: View = {
+    selection: [],
+    subject: { kind: "nodes" },
+    hovered: null,
+    collapsed: new Set(),
+    renaming: null,
+    popup: null,
+    drawer: null,
+    sheet: "none",
+    chromeHidden: false,
+    aov: "color",
+    preferences: PREFERENCES,
+};
+
+export type SelectMode = "replace" | "toggle" | "add";
+
+/* The selection after a click on `id` (null: on nothing). */
+export function select(
+    selection: readonly string[],
+    id: string | null,
+    mode: SelectMode,
+): readonly string[] {
+    if (id === null) {
+        return mode === "replace" ? [] : selection;
+    }
+    const others = selection.filter((other) => other !== id);
+    if (mode === "replace") {
+        return [id];
+    }
+    const toggledOff = mode === "toggle" && others.length < selection.length;
+    return toggledOff ? others : [...others, id];
+}
+
+/* Esc: closes the topmost thing only. Null when there was nothing to close. */
+export function peel(view: View): Partial<View> | null {
+    if (view.renaming !== null) {
+        return { renaming: null };
+    }
+    if (view.popup !== null) {
+        return { popup: null };
+    }
+    if (view.chromeHidden) {
+        return { chromeHidden: false };
+    }
+    if (view.subject.kind !== "nodes") {
+        return { subject: { kind: "nodes" } };
+    }
+    return view.selection.length > 0 ? { selection: [] } : null;
+}
+
+/* Reads what was stored; unknown or broken members fall back one by one. */
+export function readPreferences(text: string | null): Preferences {
+    let stored: Partial<Preferences> = {};
+    try {
+        const json: unknown = JSON.parse(text ?? "{}");
+        stored = typeof json === "object" && json !== null ? json : {};
+    } catch {
+        /* An old or damaged entry is worth no more than none. */
+    }
+    const one = <T>(value: unknown, allowed: readonly T[], fallback: T): T =>
+        allowed.includes(value as T) ? (value as T) : fallback;
+    const texts = (value: unknown): readonly string[] =>
+        Array.isArray(value) ? value.filter((item) => typeof item === "string") : [];
+    return {
+        theme: one(stored.theme, ["auto", "light", "dark"], PREFERENCES.theme),
+        pointing: one(stored.pointing, ["mouse", "trackpad"], PREFERENCES.pointing),
+        quality: one(stored.quality, QUALITIES, PREFERENCES.quality),
+        panels: {
+            scene: stored.panels?.scene !== false,
+            inspector: stored.panels?.inspector !== false,
+        },
+        hintsDone: texts(stored.hintsDone),
+        singleKeys: stored.singleKeys !== false,
+        recent: texts(stored.recent).slice(0, 12),
+    };
+}
