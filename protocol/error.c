@@ -5,20 +5,19 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* A cut in the middle of a UTF-8 sequence would make the message unusable as JSON. */
-static void trim_cut_sequence(char *text)
+#include "utf8.h"
+
+static void replace_malformed(char *text)
 {
-    size_t length = strlen(text), start = length;
-    while (start > 0 && ((unsigned char)text[start - 1] & 0xc0) == 0x80) {
-        start--;
-    }
-    if (start == 0) {
-        return;
-    }
-    unsigned char lead = (unsigned char)text[start - 1];
-    size_t need = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
-    if (length - start < need) {
-        text[start - 1] = '\0';
+    size_t left = strlen(text);
+    while (left > 0) {
+        size_t count = utf8_sequence(text, left);
+        if (count == 0) {
+            *text = '?';
+            count = 1;
+        }
+        text += count;
+        left -= count;
     }
 }
 
@@ -32,14 +31,30 @@ bool error_set(struct error *err, enum error_kind kind, const char *place, const
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    trim_cut_sequence(text);
+    replace_malformed(text);
     err->kind = kind;
     if (place != err->place) {
         snprintf(err->place, sizeof err->place, "%s", place ? place : "");
-        trim_cut_sequence(err->place);
+        replace_malformed(err->place);
     }
     memcpy(err->message, text, sizeof text);
     return false;
+}
+
+const char *error_place(char *out, const char *place, const char *member)
+{
+    static const char cut[] = "...";
+    char joined[2 * ERROR_PLACE_BYTES];
+    int length = snprintf(joined, sizeof joined, "%.*s/%.*s", ERROR_PLACE_BYTES - 1, place, 64,
+                          member);
+    if (length < ERROR_PLACE_BYTES) {
+        memcpy(out, joined, (size_t)length + 1);
+    } else {
+        size_t kept = ERROR_PLACE_BYTES - sizeof cut;
+        memcpy(out, cut, sizeof cut - 1);
+        memcpy(out + sizeof cut - 1, joined + (size_t)length - kept, kept + 1);
+    }
+    return out;
 }
 
 void error_print(const struct error *err, FILE *out)

@@ -27,17 +27,23 @@ enum error_kind {
 #undef X
 };
 
+enum { ERROR_PLACE_BYTES = 192 };
+
 /* A caller-owned value; zero-initialise. `place` is a JSON path such as /nodes/body/params/radius,
  * a file name, or "". */
 struct error {
     enum error_kind kind;
-    char place[192];
+    char place[ERROR_PLACE_BYTES];
     char message[320];
 };
 
-/* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well. */
+/* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well.
+ * What is not UTF-8 becomes '?', so that an error can always be sent. */
 bool error_set(struct error *err, enum error_kind kind, const char *place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/* "PLACE/MEMBER" in `out` of ERROR_PLACE_BYTES; where too long it keeps the end. Returns `out`. */
+const char *error_place(char *out, const char *place, const char *member);
 
 /* "place: message", or the message alone where the place is empty. */
 void error_print(const struct error *err, FILE *out);

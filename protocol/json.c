@@ -9,6 +9,7 @@
 
 #include "limits.h"
 #include "memory.h"
+#include "utf8.h"
 
 /* I-JSON (RFC 7493): whole numbers beyond this are not exact in a double. */
 #define NUMBER_MAX 9007199254740991.0
@@ -174,36 +175,15 @@ static bool scan_escape(struct scan *scan)
     return true;
 }
 
-/* One UTF-8 sequence of two to four bytes, as the table of RFC 3629, section 4 allows. */
 static bool scan_utf8(struct scan *scan)
 {
-    const unsigned char *s = scan->text + scan->at;
-    size_t left = scan->length - scan->at, count;
-    unsigned char low = 0x80, high = 0xbf; /* of the second byte */
-    if (s[0] >= 0xc2 && s[0] <= 0xdf) {
-        count = 2;
-    } else if (s[0] >= 0xe0 && s[0] <= 0xef) {
-        count = 3;
-        low = s[0] == 0xe0 ? 0xa0 : low;
-        high = s[0] == 0xed ? 0x9f : high;
-    } else if (s[0] >= 0xf0 && s[0] <= 0xf4) {
-        count = 4;
-        low = s[0] == 0xf0 ? 0x90 : low;
-        high = s[0] == 0xf4 ? 0x8f : high;
-    } else {
+    size_t count = utf8_sequence((const char *)scan->text + scan->at, scan->length - scan->at);
+    if (count == 0) {
         return fail_at(scan, scan->at, ERROR_SYNTAX, "not UTF-8");
     }
-    for (size_t i = 1; i < count; i++) {
-        if (i >= left || s[i] < low || s[i] > high) {
-            return fail_at(scan, scan->at, ERROR_SYNTAX, "not UTF-8");
-        }
-        low = 0x80;
-        high = 0xbf;
-    }
     for (size_t i = 0; i < count; i++) {
-        keep_byte(scan, s[i]);
+        keep_byte(scan, scan->text[scan->at++]);
     }
-    scan->at += count;
     return true;
 }
 

@@ -313,19 +313,28 @@ bool record_set(struct record *record, int index, const cJSON *json, const char 
     return true;
 }
 
+bool record_read_value(struct record *record, int index, const cJSON *json, const char *place,
+                       struct error *err)
+{
+    if (cJSON_IsNull(json)) {
+        return error_set(err, ERROR_INVALID, place, "null is not a value: leave the member out");
+    }
+    return record_set(record, index, json, place, err);
+}
+
 bool record_read(struct record *record, const cJSON *object, const char *place, struct error *err)
 {
     if (!cJSON_IsObject(object)) {
         return error_set(err, ERROR_INVALID, place, "expected an object");
     }
     for (const cJSON *member = object->child; member; member = member->next) {
-        char path[sizeof err->place];
+        char path[ERROR_PLACE_BYTES];
         int index = record_type_find(record->type, member->string);
-        snprintf(path, sizeof path, "%s/%s", place, member->string);
+        error_place(path, place, member->string);
         if (index < 0) {
             return record_type_unknown(record->type, member->string, path, err);
         }
-        if (!record_set(record, index, member, path, err)) {
+        if (!record_read_value(record, index, member, path, err)) {
             return false;
         }
     }

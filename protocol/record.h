@@ -87,6 +87,9 @@ void record_copy(struct record *to, const struct record *from);
  * and `err` names `place` and the limit. */
 bool record_set(struct record *record, int index, const cJSON *json, const char *place,
                 struct error *err);
+/* The same for a value in a document, where null has no meaning and is refused. */
+bool record_read_value(struct record *record, int index, const cJSON *json, const char *place,
+                       struct error *err);
 /* The JSON of one value, or NULL where it is not set. Caller frees. */
 cJSON *record_get(const struct record *record, int index);
 /* Reads an object: unknown names are refused, names absent keep their default. `place` is the

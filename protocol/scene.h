@@ -24,11 +24,13 @@ struct node {
 struct resource {
     char *name; /* a light's id, a material's name */
     struct record record;
+    size_t users; /* nodes that name this material */
 };
 
 struct resource_list {
     struct resource **items;
     size_t count;
+    void *names; /* search tree, private to scene.c */
 };
 
 struct node_index; /* id -> node, private to scene.c */
@@ -41,8 +43,9 @@ struct scene {
     struct node_index *index;
 };
 
-/* Strictly reads a document; NULL and `err` when it breaks a rule. A node without an id gets one
- * derived from its type and position. Caller destroys. */
+/* Strictly reads a document; NULL and `err` when it breaks a rule. A node without an id gets the
+ * first free of TYPE-1, TYPE-2, ... in the order of the document; a number is not used again while
+ * the scene is in memory. Caller destroys. */
 struct scene *scene_parse(const char *text, size_t length, struct error *err);
 struct scene *scene_read(const cJSON *document, struct error *err);
 struct scene *scene_create_empty(void);
