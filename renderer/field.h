@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/* The field program: a scene's tree of nodes as a flat list of typed instructions in post-order,
+ * and one buffer with every number in it. Its evaluators are field_distance and its kin (C, double
+ * precision) and the GLSL text of shader.h.
+ *
+ * The shape (instructions, hence GLSL) depends on the types of the visible nodes and on how they
+ * are nested. All else is numbers: transforms, parameters, ids, materials and which node has which. Equal shape_hash: the same GLSL serves both.
+ *
+ * Transforms are folded: a shape stands in the space of the domain modifier around it (or of the
+ * scene), with its distance scaled to lengths of the scene by the least scale on every level.
+ * Fields never change faster than the distance and are negative inside.
+ *
+ * Immutable after field_compile. The references are counted by one thread; another may read as
+ * long as the owner holds one for it. */
+#ifndef RENDERER_FIELD_H
+#define RENDERER_FIELD_H
+
+#include <stdint.h>
+
+#include "bounds.h"
+#include "protocol/limits.h"
+#include "protocol/scene.h"
+#include "sdf.h"
+
+enum field_op {
+    FIELD_EMPTY,    /* d[a] = far away */
+    FIELD_SHAPE,    /* d[a] = shape(matrix * p[point]) * scale */
+    FIELD_COMBINE,  /* d[a] = combine(d[a], d[b]) */
+    FIELD_DISTANCE, /* d[a] = change(d[a]) */
+    FIELD_PLACE,    /* p[out] = matrix * p[point] */
+    FIELD_MAP,      /* p[out] = map(p[point]) */
+    FIELD_AFTER,    /* d[a] = after(d[a], p[point]) */
+    FIELD_LOOP,     /* d[a] = far away; for each cell around p[point]: p[out] = that cell's point */
+    FIELD_LOOP_END, /* d[a] = min(d[a], d[b]) */
+};
+
+struct field_instruction {
+    enum field_op op;
+    const struct node_type *type; /* NULL for FIELD_EMPTY */
+    const struct sdf *sdf;
+    uint16_t a, b;       /* distance slots */
+    uint16_t point, out; /* point slots; 0 is the point asked for */
+    uint32_t numbers;    /* first vec4 of what it reads */
+    uint32_t arguments;  /* the same for the C evaluator: index into field.arguments */
+};
+
+/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, first
+ * parameter). Blocks of domain modifiers: three rows, then the row's own vec4s. */
+enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 3 };
+
+/* A material's vec4s: (diffuse, shininess), (specular, 0), (emission, 0), (ambient, 0). */
+enum { FIELD_MATERIAL_VEC4S = 4, FIELD_MATERIAL_NUMBERS = 4 * FIELD_MATERIAL_VEC4S };
+
+/* No nesting needs more: two slots for each level and one for the whole. */
+enum { FIELD_SLOTS_MAX = 2 * LIMIT_NODE_DEPTH + 4 };
+
+struct field_leaf {
+    uint32_t number; /* 1 + pre-order index over all nodes, hidden ones too */
+    char *id;
+};
+
+struct field {
+    struct field_instruction *instructions;
+    size_t instruction_count;
+    float *numbers; /* 4 * vec4_count: blocks, one material for each slot, padding */
+    size_t vec4_count; /* the same for every field of this shape_hash */
+    size_t material_base; /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
+    double *arguments;    /* the numbers again, as the C evaluator reads them */
+    struct field_leaf *leaves; /* ascending */
+    size_t leaf_count;
+    int point_slots, distance_slots;
+    uint64_t shape_hash;
+    /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
+     * must be kept from steps * (1 + loop_trips) above its bound. */
+    uint32_t loop_trips;
+    struct bounds bounds; /* of the visible scene */
+    int references;
+};
+
+/* The program of a scene, with one reference. NULL and `err` where transforms multiply to numbers
+ * that no float can hold. */
+struct field *field_compile(const struct scene *scene, struct error *err);
+struct field *field_ref(struct field *field);
+void field_unref(struct field *field); /* NULL: nothing */
+
+/* The id of the leaf with this number; NULL: none has it. */
+const char *field_leaf_id(const struct field *field, uint32_t number);
+
+/* Where the parameters of a type lie behind the head of its block: vec4 and component of each, in
+ * registry order (choices have none: vec4 is -1). `used` components of the first vec4 are taken.
+ * Returns how many vec4s the block has from there. */
+struct field_place {
+    int vec4, component;
+};
+int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX]);
+
+/* --- evaluation --- */
+
+double field_distance(const struct field *field, const double p[3]);
+
+struct field_surface {
+    double distance;
+    uint32_t number; /* of the leaf of greatest weight; 0: empty space */
+    double material[FIELD_MATERIAL_NUMBERS]; /* mixed by weight, laid out as in the buffer */
+};
+struct field_surface field_surface(const struct field *field, const double p[3]);
+
+/* Unit vector along the gradient, by the corners of a tetrahedron of half edge `h` (Quilez,
+ * Normals for an SDF, iquilezles.org/articles/normalsSDF). */
+void field_normal(const struct field *field, const double p[3], double h, double out[3]);
+
+/* Sphere tracing (Hart 1996). The first point of the ray within `tolerance` of the surface: its
+ * distance along the unit vector `direction`; -1 where there is none below `max_distance`. */
+double field_march(const struct field *field, const double origin[3], const double direction[3],
+                   double max_distance, double tolerance);
+
+#endif

@@ -1,0 +1,582 @@
+/* SPDX-License-Identifier: MIT */
+/* From a scene to its field program. */
+#include "field.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+
+struct builder {
+    struct field *field;
+    const struct scene *scene;
+    size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
+    uint32_t index; /* pre-order, of the next node */
+    uint64_t trips; /* loop iterations so far, in the current loop */
+    const struct node *out_of_range; /* the first node whose place no float can hold */
+};
+
+/* Where a node stands: its point slot, local = matrix * point, the factor from local lengths to
+ * the scene's, and the material slot that it inherits. */
+struct frame {
+    double matrix[12];
+    double scale;
+    uint16_t point;
+    size_t material;
+};
+
+struct result {
+    bool hidden; /* not drawn at all: an operation does not see it */
+    bool solid;  /* there is an instruction for it; else empty space */
+    struct bounds box; /* in the space of the frame that it was emitted in */
+};
+
+static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+/* --- the buffers --- */
+
+static void reserve(void **block, size_t *capacity, size_t needed, size_t size)
+{
+    if (needed > *capacity) {
+        *capacity = needed * 2 + 64;
+        *block = memory_resize(*block, *capacity, size);
+    }
+}
+
+static uint32_t add_vec4s(struct builder *b, size_t count)
+{
+    struct field *field = b->field;
+    size_t first = field->vec4_count;
+    field->vec4_count += count;
+    reserve((void **)&field->numbers, &b->vec4_capacity, field->vec4_count + 1, 4 * sizeof(float));
+    memset(field->numbers + 4 * first, 0, count * 4 * sizeof(float));
+    return (uint32_t)first;
+}
+
+static uint32_t add_arguments(struct builder *b, size_t count)
+{
+    size_t first = b->argument_count;
+    b->argument_count += count;
+    reserve((void **)&b->field->arguments, &b->argument_capacity, b->argument_count + 1,
+            sizeof(double));
+    return (uint32_t)first;
+}
+
+static void max_slot(int *slots, int slot)
+{
+    assert(slot < FIELD_SLOTS_MAX);
+    *slots = slot + 1 > *slots ? slot + 1 : *slots;
+}
+
+static void add_instruction(struct builder *b, struct field_instruction instruction)
+{
+    struct field *field = b->field;
+    reserve((void **)&field->instructions, &b->instruction_capacity, field->instruction_count + 1,
+            sizeof instruction);
+    field->instructions[field->instruction_count++] = instruction;
+    max_slot(&field->distance_slots, instruction.a);
+    max_slot(&field->distance_slots, instruction.b);
+    max_slot(&field->point_slots, instruction.point);
+    max_slot(&field->point_slots, instruction.out);
+}
+
+/* What is taken back when something turns out to be empty space. */
+struct mark {
+    size_t instructions, vec4s, arguments, leaves;
+    uint64_t trips;
+};
+
+static struct mark mark(const struct builder *b)
+{
+    return (struct mark){b->field->instruction_count, b->field->vec4_count, b->argument_count,
+                         b->field->leaf_count, b->trips};
+}
+
+static void rewind_to(struct builder *b, struct mark mark)
+{
+    b->field->instruction_count = mark.instructions;
+    b->field->vec4_count = mark.vec4s;
+    b->argument_count = mark.arguments;
+    while (b->field->leaf_count > mark.leaves) {
+        free(b->field->leaves[--b->field->leaf_count].id);
+    }
+    b->trips = mark.trips;
+}
+
+/* --- numbers --- */
+
+int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX])
+{
+    int taken[SDF_NUMBERS_MAX + 1] = {used};
+    int vec4s = used > 0;
+    for (size_t i = 0; i < record_type_count(&type->record); i++) {
+        enum param_type kind = type->record.params[i].type;
+        int components = kind == PARAM_ENUM ? 0 : param_components(kind);
+        int at = 0;
+        while (taken[at] + components > 4) {
+            at++;
+        }
+        assert(i < SDF_NUMBERS_MAX && at < SDF_NUMBERS_MAX);
+        out[i] = components ? (struct field_place){at, taken[at]} : (struct field_place){-1, 0};
+        taken[at] += components;
+        vec4s = components && at + 1 > vec4s ? at + 1 : vec4s;
+    }
+    return vec4s;
+}
+
+/* Writes `count` numbers to the buffer and, as rounded there, to the arguments. */
+static void put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
+                const double *numbers)
+{
+    float *to = b->field->numbers + 4 * (size_t)vec4 + component;
+    for (int i = 0; i < count; i++) {
+        to[i] = (float)numbers[i];
+        b->field->arguments[argument + (uint32_t)i] = to[i];
+    }
+}
+
+/* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
+ * are multiplied by `scale`. */
+static void put_params(struct builder *b, const struct node *node, const struct sdf *sdf,
+                       double scale, uint32_t vec4, int used, uint32_t argument)
+{
+    struct field_place places[SDF_NUMBERS_MAX];
+    field_layout(node->type, used, places);
+    double numbers[SDF_NUMBERS_MAX];
+    sdf_numbers(&node->params, numbers);
+    const struct param *params = node->type->record.params;
+    for (size_t i = 0, at = 0; params[i].name; i++) {
+        for (int c = 0; places[i].vec4 >= 0 && c < param_components(params[i].type); c++) {
+            numbers[at++] *= params[i].unit == UNIT_LENGTH ? scale : 1;
+        }
+    }
+    if (sdf->prepare) {
+        sdf->prepare(numbers);
+    }
+    const double *from = numbers;
+    for (size_t i = 0; params[i].name; i++) {
+        if (places[i].vec4 >= 0) {
+            int count = param_components(params[i].type);
+            put(b, vec4 + (uint32_t)places[i].vec4, places[i].component, argument, count, from);
+            from += count;
+            argument += (uint32_t)count;
+        }
+    }
+}
+
+/* --- places --- */
+
+/* The matrix from the parent's space to the node's, (S^-1)(R^-1)(p - t), and back. */
+static void node_matrices(const struct node *node, double out_to[12], double out_from[12],
+                          double *out_least, double *out_greatest)
+{
+    const double *t = record_vector(&node->transform, "translation");
+    const double *r = record_vector(&node->transform, "rotation");
+    const double *s = record_vector(&node->transform, "scale");
+    double cx = cos(r[0]), sx = sin(r[0]), cy = cos(r[1]), sy = sin(r[1]), cz = cos(r[2]),
+           sz = sin(r[2]);
+    /* Rz * Ry * Rx */
+    double rotation[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
+                             {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
+                             {-sy, cy * sx, cy * cx}};
+    for (int i = 0; i < 3; i++) {
+        out_to[4 * i + 3] = 0;
+        for (int j = 0; j < 3; j++) {
+            out_to[4 * i + j] = rotation[j][i] / s[i];
+            out_to[4 * i + 3] -= rotation[j][i] / s[i] * t[j];
+            out_from[4 * i + j] = rotation[i][j] * s[j];
+        }
+        out_from[4 * i + 3] = t[i];
+    }
+    *out_least = fmin(fabs(s[0]), fmin(fabs(s[1]), fabs(s[2])));
+    *out_greatest = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
+}
+
+static void multiply(const double a[12], const double b[12], double out[12])
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 4; j++) {
+            out[4 * i + j] = a[4 * i] * b[j] + a[4 * i + 1] * b[4 + j] + a[4 * i + 2] * b[8 + j] +
+                             (j == 3 ? a[4 * i + 3] : 0);
+        }
+    }
+}
+
+static size_t material_slot(const struct scene *scene, const char *name)
+{
+    const struct resource *found = resource_find(&scene->materials, name);
+    for (size_t i = 0; found && i < scene->materials.count; i++) {
+        if (scene->materials.items[i] == found) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
+/* --- instructions --- */
+
+static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
+                          uint16_t slot);
+
+static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
+                       const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    struct field *field = b->field;
+    struct field_place places[SDF_NUMBERS_MAX];
+    int vec4s = field_layout(node->type, FIELD_HEAD_NUMBERS, places);
+    uint32_t block = add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
+    uint32_t arguments = add_arguments(b, 12 + FIELD_HEAD_NUMBERS + SDF_NUMBERS_MAX);
+    double head[FIELD_HEAD_NUMBERS] = {frame->scale, number, (double)frame->material};
+    put(b, block, 0, arguments, 12, frame->matrix);
+    put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    put_params(b, node, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
+               arguments + 12 + FIELD_HEAD_NUMBERS);
+    reserve((void **)&field->leaves, &b->leaf_capacity, field->leaf_count + 1,
+            sizeof *field->leaves);
+    field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(node->id)};
+    add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE, .type = node->type,
+                                                  .sdf = sdf, .a = slot, .point = frame->point,
+                                                  .numbers = block, .arguments = arguments});
+}
+
+static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
+{
+    double numbers[SDF_NUMBERS_MAX];
+    sdf_numbers(&node->params, numbers);
+    if (sdf->prepare) {
+        sdf->prepare(numbers);
+    }
+    return sdf->box(numbers);
+}
+
+/* The block of an operation's or distance modifier's parameters. */
+static void add_block(struct builder *b, const struct node *node, const struct sdf *sdf,
+                      double scale, struct field_instruction *instruction)
+{
+    struct field_place places[SDF_NUMBERS_MAX];
+    instruction->numbers = add_vec4s(b, (size_t)field_layout(node->type, 0, places));
+    instruction->arguments = add_arguments(b, SDF_NUMBERS_MAX);
+    put_params(b, node, sdf, scale, instruction->numbers, 0, instruction->arguments);
+}
+
+/* Folds the children from the left into `slot`, starting from `whole` where that is solid. */
+static struct result emit_children(struct builder *b, const struct node *node,
+                                   struct field_instruction combine, const struct frame *frame,
+                                   uint16_t slot, struct result whole)
+{
+    enum sdf_rule rule = combine.sdf->rule;
+    bool first = !whole.solid, dead = false;
+    for (size_t i = 0; i < node->child_count; i++) {
+        struct result child = emit(b, node->children[i], frame, slot + whole.solid);
+        bool leads = rule == SDF_FIRST && i == 0;
+        dead = dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
+        if (!child.solid || dead) {
+            continue;
+        }
+        if (first) {
+            whole = child;
+            first = false;
+            continue;
+        }
+        combine.a = slot;
+        combine.b = slot + 1;
+        add_instruction(b, combine);
+        if (rule == SDF_ANY) {
+            whole.box = bounds_union(whole.box, child.box);
+        } else if (rule == SDF_ALL) {
+            whole.box = bounds_intersection(whole.box, child.box);
+        }
+    }
+    whole.solid = whole.solid && !dead;
+    return whole;
+}
+
+static struct field_instruction union_of(const struct node_type *type)
+{
+    return (struct field_instruction){.op = FIELD_COMBINE, .type = type, .sdf = sdf_find(type)};
+}
+
+static struct result emit_union(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot, struct result whole)
+{
+    return emit_children(b, node, union_of(node_type_find("union")), frame, slot, whole);
+}
+
+static double lowered(const struct node *node, const struct sdf *sdf, size_t count)
+{
+    double numbers[SDF_NUMBERS_MAX];
+    sdf_numbers(&node->params, numbers);
+    return sdf->lowered ? sdf->lowered(numbers, count) : 0;
+}
+
+static struct result emit_combine(struct builder *b, const struct node *node,
+                                  const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+{
+    struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
+    add_block(b, node, sdf, frame->scale, &combine);
+    struct result whole = emit_children(b, node, combine, frame, slot, (struct result){0});
+    if (whole.solid) {
+        whole.box = bounds_grow(whole.box, lowered(node, sdf, node->child_count));
+    }
+    return whole;
+}
+
+static struct result emit_distance(struct builder *b, const struct node *node,
+                                   const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+{
+    struct field_instruction change = {
+        .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
+    add_block(b, node, sdf, frame->scale, &change);
+    struct result whole = emit_union(b, node, frame, slot, (struct result){0});
+    if (whole.solid) {
+        add_instruction(b, change);
+        whole.box = bounds_grow(whole.box, lowered(node, sdf, 1));
+    }
+    return whole;
+}
+
+/* Children see a point of their own, in slot point + 2; point + 1 is the modifier's own space. */
+static struct result emit_domain(struct builder *b, const struct node *node,
+                                 const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+{
+    const struct sdf_domain *domain = sdf->domain;
+    size_t own_count = 4 * (size_t)domain->vec4s;
+    uint32_t block = add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
+    uint32_t arguments = add_arguments(b, 12 + own_count);
+    put(b, block, 0, arguments, 12, frame->matrix);
+    uint16_t own = frame->point + 1, inner = frame->point + 2;
+    bool loops = domain->range != NULL;
+    struct field_instruction next = {.type = node->type, .sdf = sdf, .a = slot, .b = slot,
+                                     .numbers = block, .arguments = arguments};
+    next.op = FIELD_PLACE, next.point = frame->point, next.out = own;
+    add_instruction(b, next);
+    next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
+    next.op = loops ? FIELD_LOOP : FIELD_MAP, next.point = own, next.out = inner;
+    add_instruction(b, next);
+
+    struct frame inside = {.scale = frame->scale, .point = inner, .material = frame->material};
+    memcpy(inside.matrix, identity, sizeof identity);
+    uint64_t trips_before = b->trips;
+    b->trips = 0;
+    struct result whole = emit_union(b, node, &inside, slot + loops, (struct result){0});
+    if (!whole.solid) {
+        return whole;
+    }
+    double params[SDF_NUMBERS_MAX], own_numbers[4 * SDF_DOMAIN_VEC4S_MAX] = {0};
+    sdf_numbers(&node->params, params);
+    domain->prepare(params, &whole.box, frame->scale, own_numbers);
+    put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
+    if (loops) {
+        b->trips = (uint64_t)domain->cells(own_numbers) * (1 + b->trips);
+        next.op = FIELD_LOOP_END, next.b = slot + 1;
+        add_instruction(b, next);
+    } else if (domain->after) {
+        next.op = FIELD_AFTER, next.out = own;
+        add_instruction(b, next);
+    }
+    b->trips += trips_before;
+    whole.box = domain->box(params, &whole.box);
+    return whole;
+}
+
+static struct result emit_kind(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    const struct sdf *sdf = sdf_find(node->type);
+    assert(sdf);
+    switch (node->type->kind) {
+    case KIND_SHAPE: {
+        emit_shape(b, node, sdf, frame, slot, number);
+        struct result own = {.solid = true, .box = shape_box(node, sdf)};
+        return emit_union(b, node, frame, slot, own);
+    }
+    case KIND_COMBINE:
+        return emit_combine(b, node, sdf, frame, slot);
+    case KIND_DISTANCE:
+        return emit_distance(b, node, sdf, frame, slot);
+    case KIND_DOMAIN:
+        return emit_domain(b, node, sdf, frame, slot);
+    case KIND_GROUP:
+        break;
+    }
+    return emit_union(b, node, frame, slot, (struct result){0});
+}
+
+static uint32_t subtree_count(const struct node *node)
+{
+    uint32_t count = 1;
+    for (size_t i = 0; i < node->child_count; i++) {
+        count += subtree_count(node->children[i]);
+    }
+    return count;
+}
+
+/* Far inside what a float holds: products of two such numbers must not overflow. */
+static bool frame_is_sane(const struct frame *frame)
+{
+    bool sane = frame->scale > 1e-15;
+    for (int i = 0; i < 12; i++) {
+        sane = sane && fabs(frame->matrix[i]) < 1e15;
+    }
+    return sane;
+}
+
+static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
+                          uint16_t slot)
+{
+    if (record_number(&node->common, "visible") == 0) {
+        b->index += subtree_count(node);
+        return (struct result){.hidden = true};
+    }
+    uint32_t number = ++b->index;
+    double to[12], from[12], least, greatest;
+    node_matrices(node, to, from, &least, &greatest);
+    struct frame frame = *outer;
+    multiply(to, outer->matrix, frame.matrix);
+    frame.scale *= least;
+    if (!b->out_of_range && !frame_is_sane(&frame)) {
+        b->out_of_range = node;
+    }
+    const char *material = record_text(&node->common, "material");
+    if (*material) {
+        frame.material = material_slot(b->scene, material);
+    }
+    struct mark before = mark(b);
+    struct result result = emit_kind(b, node, &frame, slot, number);
+    if (result.solid) {
+        result.box = bounds_transform(&result.box, from, greatest / least);
+    } else {
+        rewind_to(b, before);
+    }
+    return result;
+}
+
+/* --- the whole --- */
+
+static void put_color(float *to, const struct record *record, const char *name)
+{
+    const double *color = record_vector(record, name);
+    for (int i = 0; i < 3; i++) {
+        to[i] = (float)color[i];
+    }
+}
+
+static void put_material(float *to, const struct record *record)
+{
+    put_color(to, record, "diffuse");
+    to[3] = (float)record_number(record, "shininess");
+    put_color(to + 4, record, "specular");
+    put_color(to + 8, record, "emission");
+    put_color(to + 12, record, "ambient");
+}
+
+/* The buffer's size is part of the shape; padded, it leaves room for some more materials. */
+enum { PADDING = 256 };
+
+static void add_materials(struct builder *b)
+{
+    struct field *field = b->field;
+    size_t count = b->scene->materials.count;
+    field->material_base = add_vec4s(b, (count + 1) * FIELD_MATERIAL_VEC4S);
+    float *to = field->numbers + 4 * field->material_base;
+    struct record standard;
+    record_init(&standard, record_type_in(shader_types, "phong"));
+    put_material(to, &standard);
+    record_finish(&standard);
+    for (size_t i = 0; i < count; i++) {
+        to += FIELD_MATERIAL_NUMBERS;
+        put_material(to, &b->scene->materials.items[i]->record);
+    }
+    add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
+}
+
+/* FNV-1a (Fowler, Noll, Vo), 64 bits. */
+static uint64_t hash(uint64_t state, uint32_t word)
+{
+    for (int i = 0; i < 4; i++) {
+        state = (state ^ (word >> (8 * i) & 0xff)) * UINT64_C(0x100000001b3);
+    }
+    return state;
+}
+
+/* Everything that the GLSL text is made of. */
+static uint64_t shape_hash(const struct field *field)
+{
+    uint64_t state = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < field->instruction_count; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        state = hash(state, (uint32_t)in->op);
+        state = hash(state, in->type ? (uint32_t)in->type->number : 0);
+        state = hash(state, (uint32_t)in->a << 16 | in->b);
+        state = hash(state, (uint32_t)in->point << 16 | in->out);
+        state = hash(state, in->numbers);
+    }
+    state = hash(state, (uint32_t)field->material_base);
+    return hash(state, (uint32_t)field->vec4_count);
+}
+
+struct field *field_compile(const struct scene *scene, struct error *err)
+{
+    struct field *field = memory_alloc(1, sizeof *field);
+    field->references = 1;
+    struct builder builder = {.field = field, .scene = scene};
+    struct frame frame = {.scale = 1};
+    memcpy(frame.matrix, identity, sizeof identity);
+    struct result whole = emit(&builder, scene->root, &frame, 0);
+    if (builder.out_of_range) {
+        char place[32 + LIMIT_ID_BYTES];
+        snprintf(place, sizeof place, "/nodes/%s/transform", builder.out_of_range->id);
+        error_set(err, ERROR_LIMIT, place,
+                  "with its parents' transforms it leaves the range of 1e-15 to 1e15");
+        field_unref(field);
+        return NULL;
+    }
+    if (!whole.solid) {
+        add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
+        whole.box = bounds_empty();
+    }
+    add_materials(&builder);
+    field->bounds = whole.box;
+    field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
+    field->shape_hash = shape_hash(field);
+    return field;
+}
+
+struct field *field_ref(struct field *field)
+{
+    field->references++;
+    return field;
+}
+
+void field_unref(struct field *field)
+{
+    if (!field || --field->references > 0) {
+        return;
+    }
+    for (size_t i = 0; i < field->leaf_count; i++) {
+        free(field->leaves[i].id);
+    }
+    free(field->leaves);
+    free(field->instructions);
+    free(field->numbers);
+    free(field->arguments);
+    free(field);
+}
+
+static int compare_leaf(const void *key, const void *item)
+{
+    uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
+    return (a > b) - (a < b);
+}
+
+const char *field_leaf_id(const struct field *field, uint32_t number)
+{
+    if (field->leaf_count == 0) {
+        return NULL;
+    }
+    const struct field_leaf *leaf = bsearch(&number, field->leaves, field->leaf_count,
+                                            sizeof *field->leaves, compare_leaf);
+    return leaf ? leaf->id : NULL;
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT */
+/* The field program run in C: picking, probing, and the oracle for the GLSL that is made of it. */
+#include <math.h>
+#include <string.h>
+
+#include "field.h"
+
+#define FAR 1e9 /* as in glsl/operations.glsl */
+
+/* What is known of a surface besides its distance. */
+struct tint {
+    uint32_t leaf;
+    double weight; /* of that leaf in what is seen */
+    double material[FIELD_MATERIAL_NUMBERS];
+};
+
+struct loop {
+    size_t body; /* index of the first instruction in it */
+    double first[3], last[3], cell[3];
+};
+
+struct machine {
+    const struct field *field;
+    struct tint *tints; /* one for each distance slot; NULL: only the distance is asked for */
+    double d[FIELD_SLOTS_MAX];
+    double p[FIELD_SLOTS_MAX][3];
+    struct loop loops[LIMIT_NODE_DEPTH];
+    int depth;
+};
+
+static void place(const double m[12], const double p[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = m[4 * i] * p[0] + m[4 * i + 1] * p[1] + m[4 * i + 2] * p[2] + m[4 * i + 3];
+    }
+}
+
+static void run_shape(struct machine *m, const struct field_instruction *in, const double *n)
+{
+    double local[3];
+    place(n, m->p[in->point], local);
+    m->d[in->a] = in->sdf->shape(local, n + 12 + FIELD_HEAD_NUMBERS) * n[12];
+    if (!m->tints) {
+        return;
+    }
+    struct tint *tint = &m->tints[in->a];
+    tint->leaf = (uint32_t)n[13];
+    tint->weight = 1;
+    const float *material =
+        m->field->numbers + 4 * m->field->material_base + FIELD_MATERIAL_NUMBERS * (size_t)n[14];
+    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
+        tint->material[i] = material[i];
+    }
+}
+
+static void mix_tints(struct tint *a, const struct tint *b, double share)
+{
+    double wa = a->weight * (1 - share), wb = b->weight * share;
+    a->leaf = wb > wa ? b->leaf : a->leaf;
+    a->weight = fmax(wa, wb);
+    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
+        a->material[i] += (b->material[i] - a->material[i]) * share;
+    }
+}
+
+static void run_combine(struct machine *m, const struct field_instruction *in, const double *n)
+{
+    double share;
+    m->d[in->a] = in->sdf->combine(m->d[in->a], m->d[in->b], n, &share);
+    if (m->tints) {
+        mix_tints(&m->tints[in->a], &m->tints[in->b], share);
+    }
+}
+
+static void run_empty(struct machine *m, uint16_t slot)
+{
+    m->d[slot] = FAR;
+    if (m->tints) {
+        m->tints[slot] = (struct tint){.weight = 1};
+    }
+}
+
+static void run_loop(struct machine *m, const struct field_instruction *in, const double *n,
+                     size_t body)
+{
+    struct loop *loop = &m->loops[m->depth++];
+    loop->body = body;
+    in->sdf->domain->range(m->p[in->point], n, loop->first, loop->last);
+    memcpy(loop->cell, loop->first, sizeof loop->cell);
+    in->sdf->domain->cell(m->p[in->point], loop->cell, n, m->p[in->out]);
+    run_empty(m, in->a);
+}
+
+/* Takes the cell's result in; returns where to go on. */
+static size_t run_loop_end(struct machine *m, const struct field_instruction *in, const double *n,
+                           size_t next)
+{
+    if (m->d[in->b] < m->d[in->a]) {
+        m->d[in->a] = m->d[in->b];
+        if (m->tints) {
+            m->tints[in->a] = m->tints[in->b];
+        }
+    }
+    struct loop *loop = &m->loops[m->depth - 1];
+    for (int i = 0; i < 3; i++) {
+        loop->cell[i] += 1;
+        if (loop->cell[i] <= loop->last[i]) {
+            in->sdf->domain->cell(m->p[in->point], loop->cell, n, m->p[in->out]);
+            return loop->body;
+        }
+        loop->cell[i] = loop->first[i];
+    }
+    m->depth--;
+    return next;
+}
+
+static void run(struct machine *m, const double p[3])
+{
+    const struct field *field = m->field;
+    memcpy(m->p[0], p, sizeof m->p[0]);
+    m->depth = 0;
+    for (size_t i = 0; i < field->instruction_count;) {
+        const struct field_instruction *in = &field->instructions[i++];
+        const double *n = field->arguments + in->arguments;
+        switch (in->op) {
+        case FIELD_EMPTY:
+            run_empty(m, in->a);
+            break;
+        case FIELD_SHAPE:
+            run_shape(m, in, n);
+            break;
+        case FIELD_COMBINE:
+            run_combine(m, in, n);
+            break;
+        case FIELD_DISTANCE:
+            m->d[in->a] = in->sdf->change(m->d[in->a], n);
+            break;
+        case FIELD_PLACE:
+            place(n, m->p[in->point], m->p[in->out]);
+            break;
+        case FIELD_MAP:
+            in->sdf->domain->map(m->p[in->point], n, m->p[in->out]);
+            break;
+        case FIELD_AFTER:
+            m->d[in->a] = in->sdf->domain->after(m->d[in->a], m->p[in->point], n);
+            break;
+        case FIELD_LOOP:
+            run_loop(m, in, n, i);
+            break;
+        case FIELD_LOOP_END:
+            i = run_loop_end(m, in, n, i);
+            break;
+        }
+    }
+}
+
+double field_distance(const struct field *field, const double p[3])
+{
+    struct machine machine;
+    machine.field = field;
+    machine.tints = NULL;
+    run(&machine, p);
+    return machine.d[0];
+}
+
+struct field_surface field_surface(const struct field *field, const double p[3])
+{
+    struct tint tints[FIELD_SLOTS_MAX];
+    struct machine machine;
+    machine.field = field;
+    machine.tints = tints;
+    run(&machine, p);
+    struct field_surface out = {.distance = machine.d[0], .number = tints[0].leaf};
+    memcpy(out.material, tints[0].material, sizeof out.material);
+    return out;
+}
+
+void field_normal(const struct field *field, const double p[3], double h, double out[3])
+{
+    static const double corners[4][3] = {{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}};
+    double sum[3] = {0};
+    for (int i = 0; i < 4; i++) {
+        double q[3];
+        for (int j = 0; j < 3; j++) {
+            q[j] = p[j] + h * corners[i][j];
+        }
+        double d = field_distance(field, q);
+        for (int j = 0; j < 3; j++) {
+            sum[j] += d * corners[i][j];
+        }
+    }
+    double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    for (int j = 0; j < 3; j++) {
+        out[j] = length > 0 ? sum[j] / length : j == 1;
+    }
+}
+
+double field_march(const struct field *field, const double origin[3], const double direction[3],
+                   double max_distance, double tolerance)
+{
+    enum { STEPS_MAX = 10000 };
+    double t = 0;
+    for (int step = 0; step < STEPS_MAX && t < max_distance; step++) {
+        double p[3];
+        for (int i = 0; i < 3; i++) {
+            p[i] = origin[i] + t * direction[i];
+        }
+        double d = field_distance(field, p);
+        if (d < tolerance) {
+            return t;
+        }
+        t += d;
+    }
+    return -1;
+}

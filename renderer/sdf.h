@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* Distance functions in C, one row per row of the registry: the oracle of the GLSL functions of the
+ * same name in renderer/glsl/, and what picking runs. Pure, double precision.
+ *
+ * Numbers (`n`) are a node's parameters in the order of the registry, vectors as three, choices
+ * left out, after the row's `prepare`. */
+#ifndef RENDERER_SDF_H
+#define RENDERER_SDF_H
+
+#include "bounds.h"
+#include "protocol/nodes.h"
+
+enum {
+    SDF_NUMBERS_MAX = 16, /* of one node */
+    SDF_DOMAIN_VEC4S_MAX = 4,
+    SDF_REPEAT_CELLS_MAX = 125, /* that one repeat looks at for one point */
+};
+
+/* A twisted child without an end is cut off at this distance from the axis: the bound of a twist
+ * falls with the radius, so there is none without an end. */
+#define SDF_TWIST_RADIUS_MAX 32.0
+
+/* What an operation makes of its operands. */
+enum sdf_rule {
+    SDF_ANY,   /* in any of them, so an empty one changes nothing */
+    SDF_ALL,   /* in all of them, so an empty one leaves nothing */
+    SDF_FIRST, /* the first without the others, so an empty first leaves nothing */
+};
+
+/* A change of the point that the children see. `n` holds vec4s numbers times four, computed by
+ * `prepare` from the parameters (registry order), the children's box in the changed space, and the
+ * factor from local lengths to lengths of the scene. */
+struct sdf_domain {
+    int vec4s;
+    void (*prepare)(const double *params, const struct bounds *child, double scale, double *out_n);
+    /* The box of the whole, from the children's. */
+    struct bounds (*box)(const double *params, const struct bounds *child);
+    void (*map)(const double p[3], const double *n, double out[3]);
+    /* What makes the children's distance one of the whole; NULL where it is one already. */
+    double (*after)(double d, const double p[3], const double *n);
+    /* Only where children are evaluated in several cells: `first` and `last` cell, steps of 1 per
+     * axis; `map` is NULL and `cell` gives the point in a cell; `cells` the most there can be. */
+    void (*range)(const double p[3], const double *n, double out_first[3], double out_last[3]);
+    void (*cell)(const double p[3], const double cell[3], const double *n, double out[3]);
+    int (*cells)(const double *n);
+};
+
+struct sdf {
+    const char *type; /* name of the registry row */
+    /* Makes the numbers ready: unit vectors, limits. May be NULL. */
+    void (*prepare)(double *n);
+
+    /* KIND_SHAPE */
+    double (*shape)(const double p[3], const double *n);
+    struct bounds (*box)(const double *n);
+
+    /* KIND_COMBINE: `*out_share` is the derivative by `b`, in magnitude; `a` has the rest. */
+    double (*combine)(double a, double b, const double *n, double *out_share);
+    enum sdf_rule rule;
+    bool soft; /* shares between 0 and 1 occur */
+
+    /* KIND_DISTANCE */
+    double (*change)(double d, const double *n);
+
+    /* KIND_COMBINE and KIND_DISTANCE: how much the field of `count` operands may be lowered; NULL:
+     * not at all. */
+    double (*lowered)(const double *n, size_t count);
+
+    const struct sdf_domain *domain; /* KIND_DOMAIN */
+};
+
+size_t sdf_count(void);
+const struct sdf *sdf_at(size_t index);
+/* The row for a registry row; NULL: not written yet (a test fails then). */
+const struct sdf *sdf_find(const struct node_type *type);
+/* The numbers of a node; returns how many. */
+int sdf_numbers(const struct record *params, double out_n[SDF_NUMBERS_MAX]);
+
+#endif

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/* Strings the calls of a field program together as straight-line GLSL. No GL here. */
+#include "shader.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Surfaces that were never mixed are vec3 h (distance, leaf, slot): materials are read where a
+ * blend first needs them, which for most scenes is at a few places only. Mixed ones are m. */
+struct writer {
+    FILE *out;
+    const struct field *field;
+    bool surface;
+    bool mixed[FIELD_SLOTS_MAX]; /* slot holds m, not h */
+};
+
+static void write_params(const struct writer *w, const struct field_instruction *in, uint32_t vec4,
+                         int used)
+{
+    static const char *const components[] = {"x", "y", "z", "w"};
+    struct field_place places[SDF_NUMBERS_MAX];
+    field_layout(in->type, used, places);
+    const struct param *params = in->type->record.params;
+    for (size_t i = 0; params[i].name; i++) {
+        if (places[i].vec4 >= 0) {
+            bool vector = param_components(params[i].type) == 3;
+            fprintf(w->out, ", N(%u).%s", vec4 + (uint32_t)places[i].vec4,
+                    vector ? (places[i].component ? "yzw" : "xyz")
+                           : components[places[i].component]);
+        }
+    }
+}
+
+static void write_vec4s(const struct writer *w, uint32_t first, int count)
+{
+    for (int i = 0; i < count; i++) {
+        fprintf(w->out, ", N(%u)", first + (uint32_t)i);
+    }
+}
+
+/* "d3", or the distance of the surface in slot 3. */
+static void write_distance(const struct writer *w, uint16_t slot)
+{
+    if (!w->surface) {
+        fprintf(w->out, "d%u", slot);
+    } else {
+        fprintf(w->out, w->mixed[slot] ? "m%u.d" : "h%u.x", slot);
+    }
+}
+
+static void write_local(const struct writer *w, const struct field_instruction *in)
+{
+    fprintf(w->out, "local(p%u", in->point);
+    write_vec4s(w, in->numbers, FIELD_MATRIX_VEC4S);
+    fprintf(w->out, ")");
+}
+
+static void write_shape(struct writer *w, const struct field_instruction *in)
+{
+    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S;
+    fprintf(w->out, w->surface ? "h%u = vec3(" : "d%u = ", in->a);
+    fprintf(w->out, "%s(", in->type->glsl);
+    write_local(w, in);
+    write_params(w, in, head, FIELD_HEAD_NUMBERS);
+    fprintf(w->out, ") * N(%u).x", head);
+    fprintf(w->out, w->surface ? ", N(%u).yz);\n" : ";\n", head);
+    w->mixed[in->a] = false;
+}
+
+static void write_call(const struct writer *w, const struct field_instruction *in,
+                       const char *suffix)
+{
+    fprintf(w->out, "%s%s(", in->type->glsl, suffix);
+    write_distance(w, in->a);
+    if (in->op == FIELD_COMBINE) {
+        fprintf(w->out, ", ");
+        write_distance(w, in->b);
+    }
+    write_params(w, in, in->numbers, 0);
+    fprintf(w->out, ")");
+}
+
+static void write_mixed(struct writer *w, uint16_t slot)
+{
+    if (!w->mixed[slot]) {
+        fprintf(w->out, "m%u = mixture(h%u);\n", slot, slot);
+        w->mixed[slot] = true;
+    }
+}
+
+static void write_combine(struct writer *w, const struct field_instruction *in)
+{
+    if (!w->surface) {
+        fprintf(w->out, "d%u = ", in->a);
+        write_call(w, in, "");
+        fprintf(w->out, ";\n");
+        return;
+    }
+    if (in->sdf->soft || w->mixed[in->a] || w->mixed[in->b]) {
+        write_mixed(w, in->a);
+        write_mixed(w, in->b);
+    }
+    const char *name = w->mixed[in->a] ? "m" : "h";
+    fprintf(w->out, "%s%u = %s(", name, in->a, w->mixed[in->a] ? "blend" : "choose");
+    write_call(w, in, "");
+    fprintf(w->out, ", ");
+    write_call(w, in, "_share");
+    fprintf(w->out, ", %s%u, %s%u);\n", name, in->a, name, in->b);
+}
+
+static void write_change(const struct writer *w, const struct field_instruction *in)
+{
+    write_distance(w, in->a);
+    fprintf(w->out, " = ");
+    write_call(w, in, "");
+    fprintf(w->out, ";\n");
+}
+
+static void write_after(const struct writer *w, const struct field_instruction *in)
+{
+    write_distance(w, in->a);
+    fprintf(w->out, " = %s_after(", in->type->glsl);
+    write_distance(w, in->a);
+    fprintf(w->out, ", p%u", in->point);
+    write_vec4s(w, in->numbers, in->sdf->domain->vec4s);
+    fprintf(w->out, ");\n");
+}
+
+static void write_domain_call(const struct writer *w, const struct field_instruction *in,
+                              const char *suffix, const char *extra)
+{
+    fprintf(w->out, "%s%s(p%u%s", in->type->glsl, suffix, in->point, extra);
+    write_vec4s(w, in->numbers, in->sdf->domain->vec4s);
+    fprintf(w->out, ");\n");
+}
+
+/* Which kind of surface a cell gives is known only at the end, so both kinds start empty. */
+static void write_loop(const struct writer *w, const struct field_instruction *in, size_t name)
+{
+    fprintf(w->out, "vec3 first%zu = ", name);
+    write_domain_call(w, in, "_first", "");
+    fprintf(w->out, "vec3 last%zu = ", name);
+    write_domain_call(w, in, "_last", "");
+    if (w->surface) {
+        fprintf(w->out, "h%u = vec3(FAR, 0.0, 0.0);\nm%u = mixture_far();\n", in->a, in->a);
+    } else {
+        fprintf(w->out, "d%u = FAR;\n", in->a);
+    }
+    fprintf(w->out,
+            "vec3 cell%zu = first%zu;\n"
+            "for (float left%zu = cell_count(first%zu, last%zu); left%zu > 0.0; left%zu -= 1.0) {\n"
+            "p%u = ",
+            name, name, name, name, name, name, name, in->out);
+    char cell[32];
+    snprintf(cell, sizeof cell, ", cell%zu", name);
+    write_domain_call(w, in, "_cell", cell);
+}
+
+static void write_loop_end(struct writer *w, const struct field_instruction *in, size_t name)
+{
+    if (w->surface) {
+        const char *kind = w->mixed[in->b] ? "m" : "h";
+        const char *distance = w->mixed[in->b] ? "d" : "x";
+        fprintf(w->out, "if (%s%u.%s < %s%u.%s) {\n%s%u = %s%u;\n}\n", kind, in->b, distance, kind,
+                in->a, distance, kind, in->a, kind, in->b);
+        w->mixed[in->a] = w->mixed[in->b];
+    } else {
+        fprintf(w->out, "d%u = min(d%u, d%u);\n", in->a, in->a, in->b);
+    }
+    fprintf(w->out, "cell%zu = cell_next(cell%zu, first%zu, last%zu);\n}\n", name, name, name,
+            name);
+}
+
+static void write_empty(struct writer *w, uint16_t slot)
+{
+    fprintf(w->out, w->surface ? "h%u = vec3(FAR, 0.0, 0.0);\n" : "d%u = FAR;\n", slot);
+    w->mixed[slot] = false;
+}
+
+static void write_instructions(struct writer *w)
+{
+    size_t loops[LIMIT_NODE_DEPTH]; /* names of the loops that are open */
+    int depth = 0;
+    for (size_t i = 0; i < w->field->instruction_count; i++) {
+        const struct field_instruction *in = &w->field->instructions[i];
+        switch (in->op) {
+        case FIELD_EMPTY:
+            write_empty(w, in->a);
+            break;
+        case FIELD_SHAPE:
+            write_shape(w, in);
+            break;
+        case FIELD_COMBINE:
+            write_combine(w, in);
+            break;
+        case FIELD_DISTANCE:
+            write_change(w, in);
+            break;
+        case FIELD_PLACE:
+            fprintf(w->out, "p%u = ", in->out);
+            write_local(w, in);
+            fprintf(w->out, ";\n");
+            break;
+        case FIELD_MAP:
+            fprintf(w->out, "p%u = ", in->out);
+            write_domain_call(w, in, "", "");
+            break;
+        case FIELD_AFTER:
+            write_after(w, in);
+            break;
+        case FIELD_LOOP:
+            loops[depth++] = i;
+            write_loop(w, in, i);
+            break;
+        case FIELD_LOOP_END:
+            write_loop_end(w, in, loops[--depth]);
+            break;
+        }
+    }
+}
+
+static void write_slots(const struct writer *w, const char *type, const char *name, int first,
+                        int count)
+{
+    for (int i = first; i < count; i++) {
+        fprintf(w->out, "%s %s%d;\n", type, name, i);
+    }
+}
+
+/* Reads the material of a surface that was not mixed yet. */
+static void write_mixture(const struct writer *w)
+{
+    fprintf(w->out,
+            "Mixture mixture(vec3 h)\n{\n"
+            "int i = %zu + %d * int(h.z);\n"
+            "return Mixture(h.x, h.y, 1.0, N(i), N(i + 1), N(i + 2), N(i + 3));\n}\n",
+            w->field->material_base, FIELD_MATERIAL_VEC4S);
+}
+
+static char *write_text(const struct field *field, bool surface)
+{
+    char *text = NULL;
+    size_t length = 0;
+    struct writer w = {.field = field, .surface = surface};
+    w.out = open_memstream(&text, &length);
+    if (!w.out) {
+        abort();
+    }
+    if (surface) {
+        write_mixture(&w);
+    }
+    fprintf(w.out, surface ? "void surface(vec3 p0, out Surface s)\n{\n"
+                           : "float map(vec3 p0)\n{\n");
+    write_slots(&w, "vec3", "p", 1, field->point_slots);
+    if (surface) {
+        write_slots(&w, "vec3", "h", 0, field->distance_slots);
+        write_slots(&w, "Mixture", "m", 0, field->distance_slots);
+    } else {
+        write_slots(&w, "float", "d", 0, field->distance_slots);
+    }
+    write_instructions(&w);
+    if (surface) {
+        write_mixed(&w, 0);
+        fprintf(w.out, "s = surface_of(m0);\n}\n");
+    } else {
+        fprintf(w.out, "return d0;\n}\n");
+    }
+    if (fclose(w.out) != 0) {
+        abort();
+    }
+    return text;
+}
+
+char *shader_map(const struct field *field)
+{
+    return write_text(field, false);
+}
+
+char *shader_surface(const struct field *field)
+{
+    return write_text(field, true);
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* GLSL text of a field program. Pure: no GL, no numbers in the text (they come through N). */
+#ifndef RENDERER_SHADER_H
+#define RENDERER_SHADER_H
+
+#include "field.h"
+
+/* `float map(vec3 p)`: the distance. Caller frees.
+ *
+ * The text calls functions of glsl/shapes.glsl, operations.glsl and modifiers.glsl, which stand
+ * before it, and a macro N(i), which gives the vec4 number i of field->numbers; i is a constant. */
+char *shader_map(const struct field *field);
+
+/* `void surface(vec3 p, out Surface s)`: what is at a hit (Surface: operations.glsl). As above, but
+ * some i are not constant. */
+char *shader_surface(const struct field *field);
+
+#endif
