@@ -1,7 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 /* THE TABLE of commands: palette, menus, tooltips, key sheet and key handling are made from it. */
+import { ballOf } from "./bounds.ts";
+import {
+    type Camera,
+    distance,
+    dolly,
+    frame,
+    orbit,
+    pan,
+    printCamera,
+    type ViewName,
+    viewFrom,
+} from "./camera.ts";
+import { preorder, type SceneDocument } from "./document.ts";
+import {
+    clip,
+    dissolve,
+    duplicate,
+    type Edit,
+    movable,
+    othersOf,
+    paste,
+    removeNodes,
+    reorder,
+    setVisible,
+    wrap,
+} from "./edits.ts";
+import { isSingleKey, type KeyPress, nameOfPress } from "./keys.ts";
 import type { Operation } from "./operations.ts";
-import type { Stores } from "./stores.ts";
+import { addNotice, setPreferences, type Stores } from "./stores.ts";
+import { text } from "./texts.ts";
+import { AOVS, peel, type Theme } from "./view.ts";
 
 /* What commands need from the page around the model. */
 export interface App {
@@ -9,8 +38,8 @@ export interface App {
     edit(ops: readonly Operation[], options?: { group?: string; label?: string }): boolean;
     undo(): void;
     redo(): void;
-    /* Width over height of the picture. */
-    aspect(): number;
+    /* Size of the picture in CSS pixels. */
+    viewSize(): { readonly width: number; readonly height: number };
     writeClipboard(text: string): void;
     readClipboard(): Promise<string>;
     /* Saves the document as a file; opens the chooser for one. */
@@ -29,38 +58,597 @@ export interface Command {
     readonly keys: readonly string[];
     readonly when: Context;
     /* Also acts while a text field has the focus. */
-    readonly inFields?: boolean;
-    /* Left out of the palette: only a key. */
-    readonly keyOnly?: boolean;
+    readonly inFields: boolean;
+    /* Not in the palette: it makes sense as a key only. */
+    readonly keyOnly: boolean;
     /* Why it cannot run now, for the tooltip; null: it can. */
-    whyNot(app: App): string | null;
-    run(app: App): void;
+    readonly whyNot: (app: App) => string | null;
+    readonly run: (app: App) => void;
 }
 
-/* What a keyboard event says; the DOM's KeyboardEvent fits. */
-export interface KeyPress {
-    readonly key: string;
-    readonly code: string;
-    readonly ctrlKey: boolean;
-    readonly metaKey: boolean;
-    readonly shiftKey: boolean;
-    readonly altKey: boolean;
+/* --- what commands look at --- */
+
+function documentOf(app: App): SceneDocument | null {
+    return app.stores.document.getState().document;
 }
 
-export const COMMANDS: readonly Command[] = [];
+function selectionOf(app: App): readonly string[] {
+    const document = documentOf(app);
+    const { selection } = app.stores.view.getState();
+    return document ? selection.filter((id) => document.nodes.has(id)) : [];
+}
+
+type Reason = (app: App) => string | null;
+
+const never: Reason = () => null;
+const needsScene: Reason = (app) => (documentOf(app) ? null : text("why.noScene"));
+const needsSelection: Reason = (app) =>
+    needsScene(app) ?? (selectionOf(app).length > 0 ? null : text("why.noSelection"));
+
+function needsMovable(least: number): Reason {
+    return (app) => {
+        const document = documentOf(app);
+        const reason = needsSelection(app);
+        if (reason !== null || !document) {
+            return reason;
+        }
+        const count = movable(document, selectionOf(app)).length;
+        if (count === 0) {
+            return text("why.onlyRoot");
+        }
+        return count < least ? text("why.twoNeeded") : null;
+    };
+}
+
+const needsOne: Reason = (app) =>
+    needsSelection(app) ?? (selectionOf(app).length === 1 ? null : text("why.oneOnly"));
+
+function canReorder(direction: -1 | 1): Reason {
+    return (app) => {
+        const document = documentOf(app);
+        const id = selectionOf(app)[0] ?? "";
+        const reason = needsOne(app);
+        if (reason !== null || !document) {
+            return reason;
+        }
+        return reorder(document, id, direction) ? null : text("why.noParentStep");
+    };
+}
+
+const canDissolve: Reason = (app) => {
+    const document = documentOf(app);
+    const node = document?.nodes.get(selectionOf(app)[0] ?? "");
+    const reason = needsOne(app) ?? needsMovable(1)(app);
+    return reason ?? (node && node.children.length > 0 ? null : text("why.noChildren"));
+};
+
+function hiddenNodes(document: SceneDocument): string[] {
+    return preorder(document).filter((id) => document.nodes.get(id)?.common.visible === false);
+}
+
+/* --- what commands do --- */
+
+/* Sends an edit and selects what it names. */
+export function perform(app: App, edit: Edit): boolean {
+    if (edit.ops.length === 0 || !app.edit(edit.ops, { label: edit.label })) {
+        return false;
+    }
+    app.stores.view.setState({ selection: edit.select, subject: { kind: "nodes" } });
+    return true;
+}
+
+function onDocument(build: (document: SceneDocument, ids: readonly string[]) => Edit | null) {
+    return (app: App): void => {
+        const document = documentOf(app);
+        const edit = document && build(document, selectionOf(app));
+        if (edit) {
+            perform(app, edit);
+        }
+    };
+}
+
+/* The camera is the user's own: it changes without an edit. */
+export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) => Camera): void {
+    app.stores.camera.setState(({ camera }) => ({ camera: change(camera), own: true }));
+}
+
+function frameNodes(app: App, ids?: readonly string[]): void {
+    const { document, schema } = app.stores.document.getState();
+    const { width, height } = app.viewSize();
+    if (document) {
+        const ball = ballOf(document, schema, ids);
+        moveCamera(app, (camera) => frame(camera, ball, width / Math.max(1, height)));
+    }
+}
+
+function copyNodes(app: App): void {
+    const document = documentOf(app);
+    if (document) {
+        app.writeClipboard(clip(document, selectionOf(app)));
+    }
+}
+
+async function pasteNodes(app: App): Promise<void> {
+    const content = await app.readClipboard().catch(() => "");
+    const { document, schema } = app.stores.document.getState();
+    const edit = document && paste(document, schema, selectionOf(app), content);
+    if (edit) {
+        perform(app, edit);
+    } else {
+        const message = text("why.clipboard");
+        addNotice(app.stores.notices, { level: "info", code: "clipboard", message });
+    }
+}
+
+function hideNodes(app: App): void {
+    const document = documentOf(app);
+    const ids = document ? selectionOf(app) : [];
+    const hidden = ids.every((id) => document?.nodes.get(id)?.common.visible === false);
+    onDocument((scene) => setVisible(scene, ids, hidden))(app);
+}
+
+function showAll(app: App): void {
+    const document = documentOf(app);
+    const ids = document ? hiddenNodes(document) : [];
+    if (document && ids.length > 0) {
+        app.edit(setVisible(document, ids, true).ops, { label: "show all" });
+    }
+}
+
+function hideOthers(app: App): void {
+    const document = documentOf(app);
+    const others = document ? othersOf(document, selectionOf(app)) : [];
+    if (document && others.length > 0) {
+        app.edit(setVisible(document, others, false).ops, { label: "hide others" });
+    }
+}
+
+function climb(app: App): void {
+    const parent = documentOf(app)?.nodes.get(selectionOf(app).at(-1) ?? "")?.parent;
+    if (parent != null) {
+        app.stores.view.setState({ selection: [parent] });
+    }
+}
+
+function saved(app: App): void {
+    const { saved: done, waiting, revision } = app.stores.document.getState();
+    const message = done ? text("saved", { revision }) : text("waiting", { count: waiting });
+    addNotice(app.stores.notices, { level: "info", code: "saved", message });
+}
+
+const THEMES: readonly Theme[] = ["auto", "light", "dark"];
+
+function next<T>(items: readonly T[], now: T): T {
+    return items[(items.indexOf(now) + 1) % items.length] ?? now;
+}
+
+const STEP = (5 * Math.PI) / 180;
+/* Share of the view's height that a key pans, and of the distance that a key dollies. */
+const PAN_STEP = 0.05;
+const DOLLY_STEP = 0.9;
+
+const orbitBy = (x: number, y: number) => (app: App) =>
+    moveCamera(app, (camera) => orbit(camera, x * STEP, y * STEP));
+/* The scene shifts against the arrow, as if the camera walked. */
+const panBy = (x: number, y: number) => (app: App) =>
+    moveCamera(app, (camera) => pan(camera, -x * PAN_STEP, y * PAN_STEP, 1));
+const dollyBy = (factor: number) => (app: App) =>
+    moveCamera(app, (camera) => dolly(camera, factor));
+const lookFrom = (name: ViewName) => (app: App) =>
+    moveCamera(app, (camera) => viewFrom(camera, name));
+
+function saveCamera(app: App): void {
+    const { camera } = app.stores.camera.getState();
+    const value = printCamera(camera);
+    if (distance(camera) > 0 && app.edit([{ op: "set", at: "/camera", value }], { label: "set camera" })) {
+        app.stores.camera.setState({ own: false });
+    }
+}
+
+/* --- the table --- */
+
+type Row = Pick<Command, "id" | "title" | "group" | "run"> & Partial<Command>;
+
+const row = (part: Row): Command => ({
+    keys: [],
+    when: "anywhere",
+    inFields: false,
+    keyOnly: false,
+    whyNot: needsScene,
+    ...part,
+});
+
+const show =
+    (part: Parameters<Stores["view"]["setState"]>[0]) =>
+    (app: App): void =>
+        app.stores.view.setState(part);
+
+export const COMMANDS: readonly Command[] = [
+    row({
+        id: "palette.open",
+        title: "Commands",
+        group: "help",
+        keys: ["Ctrl+K", "F3", "Ctrl+/"],
+        inFields: true,
+        keyOnly: true,
+        whyNot: never,
+        run: show({ popup: "commands" }),
+    }),
+    row({
+        id: "node.add",
+        title: "Add a shape",
+        group: "edit",
+        keys: ["Shift+A"],
+        run: show({ popup: "add" }),
+    }),
+    row({
+        id: "edit.undo",
+        title: "Undo",
+        group: "edit",
+        keys: ["Ctrl+Z"],
+        whyNot: (app) =>
+            app.stores.document.getState().canUndo ? null : text("why.nothingUndo"),
+        run: (app) => app.undo(),
+    }),
+    row({
+        id: "edit.redo",
+        title: "Redo",
+        group: "edit",
+        keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
+        whyNot: (app) =>
+            app.stores.document.getState().canRedo ? null : text("why.nothingRedo"),
+        run: (app) => app.redo(),
+    }),
+    row({
+        id: "node.delete",
+        title: "Delete",
+        group: "edit",
+        keys: ["Delete", "Backspace"],
+        whyNot: needsMovable(1),
+        run: onDocument(removeNodes),
+    }),
+    row({
+        id: "node.duplicate",
+        title: "Duplicate",
+        group: "edit",
+        keys: ["Ctrl+D"],
+        whyNot: needsMovable(1),
+        run: onDocument(duplicate),
+    }),
+    row({
+        id: "node.copy",
+        title: "Copy",
+        group: "edit",
+        keys: ["Ctrl+C"],
+        whyNot: needsMovable(1),
+        run: copyNodes,
+    }),
+    row({
+        id: "node.cut",
+        title: "Cut",
+        group: "edit",
+        keys: ["Ctrl+X"],
+        whyNot: needsMovable(1),
+        run: (app) => {
+            copyNodes(app);
+            onDocument(removeNodes)(app);
+        },
+    }),
+    row({
+        id: "node.paste",
+        title: "Paste",
+        group: "edit",
+        keys: ["Ctrl+V"],
+        run: (app) => void pasteNodes(app),
+    }),
+    row({
+        id: "node.rename",
+        title: "Rename",
+        group: "edit",
+        keys: ["F2"],
+        whyNot: needsOne,
+        run: (app) => app.stores.view.setState({ renaming: selectionOf(app)[0] ?? null }),
+    }),
+    row({
+        id: "node.group",
+        title: "Wrap in a group",
+        group: "edit",
+        keys: ["Ctrl+G"],
+        whyNot: needsMovable(1),
+        run: onDocument((document, ids) => wrap(document, ids, "group")),
+    }),
+    row({
+        id: "node.dissolve",
+        title: "Dissolve, keep the children",
+        group: "edit",
+        keys: ["Ctrl+Shift+G"],
+        whyNot: canDissolve,
+        run: onDocument((document, ids) => dissolve(document, ids[0] ?? "")),
+    }),
+    ...(
+        [
+            ["union", "U", "a union"],
+            ["intersection", "I", "an intersection"],
+            ["difference", "D", "a difference"],
+            ["smooth_union", "B", "a smooth union"],
+        ] as const
+    ).map(([type, key, words]) =>
+        row({
+            id: `node.wrap.${type}`,
+            title: `Wrap in ${words}`,
+            group: "edit",
+            keys: [key],
+            whyNot: needsMovable(2),
+            run: onDocument((document, ids) => wrap(document, ids, type)),
+        }),
+    ),
+    row({
+        id: "node.up",
+        title: "Move up among its siblings",
+        group: "edit",
+        keys: ["Alt+Up"],
+        whyNot: canReorder(-1),
+        run: onDocument((document, ids) => reorder(document, ids[0] ?? "", -1)),
+    }),
+    row({
+        id: "node.down",
+        title: "Move down among its siblings",
+        group: "edit",
+        keys: ["Alt+Down"],
+        whyNot: canReorder(1),
+        run: onDocument((document, ids) => reorder(document, ids[0] ?? "", 1)),
+    }),
+    row({
+        id: "node.hide",
+        title: "Hide or show",
+        group: "edit",
+        keys: ["H"],
+        whyNot: needsSelection,
+        run: hideNodes,
+    }),
+    row({
+        id: "node.hideOthers",
+        title: "Hide everything else",
+        group: "edit",
+        keys: ["Shift+H"],
+        whyNot: needsSelection,
+        run: hideOthers,
+    }),
+    row({
+        id: "node.showAll",
+        title: "Show everything",
+        group: "edit",
+        keys: ["Alt+H"],
+        whyNot: (app) => {
+            const document = documentOf(app);
+            return document && hiddenNodes(document).length > 0 ? null : text("why.allVisible");
+        },
+        run: showAll,
+    }),
+    row({
+        id: "select.all",
+        title: "Select all parts",
+        group: "select",
+        keys: ["Ctrl+A"],
+        run: (app) => {
+            const document = documentOf(app);
+            const root = document?.nodes.get(document.root);
+            app.stores.view.setState({ selection: root?.children ?? [] });
+        },
+    }),
+    row({
+        id: "select.parent",
+        title: "Select the parent",
+        group: "select",
+        keys: ["P"],
+        whyNot: needsSelection,
+        run: climb,
+    }),
+    row({
+        id: "escape",
+        title: "Close or deselect",
+        group: "select",
+        keys: ["Esc"],
+        inFields: true,
+        keyOnly: true,
+        whyNot: (app) => (peel(app.stores.view.getState()) ? null : text("why.top")),
+        run: (app) => app.stores.view.setState((view) => peel(view) ?? {}),
+    }),
+    row({
+        id: "camera.frame",
+        title: "Frame the selection",
+        group: "camera",
+        keys: ["F"],
+        run: (app) => {
+            const ids = selectionOf(app);
+            frameNodes(app, ids.length > 0 ? ids : undefined);
+        },
+    }),
+    row({
+        id: "camera.home",
+        title: "Frame everything",
+        group: "camera",
+        keys: ["Home"],
+        run: (app) => frameNodes(app),
+    }),
+    row({
+        id: "camera.document",
+        title: "Back to the scene's camera",
+        group: "camera",
+        keys: ["Num0"],
+        run: (app) => app.stores.camera.setState({ own: false }),
+    }),
+    row({
+        id: "camera.save",
+        title: "Save this camera to the scene",
+        group: "camera",
+        run: saveCamera,
+    }),
+    ...(
+        [
+            ["front", "Num1"],
+            ["right", "Num3"],
+            ["top", "Num7"],
+            ["back", "Ctrl+Num1"],
+            ["left", "Ctrl+Num3"],
+            ["bottom", "Ctrl+Num7"],
+        ] as const
+    ).map(([name, key]) =>
+        row({
+            id: `camera.${name}`,
+            title: `Look from the ${name}`,
+            group: "camera",
+            keys: [key],
+            run: lookFrom(name),
+        }),
+    ),
+    ...(
+        [
+            ["left", "Left", -1, 0],
+            ["right", "Right", 1, 0],
+            ["up", "Up", 0, 1],
+            ["down", "Down", 0, -1],
+        ] as const
+    ).flatMap(([name, key, x, y]) => [
+        row({
+            id: `camera.orbit.${name}`,
+            title: `Orbit ${name}`,
+            group: "camera",
+            keys: [key],
+            when: "view",
+            run: orbitBy(x, y),
+        }),
+        row({
+            id: `camera.pan.${name}`,
+            title: `Pan ${name}`,
+            group: "camera",
+            keys: [`Shift+${key}`],
+            when: "view",
+            run: panBy(x, y),
+        }),
+    ]),
+    row({
+        id: "camera.nearer",
+        title: "Nearer",
+        group: "camera",
+        keys: ["+", "="],
+        run: dollyBy(DOLLY_STEP),
+    }),
+    row({
+        id: "camera.farther",
+        title: "Farther",
+        group: "camera",
+        keys: ["-"],
+        run: dollyBy(1 / DOLLY_STEP),
+    }),
+    row({
+        id: "view.output",
+        title: "Next output: colour, depth, normals, ids",
+        group: "view",
+        keys: ["Z"],
+        run: (app) => app.stores.view.setState(({ aov }) => ({ aov: next(AOVS, aov) })),
+    }),
+    row({
+        id: "view.chrome",
+        title: "Hide or show the panels",
+        group: "view",
+        keys: ["Ctrl+\\"],
+        inFields: true,
+        whyNot: never,
+        run: show(({ chromeHidden }) => ({ chromeHidden: !chromeHidden })),
+    }),
+    row({
+        id: "view.statistics",
+        title: "Statistics",
+        group: "view",
+        run: show({ popup: "statistics" }),
+    }),
+    row({
+        id: "view.theme",
+        title: "Next theme: as the system, light, dark",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, {
+                theme: next(THEMES, stores.view.getState().preferences.theme),
+            }),
+    }),
+    row({
+        id: "view.hints",
+        title: "Show the hints again",
+        group: "help",
+        whyNot: never,
+        run: ({ stores }) => setPreferences(stores.view, { hintsDone: [] }),
+    }),
+    row({
+        id: "scene.open",
+        title: "Scenes",
+        group: "scene",
+        keys: ["Ctrl+O"],
+        whyNot: never,
+        run: show({ popup: "scenes" }),
+    }),
+    row({
+        id: "scene.save",
+        title: "Is it saved?",
+        group: "scene",
+        keys: ["Ctrl+S"],
+        inFields: true,
+        run: saved,
+    }),
+    row({
+        id: "scene.download",
+        title: "Download as JSON",
+        group: "scene",
+        run: (app) => app.download(),
+    }),
+    row({
+        id: "scene.upload",
+        title: "Open a scene file",
+        group: "scene",
+        whyNot: never,
+        run: (app) => app.upload(),
+    }),
+    row({
+        id: "help.keys",
+        title: "Keys and gestures",
+        group: "help",
+        keys: ["?"],
+        whyNot: never,
+        run: show({ popup: "help" }),
+    }),
+];
+
+/* --- looking commands up --- */
+
+const BY_ID = new Map(COMMANDS.map((command) => [command.id, command]));
 
 export function commandById(id: string): Command | null {
-    return COMMANDS.find((command) => command.id === id) ?? null;
+    return BY_ID.get(id) ?? null;
+}
+
+/* Do two contexts overlap: could one key press mean both? */
+export function overlap(a: Context, b: Context): boolean {
+    return a === b || a === "anywhere" || b === "anywhere";
 }
 
 /* The command for a key press with the focus in `where`; null: none. `typing`: the focus is in
  * something that takes text. `singleKeys` false: keys without Ctrl or Alt do nothing. */
-export declare function commandForKey(
+export function commandForKey(
     press: KeyPress,
     where: Context,
     typing: boolean,
     singleKeys: boolean,
-): Command | null;
+): Command | null {
+    const name = nameOfPress(press);
+    const command = COMMANDS.find(
+        ({ keys, when }) => keys.includes(name) && (when === "anywhere" || when === where),
+    );
+    if (!command || (typing && !command.inFields)) {
+        return null;
+    }
+    return isSingleKey(name) && !singleKeys ? null : command;
+}
 
 /* Runs a command unless something speaks against it; answers the reason or null. */
 export function runCommand(app: App, command: Command): string | null {
@@ -71,5 +659,13 @@ export function runCommand(app: App, command: Command): string | null {
     return reason;
 }
 
-/* Commands for the palette, best match first. */
-export declare function searchCommands(query: string): Command[];
+/* Commands for the palette, best match first: every word of the query must occur. */
+export function searchCommands(query: string): Command[] {
+    const words = query.toLowerCase().split(/\s+/).filter(Boolean);
+    const rank = ({ title }: Command): number =>
+        words[0] !== undefined && title.toLowerCase().startsWith(words[0]) ? 0 : 1;
+    return COMMANDS.filter(({ keyOnly, title, group, id }) => {
+        const hay = `${title} ${group} ${id}`.toLowerCase();
+        return !keyOnly && words.every((word) => hay.includes(word));
+    }).sort((a, b) => rank(a) - rank(b));
+}

@@ -126,3 +126,47 @@ export function toWorld(document: SceneDocument, id: string, point: Vector): Vec
 export function fromWorld(document: SceneDocument, id: string, point: Vector): Vector {
     return pathTo(document, id).reduce((p, node) => fromParent(transformOf(node), p), point);
 }
+
+const uniform = (s: Vector): boolean => s[0] === s[1] && s[1] === s[2];
+
+/* Combined transform from a node's space to the world; null where a scale on the way is not
+ * uniform, which no single transform could express. */
+function worldOf(document: SceneDocument, id: string): Transform | null {
+    let turned: Matrix = rotation([0, 0, 0]);
+    let translation: Vector = [0, 0, 0];
+    let size = 1;
+    for (const node of pathTo(document, id)) {
+        const own = transformOf(node);
+        if (!uniform(own.scale)) {
+            return null;
+        }
+        translation = add(translation, scale(apply(turned, own.translation), size));
+        turned = product(turned, rotation(own.rotation));
+        size *= own.scale[0];
+    }
+    return { translation, rotation: anglesOf(turned), scale: [size, size, size] };
+}
+
+/* The transform that keeps a node where it is in the world when `parent` becomes its parent; null
+ * where none does. */
+export function transformUnder(
+    document: SceneDocument,
+    id: string,
+    parent: string,
+): Transform | null {
+    const node = document.nodes.get(id);
+    const from = node?.parent == null ? null : worldOf(document, node.parent);
+    const to = worldOf(document, parent);
+    if (!node || !from || !to) {
+        return null;
+    }
+    const own = transformOf(node);
+    const ratio = from.scale[0] / to.scale[0];
+    const back = transpose(rotation(to.rotation));
+    const turned = product(back, product(rotation(from.rotation), rotation(own.rotation)));
+    return {
+        translation: fromParent(to, toParent(from, own.translation)),
+        rotation: anglesOf(turned, own.rotation),
+        scale: scale(own.scale, ratio),
+    };
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+/* A rough ball around nodes, for framing the view only: a node's own size is taken as the sum of
+ * its length parameters, so it needs no knowledge of any node type. */
+import type { Ball } from "./camera.ts";
+import { isVisible, type SceneDocument, type SceneNode } from "./document.ts";
+import { nodeType, numbersOf, type Schema, valueIn } from "./schema.ts";
+import {
+    add,
+    length,
+    scale,
+    subtract,
+    toParent,
+    transformOf,
+    type Vector,
+    vectorOf,
+} from "./transform.ts";
+
+/* A node without lengths and children still fills some of the view. */
+const UNKNOWN_RADIUS = 1;
+
+function merge(a: Ball | null, b: Ball | null): Ball | null {
+    if (!a || !b) {
+        return a ?? b;
+    }
+    const apart = subtract(b.center, a.center);
+    const gap = length(apart);
+    if (gap + b.radius <= a.radius) {
+        return a;
+    }
+    if (gap + a.radius <= b.radius) {
+        return b;
+    }
+    const radius = (gap + a.radius + b.radius) / 2;
+    return { center: add(a.center, scale(apart, (radius - a.radius) / gap)), radius };
+}
+
+function ownRadius(node: SceneNode, schema: Schema): number {
+    const row = nodeType(schema, node.type);
+    let sum = 0;
+    for (const param of row?.params ?? []) {
+        if (param.unit === "length") {
+            sum += length(vectorOf(numbersOf(valueIn(node.params, param), 1)));
+        }
+    }
+    return sum;
+}
+
+/* In the space of the node's parent. */
+function ballIn(document: SceneDocument, node: SceneNode, schema: Schema): Ball | null {
+    if (!isVisible(node)) {
+        return null;
+    }
+    let ball: Ball | null = null;
+    for (const id of node.children) {
+        const child = document.nodes.get(id);
+        ball = merge(ball, child ? ballIn(document, child, schema) : null);
+    }
+    const own = ownRadius(node, schema);
+    const isShape = nodeType(schema, node.type)?.group === "primitive";
+    if (isShape) {
+        ball = merge(ball, { center: [0, 0, 0], radius: own || UNKNOWN_RADIUS });
+    } else if (ball) {
+        ball = { center: ball.center, radius: ball.radius + own };
+    }
+    if (!ball) {
+        return null;
+    }
+    const transform = transformOf(node);
+    const largest = Math.max(...transform.scale.map(Math.abs));
+    return { center: toParent(transform, ball.center), radius: ball.radius * largest };
+}
+
+/* Around the given nodes, in the world; around everything where none is given. */
+export function ballOf(
+    document: SceneDocument,
+    schema: Schema,
+    ids: readonly string[] = [document.root],
+): Ball {
+    let all: Ball | null = null;
+    for (const id of ids) {
+        const node = document.nodes.get(id);
+        let ball = node ? ballIn(document, node, schema) : null;
+        for (let parent = node?.parent; ball && parent != null; ) {
+            const above: SceneNode | undefined = document.nodes.get(parent);
+            if (!above) {
+                break;
+            }
+            const transform = transformOf(above);
+            const center: Vector = toParent(transform, ball.center);
+            ball = { center, radius: ball.radius * Math.max(...transform.scale.map(Math.abs)) };
+            parent = above.parent;
+        }
+        all = merge(all, ball);
+    }
+    return all ?? { center: [0, 0, 0], radius: UNKNOWN_RADIUS };
+}

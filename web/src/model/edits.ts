@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: MIT */
+/* Builders of the edits that menus, keys, palette and tree share: add, wrap, duplicate, reorder,
+ * move elsewhere, dissolve, paste. Each answers operations, the undo label, what to select. */
+import {
+    freeId,
+    nodeLabel,
+    parentOf,
+    preorder,
+    printNode,
+    type SceneDocument,
+    type SceneNode,
+    siblingAfter,
+    topmost,
+} from "./document.ts";
+import { isObject, type Json, type JsonObject, listOf } from "./json.ts";
+import type { Operation } from "./operations.ts";
+import { nodeType, type Schema } from "./schema.ts";
+import { transformOf, transformUnder, type Vector } from "./transform.ts";
+import { tidy } from "./units.ts";
+
+export interface Edit {
+    readonly ops: readonly Operation[];
+    readonly label: string;
+    /* Node ids to select afterwards. */
+    readonly select: readonly string[];
+}
+
+/* Where something new goes. */
+export interface Spot {
+    readonly into: string;
+    readonly before: string | null;
+}
+
+const wordsOf = (type: string): string => type.replaceAll("_", " ");
+
+/* "head", or "3 nodes". */
+function nameAll(document: SceneDocument, ids: readonly string[]): string {
+    const node = document.nodes.get(ids[0] ?? "");
+    return ids.length === 1 && node ? nodeLabel(node) : `${ids.length} nodes`;
+}
+
+/* Those of `ids` that an edit can move or remove: no root, no node inside another of them. */
+export function movable(document: SceneDocument, ids: readonly string[]): string[] {
+    return topmost(document, ids).filter((id) => id !== document.root);
+}
+
+/* Next to the active node: inside where it is a container, else behind it. */
+export function spotFor(
+    document: SceneDocument,
+    schema: Schema,
+    selection: readonly string[],
+): Spot {
+    const active = document.nodes.get(selection.at(-1) ?? "");
+    if (!active || active.parent === null) {
+        return { into: document.root, before: null };
+    }
+    const row = nodeType(schema, active.type);
+    const holds = row !== null && row.group !== "primitive" && row.children === "many";
+    return holds
+        ? { into: active.id, before: null }
+        : { into: active.parent, before: siblingAfter(document, active.id) };
+}
+
+function freshIds(document: SceneDocument): (stem: string) => string {
+    const taken = new Set<string>();
+    return (stem) => {
+        const id = freeId(document, stem, taken);
+        taken.add(id);
+        return id;
+    };
+}
+
+/* A new node of `type`. What combines or changes others goes around the selection, if any.
+ * `at` is a point in the parent's space. */
+export function addNode(
+    document: SceneDocument,
+    schema: Schema,
+    type: string,
+    selection: readonly string[],
+    at?: Vector,
+): Edit {
+    const row = nodeType(schema, type);
+    const around = movable(document, selection);
+    if (row && row.group !== "primitive" && around.length > 0) {
+        return wrap(document, around, type);
+    }
+    const spot = spotFor(document, schema, selection);
+    const id = freshIds(document)(type);
+    const transform = at ? { transform: { translation: at.map(tidy) } } : {};
+    const insert: Operation = {
+        op: "insert",
+        into: `/nodes/${spot.into}`,
+        before: spot.before,
+        value: { id, type, ...transform },
+    };
+    return { ops: [insert], label: `add ${wordsOf(type)}`, select: [id] };
+}
+
+/* Puts a new node of `type` around the given ones, at the place of the first. */
+export function wrap(document: SceneDocument, ids: readonly string[], type: string): Edit {
+    const inside = movable(document, ids);
+    const first = document.nodes.get(inside[0] ?? "");
+    if (!first || first.parent === null) {
+        return { ops: [], label: "", select: [] };
+    }
+    const id = freshIds(document)(type);
+    const insert: Operation = {
+        op: "insert",
+        into: `/nodes/${first.parent}`,
+        before: first.id,
+        value: { id, type },
+    };
+    const parent = first.parent;
+    const moves = inside.flatMap((child) => [
+        ...keepPlace(document, child, parent),
+        moveTo(child, { into: id, before: null }),
+    ]);
+    const label = `wrap ${nameAll(document, inside)} in ${wordsOf(type)}`;
+    return { ops: [insert, ...moves], label, select: [id] };
+}
+
+function moveTo(id: string, spot: Spot): Operation {
+    return { op: "move", at: `/nodes/${id}`, into: `/nodes/${spot.into}`, before: spot.before };
+}
+
+/* Sets the transform so that the node stays where it is in the world under a new parent. */
+function keepPlace(document: SceneDocument, id: string, parent: string): Operation[] {
+    const node = document.nodes.get(id);
+    const wanted = node && node.parent !== parent ? transformUnder(document, id, parent) : null;
+    if (!node || !wanted) {
+        return [];
+    }
+    const now = transformOf(node);
+    const ops: Operation[] = [];
+    for (const name of ["translation", "rotation", "scale"] as const) {
+        const value = wanted[name].map(tidy);
+        if (value.some((x, i) => Math.abs(x - (now[name][i] ?? 0)) > 1e-6)) {
+            ops.push({ op: "set", at: `/nodes/${id}/transform/${name}`, value });
+        }
+    }
+    return ops;
+}
+
+/* Moves nodes to another parent or place, in their order; they stay where they are in the world. */
+export function moveNodes(document: SceneDocument, ids: readonly string[], spot: Spot): Edit {
+    const moved = movable(document, ids);
+    /* A node cannot stand in front of one that moves along. */
+    let before = spot.before;
+    while (before !== null && moved.includes(before)) {
+        before = siblingAfter(document, before);
+    }
+    const ops = moved.flatMap((id) => [
+        ...keepPlace(document, id, spot.into),
+        moveTo(id, { into: spot.into, before }),
+    ]);
+    return { ops, label: `move ${nameAll(document, moved)}`, select: moved };
+}
+
+/* One step up or down among the siblings; null at the end. */
+export function reorder(document: SceneDocument, id: string, direction: -1 | 1): Edit | null {
+    const node = document.nodes.get(id);
+    const siblings = (node && parentOf(document, node)?.children) ?? [];
+    const index = siblings.indexOf(id);
+    const target = index + direction;
+    if (!node || node.parent === null || index < 0 || target < 0 || target >= siblings.length) {
+        return null;
+    }
+    const before = siblings[direction < 0 ? target : target + 1] ?? null;
+    const ops = [moveTo(id, { into: node.parent, before })];
+    return { ops, label: `reorder ${nodeLabel(node)}`, select: [id] };
+}
+
+/* A node's JSON with new ids throughout. */
+function renamed(json: JsonObject, fresh: (stem: string) => string): JsonObject {
+    const stem = typeof json.id === "string" ? json.id : String(json.type);
+    const children = listOf(json.children)
+        .filter(isObject)
+        .map((child) => renamed(child, fresh));
+    const { children: _old, ...own } = json;
+    return { ...own, id: fresh(stem), ...(children.length > 0 ? { children } : {}) };
+}
+
+function copyInto(
+    nodes: readonly JsonObject[],
+    spotOf: (index: number) => Spot,
+    fresh: (stem: string) => string,
+): { ops: Operation[]; select: string[] } {
+    const select: string[] = [];
+    const ops = nodes.map((json, index): Operation => {
+        const value = renamed(json, fresh);
+        const spot = spotOf(index);
+        select.push(String(value.id));
+        return { op: "insert", into: `/nodes/${spot.into}`, before: spot.before, value };
+    });
+    return { ops, select };
+}
+
+/* Copies in place, each behind its original. */
+export function duplicate(document: SceneDocument, ids: readonly string[]): Edit {
+    const originals = movable(document, ids);
+    const copies = copyInto(
+        originals.map((id) => printNode(document, id)),
+        (index) => {
+            const id = originals[index] ?? "";
+            const into = document.nodes.get(id)?.parent ?? document.root;
+            return { into, before: siblingAfter(document, id) };
+        },
+        freshIds(document),
+    );
+    return { ...copies, label: `duplicate ${nameAll(document, originals)}` };
+}
+
+/* What the clipboard holds: nodes as scene JSON. */
+export function clip(document: SceneDocument, ids: readonly string[]): string {
+    const nodes = movable(document, ids).map((id) => printNode(document, id));
+    return JSON.stringify({ format: "fieldcast/1", nodes }, null, 1);
+}
+
+/* Nodes from the clipboard; materials that this scene lacks are left out. Null: no nodes in it. */
+export function paste(
+    document: SceneDocument,
+    schema: Schema,
+    selection: readonly string[],
+    text: string,
+): Edit | null {
+    let json: Json;
+    try {
+        json = JSON.parse(text) as Json;
+    } catch {
+        return null;
+    }
+    const nodes = isObject(json) ? listOf(json.nodes).filter(isObject) : [];
+    if (nodes.length === 0) {
+        return null;
+    }
+    const known = new Set(document.materials.map((material) => material.name));
+    const fitting = (node: JsonObject): JsonObject => {
+        const { material, children, ...own } = node;
+        const inner = listOf(children).filter(isObject).map(fitting);
+        return {
+            ...own,
+            ...(typeof material === "string" && known.has(material) ? { material } : {}),
+            ...(inner.length > 0 ? { children: inner } : {}),
+        };
+    };
+    const spot = spotFor(document, schema, selection);
+    const copies = copyInto(nodes.map(fitting), () => spot, freshIds(document));
+    return { ...copies, label: copies.select.length === 1 ? "paste" : `paste ${nodes.length} nodes` };
+}
+
+/* Removes nodes; selects the neighbour, so that Delete can be pressed again. */
+export function removeNodes(document: SceneDocument, ids: readonly string[]): Edit {
+    const gone = movable(document, ids);
+    const last = document.nodes.get(gone.at(-1) ?? "");
+    const siblings = (last && parentOf(document, last)?.children) ?? [];
+    const rest = siblings.filter((id) => !gone.includes(id));
+    const index = siblings.slice(0, siblings.indexOf(last?.id ?? "")).filter((id) =>
+        rest.includes(id),
+    ).length;
+    const next = rest[index] ?? rest.at(-1) ?? last?.parent ?? null;
+    return {
+        ops: gone.map((id) => ({ op: "remove", at: `/nodes/${id}` })),
+        label: `delete ${nameAll(document, gone)}`,
+        select: next === null || next === document.root ? [] : [next],
+    };
+}
+
+/* Takes a node away and leaves its children in its place. */
+export function dissolve(document: SceneDocument, id: string): Edit {
+    const node = document.nodes.get(id);
+    if (!node || node.parent === null) {
+        return { ops: [], label: "", select: [] };
+    }
+    const into = node.parent;
+    const moves = node.children.flatMap((child) => [
+        ...keepPlace(document, child, into),
+        moveTo(child, { into, before: id }),
+    ]);
+    return {
+        ops: [...moves, { op: "remove", at: `/nodes/${id}` }],
+        label: `dissolve ${nodeLabel(node)}`,
+        select: node.children,
+    };
+}
+
+export function rename(document: SceneDocument, id: string, name: string): Edit {
+    const node = document.nodes.get(id);
+    const value = name.trim() === "" || name.trim() === id ? null : name.trim();
+    return {
+        ops: [{ op: "set", at: `/nodes/${id}/name`, value }],
+        label: `rename ${node ? nodeLabel(node) : id}`,
+        select: [id],
+    };
+}
+
+/* Shows or hides; what is visible by default is written as nothing. */
+export function setVisible(
+    document: SceneDocument,
+    ids: readonly string[],
+    visible: boolean,
+): Edit {
+    return {
+        ops: ids.map((id) => ({
+            op: "set",
+            at: `/nodes/${id}/visible`,
+            value: visible ? null : false,
+        })),
+        label: `${visible ? "show" : "hide"} ${nameAll(document, ids)}`,
+        select: ids,
+    };
+}
+
+/* Nodes to hide so that only `ids` (with what they hold and hang from) remain visible. */
+export function othersOf(document: SceneDocument, ids: readonly string[]): string[] {
+    const keep = new Set<string>();
+    for (const id of ids) {
+        preorder(document, id).forEach((inner) => keep.add(inner));
+        for (let node: SceneNode | undefined = document.nodes.get(id); node; ) {
+            keep.add(node.id);
+            node = parentOf(document, node);
+        }
+    }
+    return topmost(
+        document,
+        preorder(document).filter((id) => !keep.has(id)),
+    );
+}

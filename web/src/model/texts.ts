@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* Texts of the model and the link that people read, by key. A second language replaces this table. */
+
+const TEXTS = {
+    "edit.refused": "Not done: {message}",
+    "edit.rejected": "The server refused “{label}”: {message}",
+    "edit.unnamed": "edit",
+    "link.lost": "The connection is lost. What you change is kept and sent when it is back.",
+    "link.refused": "The server closed the connection: {reason}",
+    "link.resync": "This page had fallen out of step and was loaded anew.",
+    "frame.none": "no picture yet",
+    "frame.moving": "moving {percent} %",
+    "frame.still": "still",
+    "frame.lossless": "lossless",
+    "frame.stale": "compiling",
+    "why.noScene": "No scene is open.",
+    "why.noSelection": "Nothing is selected.",
+    "why.onlyRoot": "The root node stays.",
+    "why.oneOnly": "Select one node.",
+    "why.twoNeeded": "Select two or more nodes.",
+    "why.noParentStep": "It is already the first or last.",
+    "why.noChildren": "The node has no children to keep.",
+    "why.nothingUndo": "There is nothing of yours to undo.",
+    "why.nothingRedo": "There is nothing to redo.",
+    "why.allVisible": "Nothing is hidden.",
+    "why.clipboard": "The clipboard holds no node.",
+    "why.top": "Nothing is open.",
+    "saved": "Everything is saved, revision {revision}.",
+    "waiting": "{count} edits are waiting to be sent.",
+} as const;
+
+export type TextKey = keyof typeof TEXTS;
+
+/* The text, with {name} filled in. */
+export function text(key: TextKey, values: Readonly<Record<string, string | number>> = {}): string {
+    return TEXTS[key].replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
+}
