@@ -114,9 +114,7 @@ export function createRest(base: string, token: string | null): Rest {
                 revision: numberOf(scene.revision),
                 nodes: numberOf(scene.nodes),
                 modified:
-                    typeof scene.modified === "number"
-                        ? scene.modified
-                        : textOf(scene.modified),
+                    typeof scene.modified === "number" ? scene.modified : textOf(scene.modified),
                 viewers: numberOf(scene.viewers),
             })),
         createScene: create,

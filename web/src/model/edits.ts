@@ -245,7 +245,10 @@ export function paste(
     };
     const spot = spotFor(document, schema, selection);
     const copies = copyInto(nodes.map(fitting), () => spot, freshIds(document));
-    return { ...copies, label: copies.select.length === 1 ? "paste" : `paste ${nodes.length} nodes` };
+    return {
+        ...copies,
+        label: copies.select.length === 1 ? "paste" : `paste ${nodes.length} nodes`,
+    };
 }
 
 /* Removes nodes; selects the neighbour, so that Delete can be pressed again. */
@@ -254,9 +257,9 @@ export function removeNodes(document: SceneDocument, ids: readonly string[]): Ed
     const last = document.nodes.get(gone.at(-1) ?? "");
     const siblings = (last && parentOf(document, last)?.children) ?? [];
     const rest = siblings.filter((id) => !gone.includes(id));
-    const index = siblings.slice(0, siblings.indexOf(last?.id ?? "")).filter((id) =>
-        rest.includes(id),
-    ).length;
+    const index = siblings
+        .slice(0, siblings.indexOf(last?.id ?? ""))
+        .filter((id) => rest.includes(id)).length;
     const next = rest[index] ?? rest.at(-1) ?? last?.parent ?? null;
     return {
         ops: gone.map((id) => ({ op: "remove", at: `/nodes/${id}` })),
@@ -314,7 +317,9 @@ export function setVisible(
 export function othersOf(document: SceneDocument, ids: readonly string[]): string[] {
     const keep = new Set<string>();
     for (const id of ids) {
-        preorder(document, id).forEach((inner) => keep.add(inner));
+        for (const inner of preorder(document, id)) {
+            keep.add(inner);
+        }
         for (let node: SceneNode | undefined = document.nodes.get(id); node; ) {
             keep.add(node.id);
             node = parentOf(document, node);

@@ -38,7 +38,10 @@ const UNNAMED: Step = { group: "", label: "" };
 
 function fit(steps: readonly Step[], count: number): readonly Step[] {
     const missing = Math.max(0, count - steps.length);
-    return [...new Array<Step>(missing).fill(UNNAMED), ...steps.slice(steps.length + missing - count)];
+    return [
+        ...new Array<Step>(missing).fill(UNNAMED),
+        ...steps.slice(steps.length + missing - count),
+    ];
 }
 
 /* Fits the names to the server's counts. */

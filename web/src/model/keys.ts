@@ -58,10 +58,7 @@ export function showKeys(keys: string, mac: boolean): string {
     if (!mac) {
         return keys;
     }
-    return keys
-        .replace("Ctrl+", "⌘")
-        .replace("Alt+", "⌥")
-        .replace("Shift+", "⇧");
+    return keys.replace("Ctrl+", "⌘").replace("Alt+", "⌥").replace("Shift+", "⇧");
 }
 
 /* A key that is typed when a text field has the focus. */

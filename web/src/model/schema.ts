@@ -316,7 +316,10 @@ export function searchNodeTypes(schema: Schema, query: string): NodeType[] {
                 ? 8
                 : name.includes(word)
                   ? 6
-                  : row.words.toLowerCase().split(/\s+/).some((w) => w.startsWith(word))
+                  : row.words
+                          .toLowerCase()
+                          .split(/\s+/)
+                          .some((w) => w.startsWith(word))
                     ? 4
                     : row.group.includes(word)
                       ? 2

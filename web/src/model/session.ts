@@ -2,8 +2,9 @@
 /* One editor's side of a live scene: what the server has confirmed, what is still on its way, and
  * the document to show, which is the one with the other on top. Pure functions on an immutable
  * state; sending, time and sockets are the link's. */
-import type { Json } from "./json.ts";
+
 import { readDocument, type SceneDocument } from "./document.ts";
+import type { Json } from "./json.ts";
 import { apply, join, type Operation, type Problem } from "./operations.ts";
 import type { Schema } from "./schema.ts";
 
@@ -216,10 +217,7 @@ export function isSaved(session: Session): boolean {
 
 /* --- the server's --- */
 
-function welcome(
-    session: Session,
-    message: Extract<SessionMessage, { type: "welcome" }>,
-): Outcome {
+function welcome(session: Session, message: Extract<SessionMessage, { type: "welcome" }>): Outcome {
     const last = message.last_edit;
     const lost = session.settling.filter((entry) => entry.edit > last);
     const pending = [...lost, ...session.pending].map((entry) => ({
@@ -276,10 +274,7 @@ function advance(session: Session, revision: number, ops: readonly Operation[]):
 
 const RESYNC: readonly SessionEvent[] = [{ kind: "resync" }];
 
-function applied(
-    session: Session,
-    message: Extract<SessionMessage, { type: "applied" }>,
-): Outcome {
+function applied(session: Session, message: Extract<SessionMessage, { type: "applied" }>): Outcome {
     const entry = session.pending.find((pending) => pending.edit === message.edit);
     let next: Session = { ...session, undo: message.undo, redo: message.redo };
     if (message.durable) {
@@ -304,10 +299,7 @@ function applied(
     return { session: settled, events: [{ kind: "done", pending: entry }] };
 }
 
-function changed(
-    session: Session,
-    message: Extract<SessionMessage, { type: "changed" }>,
-): Outcome {
+function changed(session: Session, message: Extract<SessionMessage, { type: "changed" }>): Outcome {
     const entry = session.pending.find((pending) => pending.edit === message.edit);
     const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry }] : [];
     let next = entry ? without(session, entry.edit) : session;

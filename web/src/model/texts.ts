@@ -25,8 +25,8 @@ const TEXTS = {
     "why.allVisible": "Nothing is hidden.",
     "why.clipboard": "The clipboard holds no node.",
     "why.top": "Nothing is open.",
-    "saved": "Everything is saved, revision {revision}.",
-    "waiting": "{count} edits are waiting to be sent.",
+    saved: "Everything is saved, revision {revision}.",
+    waiting: "{count} edits are waiting to be sent.",
 } as const;
 
 export type TextKey = keyof typeof TEXTS;

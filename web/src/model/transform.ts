@@ -42,11 +42,7 @@ export function transpose(m: Matrix): Matrix {
 
 export function product(a: Matrix, b: Matrix): Matrix {
     const columns = transpose(b);
-    const row = (r: Vector): Vector => [
-        dot(r, columns[0]),
-        dot(r, columns[1]),
-        dot(r, columns[2]),
-    ];
+    const row = (r: Vector): Vector => [dot(r, columns[0]), dot(r, columns[1]), dot(r, columns[2])];
     return [row(a[0]), row(a[1]), row(a[2])];
 }
 
@@ -79,12 +75,12 @@ export function anglesOf(m: Matrix, near: Vector = [0, 0, 0]): Vector {
     }
     const first: Vector = [Math.atan2(m[2][1], m[2][2]), y, Math.atan2(m[1][0], m[0][0])];
     const second: Vector = [first[0] + Math.PI, Math.PI - y, first[2] + Math.PI];
-    const fit = (a: Vector): Vector => [
+    const toNear = (a: Vector): Vector => [
         nearestTurn(a[0], near[0]),
         nearestTurn(a[1], near[1]),
         nearestTurn(a[2], near[2]),
     ];
-    const [a, b] = [fit(first), fit(second)];
+    const [a, b] = [toNear(first), toNear(second)];
     return length(subtract(a, near)) <= length(subtract(b, near)) ? a : b;
 }
 

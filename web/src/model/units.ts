@@ -185,7 +185,10 @@ export function printInUnit(x: number, unit: Unit | null): string {
 
 /* Three numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]"; null where there are not three. */
 export function parseVector(text: string): Vector | null {
-    const inner = text.trim().replace(/^[[(]|[\])]$/g, "").trim();
+    const inner = text
+        .trim()
+        .replace(/^[[(]|[\])]$/g, "")
+        .trim();
     const parts = /[;\s]/.test(inner) ? inner.split(/[;,]?\s+|;/) : inner.split(",");
     const [x, y, z, ...more] = parts.map((part) => evaluate(part));
     return x != null && y != null && z != null && more.length === 0 ? [x, y, z] : null;

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/* What commands look at and do; the table that names them is commands.ts. */
+import { ballOf } from "./bounds.ts";
+import {
+    type Camera,
+    distance,
+    dolly,
+    frame,
+    orbit,
+    pan,
+    printCamera,
+    type ViewName,
+    viewFrom,
+} from "./camera.ts";
+import { preorder, type SceneDocument } from "./document.ts";
+import { clip, type Edit, movable, othersOf, paste, reorder, setVisible } from "./edits.ts";
+import type { Operation } from "./operations.ts";
+import { addNotice, type Stores } from "./stores.ts";
+import { text } from "./texts.ts";
+
+/* What commands need from the page around the model. */
+export interface App {
+    readonly stores: Stores;
+    edit(ops: readonly Operation[], options?: { group?: string; label?: string }): boolean;
+    undo(): void;
+    redo(): void;
+    /* Size of the picture in CSS pixels. */
+    viewSize(): { readonly width: number; readonly height: number };
+    writeClipboard(text: string): void;
+    readClipboard(): Promise<string>;
+    /* Saves the document as a file; opens the chooser for one. */
+    download(): void;
+    upload(): void;
+}
+
+/* --- what commands look at --- */
+
+export function documentOf(app: App): SceneDocument | null {
+    return app.stores.document.getState().document;
+}
+
+export function selectionOf(app: App): readonly string[] {
+    const document = documentOf(app);
+    const { selection } = app.stores.view.getState();
+    return document ? selection.filter((id) => document.nodes.has(id)) : [];
+}
+
+export type Reason = (app: App) => string | null;
+
+export const never: Reason = () => null;
+export const needsScene: Reason = (app) => (documentOf(app) ? null : text("why.noScene"));
+export const needsSelection: Reason = (app) =>
+    needsScene(app) ?? (selectionOf(app).length > 0 ? null : text("why.noSelection"));
+
+export function needsMovable(least: number): Reason {
+    return (app) => {
+        const document = documentOf(app);
+        const reason = needsSelection(app);
+        if (reason !== null || !document) {
+            return reason;
+        }
+        const count = movable(document, selectionOf(app)).length;
+        if (count === 0) {
+            return text("why.onlyRoot");
+        }
+        return count < least ? text("why.twoNeeded") : null;
+    };
+}
+
+export const needsOne: Reason = (app) =>
+    needsSelection(app) ?? (selectionOf(app).length === 1 ? null : text("why.oneOnly"));
+
+export function canReorder(direction: -1 | 1): Reason {
+    return (app) => {
+        const document = documentOf(app);
+        const id = selectionOf(app)[0] ?? "";
+        const reason = needsOne(app);
+        if (reason !== null || !document) {
+            return reason;
+        }
+        return reorder(document, id, direction) ? null : text("why.noParentStep");
+    };
+}
+
+export const canDissolve: Reason = (app) => {
+    const document = documentOf(app);
+    const node = document?.nodes.get(selectionOf(app)[0] ?? "");
+    const reason = needsOne(app) ?? needsMovable(1)(app);
+    return reason ?? (node && node.children.length > 0 ? null : text("why.noChildren"));
+};
+
+export function hiddenNodes(document: SceneDocument): string[] {
+    return preorder(document).filter((id) => document.nodes.get(id)?.common.visible === false);
+}
+
+/* --- what commands do --- */
+
+/* Sends an edit and selects what it names. */
+export function perform(app: App, edit: Edit): boolean {
+    if (edit.ops.length === 0 || !app.edit(edit.ops, { label: edit.label })) {
+        return false;
+    }
+    app.stores.view.setState({ selection: edit.select, subject: { kind: "nodes" } });
+    return true;
+}
+
+export function onDocument(
+    build: (document: SceneDocument, ids: readonly string[]) => Edit | null,
+) {
+    return (app: App): void => {
+        const document = documentOf(app);
+        const edit = document && build(document, selectionOf(app));
+        if (edit) {
+            perform(app, edit);
+        }
+    };
+}
+
+/* The camera is the user's own: it changes without an edit. */
+export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) => Camera): void {
+    app.stores.camera.setState(({ camera }) => ({ camera: change(camera), own: true }));
+}
+
+export function frameNodes(app: App, ids?: readonly string[]): void {
+    const { document, schema } = app.stores.document.getState();
+    const { width, height } = app.viewSize();
+    if (document) {
+        const ball = ballOf(document, schema, ids);
+        moveCamera(app, (camera) => frame(camera, ball, width / Math.max(1, height)));
+    }
+}
+
+export function copyNodes(app: App): void {
+    const document = documentOf(app);
+    if (document) {
+        app.writeClipboard(clip(document, selectionOf(app)));
+    }
+}
+
+export async function pasteNodes(app: App): Promise<void> {
+    const content = await app.readClipboard().catch(() => "");
+    const { document, schema } = app.stores.document.getState();
+    const edit = document && paste(document, schema, selectionOf(app), content);
+    if (edit) {
+        perform(app, edit);
+    } else {
+        const message = text("why.clipboard");
+        addNotice(app.stores.notices, { level: "info", code: "clipboard", message });
+    }
+}
+
+export function hideNodes(app: App): void {
+    const document = documentOf(app);
+    const ids = document ? selectionOf(app) : [];
+    const hidden = ids.every((id) => document?.nodes.get(id)?.common.visible === false);
+    onDocument((scene) => setVisible(scene, ids, hidden))(app);
+}
+
+export function showAll(app: App): void {
+    const document = documentOf(app);
+    const ids = document ? hiddenNodes(document) : [];
+    if (document && ids.length > 0) {
+        app.edit(setVisible(document, ids, true).ops, { label: "show all" });
+    }
+}
+
+export function hideOthers(app: App): void {
+    const document = documentOf(app);
+    const others = document ? othersOf(document, selectionOf(app)) : [];
+    if (document && others.length > 0) {
+        app.edit(setVisible(document, others, false).ops, { label: "hide others" });
+    }
+}
+
+export function climb(app: App): void {
+    const parent = documentOf(app)?.nodes.get(selectionOf(app).at(-1) ?? "")?.parent;
+    if (parent != null) {
+        app.stores.view.setState({ selection: [parent] });
+    }
+}
+
+export function saved(app: App): void {
+    const { saved: done, waiting, revision } = app.stores.document.getState();
+    const message = done ? text("saved", { revision }) : text("waiting", { count: waiting });
+    addNotice(app.stores.notices, { level: "info", code: "saved", message });
+}
+
+export function next<T>(items: readonly T[], now: T): T {
+    return items[(items.indexOf(now) + 1) % items.length] ?? now;
+}
+
+const STEP = (5 * Math.PI) / 180;
+/* Share of the view's height that a key pans, and of the distance that a key dollies. */
+const PAN_STEP = 0.05;
+const DOLLY_STEP = 0.9;
+
+export const orbitBy = (x: number, y: number) => (app: App) =>
+    moveCamera(app, (camera) => orbit(camera, x * STEP, y * STEP));
+/* The scene shifts against the arrow, as if the camera walked. */
+export const panBy = (x: number, y: number) => (app: App) =>
+    moveCamera(app, (camera) => pan(camera, -x * PAN_STEP, y * PAN_STEP, 1));
+export const dollyBy = (steps: number) => (app: App) =>
+    moveCamera(app, (camera) => dolly(camera, DOLLY_STEP ** steps));
+export const lookFrom = (name: ViewName) => (app: App) =>
+    moveCamera(app, (camera) => viewFrom(camera, name));
+
+export function saveCamera(app: App): void {
+    const { camera } = app.stores.camera.getState();
+    const value = printCamera(camera);
+    if (
+        distance(camera) > 0 &&
+        app.edit([{ op: "set", at: "/camera", value }], { label: "set camera" })
+    ) {
+        app.stores.camera.setState({ own: false });
+    }
+}
