@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* A headless OpenGL context on the best device: which one, and why not the others. */
+#ifndef RENDERER_EGL_H
+#define RENDERER_EGL_H
+
+#include <EGL/egl.h>
+
+#include "renderer.h"
+
+enum { EGL_DEVICES_MAX = 32 };
+
+struct egl {
+    EGLDisplay display;
+    EGLContext draw, compile; /* sharing objects; one thread each */
+    bool software;
+    bool robust; /* the contexts report resets */
+    char device[192];
+};
+
+/* Opens the device that `params` asks for and makes the draw context current. Sets
+ * MESA_SHADER_CACHE_DIR, so call it before other threads run. The debug output of the driver comes
+ * only where `params->log` is set. */
+bool egl_init(struct egl *out_egl, const struct renderer_params *params, struct error *err);
+void egl_finish(struct egl *egl);
+/* Makes a context current in the calling thread; EGL_NO_CONTEXT releases it. */
+bool egl_bind(const struct egl *egl, EGLContext context, struct error *err);
+/* renderer_devices() of renderer.h. */
+size_t egl_report(const struct renderer_params *params, struct device_report *out, size_t max);
+const char *egl_error_name(EGLint error);
+
+#endif

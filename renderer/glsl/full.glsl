@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT */
+/* The vertex shader of every pass: one triangle that covers the target. */
+
+void main()
+{
+    vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);
+    gl_Position = vec4(corner, 0.0, 1.0);
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+/* What a point of a surface is made of: filled in by surface() of the field's text. */
+
+struct Surface {
+    vec3 ambient; /* part of the environment's light taken up */
+    vec3 diffuse;
+    vec3 specular;
+    vec3 emission;
+    float shininess;
+    uint id; /* 1 + pre-order index of the leaf */
+};

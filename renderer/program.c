@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: MIT */
+/* The cache, and the thread that fills it. One lock guards list, queue, states and counters; the
+ * thread holds it only between compilations. */
+#include "program.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "frame.h"
+#include "protocol/memory.h"
+#include "targets.h"
+
+struct program {
+    struct program_cache *cache;
+    struct program *next; /* in the cache's list */
+    uint64_t shape_hash;
+    char *map_text, *surface_text;
+    size_t number_count;
+    int refs;
+    uint64_t last_use;
+    enum program_state state;
+    bool queued; /* not yet taken by the thread */
+    struct pass march, light;
+    struct error error;
+};
+
+struct program_cache {
+    const struct egl *egl;
+    const struct gl *gl;
+    const struct gl_sink *sink;
+    pthread_t thread;
+    bool running, stop;
+    pthread_mutex_t lock;
+    pthread_cond_t work, done;
+    struct program *first;
+    uint64_t uses, compilations, finished, finished_seen;
+    struct error start_error;
+};
+
+bool numbers_in_texture(const struct gl *gl, size_t number_count)
+{
+    GLint bytes = 0;
+
+    gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
+    return number_count * 16 > (size_t)bytes;
+}
+
+/* --- the compiling thread --- */
+
+static bool link_passes(const struct gl *gl, const struct program *program, struct pass *march,
+                        struct pass *light, struct error *err)
+{
+    static const char *const march_files[] = {
+        "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
+        "operations.glsl", "map", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
+    static const char *const light_files[] = {
+        "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
+        "operations.glsl", "map", "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL};
+    char defines[96];
+    struct pass_source source = {defines, march_files, program->map_text, program->surface_text};
+
+    snprintf(defines, sizeof defines, "#define NUMBERS_COUNT %zu\n%s",
+             program->number_count ? program->number_count : 1,
+             numbers_in_texture(gl, program->number_count) ? "#define NUMBERS_IN_TEXTURE\n" : "");
+    if (!pass_init(march, gl, &source, err)) {
+        return false;
+    }
+    source.files = light_files;
+    return pass_init(light, gl, &source, err);
+}
+
+/* One pixel through both passes, with nothing in the buffers: the driver finishes its work. */
+static void warm_up(const struct gl *gl, const struct targets *targets, const struct program *program,
+                    const struct pass *march, const struct pass *light)
+{
+    const size_t bytes = 16 * (program->number_count ? program->number_count : 1);
+    const bool texture = numbers_in_texture(gl, program->number_count);
+    float *zeros = memory_alloc(1, bytes);
+    const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
+    GLuint buffers[2], view = 0;
+
+    gl->GenBuffers(2, buffers);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, buffers[0]);
+    gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+    if (texture) {
+        gl->BindBuffer(GL_TEXTURE_BUFFER, buffers[1]);
+        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
+        gl->GenTextures(1, &view);
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
+        gl->BindTexture(GL_TEXTURE_BUFFER, view);
+        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers[1]);
+    } else {
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
+        gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
+    }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, targets->march_buffer);
+    pass_draw(march, gl, 0, 0);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, targets->light_buffer);
+    pass_draw(light, gl, 0, 0);
+    gl->Finish();
+    gl->DeleteBuffers(2, buffers);
+    if (view) {
+        gl->DeleteTextures(1, &view);
+    }
+    free(zeros);
+}
+
+static void compile_one(struct program_cache *cache, const struct targets *targets,
+                        struct program *program)
+{
+    const struct gl *gl = cache->gl;
+    struct pass march = {0}, light = {0};
+    struct error err = {0};
+    const bool ok = link_passes(gl, program, &march, &light, &err);
+
+    if (ok) {
+        warm_up(gl, targets, program, &march, &light);
+    } else {
+        pass_finish(&march, gl);
+        gl->Finish();
+    }
+    pthread_mutex_lock(&cache->lock);
+    program->march = march;
+    program->light = light;
+    program->error = err;
+    program->state = ok ? PROGRAM_READY : PROGRAM_FAILED;
+    cache->compilations += 2;
+    cache->finished++;
+    pthread_cond_broadcast(&cache->done);
+    pthread_mutex_unlock(&cache->lock);
+}
+
+/* The newest program that somebody still wants: what was asked for before it is out of date. */
+static struct program *take_work(struct program_cache *cache)
+{
+    struct program *best = NULL;
+
+    for (struct program *p = cache->first; p; p = p->next) {
+        if (p->queued && p->refs > 0 && (!best || p->last_use > best->last_use)) {
+            best = p;
+        }
+    }
+    if (best) {
+        best->queued = false;
+        best->refs++;
+    }
+    return best;
+}
+
+static void work(struct program_cache *cache, const struct targets *targets)
+{
+    pthread_mutex_lock(&cache->lock);
+    while (!cache->stop) {
+        struct program *program = take_work(cache);
+        if (!program) {
+            pthread_cond_wait(&cache->work, &cache->lock);
+            continue;
+        }
+        pthread_mutex_unlock(&cache->lock);
+        compile_one(cache, targets, program);
+        pthread_mutex_lock(&cache->lock);
+        program->refs--;
+    }
+    pthread_mutex_unlock(&cache->lock);
+}
+
+static void *thread_main(void *data)
+{
+    struct program_cache *cache = data;
+    const struct gl *gl = cache->gl;
+    struct targets targets = {0};
+    struct error err = {0};
+    const bool ok = egl_bind(cache->egl, cache->egl->compile, &err) &&
+                    targets_init(&targets, gl, 1, 1, &err);
+
+    pthread_mutex_lock(&cache->lock);
+    cache->running = ok;
+    cache->stop = !ok;
+    cache->start_error = err;
+    pthread_cond_broadcast(&cache->done);
+    pthread_mutex_unlock(&cache->lock);
+    if (ok) {
+        gl_debug(gl, cache->sink);
+        targets_bind_textures(&targets, gl);
+        gl->Viewport(0, 0, 1, 1);
+        work(cache, &targets);
+        targets_finish(&targets, gl);
+    }
+    egl_bind(cache->egl, EGL_NO_CONTEXT, NULL);
+    return NULL;
+}
+
+/* --- the cache --- */
+
+struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
+                                           const struct gl_sink *sink, struct error *err)
+{
+    struct program_cache *cache = memory_alloc(1, sizeof *cache);
+    pthread_condattr_t clock;
+
+    cache->egl = egl;
+    cache->gl = gl;
+    cache->sink = sink;
+    pthread_mutex_init(&cache->lock, NULL);
+    pthread_cond_init(&cache->work, NULL);
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_cond_init(&cache->done, &clock);
+    pthread_condattr_destroy(&clock);
+    if (pthread_create(&cache->thread, NULL, thread_main, cache) != 0) {
+        error_set(err, ERROR_UNAVAILABLE, "", "no thread for compiling shaders");
+        free(cache);
+        return NULL;
+    }
+    pthread_mutex_lock(&cache->lock);
+    while (!cache->running && !cache->stop) {
+        pthread_cond_wait(&cache->done, &cache->lock);
+    }
+    pthread_mutex_unlock(&cache->lock);
+    if (!cache->running) {
+        if (err) {
+            *err = cache->start_error;
+        }
+        program_cache_destroy(cache);
+        return NULL;
+    }
+    return cache;
+}
+
+static void destroy_program(const struct gl *gl, struct program *program)
+{
+    pass_finish(&program->march, gl);
+    pass_finish(&program->light, gl);
+    free(program->map_text);
+    free(program->surface_text);
+    free(program);
+}
+
+void program_cache_destroy(struct program_cache *cache)
+{
+    if (!cache) {
+        return;
+    }
+    pthread_mutex_lock(&cache->lock);
+    cache->stop = true;
+    pthread_cond_broadcast(&cache->work);
+    pthread_mutex_unlock(&cache->lock);
+    pthread_join(cache->thread, NULL);
+    while (cache->first) {
+        struct program *program = cache->first;
+        cache->first = program->next;
+        destroy_program(cache->gl, program);
+    }
+    pthread_cond_destroy(&cache->work);
+    pthread_cond_destroy(&cache->done);
+    pthread_mutex_destroy(&cache->lock);
+    free(cache);
+}
+
+/* Of the programs nobody uses, removes the least recently used while there are too many. Those
+ * that failed, or that were never begun, are of no use to anybody. */
+static void evict(struct program_cache *cache)
+{
+    for (;;) {
+        struct program **victim = NULL;
+        size_t unused = 0;
+
+        for (struct program **at = &cache->first; *at; at = &(*at)->next) {
+            const struct program *p = *at;
+            if (p->refs > 0) {
+                continue;
+            }
+            unused++;
+            if (p->queued || p->state == PROGRAM_FAILED) {
+                victim = at;
+                unused = PROGRAMS_KEPT + 1;
+                break;
+            }
+            if (!victim || p->last_use < (*victim)->last_use) {
+                victim = at;
+            }
+        }
+        if (unused <= PROGRAMS_KEPT) {
+            return;
+        }
+        struct program *gone = *victim;
+        *victim = gone->next;
+        destroy_program(cache->gl, gone);
+    }
+}
+
+struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash)
+{
+    struct program *found = NULL;
+
+    pthread_mutex_lock(&cache->lock);
+    for (struct program *p = cache->first; p && !found; p = p->next) {
+        if (p->shape_hash == shape_hash) {
+            found = p;
+        }
+    }
+    if (found) {
+        found->refs++;
+        found->last_use = ++cache->uses;
+        pthread_cond_signal(&cache->work); /* it may have been given up while queued */
+    }
+    pthread_mutex_unlock(&cache->lock);
+    return found;
+}
+
+struct program *program_cache_add(struct program_cache *cache, const struct program_source *source)
+{
+    struct program *program = memory_alloc(1, sizeof *program);
+
+    program->cache = cache;
+    program->shape_hash = source->shape_hash;
+    program->map_text = memory_text(source->map_text);
+    program->surface_text = memory_text(source->surface_text);
+    program->number_count = source->number_count;
+    program->refs = 1;
+    program->queued = true;
+    pthread_mutex_lock(&cache->lock);
+    program->last_use = ++cache->uses;
+    program->next = cache->first;
+    cache->first = program;
+    pthread_cond_signal(&cache->work);
+    pthread_mutex_unlock(&cache->lock);
+    return program;
+}
+
+struct program *program_ref(struct program *program)
+{
+    pthread_mutex_lock(&program->cache->lock);
+    program->refs++;
+    pthread_mutex_unlock(&program->cache->lock);
+    return program;
+}
+
+void program_unref(struct program_cache *cache, struct program *program)
+{
+    if (!program) {
+        return;
+    }
+    pthread_mutex_lock(&cache->lock);
+    if (--program->refs == 0) {
+        evict(cache);
+    }
+    pthread_mutex_unlock(&cache->lock);
+}
+
+enum program_state program_state(const struct program *program)
+{
+    enum program_state state;
+
+    pthread_mutex_lock(&program->cache->lock);
+    state = program->state;
+    pthread_mutex_unlock(&program->cache->lock);
+    return state;
+}
+
+const struct error *program_error(const struct program *program)
+{
+    return &program->error;
+}
+
+const struct pass *program_march(const struct program *program)
+{
+    return &program->march;
+}
+
+const struct pass *program_light(const struct program *program)
+{
+    return &program->light;
+}
+
+static bool is_pending(const struct program_cache *cache)
+{
+    for (const struct program *p = cache->first; p; p = p->next) {
+        if (p->state == PROGRAM_PENDING && p->refs > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool program_cache_wait(struct program_cache *cache, int wait_ms)
+{
+    struct timespec until;
+    bool news;
+
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_sec += wait_ms / 1000;
+    until.tv_nsec += (long)(wait_ms % 1000) * 1000000;
+    if (until.tv_nsec >= 1000000000) {
+        until.tv_sec++;
+        until.tv_nsec -= 1000000000;
+    }
+    pthread_mutex_lock(&cache->lock);
+    while (wait_ms > 0 && cache->finished == cache->finished_seen && is_pending(cache) &&
+           pthread_cond_timedwait(&cache->done, &cache->lock, &until) == 0) {
+    }
+    news = cache->finished != cache->finished_seen;
+    cache->finished_seen = cache->finished;
+    pthread_mutex_unlock(&cache->lock);
+    return news;
+}
+
+uint64_t program_cache_compilations(struct program_cache *cache)
+{
+    uint64_t count;
+
+    pthread_mutex_lock(&cache->lock);
+    count = cache->compilations;
+    pthread_mutex_unlock(&cache->lock);
+    return count;
+}

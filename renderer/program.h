@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/* Linked GL programs, one pair (march, light) for each shape of a field, kept by shape hash.
+ *
+ * A second thread with a context of its own compiles, links and draws one pixel, because drivers do
+ * most of their work at the first draw. The drawing thread never waits for it. */
+#ifndef RENDERER_PROGRAM_H
+#define RENDERER_PROGRAM_H
+
+#include <stdint.h>
+
+#include "egl.h"
+#include "pass.h"
+
+enum { PROGRAMS_KEPT = 64 }; /* without a user, the least recently used go beyond this */
+
+enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
+
+struct program; /* reference counted */
+struct program_cache;
+
+struct program_source {
+    uint64_t shape_hash;
+    const char *map_text, *surface_text; /* of shader.h; copied */
+    size_t number_count;    /* vec4s that N() reads */
+};
+
+/* The compile context of `egl` belongs to the cache until program_cache_destroy. */
+struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
+                                           const struct gl_sink *sink, struct error *err);
+void program_cache_destroy(struct program_cache *cache);
+
+/* A new reference, or NULL where the shape is not known yet. */
+struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash);
+/* Starts compiling. A new reference. */
+struct program *program_cache_add(struct program_cache *cache, const struct program_source *source);
+struct program *program_ref(struct program *program);
+void program_unref(struct program_cache *cache, struct program *program);
+
+enum program_state program_state(const struct program *program);
+/* Valid when failed. */
+const struct error *program_error(const struct program *program);
+/* Valid when ready. */
+const struct pass *program_march(const struct program *program);
+const struct pass *program_light(const struct program *program);
+
+/* True when some program became ready or failed since the last call; waits at most that long for
+ * it while there is something to wait for. */
+bool program_cache_wait(struct program_cache *cache, int wait_ms);
+uint64_t program_cache_compilations(struct program_cache *cache);
+
+/* Vectors from which the numbers no longer fit in a uniform block. */
+bool numbers_in_texture(const struct gl *gl, size_t number_count);
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* A renderer's life, its counters, and the whole way of one picture. */
+#include "context.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+
+enum { POLL_MS = 100 };
+
+void renderer_log(const struct renderer *renderer, const char *format, ...)
+{
+    char line[512];
+    va_list arguments;
+
+    if (!renderer->params.log) {
+        return;
+    }
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    renderer->params.log(renderer->params.log_data, line);
+}
+
+static void read_info(struct renderer *renderer)
+{
+    const struct gl *gl = &renderer->gl;
+    struct renderer_info *info = &renderer->info;
+    const char *name = (const char *)gl->GetString(GL_RENDERER);
+    const char *version = (const char *)gl->GetString(GL_VERSION);
+
+    snprintf(info->name, sizeof info->name, "%s", name ? name : "");
+    snprintf(info->version, sizeof info->version, "%s", version ? version : "");
+    snprintf(info->device, sizeof info->device, "%s", renderer->egl.device);
+    info->software = renderer->egl.software;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture);
+}
+
+struct renderer *renderer_create(const struct renderer_params *params, struct error *err)
+{
+    struct renderer *renderer = memory_alloc(1, sizeof *renderer);
+
+    renderer->params = *params;
+    renderer->sink = (struct gl_sink){params->log, params->log_data};
+    if (!egl_init(&renderer->egl, params, err) || !gl_load(&renderer->gl, err)) {
+        goto fail;
+    }
+    gl_debug(&renderer->gl, &renderer->sink);
+    read_info(renderer);
+    renderer->draw = draw_create(&renderer->gl, renderer->info.software, 0, err);
+    if (!renderer->draw) {
+        goto fail;
+    }
+    renderer->programs =
+        program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, err);
+    if (!renderer->programs) {
+        goto fail;
+    }
+    return renderer;
+fail:
+    renderer_destroy(renderer);
+    return NULL;
+}
+
+void renderer_destroy(struct renderer *renderer)
+{
+    if (!renderer) {
+        return;
+    }
+    while (renderer->residents) {
+        resident_destroy(renderer->residents);
+    }
+    program_cache_destroy(renderer->programs);
+    draw_destroy(renderer->draw);
+    egl_finish(&renderer->egl);
+    free(renderer);
+}
+
+const struct renderer_info *renderer_info(const struct renderer *renderer)
+{
+    return &renderer->info;
+}
+
+size_t renderer_devices(const struct renderer_params *params, struct device_report *out, size_t max)
+{
+    return egl_report(params, out, max);
+}
+
+struct renderer_counters renderer_counters(const struct renderer *renderer)
+{
+    struct renderer_counters counters = renderer->counters;
+
+    counters.compilations =
+        program_cache_compilations(renderer->programs) + draw_compilations(renderer->draw);
+    return counters;
+}
+
+bool renderer_render(struct resident *resident, const struct job_desc *desc,
+                     struct image *out_image, struct error *err)
+{
+    struct job *job = job_create(resident, desc, err);
+    enum job_state state = JOB_FAILED;
+
+    if (!job) {
+        return false;
+    }
+    while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
+        renderer_poll(resident->renderer, state == JOB_WAITING ? POLL_MS : 0);
+    }
+    if (state == JOB_DONE) {
+        *out_image = job_take_image(job);
+    } else if (err) {
+        *err = *job_error(job);
+    }
+    job_destroy(job);
+    return state == JOB_DONE;
+}

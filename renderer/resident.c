@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes held ready: the newest state, and the newest that can be drawn. */
+#include "context.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/edit.h"
+#include "protocol/memory.h"
+
+/* How many footprints of a pixel a picked point may be off the surface. */
+static const double PICK_TOLERANCE = 0.25;
+
+/* Takes over what has become drawable; true when that is something newer. */
+static bool advance(struct resident *resident)
+{
+    struct renderer *renderer = resident->renderer;
+    struct snapshot *newest = resident->newest;
+
+    if (!newest || newest == resident->drawable) {
+        return false;
+    }
+    switch (program_state(newest->program)) {
+    case PROGRAM_PENDING:
+        return false;
+    case PROGRAM_FAILED:
+        resident->error = *program_error(newest->program);
+        return false;
+    case PROGRAM_READY:
+        snapshot_unref(renderer, resident->drawable);
+        resident->drawable = snapshot_ref(newest);
+        return true;
+    }
+    return false;
+}
+
+/* A snapshot of the scene as it is now becomes the newest. */
+static void renew(struct resident *resident)
+{
+    struct renderer *renderer = resident->renderer;
+    struct error err = {0};
+    struct snapshot *snapshot =
+        snapshot_create(renderer, resident->scene, resident->revision, &err);
+
+    resident->error = err;
+    snapshot_unref(renderer, resident->newest);
+    resident->newest = snapshot;
+    if (snapshot && snapshot->fewer_steps) {
+        renderer_log(renderer, "revision %llu: fewer steps than asked for, since the driver bounds "
+                               "the loops of a shader",
+                     (unsigned long long)resident->revision);
+    }
+    advance(resident);
+}
+
+struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision)
+{
+    struct resident *resident = memory_alloc(1, sizeof *resident);
+
+    resident->renderer = renderer;
+    resident->scene = scene;
+    resident->revision = revision;
+    resident->next = renderer->residents;
+    renderer->residents = resident;
+    renew(resident);
+    return resident;
+}
+
+void resident_destroy(struct resident *resident)
+{
+    if (!resident) {
+        return;
+    }
+    for (struct resident **at = &resident->renderer->residents; *at; at = &(*at)->next) {
+        if (*at == resident) {
+            *at = resident->next;
+            break;
+        }
+    }
+    snapshot_unref(resident->renderer, resident->newest);
+    snapshot_unref(resident->renderer, resident->drawable);
+    scene_destroy(resident->scene);
+    free(resident);
+}
+
+bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
+                   struct error *err)
+{
+    if (!edit_apply(resident->scene, ops, NULL, NULL, err)) {
+        return false;
+    }
+    resident->revision = revision;
+    renew(resident);
+    return true;
+}
+
+const struct scene *resident_scene(const struct resident *resident)
+{
+    return resident->scene;
+}
+
+uint64_t resident_revision(const struct resident *resident)
+{
+    return resident->revision;
+}
+
+uint64_t resident_shown_revision(const struct resident *resident)
+{
+    return resident->drawable ? resident->drawable->revision : 0;
+}
+
+const struct error *resident_error(const struct resident *resident)
+{
+    return &resident->error;
+}
+
+bool renderer_poll(struct renderer *renderer, int wait_ms)
+{
+    bool news = false;
+
+    if (program_cache_wait(renderer->programs, wait_ms)) {
+        for (struct resident *r = renderer->residents; r; r = r->next) {
+            news = advance(r) || news;
+        }
+    }
+    return news;
+}
+
+struct pick_result resident_pick(const struct resident *resident, const struct record *record,
+                                 int width, int height, double x, double y)
+{
+    const struct snapshot *snapshot = resident->drawable ? resident->drawable : resident->newest;
+    const struct record *used = record ? record : &resident->scene->camera;
+    const struct camera camera = camera_from_record(used, width, height);
+    const double far = record_number(&resident->scene->render, "max_distance");
+    struct pick_result result = {0};
+    double origin[3], direction[3], t, print;
+
+    if (!snapshot) {
+        return result;
+    }
+    camera_ray(&camera, width, height, x, y, origin, direction);
+    print = camera.pixel_radius * (camera.orthographic ? 1 : far * 1e-2);
+    t = field_march(snapshot->field, origin, direction, far, PICK_TOLERANCE * print);
+    if (t < 0) {
+        return result;
+    }
+    for (int i = 0; i < 3; i++) {
+        result.position[i] = origin[i] + t * direction[i];
+    }
+    print = camera.pixel_radius * (camera.orthographic ? 1 : t);
+    field_normal(snapshot->field, result.position, 0.5 * print + 1e-6, result.normal);
+    result.distance = t;
+    result.hit = true;
+    const char *id = field_leaf_id(snapshot->field,
+                                   field_surface(snapshot->field, result.position).number);
+    snprintf(result.node, sizeof result.node, "%s", id ? id : "");
+    return result;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/* From a scene to what a picture needs of it. */
+#include "context.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "protocol/memory.h"
+#include "shader.h"
+
+enum { NUMBERS_LEAST = 64 };
+
+/* The size of the number buffer as programs declare it: a power of two, so that a material more or
+ * less does not ask for another program. */
+static size_t number_capacity(const struct field *field)
+{
+    size_t capacity = NUMBERS_LEAST;
+
+    while (capacity < field->vec4_count) {
+        capacity *= 2;
+    }
+    return capacity;
+}
+
+static struct program *get_program(struct renderer *renderer, const struct field *field)
+{
+    const size_t capacity = number_capacity(field);
+    const uint64_t key = field->shape_hash ^ (capacity * UINT64_C(0x9e3779b97f4a7c15));
+    struct program *program = program_cache_find(renderer->programs, key);
+    char *map, *surface;
+
+    if (program) {
+        renderer->counters.cache_hits++;
+        return program;
+    }
+    map = shader_map(field);
+    surface = shader_surface(field);
+    program = program_cache_add(renderer->programs,
+                                &(struct program_source){key, map, surface, capacity});
+    free(map);
+    free(surface);
+    return program;
+}
+
+/* How far the document's camera is from what it looks at: the size of what is of interest. */
+static double scene_scale(const struct record *camera)
+{
+    const double *a = record_vector(camera, "position"), *b = record_vector(camera, "target");
+    const double scale = sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                              (a[2] - b[2]) * (a[2] - b[2]));
+
+    return scale > 1e-6 ? scale : 1;
+}
+
+struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
+                                 uint64_t revision, struct error *err)
+{
+    struct field *field = field_compile(scene, err);
+    struct snapshot *snapshot;
+    struct frame_extent extent = {.scale = scene_scale(&scene->camera),
+                                  .limit_loops = renderer->info.software};
+
+    if (!field) {
+        return NULL;
+    }
+    extent.loop_trips = (int)field->loop_trips;
+    for (int i = 0; i < 3; i++) {
+        extent.min[i] = field->bounds.low[i];
+        extent.max[i] = field->bounds.high[i];
+    }
+    snapshot = memory_alloc(1, sizeof *snapshot);
+    snapshot->references = 1;
+    snapshot->revision = revision;
+    snapshot->field = field;
+    snapshot->program = get_program(renderer, field);
+    record_copy(&snapshot->camera, &scene->camera);
+    snapshot->samples = (int)record_number(&scene->render, "samples");
+    snapshot->fewer_steps = frame_set_scene(&snapshot->frame, scene, &extent);
+    return snapshot;
+}
+
+struct snapshot *snapshot_ref(struct snapshot *snapshot)
+{
+    snapshot->references++;
+    return snapshot;
+}
+
+void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
+{
+    if (!snapshot || --snapshot->references > 0) {
+        return;
+    }
+    draw_numbers_finish(&snapshot->numbers, &renderer->gl);
+    program_unref(renderer->programs, snapshot->program);
+    field_unref(snapshot->field);
+    record_finish(&snapshot->camera);
+    free(snapshot);
+}
+
+const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
+{
+    if (snapshot->numbers.buffer == 0) {
+        draw_numbers_init(&snapshot->numbers, &renderer->gl, snapshot->field->numbers,
+                          snapshot->field->vec4_count, number_capacity(snapshot->field));
+    }
+    return &snapshot->numbers;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene as it was at one revision, ready for drawing. Immutable and counted, so that pictures
+ * under way are not torn by later edits. Belongs to the drawing thread. */
+#ifndef RENDERER_SNAPSHOT_H
+#define RENDERER_SNAPSHOT_H
+
+#include "draw.h"
+#include "field.h"
+
+struct snapshot {
+    int references;
+    uint64_t revision;
+    struct field *field;
+    struct program *program;
+    struct record camera;      /* the document's */
+    struct frame_block frame;  /* without a camera */
+    int samples;               /* the document's */
+    struct draw_numbers numbers;
+    bool fewer_steps; /* than the scene asks for: the driver's bound on loops */
+};
+
+struct renderer;
+
+/* Finds or starts the program. NULL and `err` when the scene is no field. */
+struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
+                                 uint64_t revision, struct error *err);
+struct snapshot *snapshot_ref(struct snapshot *snapshot);
+void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
+/* Uploads what is not yet on the device. */
+const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot);
+
+#endif

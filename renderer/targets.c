@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* Textures and framebuffers of a tile. */
+#include "targets.h"
+
+#include "pass.h"
+
+static GLuint make_texture(const struct gl *gl, GLenum format, int width, int height)
+{
+    GLuint texture = 0;
+
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+static GLuint make_buffer(const struct gl *gl, const GLuint *textures, int count)
+{
+    static const GLenum all[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    GLuint buffer = 0;
+
+    gl->GenFramebuffers(1, &buffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, buffer);
+    for (int i = 0; i < count; i++) {
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, all[i], GL_TEXTURE_2D, textures[i], 0);
+    }
+    gl->DrawBuffers(count, all);
+    return buffer;
+}
+
+static bool check_buffer(const struct gl *gl, GLuint buffer)
+{
+    gl->BindFramebuffer(GL_FRAMEBUFFER, buffer);
+    return gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+bool targets_init(struct targets *out_targets, const struct gl *gl, int width, int height,
+                  struct error *err)
+{
+    static const GLenum formats[OUT_KINDS] = {GL_RGBA8, GL_RGBA32F, GL_R32UI};
+    struct targets targets = {.width = width, .height = height};
+    bool complete;
+
+    targets.geometry = make_texture(gl, GL_RGBA32F, width, height);
+    targets.matter = make_texture(gl, GL_RGBA32UI, width, height);
+    targets.more = make_texture(gl, GL_RGBA32UI, width, height);
+    targets.radiance = make_texture(gl, GL_RGBA32F, width, height);
+    targets.march_buffer =
+        make_buffer(gl, (GLuint[]){targets.geometry, targets.matter, targets.more}, 3);
+    targets.light_buffer = make_buffer(gl, &targets.radiance, 1);
+    complete = check_buffer(gl, targets.march_buffer) && check_buffer(gl, targets.light_buffer);
+    for (int i = 0; i < OUT_KINDS; i++) {
+        targets.out[i] = make_texture(gl, formats[i], width, height);
+        targets.out_buffers[i] = make_buffer(gl, &targets.out[i], 1);
+        complete = complete && check_buffer(gl, targets.out_buffers[i]);
+    }
+    gl->GenVertexArrays(1, &targets.vertices);
+    gl->BindVertexArray(targets.vertices);
+    if (!gl_check(gl, "making targets", err)) {
+        goto fail;
+    }
+    if (!complete) {
+        error_set(err, ERROR_UNAVAILABLE, "", "the driver cannot draw into the formats needed");
+        goto fail;
+    }
+    *out_targets = targets;
+    return true;
+fail:
+    targets_finish(&targets, gl);
+    return false;
+}
+
+void targets_finish(struct targets *targets, const struct gl *gl)
+{
+    const GLuint textures[] = {targets->geometry, targets->matter, targets->more,
+                               targets->radiance};
+    const GLuint buffers[] = {targets->march_buffer, targets->light_buffer};
+
+    gl->DeleteFramebuffers(2, buffers);
+    gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
+    gl->DeleteTextures(4, textures);
+    gl->DeleteTextures(OUT_KINDS, targets->out);
+    gl->DeleteVertexArrays(1, &targets->vertices);
+    *targets = (struct targets){0};
+}
+
+void targets_bind_textures(const struct targets *targets, const struct gl *gl)
+{
+    const struct {
+        GLenum unit;
+        GLuint texture;
+    } rows[] = {
+        {UNIT_GEOMETRY, targets->geometry},
+        {UNIT_MATTER, targets->matter},
+        {UNIT_MORE, targets->more},
+        {UNIT_RADIANCE, targets->radiance},
+    };
+
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
+        gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);
+    }
+}
