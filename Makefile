@@ -166,14 +166,14 @@ $(BUILD)/compile_commands.json: $(OUT)/flags $(sources) $(test_sources)
 test: test-deps ## install what is missing, build with ASan and UBSan, run all tests
 	$(again) web
 	$(again) CONFIG=asan programs
-	+$(Q)cd $(S) && tests/run $(abspath $(BUILD)/asan) $(SUITE)
+	+$(Q)cd $(S) && node tests/run.mjs $(abspath $(BUILD)/asan) $(SUITE)
 
 bench: test-deps ## measure; prints JSON
 	$(again) all
 	$(Q)cd $(S) && tests/run --bench $(abspath $(OUT))
 
 lint: ## the rules of the house
-	$(Q)cd $(S) && tests/lint/lint.sh
+	$(Q)cd $(S) && node tests/lint/lint.mjs
 
 format: ## rewrite the C sources by .clang-format, the page by biome
 	$(Q)cd $(S) && clang-format -i $$(git ls-files '*.c' '*.h')

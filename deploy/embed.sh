@@ -9,12 +9,13 @@
 #                                  compressed files. Without web/dist the page's table is empty
 set -eu
 
-# bytes LABEL FILE: LABEL and LABEL_end enclose the file; one NUL follows, so text is a C string.
+# bytes LABEL FILE: the file under a name, and one NUL behind it, so that text is a C string.
 bytes() {
-    printf '__asm__(".section .rodata\\n.balign 16\\n.global %s\\n.hidden %s\\n%s:\\n"\n' "$1" "$1" "$1"
-    printf '        ".incbin \\"%s\\"\\n.global %s_end\\n.hidden %s_end\\n%s_end:\\n.byte 0\\n.previous\\n");\n' \
-        "$2" "$1" "$1" "$1"
-    printf 'extern const unsigned char %s[], %s_end[];\n' "$1" "$1"
+    cat <<C
+__asm__(".section .rodata\n.balign 16\n"
+        ".global $1\n.hidden $1\n$1:\n.incbin \"$2\"\n.byte 0\n.previous\n");
+extern const unsigned char $1[];
+C
 }
 
 glsl() {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs what fieldcast needs and this machine lacks: Debian packages by apt, the page's packages by
-# npm. Says what it does; does nothing when all is there.
+# Installs what fieldcast needs and this machine lacks: Debian packages by apt, the page's packages
+# by npm. Says what it does; does nothing when all is there.
 #
 #   install-deps.sh          what building and running take
 #   install-deps.sh test     what testing takes as well

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// The rules of the house, checked by reading files: `node tests/lint/lint.mjs [ROOT]`. Prints
+// `file:line: rule: what is wrong` and fails when there is anything to print.
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+
+const FUNCTION_LINES = 120;
+const LINE_COLUMNS = 100;
+const CLANG_FORMAT = 14; // Debian 12's; others break lines a little differently
+
+const here = path.dirname(new URL(import.meta.url).pathname);
+const root = path.resolve(process.argv[2] ?? path.join(here, '../..'));
+const faults = [];
+
+function report(file, line, rule, message) {
+    faults.push(`${file}:${line}: ${rule}: ${message}`);
+}
+
+function listFiles(folder = '') {
+    const skipped = /^(\.git|build.*|node_modules|dist|coverage)$/;
+    return fs.readdirSync(path.join(root, folder), { withFileTypes: true }).flatMap((entry) => {
+        const name = path.join(folder, entry.name);
+        if (entry.isDirectory()) {
+            return skipped.test(entry.name) ? [] : listFiles(name);
+        }
+        return entry.isFile() ? [name] : [];
+    });
+}
+
+// Calls `see(match, file, line, text)` for each match of the pattern in the files.
+function search(files, pattern, see) {
+    for (const file of files) {
+        const lines = fs.readFileSync(path.join(root, file), 'utf8').split('\n');
+        for (const [index, text] of lines.entries()) {
+            const match = pattern.exec(text);
+            if (match) {
+                see(match, file, index + 1, text);
+            }
+        }
+    }
+}
+
+// --- the arrows of the house ---
+
+// protocol <- renderer <- server. What a layer may include besides its own headers ("name.h") and,
+// where nothing is said of the system's headers, <any>.
+const LAYERS = {
+    protocol: {
+        others: [],
+        system: /^(cjson\/cJSON|assert|ctype|errno|float|inttypes|limits|math|search|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\.h$/,
+    },
+    renderer: { others: [/^protocol\//] },
+    server: { others: [/^protocol\//, /^renderer\/(renderer|worker)\.h$/] },
+};
+
+function checkIncludes(files) {
+    for (const [layer, may] of Object.entries(LAYERS)) {
+        const own = files.filter((file) => file.startsWith(`${layer}/`) && /\.[ch]$/.test(file));
+        search(own, /^\s*#\s*include\s*(["<])([^">]+)[">]/, ([, quote, name], file, line) => {
+            const allowed =
+                quote === '<'
+                    ? !may.system || may.system.test(name)
+                    : !name.includes('/') || may.others.some((pattern) => pattern.test(name));
+            if (!allowed) {
+                report(file, line, 'arrow', `${layer}/ may not include ${name}`);
+            }
+        });
+    }
+}
+
+// protocol/ is pure: it prints only where error.c is handed a stream.
+function checkPurity(files) {
+    const own = files.filter((file) => /^protocol\/.*\.c$/.test(file));
+    const output = /\b(printf|puts|putchar|fputs|fputc|fprintf|fwrite|fopen|perror|system|exit)\s*\(|\bstd(in|out|err)\b/;
+    search(own, output, ([what], file, line) => {
+        if (!(file === 'protocol/error.c' && what.startsWith('fprintf'))) {
+            report(file, line, 'pure', `protocol/ does no input or output: ${what}`);
+        }
+    });
+}
+
+// model <- link, model <- overlay, both <- ui; only ui knows React.
+const PAGE = { model: [], link: ['model'], overlay: ['model'], ui: ['model', 'link', 'overlay'] };
+
+function checkImports(files) {
+    const source = 'web/src/';
+    for (const [part, others] of Object.entries(PAGE)) {
+        const own = files.filter(
+            (file) => file.startsWith(`${source}${part}/`) && /\.tsx?$/.test(file),
+        );
+        const pattern = /(?:\bfrom|\bimport)\s*\(?\s*['"]([^'"]+)['"]/;
+        search(own, pattern, ([, name], file, line) => {
+            const target = path.join(path.dirname(file), name).replace(source, '').split('/')[0];
+            const wrong = name.startsWith('.')
+                ? target in PAGE && target !== part && !others.includes(target)
+                : part !== 'ui' && /^(react|@base-ui|@headless-tree|lucide-react)/.test(name);
+            if (wrong) {
+                report(file, line, 'arrow', `web/src/${part} may not import ${name}`);
+            }
+        });
+    }
+}
+
+// --- size ---
+
+function checkFunctionsC(files) {
+    const own = files.filter((file) => file.endsWith('.c'));
+    const tags = spawnSync(
+        'ctags',
+        ['--output-format=json', '--fields=+ne', '--kinds-C=f', '-f', '-', ...own],
+        { cwd: root, encoding: 'utf8', maxBuffer: 1 << 28 },
+    );
+    if (tags.error || own.length === 0) {
+        report('tests/lint/lint.mjs', 1, 'tool', 'universal-ctags is missing');
+        return;
+    }
+    for (const line of tags.stdout.split('\n').filter((text) => text.startsWith('{'))) {
+        const tag = JSON.parse(line);
+        checkLength(tag.path, tag.line, tag.name, tag.end - tag.line + 1);
+    }
+}
+
+// Formatted code ends a function with a brace in the column where its first line begins.
+function checkFunctionsScript(files) {
+    for (const file of files.filter((name) => /\.(tsx?|mjs)$/.test(name))) {
+        const lines = fs.readFileSync(path.join(root, file), 'utf8').split('\n');
+        for (const [index, text] of lines.entries()) {
+            const head = /^( *)(?:export )?(?:default )?(?:async )?(?:function\*? ?(\w*)|const (\w+) = .*=> \{$)/.exec(text);
+            if (!head || text.trimEnd().endsWith('}')) {
+                continue;
+            }
+            const end = lines.findIndex((line, at) => at > index && line.startsWith(`${head[1]}}`));
+            checkLength(file, index + 1, head[2] || head[3] || 'a function', end - index + 1);
+        }
+    }
+}
+
+function checkLength(file, line, name, length) {
+    if (length > FUNCTION_LINES) {
+        report(file, line, 'size', `${name} has ${length} lines, above the maximum ${FUNCTION_LINES}`);
+    }
+}
+
+// --- text ---
+
+const SOURCE = /(\.(c|h|glsl|ts|tsx|mjs|css|sh|service|conf)|(^|\/)(Makefile|\.clang-(format|tidy)|\.editorconfig))$/;
+const TEXT = /(\.(md|json|html|yml|txt|supp)|(^|\/)(packages|\.gitignore|LICENSE|run))$/;
+
+function checkText(files) {
+    const sources = files.filter((file) => SOURCE.test(file));
+    for (const file of sources) {
+        const head = fs.readFileSync(path.join(root, file), 'utf8').split('\n', 2);
+        const line = head[0].startsWith('#!') ? head[1] : head[0];
+        if (!line?.includes('SPDX-License-Identifier: MIT')) {
+            report(file, 1, 'licence', 'the first line does not say SPDX-License-Identifier: MIT');
+        }
+    }
+    const written = files.filter((file) => SOURCE.test(file) || TEXT.test(file));
+    for (const file of written) {
+        const text = fs.readFileSync(path.join(root, file), 'utf8');
+        if (text.length > 0 && !text.endsWith('\n')) {
+            report(file, text.split('\n').length, 'blank', 'the last line does not end');
+        }
+    }
+    search(written, /[ \t\r]+$/, (match, file, line) => {
+        report(file, line, 'blank', 'blanks at the end of the line');
+    });
+    const notLint = sources.filter((file) => !file.startsWith('tests/lint/'));
+    search(notLint, /\b(TODO|FIXME|XXX|HACK)\b|^\s*#\s*if 0\b/, ([word], file, line) => {
+        report(file, line, 'word', `${word.trim()}: finish it or leave it out`);
+    });
+    search(files.filter((file) => /\.([ch]|glsl)$/.test(file)), /\t/, (match, file, line) => {
+        report(file, line, 'blank', 'a tab');
+    });
+    const columns = files.filter((file) => /\.([ch]|glsl|sh)$/.test(file));
+    search(columns, new RegExp(`^.{${LINE_COLUMNS + 1}}`), (match, file, line) => {
+        report(file, line, 'size', `more than ${LINE_COLUMNS} columns`);
+    });
+}
+
+// --- other tools ---
+
+function run(rule, program, args, options = {}) {
+    const result = spawnSync(program, args, { cwd: root, encoding: 'utf8', ...options });
+    if (result.error) {
+        return false;
+    }
+    if (result.status !== 0) {
+        faults.push(`${rule}:\n${(result.stdout + result.stderr).trimEnd()}`);
+    }
+    return true;
+}
+
+function checkFormat(files) {
+    const version = spawnSync('clang-format', ['--version'], { encoding: 'utf8' });
+    if (!version.stdout?.includes(`version ${CLANG_FORMAT}.`)) {
+        console.log(`not checked: clang-format ${CLANG_FORMAT} is not here`);
+        return;
+    }
+    for (const file of files.filter((name) => /\.[ch]$/.test(name))) {
+        const text = fs.readFileSync(path.join(root, file), 'utf8');
+        const { stdout } = spawnSync('clang-format', [file], { cwd: root, encoding: 'utf8' });
+        if (stdout === text) {
+            continue;
+        }
+        const now = text.split('\n');
+        const line = stdout.split('\n').findIndex((wanted, index) => wanted !== now[index]);
+        report(file, line + 1, 'format', '`make format` would change this line');
+    }
+}
+
+function checkTools(files) {
+    const scripts = files.filter((file) => file.endsWith('.sh') || file === '.ci/run');
+    if (scripts.length > 0 && !run('shellcheck', 'shellcheck', scripts)) {
+        console.log('not checked: shellcheck is not here');
+    }
+    const web = path.join(root, 'web');
+    if (!fs.existsSync(path.join(web, 'package.json'))) {
+        return;
+    }
+    const biome = path.join(web, 'node_modules/.bin/biome');
+    if (!run('biome', biome, ['check', '--colors=off', '.'], { cwd: web })) {
+        console.log('not checked: biome is not here (deploy/install-deps.sh)');
+    }
+}
+
+const files = listFiles().sort();
+checkIncludes(files);
+checkPurity(files);
+checkImports(files);
+checkFunctionsC(files);
+checkFunctionsScript(files);
+checkText(files);
+checkFormat(files);
+checkTools(files);
+if (faults.length > 0) {
+    console.log(faults.join('\n'));
+    console.log(`${faults.length} faults`);
+    process.exit(1);
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// This tree keeps the rules of the house, and each rule can fail: a small tree is clean, and breaking
+// it in one place makes the linter name the rule.
+import assert from 'node:assert';
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, describe, test } from 'node:test';
+
+const here = path.dirname(new URL(import.meta.url).pathname);
+const C = '/* SPDX-License-Identifier: MIT */\n';
+const TS = '// SPDX-License-Identifier: MIT\n';
+
+const CLEAN = {
+    'protocol/scene.c': `${C}#include "scene.h"\n\n#include <cjson/cJSON.h>\n#include <string.h>\n`,
+    'protocol/error.c': `${C}void print(FILE *out)\n{\n    fprintf(out, "x");\n}\n`,
+    'protocol/scene.h': C,
+    'renderer/draw.c': `${C}#include "draw.h"\n\n#include <GL/gl.h>\n\n#include "protocol/scene.h"\n`,
+    'renderer/draw.h': C,
+    'renderer/glsl/march.glsl': `${C}float f();\n`,
+    'server/room.c': `${C}#include "protocol/scene.h"\n#include "renderer/renderer.h"\n`,
+    'web/src/model/document.ts': `${TS}import { b } from './operations';\n`,
+    'web/src/link/link.ts': `${TS}import { b } from '../model/operations';\n`,
+    'web/src/ui/App.tsx': `${TS}import React from 'react';\nimport { l } from '../link/link';\n`,
+    'deploy/run.sh': `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho hello\n`,
+    'README.md': '# text\n',
+};
+
+const longFunction = (lines) => `${C}int f(void)\n{\n${'    f();\n'.repeat(lines)}    return 0;\n}\n`;
+
+const BREAKS = [
+    ['arrow', 'protocol/scene.c', `${C}#include "renderer/renderer.h"\n`],
+    ['arrow', 'protocol/scene.h', `${C}#include <pthread.h>\n`],
+    ['arrow', 'protocol/scene.c', `${C}#include <GL/gl.h>\n`],
+    ['arrow', 'renderer/draw.c', `${C}#include "server/room.h"\n`],
+    ['arrow', 'server/room.c', `${C}#include "renderer/program.h"\n`],
+    ['arrow', 'server/room.c', `${C}  #  include "renderer/field.h"\n`],
+    ['arrow', 'web/src/model/document.ts', `${TS}import { l } from '../link/link';\n`],
+    ['arrow', 'web/src/model/document.ts', `${TS}const o = await import('../overlay/input');\n`],
+    ['arrow', 'web/src/link/link.ts', `${TS}import { App } from '../ui/App';\n`],
+    ['arrow', 'web/src/link/link.ts', `${TS}import React from 'react';\n`],
+    ['arrow', 'web/src/overlay/input.ts', `${TS}export { App } from '../ui/App';\n`],
+    ['pure', 'protocol/scene.c', `${C}void f(void)\n{\n    printf("x");\n}\n`],
+    ['pure', 'protocol/scene.c', `${C}void f(void)\n{\n    error_print(0, stderr);\n}\n`],
+    ['size', 'renderer/draw.c', longFunction(130)],
+    ['size', 'web/src/ui/App.tsx', `${TS}function f() {\n${'    f();\n'.repeat(130)}}\n`],
+    ['size', 'renderer/glsl/march.glsl', `${C}/* ${'x'.repeat(100)} */\n`],
+    ['licence', 'renderer/draw.h', '#define DRAW 1\n'],
+    ['licence', 'deploy/run.sh', '#!/bin/sh\necho hello\n'],
+    ['blank', 'README.md', '# text \n'],
+    ['blank', 'README.md', '# text'],
+    ['blank', 'renderer/glsl/march.glsl', `${C}\tfloat f();\n`],
+    ['word', 'renderer/draw.h', `${C}/* TO${'DO'} */\n`],
+    ['word', 'renderer/draw.c', `${C}#if 0\n#endif\n`],
+    ['format', 'renderer/draw.c', `${C}int f(void) { return 0; }\n`],
+    ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
+];
+
+const trees = [];
+after(() => trees.forEach((tree) => fs.rmSync(tree, { recursive: true, force: true })));
+
+function lint(changes) {
+    const tree = fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-lint-'));
+    trees.push(tree);
+    fs.copyFileSync(path.join(here, '../../.clang-format'), path.join(tree, '.clang-format'));
+    for (const [file, text] of Object.entries({ ...CLEAN, ...changes })) {
+        fs.mkdirSync(path.join(tree, path.dirname(file)), { recursive: true });
+        fs.writeFileSync(path.join(tree, file), text);
+    }
+    return lintTree(tree);
+}
+
+function lintTree(tree) {
+    const run = spawnSync(process.execPath, [path.join(here, 'lint.mjs'), tree], {
+        encoding: 'utf8',
+    });
+    return { status: run.status, text: run.stdout + run.stderr };
+}
+
+test('this tree is clean', () => {
+    const { status, text } = lintTree(path.join(here, '../..'));
+    assert.equal(status, 0, text);
+});
+
+test('the small tree is clean', () => {
+    const { status, text } = lint({});
+    assert.equal(status, 0, text);
+});
+
+describe('each rule can fail', () => {
+    for (const [rule, file, text] of BREAKS) {
+        const name = text.split('\n').slice(1).join(' ').slice(0, 50).trim();
+        test(`${rule}: ${file}: ${name}`, () => {
+            const result = lint({ [file]: text });
+            assert.equal(result.status, 1, result.text);
+            const place = rule === 'shellcheck' ? '^shellcheck:' : `^${file}:\\d+: ${rule}: `;
+            assert.match(result.text, new RegExp(place, 'm'));
+        });
+    }
+});
