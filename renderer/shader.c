@@ -261,7 +261,13 @@ static char *write_text(const struct field *field, bool surface)
     write_instructions(&w);
     if (surface) {
         write_mixed(&w, 0);
-        fprintf(w.out, "s = surface_of(m0);\n}\n");
+        fputs("s.id = uint(m0.leaf);\n"
+              "s.diffuse = m0.diffuse_shininess.rgb;\n"
+              "s.shininess = m0.diffuse_shininess.w;\n"
+              "s.specular = m0.specular.rgb;\n"
+              "s.emission = m0.emission.rgb;\n"
+              "s.ambient = m0.ambient.rgb;\n}\n",
+              w.out);
     } else {
         fprintf(w.out, "return d0;\n}\n");
     }

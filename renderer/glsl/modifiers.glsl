@@ -1,26 +1,26 @@
-// SPDX-License-Identifier: MIT
-// Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers
-// of dom_ functions are computed in C (renderer/sdf.c tells how, and why the bounds hold).
+/* SPDX-License-Identifier: MIT */
+/* Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers
+ * of dom_ functions are computed in C (renderer/sdf.c tells how, and why the bounds hold). */
 
-// Grows outwards.
+/* Grows outwards. */
 float mod_round(float d, float radius)
 {
     return d - radius;
 }
 
-// A wall on both sides of the surface.
+/* A wall on both sides of the surface. */
 float mod_shell(float d, float thickness)
 {
     return abs(d) - thickness;
 }
 
-// Shows the positive side on both sides; axes are 0 or 1.
+/* Shows the positive side on both sides; axes are 0 or 1. */
 vec3 dom_mirror(vec3 p, vec4 axes)
 {
     return mix(p, abs(p), axes.xyz);
 }
 
-// Repetition: the first cell that may hold the nearest copy.
+/* Repetition: the first cell that may hold the nearest copy. */
 vec3 dom_repeat_first(vec3 p, vec4 spacing, vec4 limit, vec4 centre, vec4 reach)
 {
     vec3 half_cell = fract(limit.xyz);
@@ -28,7 +28,7 @@ vec3 dom_repeat_first(vec3 p, vec4 spacing, vec4 limit, vec4 centre, vec4 reach)
     return clamp(floor(x - reach.xyz) + half_cell, -limit.xyz, limit.xyz);
 }
 
-// Repetition: the last such cell.
+/* Repetition: the last such cell. */
 vec3 dom_repeat_last(vec3 p, vec4 spacing, vec4 limit, vec4 centre, vec4 reach)
 {
     vec3 half_cell = fract(limit.xyz);
@@ -36,20 +36,20 @@ vec3 dom_repeat_last(vec3 p, vec4 spacing, vec4 limit, vec4 centre, vec4 reach)
     return clamp(floor(x + reach.xyz) + half_cell, -limit.xyz, limit.xyz);
 }
 
-// Repetition: the point in a cell.
+/* Repetition: the point in a cell. */
 vec3 dom_repeat_cell(vec3 p, vec3 cell, vec4 spacing, vec4 limit, vec4 centre, vec4 reach)
 {
     return p - spacing.xyz * cell;
 }
 
-// How many cells there are from first to last.
+/* How many cells there are from first to last. */
 float cell_count(vec3 first, vec3 last)
 {
     vec3 n = last - first + 1.0;
     return floor(n.x * n.y * n.z + 0.5);
 }
 
-// The cell after this one: X runs fastest.
+/* The cell after this one: X runs fastest. */
 vec3 cell_next(vec3 cell, vec3 first, vec3 last)
 {
     cell.x += 1.0;
@@ -64,7 +64,7 @@ vec3 cell_next(vec3 cell, vec3 first, vec3 last)
     return cell;
 }
 
-// Turns the section at each height back, inside the children's cylinder (rate, radius, ...).
+/* Turns the section at each height back, inside the children's cylinder (rate, radius, ...). */
 vec3 dom_twist(vec3 p, vec4 twist)
 {
     vec2 q = p.xz * min(twist.y / max(length(p.xz), 1e-30), 1.0);
@@ -72,7 +72,7 @@ vec3 dom_twist(vec3 p, vec4 twist)
     return vec3(c * q.x - s * q.y, p.y, s * q.x + c * q.y);
 }
 
-// Makes the children's distance a bound outside them: (rate, radius, 1 / Lipschitz, scale).
+/* Makes the children's distance a bound outside them: (rate, radius, 1 / Lipschitz, scale). */
 float dom_twist_after(float d, vec3 p, vec4 twist)
 {
     return corner(d * twist.z, (length(p.xz) - twist.y) * twist.w);

@@ -1,112 +1,104 @@
-// SPDX-License-Identifier: MIT
-// Operations: each NAME combines two distances, each NAME_share tells how much of the result the
-// second operand is. Below them: what a surface is and how surfaces mix.
+/* SPDX-License-Identifier: MIT */
+/* Operations: each NAME combines two distances, each NAME_share tells how much of the result the
+ * second operand is. Below them: how surfaces mix. */
 
-// In either.
+/* In either. */
 float op_union(float a, float b)
 {
     return min(a, b);
 }
 
-// Share of b in the union.
+/* Share of b in the union. */
 float op_union_share(float a, float b)
 {
     return b < a ? 1.0 : 0.0;
 }
 
-// In both.
+/* In both. */
 float op_intersection(float a, float b)
 {
     return max(a, b);
 }
 
-// Share of b in the intersection.
+/* Share of b in the intersection. */
 float op_intersection_share(float a, float b)
 {
     return b > a ? 1.0 : 0.0;
 }
 
-// In a but not in b.
+/* In a but not in b. */
 float op_difference(float a, float b)
 {
     return max(a, -b);
 }
 
-// Share of b in the difference.
+/* Share of b in the difference. */
 float op_difference_share(float a, float b)
 {
     return -b > a ? 1.0 : 0.0;
 }
 
-// In either, blended where the distances differ by less than k.
+/* In either, blended where the distances differ by less than k. */
 float op_smooth_union(float a, float b, float k)
 {
     float h = max(k - abs(a - b), 0.0);
     return min(a, b) - h * h * 0.25 / k;
 }
 
-// Share of b in the smooth union: its derivative by b.
+/* Share of b in the smooth union: its derivative by b. */
 float op_smooth_union_share(float a, float b, float k)
 {
     float h = 0.5 * max(k - abs(a - b), 0.0) / k;
     return b < a ? 1.0 - h : h;
 }
 
-// In both, blended.
+/* In both, blended. */
 float op_smooth_intersection(float a, float b, float k)
 {
     return -op_smooth_union(-a, -b, k);
 }
 
-// Share of b in the smooth intersection.
+/* Share of b in the smooth intersection. */
 float op_smooth_intersection_share(float a, float b, float k)
 {
     return op_smooth_union_share(-a, -b, k);
 }
 
-// In a but not in b, blended.
+/* In a but not in b, blended. */
 float op_smooth_difference(float a, float b, float k)
 {
     return -op_smooth_union(-a, b, k);
 }
 
-// Share of b in the smooth difference.
+/* Share of b in the smooth difference. */
 float op_smooth_difference_share(float a, float b, float k)
 {
     return op_smooth_union_share(-a, b, k);
 }
 
-// Empty space is this far away.
+/* Empty space is this far away. */
 const float FAR = 1e9;
 
-// What surface() tells of a place: distance, the number of the leaf (0: none), its material.
-struct Surface {
-    float d;
-    uint id;
-    vec3 diffuse, specular, emission, ambient;
-    float shininess;
-};
-
-// Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
-// Mixture has the materials' numbers, as they lie in the table, and the weight of its first leaf.
+/* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
+ * Mixture has the materials' numbers, as they lie in the table, and the weight of its first leaf. */
 struct Mixture {
     float d, leaf, weight;
     vec4 diffuse_shininess, specular, emission, ambient;
 };
 
-// Nothing.
+/* Nothing. */
 Mixture mixture_far()
 {
     return Mixture(FAR, 0.0, 1.0, vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
 }
 
-// One of two, by the share of b, with the distance of the result.
+/* One of two, by the share of b, with the distance of the result. */
 vec3 choose(float d, float share, vec3 a, vec3 b)
 {
     return vec3(d, share > 0.5 ? b.yz : a.yz);
 }
 
-// Both, by the share of b, with the distance of the result.
+/* Both, by the share of b, with the distance of the result. */
 Mixture blend(float d, float share, Mixture a, Mixture b)
 {
     float wa = a.weight * (1.0 - share), wb = b.weight * share;
@@ -114,11 +106,4 @@ Mixture blend(float d, float share, Mixture a, Mixture b)
                    mix(a.diffuse_shininess, b.diffuse_shininess, share),
                    mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
                    mix(a.ambient, b.ambient, share));
-}
-
-// The surface that a mixture is.
-Surface surface_of(Mixture m)
-{
-    return Surface(m.d, uint(m.leaf), m.diffuse_shininess.rgb, m.specular.rgb, m.emission.rgb,
-                   m.ambient.rgb, m.diffuse_shininess.w);
 }
