@@ -6,6 +6,11 @@
 
 #include "scene.h"
 
+/* Checks the form of `ops` without a scene: an array of at most LIMIT_OPERATIONS objects with known
+ * members. For what comes from outside: edit_apply checks the form too, but not how many, because
+ * an inverse may be longer than its edit. */
+bool edit_check(const cJSON *ops, struct error *err);
+
 /* Applies every operation of `ops`, or none: on failure the scene is as before and `err` names the
  * operation's place. On success `*out_inverse` (may be NULL) is the array that undoes it, and
  * `*out_applied` (may be NULL) is the canonical form of `ops` (ids filled in). Caller frees both. */
@@ -16,9 +21,6 @@ bool edit_apply(struct scene *scene, const cJSON *ops, cJSON **out_applied, cJSO
  * only when none applies. This is how undo treats what others changed meanwhile. */
 bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
                      cJSON **out_inverse, struct error *err);
-
-/* Checks the form of `ops` without a scene: an array of objects with known members. */
-bool edit_check(const cJSON *ops, struct error *err);
 
 /* Undo and redo of one scene, a pair of stacks per author. A redo is built when its undo happens,
  * so n undos and n redos give back what was there, others' edits included. */

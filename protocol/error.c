@@ -45,8 +45,8 @@ const char *error_place(char *out, const char *place, const char *member)
 {
     static const char cut[] = "...";
     char joined[2 * ERROR_PLACE_BYTES];
-    int length = snprintf(joined, sizeof joined, "%.*s/%.*s", ERROR_PLACE_BYTES - 1, place, 64,
-                          member);
+    int length =
+        snprintf(joined, sizeof joined, "%.*s/%.*s", ERROR_PLACE_BYTES - 1, place, 64, member);
     if (length < ERROR_PLACE_BYTES) {
         memcpy(out, joined, (size_t)length + 1);
     } else {

@@ -145,8 +145,8 @@ static bool scan_unicode_escape(struct scan *scan)
     }
     scan->at += 5;
     if (code >= 0xd800 && code < 0xe000) {
-        bool pair = code < 0xdc00 && scan->at + 1 < scan->length &&
-                    scan->text[scan->at] == '\\' && scan->text[scan->at + 1] == 'u';
+        bool pair = code < 0xdc00 && scan->at + 1 < scan->length && scan->text[scan->at] == '\\' &&
+                    scan->text[scan->at + 1] == 'u';
         int32_t low = pair ? hex4(scan, scan->at + 2) : -1;
         if (low < 0xdc00 || low >= 0xe000) {
             return fail_at(scan, start, ERROR_SYNTAX, "half of a surrogate pair");

@@ -76,8 +76,8 @@ void json_number(double value, char out[32])
     const char *sign = value < 0 ? "-" : "";
     if (d.point > 21 || d.point < -5) {
         int exponent = d.point - 1;
-        snprintf(out, 32, "%s%c%s%.*se%c%d", sign, d.digits[0], d.count > 1 ? "." : "",
-                 d.count - 1, d.digits + 1, exponent < 0 ? '-' : '+', abs(exponent));
+        snprintf(out, 32, "%s%c%s%.*se%c%d", sign, d.digits[0], d.count > 1 ? "." : "", d.count - 1,
+                 d.digits + 1, exponent < 0 ? '-' : '+', abs(exponent));
     } else if (d.point <= 0) {
         snprintf(out, 32, "%s0.%.*s%.*s", sign, -d.point, "00000", d.count, d.digits);
     } else if (d.count <= d.point) {

@@ -16,9 +16,9 @@ static const struct {
     const char *name;
     int components;
 } types[] = {
-    [PARAM_FLOAT] = {"float", 1},  [PARAM_INT] = {"int", 1},     [PARAM_BOOL] = {"bool", 1},
-    [PARAM_VEC3] = {"vec3", 3},    [PARAM_BVEC3] = {"bvec3", 3}, [PARAM_IVEC3] = {"ivec3", 3},
-    [PARAM_COLOR] = {"color", 3},  [PARAM_ENUM] = {"enum", 1},   [PARAM_TEXT] = {"text", 0},
+    [PARAM_FLOAT] = {"float", 1},       [PARAM_INT] = {"int", 1},     [PARAM_BOOL] = {"bool", 1},
+    [PARAM_VEC3] = {"vec3", 3},         [PARAM_BVEC3] = {"bvec3", 3}, [PARAM_IVEC3] = {"ivec3", 3},
+    [PARAM_COLOR] = {"color", 3},       [PARAM_ENUM] = {"enum", 1},   [PARAM_TEXT] = {"text", 0},
     [PARAM_MATERIAL] = {"material", 0},
 };
 
@@ -405,8 +405,10 @@ cJSON *param_describe(const struct param *param)
     const struct {
         const char *name;
         bool holds;
-    } flags[] = {{"above_min", param->above_min}, {"nonzero", param->nonzero},
-                 {"direction", param->direction}, {"uniform", param->uniform},
+    } flags[] = {{"above_min", param->above_min},
+                 {"nonzero", param->nonzero},
+                 {"direction", param->direction},
+                 {"uniform", param->uniform},
                  {"main", param->main}};
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (flags[i].holds) {

@@ -134,8 +134,8 @@ static bool read_children(struct reader *reader, struct node *node, const cJSON 
     }
     for (const cJSON *item = array ? array->child : NULL; item; item = item->next) {
         if (node->child_count == LIMIT_CHILDREN) {
-            return error_set(reader->err, ERROR_LIMIT, path,
-                             "more children than the maximum %d", LIMIT_CHILDREN);
+            return error_set(reader->err, ERROR_LIMIT, path, "more children than the maximum %d",
+                             LIMIT_CHILDREN);
         }
         char child_place[ERROR_PLACE_BYTES], number[24];
         snprintf(number, sizeof number, "%zu", node->child_count);
@@ -347,8 +347,8 @@ static bool read_materials(struct scene *scene, const cJSON *object, struct erro
         struct resource_list *materials = &scene->materials;
         char place[ERROR_PLACE_BYTES];
         if (materials->count == LIMIT_MATERIALS) {
-            return error_set(err, ERROR_LIMIT, "/materials",
-                             "more materials than the maximum %d", LIMIT_MATERIALS);
+            return error_set(err, ERROR_LIMIT, "/materials", "more materials than the maximum %d",
+                             LIMIT_MATERIALS);
         }
         error_place(place, "/materials", item->string);
         struct resource *material = resource_read_material(item->string, item, place, err);
@@ -376,9 +376,8 @@ enum {
 };
 
 static const char *const document_members[] = {
-    "format",      "name",   "camera", "lights",  "materials",
-    "environment", "render", "root",   "shaders", "primitives",
-    "models",      NULL,
+    "format", "name", "camera",  "lights",     "materials", "environment",
+    "render", "root", "shaders", "primitives", "models",    NULL,
 };
 
 static bool check_format(const cJSON *const *found, struct error *err)
@@ -421,8 +420,7 @@ static bool read_document(struct scene *scene, const cJSON *document, struct err
     if (!sort_members(document, document_members, found, "", err) || !check_format(found, err)) {
         return false;
     }
-    if (found[DOC_NAME] &&
-        !record_read_value(&scene->info, 0, found[DOC_NAME], "/name", err)) {
+    if (found[DOC_NAME] && !record_read_value(&scene->info, 0, found[DOC_NAME], "/name", err)) {
         return false;
     }
     return read_record(&scene->camera, found[DOC_CAMERA], "", "camera", err) &&
