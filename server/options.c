@@ -114,7 +114,7 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_TARGET] = { "target", 0, "X,Y,Z", OPTION_VECTOR, .min = -LIMIT_COORDINATE,
         .max = LIMIT_COORDINATE, .commands = FOR(RENDER),
         .doc = "What the camera looks at; by default what the scene says." },
-    [OPTION_FOV] = { "fov", 0, "DEGREES", OPTION_NUMBER, .min = 1, .max = 170,
+    [OPTION_FOV] = { "fov", 0, "DEGREES", OPTION_NUMBER, .min = 0, .max = 180,
         .commands = FOR(RENDER),
         .doc = "Vertical angle of view; by default the scene's." },
     [OPTION_ROUNDS] = { "rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,

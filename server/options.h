@@ -17,7 +17,6 @@
 #include "protocol/error.h"
 
 enum option {
-    OPTION_CONFIG,
     OPTION_HOST,
     OPTION_PORT,
     OPTION_DATA,
@@ -43,6 +42,7 @@ enum option {
     OPTION_FOV,
     OPTION_ROUNDS,
     OPTION_ONLY,
+    OPTION_CONFIG,
     OPTION_HELP,
     OPTION_COUNT
 };

@@ -6,29 +6,24 @@
 #include "command.h"
 #include "options.h"
 
-enum { LINE = 92, INDENT = 26 };
+enum { LINE = 92, INDENT = 30 };
 
 /* Prints words from column `column` on, broken before LINE and indented to `indent`. */
 static void print_wrapped(FILE *out, const char *text, int column, int indent)
 {
+    const char *gap = "";
     while (*text) {
-        int word = (int)strcspn(text, " \n");
-        if (column + word > LINE && column > indent) {
+        int word = (int)strcspn(text, " ");
+        if (*gap && column + 1 + word > LINE) {
             fprintf(out, "\n%*s", indent, "");
             column = indent;
+            gap = "";
         }
-        fprintf(out, "%.*s", word, text);
-        column += word;
+        fprintf(out, "%s%.*s", gap, word, text);
+        column += word + (*gap != '\0');
+        gap = " ";
         text += word;
-        if (*text == '\n') {
-            fprintf(out, "\n%*s", indent, "");
-            column = indent;
-            text++;
-        } else if (*text == ' ') {
-            fputc(' ', out);
-            column++;
-            text++;
-        }
+        text += strspn(text, " ");
     }
     fputc('\n', out);
 }
