@@ -62,8 +62,8 @@ struct field_leaf {
 struct field {
     struct field_instruction *instructions;
     size_t instruction_count;
-    float *numbers; /* 4 * vec4_count: blocks, one material for each slot, padding */
-    size_t vec4_count; /* the same for every field of this shape_hash */
+    float *numbers;       /* 4 * vec4_count: blocks, one material for each slot, padding */
+    size_t vec4_count;    /* the same for every field of this shape_hash */
     size_t material_base; /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
     double *arguments;    /* the numbers again, as the C evaluator reads them */
     struct field_leaf *leaves; /* ascending */
@@ -100,7 +100,7 @@ double field_distance(const struct field *field, const double p[3]);
 
 struct field_surface {
     double distance;
-    uint32_t number; /* of the leaf of greatest weight; 0: empty space */
+    uint32_t number;                         /* of the leaf of greatest weight; 0: empty space */
     double material[FIELD_MATERIAL_NUMBERS]; /* mixed by weight, laid out as in the buffer */
 };
 struct field_surface field_surface(const struct field *field, const double p[3]);

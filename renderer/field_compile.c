@@ -13,8 +13,8 @@ struct builder {
     struct field *field;
     const struct scene *scene;
     size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
-    uint32_t index; /* pre-order, of the next node */
-    uint64_t trips; /* loop iterations so far, in the current loop */
+    uint32_t index;                  /* pre-order, of the next node */
+    uint64_t trips;                  /* loop iterations so far, in the current loop */
     const struct node *out_of_range; /* the first node whose place no float can hold */
 };
 
@@ -28,8 +28,8 @@ struct frame {
 };
 
 struct result {
-    bool hidden; /* not drawn at all: an operation does not see it */
-    bool solid;  /* there is an instruction for it; else empty space */
+    bool hidden;       /* not drawn at all: an operation does not see it */
+    bool solid;        /* there is an instruction for it; else empty space */
     struct bounds box; /* in the space of the frame that it was emitted in */
 };
 
@@ -236,9 +236,13 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
     reserve((void **)&field->leaves, &b->leaf_capacity, field->leaf_count + 1,
             sizeof *field->leaves);
     field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(node->id)};
-    add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE, .type = node->type,
-                                                  .sdf = sdf, .a = slot, .point = frame->point,
-                                                  .numbers = block, .arguments = arguments});
+    add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                  .type = node->type,
+                                                  .sdf = sdf,
+                                                  .a = slot,
+                                                  .point = frame->point,
+                                                  .numbers = block,
+                                                  .arguments = arguments});
 }
 
 static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
@@ -271,7 +275,8 @@ static struct result emit_children(struct builder *b, const struct node *node,
     for (size_t i = 0; i < node->child_count; i++) {
         struct result child = emit(b, node->children[i], frame, slot + whole.solid);
         bool leads = rule == SDF_FIRST && i == 0;
-        dead = dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
+        dead =
+            dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
         if (!child.solid || dead) {
             continue;
         }
@@ -311,8 +316,8 @@ static double lowered(const struct node *node, const struct sdf *sdf, size_t cou
     return sdf->lowered ? sdf->lowered(numbers, count) : 0;
 }
 
-static struct result emit_combine(struct builder *b, const struct node *node,
-                                  const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+static struct result emit_combine(struct builder *b, const struct node *node, const struct sdf *sdf,
+                                  const struct frame *frame, uint16_t slot)
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
     add_block(b, node, sdf, frame->scale, &combine);
@@ -338,8 +343,8 @@ static struct result emit_distance(struct builder *b, const struct node *node,
 }
 
 /* Children see a point of their own, in slot point + 2; point + 1 is the modifier's own space. */
-static struct result emit_domain(struct builder *b, const struct node *node,
-                                 const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+static struct result emit_domain(struct builder *b, const struct node *node, const struct sdf *sdf,
+                                 const struct frame *frame, uint16_t slot)
 {
     const struct sdf_domain *domain = sdf->domain;
     size_t own_count = 4 * (size_t)domain->vec4s;
@@ -348,8 +353,12 @@ static struct result emit_domain(struct builder *b, const struct node *node,
     put(b, block, 0, arguments, 12, frame->matrix);
     uint16_t own = frame->point + 1, inner = frame->point + 2;
     bool loops = domain->range != NULL;
-    struct field_instruction next = {.type = node->type, .sdf = sdf, .a = slot, .b = slot,
-                                     .numbers = block, .arguments = arguments};
+    struct field_instruction next = {.type = node->type,
+                                     .sdf = sdf,
+                                     .a = slot,
+                                     .b = slot,
+                                     .numbers = block,
+                                     .arguments = arguments};
     next.op = FIELD_PLACE, next.point = frame->point, next.out = own;
     add_instruction(b, next);
     next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
@@ -576,7 +585,7 @@ const char *field_leaf_id(const struct field *field, uint32_t number)
     if (field->leaf_count == 0) {
         return NULL;
     }
-    const struct field_leaf *leaf = bsearch(&number, field->leaves, field->leaf_count,
-                                            sizeof *field->leaves, compare_leaf);
+    const struct field_leaf *leaf =
+        bsearch(&number, field->leaves, field->leaf_count, sizeof *field->leaves, compare_leaf);
     return leaf ? leaf->id : NULL;
 }

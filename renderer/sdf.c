@@ -384,12 +384,14 @@ static double twist_after(double d, const double p[3], const double *n)
 
 static const struct sdf_domain mirror = {
     .vec4s = 1, .prepare = mirror_prepare, .box = mirror_box, .map = mirror_map};
-static const struct sdf_domain repeat = {
-    .vec4s = 4, .prepare = repeat_prepare, .box = repeat_box, .range = repeat_range,
-    .cell = repeat_cell, .cells = repeat_cells};
+static const struct sdf_domain repeat = {.vec4s = 4,
+                                         .prepare = repeat_prepare,
+                                         .box = repeat_box,
+                                         .range = repeat_range,
+                                         .cell = repeat_cell,
+                                         .cells = repeat_cells};
 static const struct sdf_domain twist = {
-    .vec4s = 1, .prepare = twist_prepare, .box = twist_box, .map = twist_map,
-    .after = twist_after};
+    .vec4s = 1, .prepare = twist_prepare, .box = twist_box, .map = twist_map, .after = twist_after};
 
 /* --- the table --- */
 

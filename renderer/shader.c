@@ -249,8 +249,8 @@ static char *write_text(const struct field *field, bool surface)
     if (surface) {
         write_mixture(&w);
     }
-    fprintf(w.out, surface ? "void surface(vec3 p0, out Surface s)\n{\n"
-                           : "float map(vec3 p0)\n{\n");
+    fprintf(w.out,
+            surface ? "void surface(vec3 p0, out Surface s)\n{\n" : "float map(vec3 p0)\n{\n");
     write_slots(&w, "vec3", "p", 1, field->point_slots);
     if (surface) {
         write_slots(&w, "vec3", "h", 0, field->distance_slots);
