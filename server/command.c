@@ -8,25 +8,25 @@
 
 /* clang-format off */
 static const struct command table[COMMAND_COUNT] = {
-    [COMMAND_SERVE] = { "serve", .run = command_serve,
+    [COMMAND_SERVE] = {"serve", .run = command_serve,
         .doc = "Serve the editor, the live connections and the REST interface on one port.",
         .more = "Prints the address when ready. SIGTERM and SIGINT drain: clients are told, edits "
-                "are stored, then the program ends." },
-    [COMMAND_RENDER] = { "render", .operands = "SCENE.json", .run = command_render,
+                "are stored, then the program ends."},
+    [COMMAND_RENDER] = {"render", .operands = "SCENE.json", .run = command_render,
         .doc = "Draw a scene into a file: the same pixels as the server's.",
-        .more = "SCENE.json may be `-` for stdin, or `example:NAME` for a scene that is built in." },
-    [COMMAND_CHECK] = { "check", .operands = "SCENE.json", .many = true, .run = command_check,
+        .more = "SCENE.json may be `-` for stdin, or `example:NAME` for a scene that is built in."},
+    [COMMAND_CHECK] = {"check", .operands = "SCENE.json", .many = true, .run = command_check,
         .doc = "Check scene documents.",
         .more = "Prints `file: place: what is wrong` for each that breaks a rule, and fails if one "
-                "does." },
-    [COMMAND_SCHEMA] = { "schema", .run = command_schema,
-        .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it." },
-    [COMMAND_DOCTOR] = { "doctor", .run = command_doctor,
-        .doc = "Say what this machine can draw with, what was chosen and why, and what is missing." },
-    [COMMAND_BENCH] = { "bench", .run = command_bench,
-        .doc = "Measure drawing, compiling, encoding and storing; prints JSON." },
-    [COMMAND_WORKER] = { "worker", .hidden = true, .run = command_worker,
-        .doc = "The render process of `serve`, which alone starts it." },
+                "does."},
+    [COMMAND_SCHEMA] = {"schema", .run = command_schema,
+        .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
+    [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,
+        .doc = "Say what this machine can draw with, what was chosen and why, and what is missing."},
+    [COMMAND_BENCH] = {"bench", .run = command_bench,
+        .doc = "Measure drawing, compiling, encoding and storing; prints JSON."},
+    [COMMAND_WORKER] = {"worker", .hidden = true, .run = command_worker,
+        .doc = "The render process of `serve`, which alone starts it."},
 };
 /* clang-format on */
 
