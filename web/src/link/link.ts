@@ -1,10 +1,37 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's side of a live scene: connects, edits, picks, shows. Keeps the stores up to date.
  * Socket, decoding and presentation run in a worker where the browser allows it. */
-import type { Operation } from "../model/operations.ts";
-import type { Schema } from "../model/schema.ts";
-import type { Stores } from "../model/stores.ts";
-import type { PickedMessage } from "./protocol.ts";
+import { cameraOf, equalCamera, printCamera } from "../model/camera.ts";
+import { nodeOfPlace, paramAt } from "../model/document.ts";
+import {
+    EMPTY_HISTORY,
+    fitHistory,
+    forgetStep,
+    recordRedo,
+    recordStep,
+    recordUndo,
+} from "../model/history.ts";
+import type { Operation, Problem } from "../model/operations.ts";
+import { checkValue, type Schema, type Value, type Values } from "../model/schema.ts";
+import * as sessions from "../model/session.ts";
+import {
+    addNotice,
+    EMPTY_DOCUMENT_STATE,
+    IDLE_LINK,
+    type LinkState,
+    type Stores,
+} from "../model/stores.ts";
+import { text } from "../model/texts.ts";
+import type { Report, ViewState } from "./engine.ts";
+import { type Host, startHost } from "./host.ts";
+import { mountPicture, type PictureSize } from "./picture.ts";
+import {
+    type NoticeMessage,
+    type PickedMessage,
+    type ServerMessage,
+    SUBPROTOCOL,
+    TOKEN_PREFIX,
+} from "./protocol.ts";
 
 export interface EditOptions {
     /* Edits of one group are one undo step. */
@@ -49,6 +76,506 @@ export interface LinkOptions {
     readonly name?: string;
 }
 
-export function createLink(_stores: Stores, _options: LinkOptions): Link {
-    throw new Error("not connected");
+function randomId(): string {
+    const bytes = crypto.getRandomValues(new Uint8Array(12));
+    return [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+/* Notices that are states of the connection, shown there and not in the list. */
+const COMPILING: Readonly<Record<string, boolean>> = {
+    compiling: true,
+    compiled: false,
+    compile_failed: false,
+};
+
+class SceneLink implements Link {
+    readonly #stores: Stores;
+    readonly #options: LinkOptions;
+    readonly #host: Host;
+    readonly #client = randomId();
+    readonly #stops: (() => void)[] = [];
+    #session: sessions.Session | null = null;
+    #groups = 0;
+    #picks = 0;
+    #picking = new Map<number, { take: (p: PickedMessage) => void; fail: (e: Error) => void }>();
+    #flushDue = false;
+    #element: HTMLElement | null = null;
+    #size: PictureSize | null = null;
+
+    constructor(stores: Stores, options: LinkOptions) {
+        this.#stores = stores;
+        this.#options = options;
+        this.#host = startHost((report) => this.#take(report));
+        const sendView = (): void => this.#sendView();
+        const retry = (): void => this.retry();
+        document.addEventListener("visibilitychange", sendView);
+        window.addEventListener("online", retry);
+        this.#stops.push(
+            stores.camera.subscribe((now, before) => {
+                if (!now.own && before.own) {
+                    this.#followCamera();
+                }
+                this.#sendView();
+            }),
+            stores.view.subscribe((now, before) => {
+                const { quality } = now.preferences;
+                if (now.aov !== before.aov || quality !== before.preferences.quality) {
+                    this.#sendView();
+                }
+            }),
+            () => document.removeEventListener("visibilitychange", sendView),
+            () => window.removeEventListener("online", retry),
+        );
+    }
+
+    /* --- connection --- */
+
+    connect(scene: string, schema: Schema): void {
+        this.disconnect();
+        const base = new URL(this.#options.base || window.location.origin);
+        const url = new URL(`/v1/scenes/${encodeURIComponent(scene)}/live`, base);
+        url.protocol = base.protocol === "https:" ? "wss:" : "ws:";
+        const { token, name = "" } = this.#options;
+        this.#session = sessions.createSession(this.#client, schema);
+        this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, scene, schema });
+        this.#stores.link.setState({ ...IDLE_LINK, connection: "connecting" });
+        this.#host.send({
+            kind: "open",
+            url: url.href,
+            protocols: [SUBPROTOCOL, ...(token === null ? [] : [TOKEN_PREFIX + token])],
+            client: this.#client,
+            name,
+        });
+        this.#sendView();
+    }
+
+    disconnect(): void {
+        if (this.#session) {
+            this.#flush();
+        }
+        this.#session = null;
+        this.#failPicks();
+        this.#host.send({ kind: "close" });
+        const { schema } = this.#stores.document.getState();
+        this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, schema });
+        this.#stores.link.setState(IDLE_LINK);
+        this.#stores.camera.setState({ own: false });
+    }
+
+    retry(): void {
+        this.#host.send({ kind: "retry" });
+    }
+
+    destroy(): void {
+        this.disconnect();
+        for (const stop of this.#stops) {
+            stop();
+        }
+        this.#host.end();
+    }
+
+    #take(report: Report): void {
+        if (!this.#session) {
+            return;
+        }
+        switch (report.kind) {
+            case "state":
+                this.#connection(report);
+                break;
+            case "message":
+                this.#message(report.message);
+                break;
+            case "frame":
+                this.#stores.link.setState({ frame: report.frame });
+                break;
+            case "statistics":
+                this.#stores.link.setState({ statistics: report.statistics });
+                break;
+        }
+    }
+
+    #connection(report: Extract<Report, { kind: "state" }>): void {
+        const { state, reason, retryIn, attempts } = report;
+        const before = this.#stores.link.getState().connection;
+        const next: Partial<LinkState> = {
+            connection: state,
+            reason,
+            retryAt: retryIn === null ? null : performance.now() + retryIn,
+        };
+        this.#stores.link.setState(next);
+        if (this.#session && (state === "offline" || state === "refused")) {
+            this.#session = sessions.disconnect(this.#session);
+            this.#failPicks();
+        }
+        if (state === "offline" && before === "live") {
+            this.#notice("warning", "connection_lost", text("link.lost"));
+        }
+        if (state === "refused") {
+            this.#notice("error", "connection_refused", text("link.refused", { reason }));
+        }
+        if (state === "offline" && attempts === ATTEMPTS_BEFORE_PROBE) {
+            void this.#probe();
+        }
+    }
+
+    /* A WebSocket that fails does not say why; the document's address does. */
+    async #probe(): Promise<void> {
+        const { scene } = this.#stores.document.getState();
+        const { base, token } = this.#options;
+        const headers: HeadersInit = token === null ? {} : { Authorization: `Bearer ${token}` };
+        const url = `${base}/v1/scenes/${encodeURIComponent(scene ?? "")}`;
+        const response = await fetch(url, { headers }).catch(() => null);
+        if (response && FINAL_STATUS.includes(response.status)) {
+            const reason = `${response.status} ${response.statusText}`.trim();
+            this.#host.send({ kind: "close" });
+            this.#stores.link.setState({ connection: "refused", reason, retryAt: null });
+            this.#notice("error", "connection_refused", text("link.refused", { reason }));
+        }
+    }
+
+    /* --- messages --- */
+
+    #message(message: ServerMessage): void {
+        switch (message.type) {
+            case "picked":
+                this.#picking.get(message.pick)?.take(message);
+                this.#picking.delete(message.pick);
+                break;
+            case "notice":
+                this.#serverNotice(message);
+                break;
+            case "bye":
+                break;
+            case "welcome":
+                this.#stores.link.setState({ renderer: message.renderer });
+                this.#receive(message);
+                break;
+            default:
+                this.#receive(message);
+        }
+    }
+
+    #receive(message: sessions.SessionMessage): void {
+        if (!this.#session) {
+            return;
+        }
+        const { session, events } = sessions.receive(this.#session, message);
+        this.#session = session;
+        for (const event of events) {
+            this.#event(event);
+        }
+        if (session.epoch !== null && session.confirmed !== null) {
+            const { revision, epoch } = session;
+            this.#host.send({ kind: "at", revision, epoch });
+        }
+        if (message.type === "welcome") {
+            this.#flush();
+        }
+        this.#publish();
+    }
+
+    #event(event: sessions.SessionEvent): void {
+        switch (event.kind) {
+            case "rejected":
+                this.#rejected(event.pending, event.problem);
+                break;
+            case "done":
+                this.#done(event.pending);
+                break;
+            case "resync":
+                this.#notice("warning", "resync", text("link.resync"));
+                this.#host.send({ kind: "resync" });
+                break;
+            default:
+                break;
+        }
+    }
+
+    #done({ kind, ops }: sessions.PendingEdit): void {
+        this.#stores.document.setState(({ history, problems }) => {
+            const touched = new Set(ops.map((op) => nodeOfPlace("at" in op ? op.at : op.into)));
+            const left = [...problems].filter(([id]) => !touched.has(id));
+            return {
+                problems: left.length < problems.size ? new Map(left) : problems,
+                history:
+                    kind === "undo"
+                        ? recordUndo(history)
+                        : kind === "redo"
+                          ? recordRedo(history)
+                          : history,
+            };
+        });
+    }
+
+    #rejected(pending: sessions.PendingEdit | null, problem: Problem): void {
+        const label = pending?.label || text("edit.unnamed");
+        const message = text("edit.rejected", { label, message: problem.message });
+        this.#notice("error", problem.code, message, problem.place);
+        this.#problemAt(problem);
+    }
+
+    #problemAt(problem: Problem): void {
+        const node = nodeOfPlace(problem.place);
+        if (node !== null) {
+            this.#stores.document.setState(({ problems }) => ({
+                problems: new Map(problems).set(node, problem),
+            }));
+        }
+    }
+
+    #serverNotice({ level, code, message, place = "" }: NoticeMessage): void {
+        const compiling = COMPILING[code];
+        if (compiling !== undefined) {
+            this.#stores.link.setState({ compiling });
+        }
+        if (code === "compiled") {
+            this.#stores.document.setState({ problems: new Map() });
+        }
+        if (level === "error") {
+            this.#problemAt({ code, place, message });
+        }
+        if (compiling === undefined || code === "compile_failed") {
+            this.#notice(level, code, message, place);
+        }
+    }
+
+    #notice(level: "info" | "warning" | "error", code: string, message: string, place = ""): void {
+        addNotice(this.#stores.notices, { level, code, message, place });
+    }
+
+    /* --- edits --- */
+
+    edit(ops: readonly Operation[], options: EditOptions = {}): boolean {
+        const session = this.#session;
+        if (!session || ops.length === 0) {
+            return false;
+        }
+        const refused = checkRanges(session, ops);
+        const result = refused ? null : sessions.edit(session, ops, options);
+        const problem = refused ?? result?.problem ?? null;
+        if (problem || !result) {
+            const message = text("edit.refused", { message: problem?.message ?? "" });
+            this.#notice("warning", problem?.code ?? "", message, problem?.place);
+            return false;
+        }
+        this.#session = result.session;
+        const { group = "", label = "" } = options;
+        this.#stores.document.setState(({ history }) => ({
+            history: recordStep(history, { group, label }),
+        }));
+        this.#publish();
+        if (group === "") {
+            this.#flush();
+        } else {
+            this.#flushSoon();
+        }
+        return true;
+    }
+
+    gesture(label: string): Gesture {
+        this.#groups++;
+        const group = `${this.#client}-${this.#groups}`;
+        let edited = false;
+        let open = true;
+        return {
+            group,
+            edit: (ops) => {
+                const done = open && this.edit(ops, { group, label });
+                edited ||= done;
+                return done;
+            },
+            end: () => {
+                open = false;
+                this.#flush();
+            },
+            cancel: () => {
+                if (open && edited) {
+                    this.#cancel(group);
+                }
+                open = false;
+            },
+        };
+    }
+
+    #cancel(group: string): void {
+        if (this.#session) {
+            const sent = this.#session.sentGroup === group;
+            this.#session = sessions.cancelGroup(this.#session, group);
+            this.#stores.document.setState(({ history }) => ({
+                history: sent ? history : forgetStep(history, group),
+            }));
+            this.#flush();
+            this.#publish();
+        }
+    }
+
+    undo(): void {
+        this.#history("undo");
+    }
+
+    redo(): void {
+        this.#history("redo");
+    }
+
+    #history(kind: "undo" | "redo"): void {
+        if (this.#session) {
+            this.#session = sessions.askHistory(this.#session, kind);
+            this.#flush();
+            this.#publish();
+        }
+    }
+
+    #flushSoon(): void {
+        if (!this.#flushDue) {
+            this.#flushDue = true;
+            const run = (): void => {
+                if (this.#flushDue) {
+                    this.#flush();
+                }
+            };
+            requestAnimationFrame(run);
+            setTimeout(run, LATEST_FLUSH_MS);
+        }
+    }
+
+    #flush(): void {
+        this.#flushDue = false;
+        if (this.#session) {
+            const { session, messages } = sessions.takeOutbox(this.#session);
+            this.#session = session;
+            for (const message of messages) {
+                this.#host.send({ kind: "send", message });
+            }
+        }
+    }
+
+    #publish(): void {
+        const session = this.#session;
+        if (!session) {
+            return;
+        }
+        const before = this.#stores.document.getState();
+        const editing = session.pending.some((entry) => entry.kind === "edit");
+        const settled = session.pending.length === 0;
+        this.#stores.document.setState({
+            document: session.shown,
+            revision: session.revision,
+            waiting: sessions.waiting(session),
+            saved: sessions.isSaved(session),
+            canUndo: editing || session.undo > 0,
+            canRedo: !editing && session.redo > 0,
+            history: settled
+                ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)
+                : before.history,
+        });
+        if (session.shown && session.shown.camera !== before.document?.camera) {
+            this.#followCamera();
+        }
+    }
+
+    /* --- view --- */
+
+    /* Until the user looks around, the camera is the document's. */
+    #followCamera(): void {
+        const { document: shown, schema } = this.#stores.document.getState();
+        const { camera, own } = this.#stores.camera.getState();
+        if (!shown || own) {
+            return;
+        }
+        const defaults: Record<string, Value> = {};
+        for (const param of schema.camera) {
+            defaults[param.name] = param.default;
+        }
+        const followed = cameraOf(shown.camera, defaults as Values);
+        if (!equalCamera(camera, followed)) {
+            this.#stores.camera.setState({ camera: followed });
+        }
+    }
+
+    #sendView(): void {
+        if (!this.#session || !this.#size) {
+            return;
+        }
+        const { aov, preferences } = this.#stores.view.getState();
+        const { camera, own } = this.#stores.camera.getState();
+        const view: ViewState = {
+            width: this.#size.width,
+            height: this.#size.height,
+            ...(own ? { camera: printCamera(camera) } : {}),
+            aov,
+            quality: preferences.quality,
+            visible: document.visibilityState === "visible" && this.#element !== null,
+        };
+        this.#host.send({ kind: "view", view });
+    }
+
+    attach(element: HTMLElement): () => void {
+        const { canvas, unmount } = mountPicture(element, (size) => {
+            this.#size = size;
+            this.#sendView();
+        });
+        this.#element = element;
+        this.#host.setCanvas(canvas);
+        this.#sendView();
+        return () => {
+            unmount();
+            if (this.#element === element) {
+                this.#element = null;
+                this.#host.setCanvas(null);
+                this.#sendView();
+            }
+        };
+    }
+
+    pick(x: number, y: number): Promise<PickedMessage> {
+        const element = this.#element;
+        const size = this.#size;
+        if (!element || !size || this.#stores.link.getState().connection !== "live") {
+            return Promise.reject(new Error("not connected"));
+        }
+        this.#picks++;
+        const pick = this.#picks;
+        const pixel = (at: number, css: number, device: number): number =>
+            Math.min(device - 1, Math.max(0, Math.floor((at / Math.max(1, css)) * device)));
+        this.#host.send({
+            kind: "pick",
+            pick,
+            x: pixel(x, element.clientWidth, size.width),
+            y: pixel(y, element.clientHeight, size.height),
+        });
+        return new Promise((take, fail) => this.#picking.set(pick, { take, fail }));
+    }
+
+    #failPicks(): void {
+        for (const { fail } of this.#picking.values()) {
+            fail(new Error("not connected"));
+        }
+        this.#picking.clear();
+    }
+}
+
+/* Failed attempts after which the reason is looked for. */
+const ATTEMPTS_BEFORE_PROBE = 2;
+/* Answers that waiting will not change. */
+const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];
+/* Hidden pages get no animation frames. */
+const LATEST_FLUSH_MS = 50;
+
+/* Values that the schema refuses, before anybody sees them. */
+function checkRanges(session: sessions.Session, ops: readonly Operation[]): Problem | null {
+    for (const op of ops) {
+        if (op.op !== "set" || op.value === null || !session.shown) {
+            continue;
+        }
+        const found = paramAt(session.schema, session.shown, op.at);
+        const message = found && checkValue(found.param, op.value as Value);
+        if (message) {
+            return { code: "invalid", place: op.at, message };
+        }
+    }
+    return null;
+}
+
+export function createLink(stores: Stores, options: LinkOptions): Link {
+    return new SceneLink(stores, options);
 }

@@ -24,8 +24,8 @@ export interface App {
     edit(ops: readonly Operation[], options?: { group?: string; label?: string }): boolean;
     undo(): void;
     redo(): void;
-    /* Size of the picture in CSS pixels. */
-    viewSize(): { readonly width: number; readonly height: number };
+    /* Width over height of the picture. */
+    aspect(): number;
     writeClipboard(text: string): void;
     readClipboard(): Promise<string>;
     /* Saves the document as a file; opens the chooser for one. */
@@ -123,10 +123,9 @@ export function moveCamera(app: Pick<App, "stores">, change: (camera: Camera) =>
 
 export function frameNodes(app: App, ids?: readonly string[]): void {
     const { document, schema } = app.stores.document.getState();
-    const { width, height } = app.viewSize();
     if (document) {
         const ball = ballOf(document, schema, ids);
-        moveCamera(app, (camera) => frame(camera, ball, width / Math.max(1, height)));
+        moveCamera(app, (camera) => frame(camera, ball, app.aspect()));
     }
 }
 

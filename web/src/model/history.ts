@@ -24,6 +24,12 @@ export function recordStep(history: History, step: Step): History {
     return { undo: [...history.undo, step], redo: [] };
 }
 
+/* An edit group was taken back before anything of it was sent. */
+export function forgetStep(history: History, group: string): History {
+    const newest = history.undo.at(-1);
+    return newest?.group === group ? { ...history, undo: history.undo.slice(0, -1) } : history;
+}
+
 export function recordUndo(history: History): History {
     const step = history.undo.at(-1);
     return step ? { undo: history.undo.slice(0, -1), redo: [...history.redo, step] } : history;
@@ -36,7 +42,7 @@ export function recordRedo(history: History): History {
 
 const UNNAMED: Step = { group: "", label: "" };
 
-function fit(steps: readonly Step[], count: number): readonly Step[] {
+function fitSteps(steps: readonly Step[], count: number): readonly Step[] {
     const missing = Math.max(0, count - steps.length);
     return [
         ...new Array<Step>(missing).fill(UNNAMED),
@@ -49,7 +55,7 @@ export function fitHistory(history: History, undo: number, redo: number): Histor
     if (history.undo.length === undo && history.redo.length === redo) {
         return history;
     }
-    return { undo: fit(history.undo, undo), redo: fit(history.redo, redo) };
+    return { undo: fitSteps(history.undo, undo), redo: fitSteps(history.redo, redo) };
 }
 
 /* "Undo move head", or "Undo" where the name is not known. */

@@ -53,14 +53,6 @@ export function nameOfPress(press: KeyPress): string {
     return parts.filter(Boolean).join("+");
 }
 
-/* Keys as shown to people: ⌘ ⇧ ⌥ on a Mac. */
-export function showKeys(keys: string, mac: boolean): string {
-    if (!mac) {
-        return keys;
-    }
-    return keys.replace("Ctrl+", "⌘").replace("Alt+", "⌥").replace("Shift+", "⇧");
-}
-
 /* A key that is typed when a text field has the focus. */
 export function isSingleKey(keys: string): boolean {
     return !/^(Ctrl|Alt)\+/.test(keys) && !/^(F\d+|Esc|Delete|Backspace|Enter|Home)$/.test(keys);

@@ -32,6 +32,8 @@ export interface Session {
     /* Part of `confirmed`, not yet told durable: sent again if the server comes back without. */
     readonly settling: readonly PendingEdit[];
     readonly nextEdit: number;
+    /* Group of the newest edit that was sent. */
+    readonly sentGroup: string;
     /* Steps that the server can undo and redo for us. */
     readonly undo: number;
     readonly redo: number;
@@ -111,6 +113,7 @@ export function createSession(client: string, schema: Schema): Session {
         pending: [],
         settling: [],
         nextEdit: 1,
+        sentGroup: "",
         undo: 0,
         redo: 0,
         online: false,
@@ -198,7 +201,16 @@ export function takeOutbox(session: Session): {
         return { session, messages: [] };
     }
     const pending = session.pending.map((entry) => (entry.sent ? entry : { ...entry, sent: true }));
-    return { session: { ...session, pending }, messages: unsent.map(outgoing) };
+    const sentGroup = unsent.at(-1)?.group ?? "";
+    return { session: { ...session, pending, sentGroup }, messages: unsent.map(outgoing) };
+}
+
+/* Takes back the edits of a group: those not sent are forgotten, others the server undoes. */
+export function cancelGroup(session: Session, group: string): Session {
+    const ours = (entry: PendingEdit): boolean => entry.kind === "edit" && entry.group === group;
+    const pending = session.pending.filter((entry) => entry.sent || !ours(entry));
+    const dropped = rebase({ ...session, pending });
+    return session.sentGroup === group ? askHistory(dropped, "undo") : dropped;
 }
 
 /* The connection is gone: nothing is lost, what was sent may have to be sent again. */
@@ -299,6 +311,13 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
     return { session: settled, events: [{ kind: "done", pending: entry }] };
 }
 
+/* Until the server tells the counts itself. */
+function countHistory(session: Session, kind: PendingEdit["kind"]): Session {
+    const step = kind === "undo" ? -1 : kind === "redo" ? 1 : 0;
+    const { undo, redo } = session;
+    return { ...session, undo: Math.max(0, undo + step), redo: Math.max(0, redo - step) };
+}
+
 function changed(session: Session, message: Extract<SessionMessage, { type: "changed" }>): Outcome {
     const entry = session.pending.find((pending) => pending.edit === message.edit);
     const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry }] : [];
@@ -308,7 +327,7 @@ function changed(session: Session, message: Extract<SessionMessage, { type: "cha
         if (!advanced) {
             return { session: next, events: [...events, ...RESYNC] };
         }
-        next = advanced;
+        next = entry ? countHistory(advanced, entry.kind) : advanced;
         events.push({ kind: "changed", author: message.author, ops: message.ops });
     }
     return { session: rebase(dropLanded(next)), events };
@@ -320,8 +339,12 @@ function rejected(
 ): Outcome {
     const pending = session.pending.find((entry) => entry.edit === message.edit) ?? null;
     const { code, place, message: text } = message;
+    let next = without(session, message.edit);
+    if (pending && pending.kind !== "edit") {
+        next = { ...next, [pending.kind]: 0 }; /* there was nothing left */
+    }
     return {
-        session: rebase(without(session, message.edit)),
+        session: rebase(next),
         events: [{ kind: "rejected", pending, problem: { code, place, message: text } }],
     };
 }

@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: MIT */
+/* The stream side of a live scene: socket, reconnecting, views, frames from bytes to the screen.
+ * Runs in the worker, or in the page where a canvas cannot be handed over. Knows no document: it
+ * passes messages on and is told where the page stands. */
+import type { OutgoingEdit } from "../model/session.ts";
+import type { FrameInfo, Statistics } from "../model/stores.ts";
+import { decode, type Frame, FrameAssembler } from "./decode.ts";
+import { Meter } from "./meter.ts";
+import { Presenter, type Surface } from "./present.ts";
+import {
+    type ClientMessage,
+    type FrameHeader,
+    readMessage,
+    readPacket,
+    type ServerMessage,
+    type ViewMessage,
+} from "./protocol.ts";
+
+export type ViewState = Omit<ViewMessage, "type" | "seq">;
+
+/* From the page. */
+export type Order =
+    | {
+          readonly kind: "open";
+          readonly url: string;
+          readonly protocols: readonly string[];
+          readonly client: string;
+          readonly name: string;
+      }
+    | { readonly kind: "close" }
+    | { readonly kind: "retry" }
+    /* The page's document does not fit: connect anew and ask for all of it. */
+    | { readonly kind: "resync" }
+    /* What the page holds, to resume there. */
+    | { readonly kind: "at"; readonly revision: number; readonly epoch: string | number }
+    | { readonly kind: "send"; readonly message: OutgoingEdit }
+    | { readonly kind: "pick"; readonly pick: number; readonly x: number; readonly y: number }
+    | { readonly kind: "view"; readonly view: ViewState }
+    | { readonly kind: "surface"; readonly surface: Surface | null };
+
+/* To the page. */
+export type Report =
+    | {
+          readonly kind: "state";
+          readonly state: "connecting" | "live" | "offline" | "refused";
+          readonly reason: string;
+          /* Milliseconds to the next attempt. */
+          readonly retryIn: number | null;
+          /* Attempts since the last that succeeded. */
+          readonly attempts: number;
+      }
+    | { readonly kind: "message"; readonly message: ServerMessage }
+    | { readonly kind: "frame"; readonly frame: FrameInfo }
+    | { readonly kind: "statistics"; readonly statistics: Statistics };
+
+const FIRST_RETRY_MS = 250;
+const LONGEST_RETRY_MS = 10_000;
+const STATISTICS_MS = 500;
+/* Hidden pages get no animation frames; what must happen then waits this long. */
+const LATEST_MS = 200;
+
+/* At the next animation frame, or soon where there are none. */
+function soon(callback: () => void): void {
+    const animated = typeof requestAnimationFrame === "function";
+    let frame = 0;
+    const timer = setTimeout(
+        () => {
+            if (animated) {
+                cancelAnimationFrame(frame);
+            }
+            callback();
+        },
+        animated ? LATEST_MS : 16,
+    );
+    if (animated) {
+        frame = requestAnimationFrame(() => {
+            clearTimeout(timer);
+            callback();
+        });
+    }
+}
+
+export function frameInfo(header: FrameHeader): FrameInfo {
+    return {
+        state: header.lossless ? "lossless" : header.still ? "still" : "moving",
+        stale: header.stale,
+        number: header.number,
+        revision: header.revision,
+        width: header.width,
+        height: header.height,
+        scale: header.width / Math.max(1, header.viewWidth),
+    };
+}
+
+/* Wait before attempt `attempts` + 1: doubling, with jitter so that many pages do not come back
+ * in one moment. `random` is in [0, 1). */
+export function retryDelay(attempts: number, random: number): number {
+    const full = Math.min(LONGEST_RETRY_MS, FIRST_RETRY_MS * 2 ** Math.min(attempts, 16));
+    return full * (0.5 + 0.5 * random);
+}
+
+type Open = Extract<Order, { kind: "open" }>;
+
+export class Engine {
+    readonly #report: (report: Report) => void;
+    readonly #assembler = new FrameAssembler();
+    readonly #presenter = new Presenter();
+    readonly #meter = new Meter();
+    #target: Open | null = null;
+    #socket: WebSocket | null = null;
+    #attempts = 0;
+    #retry: ReturnType<typeof setTimeout> | null = null;
+    #bye: { reason: string; retryMs: number | null } | null = null;
+    #at: { revision: number; epoch: string | number } | null = null;
+    #view: ViewState | null = null;
+    #viewDue = false;
+    #seq = 0;
+    #sent = "";
+    #shown: FrameHeader | null = null;
+    #waiting: { frame: Frame; bitmap: ImageBitmap; decodedAt: number } | null = null;
+    #ticking: ReturnType<typeof setInterval> | null = null;
+
+    constructor(report: (report: Report) => void) {
+        this.#report = report;
+    }
+
+    take(order: Order): void {
+        switch (order.kind) {
+            case "open":
+                this.#leave();
+                this.#target = order;
+                this.#at = null;
+                this.#attempts = 0;
+                this.#presenter.clear();
+                this.#connect();
+                break;
+            case "close":
+                this.#leave();
+                this.#target = null;
+                this.#presenter.clear();
+                break;
+            case "retry":
+                if (this.#retry !== null) {
+                    this.#connect();
+                }
+                break;
+            case "resync":
+                this.#at = null;
+                this.#leave();
+                this.#lost("");
+                break;
+            case "at":
+                this.#at = { revision: order.revision, epoch: order.epoch };
+                break;
+            case "send":
+                this.#send(order.message);
+                break;
+            case "pick":
+                this.#pick(order);
+                break;
+            case "view":
+                this.#setView(order.view);
+                break;
+            case "surface":
+                this.#presenter.setSurface(order.surface);
+                break;
+        }
+    }
+
+    /* --- connection --- */
+
+    #state(state: "connecting" | "live" | "offline" | "refused", reason = "", retryIn?: number) {
+        this.#report({
+            kind: "state",
+            state,
+            reason,
+            retryIn: retryIn ?? null,
+            attempts: this.#attempts,
+        });
+    }
+
+    #connect(): void {
+        const target = this.#target;
+        if (!target) {
+            return;
+        }
+        this.#stopRetry();
+        this.#state("connecting");
+        const socket = new WebSocket(target.url, [...target.protocols]);
+        socket.binaryType = "arraybuffer";
+        socket.onopen = () => this.#greet(target);
+        socket.onmessage = ({ data }) => {
+            if (this.#socket !== socket) {
+                return;
+            }
+            if (typeof data === "string") {
+                this.#text(data);
+            } else {
+                this.#binary(data as ArrayBuffer);
+            }
+        };
+        socket.onclose = ({ reason }) => {
+            if (this.#socket === socket) {
+                this.#socket = null;
+                this.#lost(reason);
+            }
+        };
+        this.#bye = null;
+        this.#socket = socket;
+    }
+
+    #greet({ client, name }: Open): void {
+        this.#send({
+            type: "hello",
+            client,
+            ...(name ? { name } : {}),
+            ...(this.#at ? { revision: this.#at.revision, epoch: this.#at.epoch } : {}),
+        });
+        this.#sent = "";
+        this.#sendView();
+    }
+
+    #lost(reason: string): void {
+        this.#dropWaiting();
+        this.#assembler.reset();
+        this.#shown = null;
+        this.#meter.reset();
+        if (this.#bye && this.#bye.retryMs === null) {
+            this.#state("refused", this.#bye.reason);
+            return;
+        }
+        const wait = this.#bye?.retryMs ?? 0;
+        const delay = Math.max(wait, retryDelay(this.#attempts, Math.random()));
+        this.#attempts++;
+        this.#state("offline", this.#bye?.reason ?? reason, delay);
+        this.#retry = setTimeout(() => this.#connect(), delay);
+    }
+
+    #stopRetry(): void {
+        if (this.#retry !== null) {
+            clearTimeout(this.#retry);
+            this.#retry = null;
+        }
+    }
+
+    /* Lets the socket go without trying again. */
+    #leave(): void {
+        const socket = this.#socket;
+        this.#socket = null;
+        socket?.close(1000);
+        this.#stopRetry();
+        this.#dropWaiting();
+        this.#assembler.reset();
+        this.#shown = null;
+        this.#meter.reset();
+    }
+
+    #send(message: ClientMessage): void {
+        if (this.#socket?.readyState === WebSocket.OPEN) {
+            this.#socket.send(JSON.stringify(message));
+        }
+    }
+
+    #text(text: string): void {
+        const message = readMessage(text);
+        if (!message) {
+            return;
+        }
+        if (message.type === "welcome") {
+            this.#attempts = 0;
+            this.#state("live");
+        } else if (message.type === "bye") {
+            this.#bye = { reason: message.reason, retryMs: message.retry_ms ?? null };
+        }
+        this.#report({ kind: "message", message });
+    }
+
+    /* --- view and pick --- */
+
+    #setView(view: ViewState): void {
+        if (view.width !== this.#view?.width || view.height !== this.#view.height) {
+            this.#presenter.resize(view.width, view.height);
+        }
+        this.#view = view;
+        if (!this.#viewDue) {
+            this.#viewDue = true;
+            soon(() => {
+                this.#viewDue = false;
+                this.#sendView();
+            });
+        }
+    }
+
+    #sendView(): void {
+        const text = JSON.stringify(this.#view);
+        if (!this.#view || text === this.#sent || this.#socket?.readyState !== WebSocket.OPEN) {
+            return;
+        }
+        this.#sent = text;
+        this.#seq++;
+        this.#send({ type: "view", seq: this.#seq, ...this.#view });
+        this.#meter.viewSent(this.#seq, performance.now());
+    }
+
+    /* What is meant is what was seen: the view of the frame on screen. */
+    #pick(order: Extract<Order, { kind: "pick" }>): void {
+        const { pick, x, y } = order;
+        this.#send({ type: "pick", pick, x, y, seq: this.#shown?.input ?? this.#seq });
+    }
+
+    /* --- frames --- */
+
+    #binary(data: ArrayBuffer): void {
+        const packet = readPacket(data);
+        const frame = packet && this.#assembler.push(packet, performance.now());
+        if (!frame) {
+            return;
+        }
+        const socket = this.#socket;
+        decode(frame).then(
+            (bitmap) => this.#decoded(frame, bitmap, socket),
+            () => {
+                /* A damaged picture is skipped; without its acknowledgement the stream would stop. */
+                this.#meter.frameDropped();
+                this.#acknowledge(frame.header.number, socket);
+            },
+        );
+    }
+
+    #acknowledge(frame: number, socket: WebSocket | null): void {
+        if (socket === this.#socket) {
+            this.#send({ type: "ack", frame });
+        }
+    }
+
+    #decoded(frame: Frame, bitmap: ImageBitmap, socket: WebSocket | null): void {
+        const { number } = frame.header;
+        const newest = this.#waiting?.frame.header.number ?? this.#shown?.number ?? 0;
+        if (socket !== this.#socket || number <= newest) {
+            bitmap.close();
+            this.#meter.frameDropped();
+            this.#acknowledge(number, socket);
+            return;
+        }
+        const scheduled = this.#waiting !== null;
+        if (this.#waiting) {
+            this.#waiting.bitmap.close();
+            this.#meter.frameDropped();
+            this.#acknowledge(this.#waiting.frame.header.number, socket);
+        }
+        this.#waiting = { frame, bitmap, decodedAt: performance.now() };
+        if (!scheduled) {
+            soon(() => this.#present());
+        }
+    }
+
+    #present(): void {
+        const waiting = this.#waiting;
+        if (!waiting) {
+            return;
+        }
+        this.#waiting = null;
+        const { frame, bitmap, decodedAt } = waiting;
+        this.#presenter.show(bitmap, frame.header);
+        this.#shown = frame.header;
+        this.#acknowledge(frame.header.number, this.#socket);
+        this.#meter.frameShown(frame, decodedAt, performance.now());
+        this.#report({ kind: "frame", frame: frameInfo(frame.header) });
+        this.#tick();
+    }
+
+    #dropWaiting(): void {
+        this.#waiting?.bitmap.close();
+        this.#waiting = null;
+    }
+
+    /* Statistics while frames come, and once more when they have stopped. */
+    #tick(): void {
+        this.#ticking ??= setInterval(() => {
+            const statistics = this.#meter.read(performance.now());
+            this.#report({ kind: "statistics", statistics });
+            if (statistics.fps === 0 && this.#ticking !== null) {
+                clearInterval(this.#ticking);
+                this.#ticking = null;
+            }
+        }, STATISTICS_MS);
+    }
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* Draws frames on the picture's canvas. The canvas has the size of the view in device pixels
+ * whatever the resolution of the frame, so that the picture never changes size or place. */
+import type { FrameHeader } from "./protocol.ts";
+
+/* The common part of HTMLCanvasElement and OffscreenCanvas. */
+export interface Surface {
+    width: number;
+    height: number;
+    getContext(kind: "2d", settings: { alpha: boolean }): Brush | null;
+}
+
+interface Brush {
+    imageSmoothingEnabled: boolean;
+    imageSmoothingQuality: "low" | "medium" | "high";
+    drawImage(image: ImageBitmap, x: number, y: number, width: number, height: number): void;
+    clearRect(x: number, y: number, width: number, height: number): void;
+}
+
+export class Presenter {
+    #surface: Surface | null = null;
+    #brush: Brush | null = null;
+    #bitmap: ImageBitmap | null = null;
+    #header: FrameHeader | null = null;
+    #width = 1;
+    #height = 1;
+
+    setSurface(surface: Surface | null): void {
+        this.#surface = surface;
+        this.#brush = surface?.getContext("2d", { alpha: false }) ?? null;
+        this.#fit();
+    }
+
+    /* Device pixels of the view. The last frame stays, scaled about its centre. */
+    resize(width: number, height: number): void {
+        this.#width = width;
+        this.#height = height;
+        this.#fit();
+    }
+
+    /* Shows a frame; owns the bitmap from now on. */
+    show(bitmap: ImageBitmap, header: FrameHeader): void {
+        this.#bitmap?.close();
+        this.#bitmap = bitmap;
+        this.#header = header;
+        this.#draw();
+    }
+
+    clear(): void {
+        this.#bitmap?.close();
+        this.#bitmap = null;
+        this.#header = null;
+        this.#brush?.clearRect(0, 0, this.#width, this.#height);
+    }
+
+    #fit(): void {
+        const surface = this.#surface;
+        if (surface && (surface.width !== this.#width || surface.height !== this.#height)) {
+            surface.width = this.#width;
+            surface.height = this.#height;
+        }
+        this.#draw();
+    }
+
+    #draw(): void {
+        const [brush, bitmap, header] = [this.#brush, this.#bitmap, this.#header];
+        if (!brush || !bitmap || !header) {
+            return;
+        }
+        /* The field of view is vertical: a frame of another view keeps its height. */
+        const scale = this.#height / Math.max(1, header.viewHeight);
+        const width = header.viewWidth * scale;
+        const left = (this.#width - width) / 2;
+        if (left > 0) {
+            brush.clearRect(0, 0, this.#width, this.#height);
+        }
+        brush.imageSmoothingEnabled = bitmap.width !== width || bitmap.height !== this.#height;
+        brush.imageSmoothingQuality = "low";
+        brush.drawImage(bitmap, left, 0, width, this.#height);
+    }
+}
