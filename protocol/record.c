@@ -281,6 +281,19 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
     return true;
 }
 
+bool param_read(const struct param *param, const cJSON *json, double out[3], const char *place,
+                struct error *err)
+{
+    if (is_text(param)) {
+        return check_text(param, json, place, err);
+    }
+    if (param->type == PARAM_ENUM) {
+        return read_choice(param, json, &out[0], place, err);
+    }
+    return param_components(param->type) == 1 ? read_part(param, 0, json, &out[0], place, err)
+                                              : read_vector(param, json, out, place, err);
+}
+
 bool record_set(struct record *record, int index, const cJSON *json, const char *place,
                 struct error *err)
 {
@@ -291,22 +304,13 @@ bool record_set(struct record *record, int index, const cJSON *json, const char 
         restore_default(value, param);
         return true;
     }
+    if (!param_read(param, json, number, place, err)) {
+        return false;
+    }
     if (is_text(param)) {
-        if (!check_text(param, json, place, err)) {
-            return false;
-        }
         char *text = memory_text(json->valuestring);
         free(value->text);
         value->text = text;
-        value->set = true;
-        return true;
-    }
-    bool ok = param->type == PARAM_ENUM ? read_choice(param, json, &number[0], place, err)
-              : param_components(param->type) == 1
-                  ? read_part(param, 0, json, &number[0], place, err)
-                  : read_vector(param, json, number, place, err);
-    if (!ok) {
-        return false;
     }
     memcpy(value->number, number, sizeof number);
     value->set = true;

@@ -76,6 +76,9 @@ const char *param_type_name(enum param_type type); /* "float", "vec3", "color", 
 const char *param_unit_name(enum param_unit unit);
 /* The range that holds, also where the row names none. */
 void param_range(const struct param *param, double *out_min, double *out_max);
+/* Checks JSON against the row; its numbers go to `out` (a text stays in the JSON). */
+bool param_read(const struct param *param, const cJSON *json, double out[3], const char *place,
+                struct error *err);
 /* JSON of a value of this row; `text` is for the text types. Caller frees. */
 cJSON *param_value_json(const struct param *param, const double number[3], const char *text);
 

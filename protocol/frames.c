@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* The binary header of a frame; its bytes are listed in README.md. */
+#include <string.h>
+
+#include "messages.h"
+
+static void put(uint8_t **at, uint64_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++) {
+        *(*at)++ = (uint8_t)(value >> 8 * i);
+    }
+}
+
+static uint64_t take(const uint8_t **at, int bytes)
+{
+    uint64_t value = 0;
+    for (int i = 0; i < bytes; i++) {
+        value |= (uint64_t) * (*at)++ << 8 * i;
+    }
+    return value;
+}
+
+void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEADER_BYTES])
+{
+    const uint16_t sides[] = {header->width, header->height, header->view_width,
+                              header->view_height};
+    const uint32_t times[] = {header->queue_us, header->march_us, header->light_us, header->read_us,
+                              header->encode_us};
+    uint8_t *at = out + 4;
+    memset(out, 0, FRAME_HEADER_BYTES);
+    memcpy(out, "FCF1", 4);
+    put(&at, 1, 1);
+    put(&at, header->codec, 1);
+    put(&at, header->flags, 1);
+    put(&at, 0, 1);
+    put(&at, header->number, 4);
+    put(&at, header->payload_bytes, 4);
+    put(&at, header->revision, 8);
+    put(&at, header->input, 4);
+    for (int i = 0; i < 4; i++) {
+        put(&at, sides[i], 2);
+    }
+    for (int i = 0; i < 5; i++) {
+        put(&at, times[i], 4);
+    }
+}
+
+bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_header *out)
+{
+    if (length < FRAME_HEADER_BYTES || memcmp(bytes, "FCF1\1", 5) != 0) {
+        return false;
+    }
+    struct frame_header header;
+    uint16_t *const sides[] = {&header.width, &header.height, &header.view_width,
+                               &header.view_height};
+    uint32_t *const times[] = {&header.queue_us, &header.march_us, &header.light_us,
+                               &header.read_us, &header.encode_us};
+    const uint8_t *at = bytes + 5;
+    header.codec = (uint8_t)take(&at, 1);
+    header.flags = (uint8_t)take(&at, 1);
+    take(&at, 1);
+    header.number = (uint32_t)take(&at, 4);
+    header.payload_bytes = (uint32_t)take(&at, 4);
+    header.revision = take(&at, 8);
+    header.input = (uint32_t)take(&at, 4);
+    for (int i = 0; i < 4; i++) {
+        *sides[i] = (uint16_t)take(&at, 2);
+    }
+    for (int i = 0; i < 5; i++) {
+        *times[i] = (uint32_t)take(&at, 4);
+    }
+    *out = header;
+    return true;
+}
+
+void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES])
+{
+    uint8_t *at = out + 4;
+    memcpy(out, "FCFP", 4);
+    put(&at, number, 4);
+}

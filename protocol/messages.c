@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: MIT */
+/* The messages of a live connection: their tables, reading and describing them. The binary header
+ * is frames.c. */
+#include "messages.h"
+
+#include <string.h>
+
+#include "edit.h"
+#include "json.h"
+#include "limits.h"
+#include "nearest.h"
+#include "nodes.h"
+
+enum field_kind { FIELD_VALUE, FIELD_CLIENT, FIELD_CAMERA, FIELD_OPERATIONS, FIELD_OBJECT };
+
+struct field {
+    struct param param; /* of FIELD_OBJECT and the like only name and doc */
+    bool required;
+    enum field_kind kind;
+};
+
+struct message_type {
+    const char *name;
+    const char *doc;
+    const struct field *fields; /* ends with a row without a name */
+};
+
+#define FIELDS(...) ((const struct field[]){__VA_ARGS__, {.param = {.name = NULL}}})
+#define EXACT_MAX 9007199254740991.0 /* whole numbers up to here are exact in JSON */
+#define COUNT PARAM_INT, .min = 0, .max = EXACT_MAX
+#define SMALL PARAM_INT, .min = 0, .max = 4294967295.0
+#define SIDE PARAM_INT, .min = 1, .max = LIMIT_VIEW_SIDE
+#define AT PARAM_FLOAT, .min = 0, .max = LIMIT_VIEW_SIDE
+
+static const char *const aovs[] = {"color", "depth", "normal", "id", NULL};
+static const char *const qualities[] = {"auto", "smooth", "sharp", NULL};
+static const char *const levels[] = {"info", "warning", "error", NULL};
+
+/* clang-format off */
+#define EDIT_NUMBER {.param = {"edit", PARAM_INT, .min = 1, .max = EXACT_MAX, \
+                      .doc = "Counts the edits, undos and redos of this client."}, .required = true}
+#define REVISION {.param = {"revision", COUNT, .doc = "Revision of the scene."}, .required = true}
+
+static const struct message_type client_messages[MESSAGE_COUNT] = {
+    [MESSAGE_HELLO] = {"hello", "The first message.", FIELDS(
+        {.param = {"client", PARAM_TEXT, .doc = "8 to 64 of A-Z a-z 0-9 _ -: the author."},
+         .required = true, .kind = FIELD_CLIENT},
+        {.param = {"name", PARAM_TEXT, .doc = "Shown to others."}},
+        {.param = {"revision", COUNT, .doc = "The last one known, to resume."}},
+        {.param = {"epoch", PARAM_TEXT, .doc = "The one that the revision belongs to."}})},
+    [MESSAGE_VIEW] = {"view", "What this client wants to see; only the newest counts.", FIELDS(
+        {.param = {"seq", SMALL, .doc = "Counts up; frames name the newest that they show."}, .required = true},
+        {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
+        {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
+        {.param = {"camera", .doc = "As in the document; absent: the document's."}, .kind = FIELD_CAMERA},
+        {.param = {"aov", PARAM_ENUM, .choices = aovs, .doc = "Which output."}},
+        {.param = {"quality", PARAM_ENUM, .choices = qualities, .doc = "Speed or sharpness in motion."}},
+        {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}})},
+    [MESSAGE_EDIT] = {"edit", "Changes the scene.", FIELDS(
+        EDIT_NUMBER,
+        {.param = {"ops", .doc = "The operations."}, .required = true, .kind = FIELD_OPERATIONS},
+        {.param = {"group", PARAM_TEXT, .doc = "Edits of one group are one step of undo."}},
+        {.param = {"label", PARAM_TEXT, .doc = "What the edit does, for people."}})},
+    [MESSAGE_UNDO] = {"undo", "Undoes this author's newest step.", FIELDS(EDIT_NUMBER)},
+    [MESSAGE_REDO] = {"redo", "Redoes this author's newest step undone.", FIELDS(EDIT_NUMBER)},
+    [MESSAGE_PICK] = {"pick", "Asks what is under the pointer.", FIELDS(
+        {.param = {"pick", SMALL, .doc = "Comes back with the answer."}, .required = true},
+        {.param = {"x", AT, .doc = "Pixels from the left."}, .required = true},
+        {.param = {"y", AT, .doc = "Pixels from the top."}, .required = true},
+        {.param = {"seq", SMALL, .doc = "The view meant."}})},
+    [MESSAGE_ACK] = {"ack", "A frame was shown.", FIELDS(
+        {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
+};
+
+static const struct message_type server_messages[] = {
+    {"welcome", "Answers hello.", FIELDS(
+        {.param = {"session", PARAM_TEXT, .doc = "Name of this connection."}, .required = true},
+        {.param = {"scene", PARAM_TEXT, .doc = "Id of the scene."}, .required = true},
+        REVISION,
+        {.param = {"epoch", PARAM_TEXT, .doc = "Revisions of different epochs have nothing in common."},
+         .required = true},
+        {.param = {"renderer", .doc = "name, version, software, device."}, .required = true,
+         .kind = FIELD_OBJECT},
+        {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
+         .required = true},
+        {.param = {"limits", .doc = "Limits by name."}, .required = true, .kind = FIELD_OBJECT})},
+    {"document", "Replaces everything.", FIELDS(
+        REVISION,
+        {.param = {"document", .doc = "The scene document."}, .required = true, .kind = FIELD_OBJECT})},
+    {"applied", "The author's edit is in; once more after its commit.", FIELDS(
+        EDIT_NUMBER, REVISION,
+        {.param = {"durable", PARAM_BOOL, .doc = "Whether it is committed."}, .required = true},
+        {.param = {"undo", COUNT, .doc = "Steps left to undo."}, .required = true},
+        {.param = {"redo", COUNT, .doc = "Steps left to redo."}, .required = true})},
+    {"changed", "Somebody else's edit, or the result of one's own undo or redo.", FIELDS(
+        REVISION,
+        {.param = {"author", PARAM_TEXT, .doc = "Client that made the edit."}, .required = true},
+        {.param = {"ops", .doc = "The operations in canonical form."}, .required = true,
+         .kind = FIELD_OPERATIONS},
+        {.param = {"edit", COUNT, .doc = "Only to the author: number of the undo or redo."}})},
+    {"rejected", "An edit was refused; nothing was changed.", FIELDS(
+        EDIT_NUMBER,
+        {.param = {"code", PARAM_TEXT, .doc = "Kind of error."}, .required = true},
+        {.param = {"place", PARAM_TEXT, .doc = "Where."}, .required = true},
+        {.param = {"message", PARAM_TEXT, .doc = "Why, with value and limit."}, .required = true})},
+    {"picked", "What is under the pointer; null where nothing is.", FIELDS(
+        {.param = {"pick", SMALL, .doc = "Number of the question."}, .required = true},
+        REVISION,
+        {.param = {"node", PARAM_TEXT, .doc = "Id of the node, or null."}, .required = true},
+        {.param = {"position", PARAM_VEC3, .doc = "Where it was hit."}},
+        {.param = {"normal", PARAM_VEC3, .doc = "Direction of the surface."}},
+        {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}})},
+    {"notice", "Something to show.", FIELDS(
+        {.param = {"level", PARAM_ENUM, .choices = levels, .doc = "How bad it is."}, .required = true},
+        {.param = {"code", PARAM_TEXT, .doc = "What it is, for programs."}, .required = true},
+        {.param = {"message", PARAM_TEXT, .doc = "What it is, for people."}, .required = true},
+        {.param = {"place", PARAM_TEXT, .doc = "Where in the document."}})},
+    {"bye", "The last message.", FIELDS(
+        {.param = {"reason", PARAM_TEXT, .doc = "Why the connection ends."}, .required = true},
+        {.param = {"retry_ms", COUNT, .doc = "When to come back; absent: never."}})},
+};
+/* clang-format on */
+
+const char *message_name(enum message_kind kind)
+{
+    return client_messages[kind].name;
+}
+
+/* --- reading --- */
+
+static bool check_client(const cJSON *json, const char *place, struct error *err)
+{
+    const char *text = cJSON_IsString(json) ? json->valuestring : "";
+    size_t length = strlen(text);
+    return (length >= 8 && record_name_valid(text) && !strchr(text, '.')) ||
+           error_set(err, ERROR_INVALID, place, "expected 8 to %d of A-Z a-z 0-9 _ -",
+                     LIMIT_ID_BYTES);
+}
+
+static bool check_field(const struct field *field, const cJSON *json, const char *place,
+                        struct error *err)
+{
+    double number[3];
+    struct record camera;
+    bool ok;
+    switch (field->kind) {
+    case FIELD_CLIENT:
+        return check_client(json, place, err);
+    case FIELD_CAMERA:
+        record_init(&camera, &camera_type);
+        ok = record_read(&camera, json, place, err);
+        record_finish(&camera);
+        return ok;
+    case FIELD_OPERATIONS:
+        return edit_check(json, err);
+    case FIELD_OBJECT:
+        return cJSON_IsObject(json) || error_set(err, ERROR_SYNTAX, place, "expected an object");
+    case FIELD_VALUE:
+        break;
+    }
+    return param_read(&field->param, json, number, place, err);
+}
+
+static bool check_members(const struct message_type *type, const cJSON *json, struct error *err)
+{
+    for (const cJSON *member = json->child; member; member = member->next) {
+        const struct field *field = type->fields;
+        struct nearest nearest = {.text = member->string};
+        char place[ERROR_PLACE_BYTES], hint[64];
+        while (field->param.name && strcmp(field->param.name, member->string) != 0) {
+            nearest_consider(&nearest, field++->param.name);
+        }
+        error_place(place, "", member->string);
+        if (field->param.name) {
+            if (!check_field(field, member, place, err)) {
+                return false;
+            }
+        } else if (strcmp(member->string, "type") != 0) {
+            return error_set(err, ERROR_SYNTAX, place, "\"%s\" has no member \"%.64s\"%s",
+                             type->name, member->string, nearest_hint(&nearest, hint, sizeof hint));
+        }
+    }
+    for (const struct field *field = type->fields; field->param.name; field++) {
+        if (field->required && !cJSON_GetObjectItemCaseSensitive(json, field->param.name)) {
+            return error_set(err, ERROR_SYNTAX, "", "\"%s\" lacks the member \"%s\"", type->name,
+                             field->param.name);
+        }
+    }
+    return true;
+}
+
+static bool find_kind(const cJSON *json, enum message_kind *out, struct error *err)
+{
+    const char *name = json_member_text(json, "type", NULL);
+    if (!cJSON_IsObject(json) || !name) {
+        return error_set(err, ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
+    }
+    struct nearest nearest = {.text = name};
+    char hint[64];
+    for (int kind = 0; kind < MESSAGE_COUNT; kind++) {
+        if (strcmp(client_messages[kind].name, name) == 0) {
+            *out = (enum message_kind)kind;
+            return true;
+        }
+        nearest_consider(&nearest, client_messages[kind].name);
+    }
+    return error_set(err, ERROR_SYNTAX, "/type", "unknown message \"%.64s\"%s", name,
+                     nearest_hint(&nearest, hint, sizeof hint));
+}
+
+bool message_read(const char *text, size_t length, struct message *out, struct error *err)
+{
+    enum message_kind kind = MESSAGE_COUNT;
+    if (length > LIMIT_MESSAGE_BYTES) {
+        return error_set(err, ERROR_TOO_LARGE, "", "%zu bytes are above the maximum %d", length,
+                         LIMIT_MESSAGE_BYTES);
+    }
+    cJSON *json = json_parse(text, length, err);
+    if (!json || !find_kind(json, &kind, err) ||
+        !check_members(&client_messages[kind], json, err)) {
+        cJSON_Delete(json);
+        return false;
+    }
+    *out = (struct message){.kind = kind, .json = json};
+    return true;
+}
+
+void message_finish(struct message *message)
+{
+    cJSON_Delete(message->json);
+    message->json = NULL;
+}
+
+double json_member_number(const cJSON *object, const char *name, double fallback)
+{
+    const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+    return cJSON_IsNumber(member) ? member->valuedouble : fallback;
+}
+
+const char *json_member_text(const cJSON *object, const char *name, const char *fallback)
+{
+    const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+    return cJSON_IsString(member) ? member->valuestring : fallback;
+}
+
+bool json_member_bool(const cJSON *object, const char *name, bool fallback)
+{
+    const cJSON *member = cJSON_GetObjectItemCaseSensitive(object, name);
+    return cJSON_IsBool(member) ? cJSON_IsTrue(member) : fallback;
+}
+
+/* --- describing --- */
+
+static cJSON *describe_field(const struct field *field)
+{
+    static const char *const names[] = {
+        [FIELD_CAMERA] = "camera",
+        [FIELD_OPERATIONS] = "operations",
+        [FIELD_OBJECT] = "object",
+    };
+    cJSON *row;
+    if (field->kind == FIELD_VALUE || field->kind == FIELD_CLIENT) {
+        row = param_describe(&field->param);
+        cJSON_DeleteItemFromObjectCaseSensitive(row, "default");
+    } else {
+        row = cJSON_CreateObject();
+        cJSON_AddStringToObject(row, "name", field->param.name);
+        cJSON_AddStringToObject(row, "type", names[field->kind]);
+        cJSON_AddStringToObject(row, "doc", field->param.doc);
+    }
+    cJSON_AddBoolToObject(row, "required", field->required);
+    return row;
+}
+
+static cJSON *describe_messages(const struct message_type *types, size_t count)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        cJSON *row = cJSON_CreateObject();
+        cJSON_AddStringToObject(row, "type", types[i].name);
+        cJSON_AddStringToObject(row, "doc", types[i].doc);
+        cJSON *members = cJSON_AddArrayToObject(row, "members");
+        for (const struct field *field = types[i].fields; field->param.name; field++) {
+            cJSON_AddItemToArray(members, describe_field(field));
+        }
+        cJSON_AddItemToArray(list, row);
+    }
+    return list;
+}
+
+cJSON *messages_describe(void)
+{
+    cJSON *both = cJSON_CreateObject();
+    cJSON_AddItemToObject(both, "client", describe_messages(client_messages, MESSAGE_COUNT));
+    cJSON_AddItemToObject(
+        both, "server",
+        describe_messages(server_messages, sizeof server_messages / sizeof server_messages[0]));
+    return both;
+}
