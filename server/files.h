@@ -18,5 +18,7 @@ bool file_replace(const char *path, const void *bytes, size_t length, struct err
 
 /* mkdir -p, for the user alone. */
 bool directory_make(const char *path, struct error *err);
+/* rm -rf of a directory that this program made for itself. */
+void directory_remove(const char *path);
 
 #endif

@@ -54,7 +54,7 @@ static const struct option_row table[OPTION_COUNT] = {
         .commands = FOR(SERVE) | FOR(DOCTOR), .stored = true,
         .doc = "Port to listen on; 0 takes a free one."},
     [OPTION_DATA] = {"data", 0, "DIR", OPTION_PATH, .base = BASE_DATA, .fallback = "fieldcast",
-        .commands = FOR(SERVE) | FOR(DOCTOR), .stored = true,
+        .commands = FOR(SERVE) | FOR(DOCTOR) | FOR(BENCH), .stored = true,
         .doc = "Where scenes and their edits are kept."},
     [OPTION_TOKEN_FILE] = {"token-file", 0, "FILE", OPTION_PATH,
         .commands = FOR(SERVE), .stored = true,

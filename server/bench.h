@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* The measurements of `fieldcast bench`; each returns the JSON that it prints. */
+#ifndef SERVER_BENCH_H
+#define SERVER_BENCH_H
+
+#include <cjson/cJSON.h>
+
+#include "drawing.h"
+
+/* The median of `count` numbers, which are sorted. */
+double bench_quantile(double *numbers, size_t count, double quantile);
+/* Adds a number with three decimals; more would be noise. */
+void bench_add(cJSON *object, const char *name, double value);
+
+/* One row for each example, or for that called `only`: compiling, drawing by pass and size,
+ * encoding. NULL and `err` when something cannot be drawn. */
+cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
+                     struct error *err);
+
+/* Edits applied and committed in a store of its own below `directory`. */
+cJSON *bench_store(const char *directory, struct error *err);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* fieldcast bench: measures this machine, prints JSON. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "assets.h"
+#include "bench.h"
+#include "command.h"
+#include "protocol/json.h"
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_quantile(double *numbers, size_t count, double quantile)
+{
+    qsort(numbers, count, sizeof *numbers, by_value);
+    return numbers[(size_t)((double)(count - 1) * quantile + 0.5)];
+}
+
+void bench_add(cJSON *object, const char *name, double value)
+{
+    cJSON_AddNumberToObject(object, name, round(value * 1000) / 1000);
+}
+
+static cJSON *describe(const struct renderer_params *params, struct error *err)
+{
+    struct renderer *renderer = renderer_create(params, err);
+    if (!renderer) {
+        return NULL;
+    }
+    const struct renderer_info *info = renderer_info(renderer);
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddStringToObject(row, "name", info->name);
+    cJSON_AddStringToObject(row, "version", info->version);
+    cJSON_AddBoolToObject(row, "software", info->software);
+    renderer_destroy(renderer);
+    return row;
+}
+
+/* Takes `item`; false where the measurement failed. */
+static bool add(cJSON *result, const char *name, cJSON *item)
+{
+    if (item) {
+        cJSON_AddItemToObject(result, name, item);
+    }
+    return item;
+}
+
+int command_bench(const struct options *options)
+{
+    const char *only = option_text(options, OPTION_ONLY);
+    int rounds = option_int(options, OPTION_ROUNDS);
+    struct renderer_params params;
+    struct error err = {0};
+    if (only && !examples_find(only)) {
+        fprintf(stderr, "fieldcast: --only: %s is no example\n", only);
+        return EXIT_USAGE;
+    }
+    drawing_params(options, &params);
+    cJSON *result = cJSON_CreateObject();
+    cJSON_AddStringToObject(result, "fieldcast", FIELDCAST_VERSION);
+    cJSON_AddNumberToObject(result, "rounds", rounds);
+    bool ok = add(result, "renderer", describe(&params, &err)) &&
+              add(result, "drawing", bench_drawing(&params, only, rounds, &err)) &&
+              add(result, "edits", bench_store(option_text(options, OPTION_DATA), &err));
+    if (ok) {
+        char *text = json_print(result, true);
+        puts(text);
+        free(text);
+    } else {
+        fputs("fieldcast: ", stderr);
+        error_print(&err, stderr);
+    }
+    cJSON_Delete(result);
+    return ok && fflush(stdout) == 0 ? EXIT_OK : EXIT_FAILED;
+}
