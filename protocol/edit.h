@@ -13,7 +13,7 @@ bool edit_check(const cJSON *ops, struct error *err);
 
 /* Applies every operation of `ops`, or none: on failure the scene is as before and `err` names the
  * operation's place. On success `*out_inverse` (may be NULL) is the array that undoes it, and
- * `*out_applied` (may be NULL) is the canonical form of `ops` (ids filled in). Caller frees both. */
+ * `*out_applied` (may be NULL) the canonical form of `ops` (ids filled in). Caller frees both. */
 bool edit_apply(struct scene *scene, const cJSON *ops, cJSON **out_applied, cJSON **out_inverse,
                 struct error *err);
 

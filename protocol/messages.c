@@ -49,12 +49,15 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"revision", COUNT, .doc = "The last one known, to resume."}},
         {.param = {"epoch", PARAM_TEXT, .doc = "The one that the revision belongs to."}})},
     [MESSAGE_VIEW] = {"view", "What this client wants to see; only the newest counts.", FIELDS(
-        {.param = {"seq", SMALL, .doc = "Counts up; frames name the newest that they show."}, .required = true},
+        {.param = {"seq", SMALL, .doc = "Counts up; frames name the newest that they show."},
+         .required = true},
         {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
-        {.param = {"camera", .doc = "As in the document; absent: the document's."}, .kind = FIELD_CAMERA},
+        {.param = {"camera", .doc = "As in the document; absent: the document's."},
+         .kind = FIELD_CAMERA},
         {.param = {"aov", PARAM_ENUM, .choices = aovs, .doc = "Which output."}},
-        {.param = {"quality", PARAM_ENUM, .choices = qualities, .doc = "Speed or sharpness in motion."}},
+        {.param = {"quality", PARAM_ENUM, .choices = qualities,
+          .doc = "Speed or sharpness in motion."}},
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}})},
     [MESSAGE_EDIT] = {"edit", "Changes the scene.", FIELDS(
         EDIT_NUMBER,
@@ -77,7 +80,8 @@ static const struct message_type server_messages[] = {
         {.param = {"session", PARAM_TEXT, .doc = "Name of this connection."}, .required = true},
         {.param = {"scene", PARAM_TEXT, .doc = "Id of the scene."}, .required = true},
         REVISION,
-        {.param = {"epoch", PARAM_TEXT, .doc = "Revisions of different epochs have nothing in common."},
+        {.param = {"epoch", PARAM_TEXT,
+          .doc = "Revisions of different epochs have nothing in common."},
          .required = true},
         {.param = {"renderer", .doc = "name, version, software, device."}, .required = true,
          .kind = FIELD_OBJECT},
@@ -86,7 +90,8 @@ static const struct message_type server_messages[] = {
         {.param = {"limits", .doc = "Limits by name."}, .required = true, .kind = FIELD_OBJECT})},
     {"document", "Replaces everything.", FIELDS(
         REVISION,
-        {.param = {"document", .doc = "The scene document."}, .required = true, .kind = FIELD_OBJECT})},
+        {.param = {"document", .doc = "The scene document."},
+         .required = true, .kind = FIELD_OBJECT})},
     {"applied", "The author's edit is in; once more after its commit.", FIELDS(
         EDIT_NUMBER, REVISION,
         {.param = {"durable", PARAM_BOOL, .doc = "Whether it is committed."}, .required = true},
@@ -111,7 +116,8 @@ static const struct message_type server_messages[] = {
         {.param = {"normal", PARAM_VEC3, .doc = "Direction of the surface."}},
         {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}})},
     {"notice", "Something to show.", FIELDS(
-        {.param = {"level", PARAM_ENUM, .choices = levels, .doc = "How bad it is."}, .required = true},
+        {.param = {"level", PARAM_ENUM, .choices = levels, .doc = "How bad it is."},
+         .required = true},
         {.param = {"code", PARAM_TEXT, .doc = "What it is, for programs."}, .required = true},
         {.param = {"message", PARAM_TEXT, .doc = "What it is, for people."}, .required = true},
         {.param = {"place", PARAM_TEXT, .doc = "Where in the document."}})},

@@ -91,7 +91,8 @@ static const struct node_type rows[] = {
         {"offset", PARAM_FLOAT, PLACE, .main = true,
          .doc = "Distance of the surface from the origin, along the normal."})},
      .number = 9, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
-     .glsl = "sd_plane", .words = "floor ground half-space wall", .source = QUILEZ_DISTANCE ", Plane"},
+     .glsl = "sd_plane", .words = "floor ground half-space wall",
+     .source = QUILEZ_DISTANCE ", Plane"},
 
     /* --- operations: numbers 101 to 199 --- */
     {.record = {"union", "Everything that is in any child.", no_params},

@@ -26,10 +26,12 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
 
 const struct record_type node_common_type = {"node", "What every node has.", PARAMS(
     {"name", PARAM_TEXT, .doc = "Shown instead of the id."},
-    {"material", PARAM_MATERIAL, .doc = "Material of the node and all below it; empty: its parent's."},
+    {"material", PARAM_MATERIAL,
+     .doc = "Material of the node and all below it; empty: its parent's."},
     {"visible", PARAM_BOOL, .def = {1}, .doc = "Whether the node and all below it are drawn."})};
 
-const struct record_type transform_type = {"transform", "Scale, then rotation, then translation.", PARAMS(
+const struct record_type transform_type = {
+    "transform", "Scale, then rotation, then translation.", PARAMS(
     {"translation", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "Moves the node."},
     {"rotation", PARAM_VEC3, UNIT_ANGLE, .step = 0.0872664625997165, .main = true,
      .doc = "Angles about X, Y and Z, applied in this order."},
@@ -43,7 +45,8 @@ const struct record_type camera_type = {"camera", "Where the scene is seen from.
     {"type", PARAM_ENUM, .choices = camera_kinds, .doc = "Kind of projection."},
     {"position", PARAM_VEC3, UNIT_LENGTH, .def = {0, 1, 5}, .step = 0.05, .main = true,
      .doc = "The eye."},
-    {"target", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "What the eye looks at."},
+    {"target", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true,
+     .doc = "What the eye looks at."},
     {"up", PARAM_VEC3, .def = {0, 1, 0}, .direction = true, .step = 0.05,
      .doc = "Direction that is up in the picture."},
     {"fov", PARAM_FLOAT, UNIT_DEGREES, .def = {45}, .min = 1, .max = 170, .step = 1,
@@ -51,7 +54,8 @@ const struct record_type camera_type = {"camera", "Where the scene is seen from.
     {"height", PARAM_FLOAT, UNIT_LENGTH, .def = {4}, .min = 0, .max = LIMIT_COORDINATE,
      .above_min = true, .step = 0.1, .doc = "Full height of an orthographic picture."})};
 
-const struct record_type environment_type = {"environment", "What is around the scene, and its ambient light.", PARAMS(
+const struct record_type environment_type = {
+    "environment", "What is around the scene, and its ambient light.", PARAMS(
     {"type", PARAM_ENUM, .choices = sky_kinds, .doc = "A gradient, or one colour."},
     {"zenith", PARAM_COLOR, .def = {0.12, 0.26, 0.55}, .step = 0.05, .main = true,
      .doc = "Colour of the sky straight up."},
