@@ -49,8 +49,10 @@ struct bounds bounds_union(struct bounds a, struct bounds b)
 struct bounds bounds_intersection(struct bounds a, struct bounds b)
 {
     for (int i = 0; i < 3; i++) {
-        a.low[i] = fmax(a.low[i], b.low[i]);
-        a.high[i] = fmin(a.high[i], b.high[i]);
+        double low = fmax(a.low[i], b.low[i]), high = fmin(a.high[i], b.high[i]);
+        /* Apart on this axis: what grows there by and by lies around the gap. */
+        a.low[i] = fmin(low, high);
+        a.high[i] = fmax(low, high);
     }
     a.stretch = fmax(a.stretch, b.stretch);
     return a;

@@ -20,6 +20,7 @@ bool bounds_is_empty(const struct bounds *box);
 bool bounds_is_finite(const struct bounds *box);
 
 struct bounds bounds_union(struct bounds a, struct bounds b);
+/* Of boxes that are apart it is the gap between them, so that it may still be grown. */
 struct bounds bounds_intersection(struct bounds a, struct bounds b);
 /* The box after `delta` >= 0 is subtracted from the field. */
 struct bounds bounds_grow(struct bounds box, double delta);

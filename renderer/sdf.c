@@ -235,6 +235,8 @@ static struct bounds mirror_box(const double *params, const struct bounds *child
     struct bounds out = *child;
     for (int i = 0; i < 3; i++) {
         if (params[i] != 0) {
+            /* Nothing on the positive side: what grows there by and by lies around the plane. */
+            out.high[i] = fabs(out.high[i]);
             out.low[i] = -out.high[i];
         }
     }
@@ -269,7 +271,8 @@ static int repeat_cells(const double *n)
     return axis_cells(n, 0) * axis_cells(n, 1) * axis_cells(n, 2);
 }
 
-/* Where children reach over very many cells only the nearest are looked at. */
+/* Where children reach over very many cells, or without end over endless ones, only the nearest are
+ * looked at. */
 static void limit_cells(double *n)
 {
     while (repeat_cells(n) > SDF_REPEAT_CELLS_MAX) {
@@ -292,8 +295,8 @@ static void repeat_prepare(const double *params, const struct bounds *child, dou
         out_n[SPACING + i] = repeated ? spacing : 1;
         out_n[REPEAT_LIMIT + i] = count < 0 ? REPEAT_ENDLESS : fmax(count - 1, 0) / 2;
         out_n[CENTRE + i] = isfinite(half) ? child->low[i] + half : 0;
-        double reach = isfinite(half) ? clamp(half / spacing, 0, SDF_REPEAT_CELLS_MAX) : 1;
-        out_n[CELL_REACH + i] = repeated ? reach : 0;
+        double reach = isfinite(half) || count > 0 ? half / spacing : 1;
+        out_n[CELL_REACH + i] = repeated ? fmin(reach, SDF_REPEAT_CELLS_MAX) : 0;
     }
     limit_cells(out_n);
 }

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "protocol/memory.h"
+#include "protocol/json.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
 
@@ -84,6 +84,15 @@ static size_t count_bad_surfaces(const struct field *field, const struct batch *
     return bad;
 }
 
+/* For messages of failure. */
+static char *root_text(const struct scene *scene)
+{
+    cJSON *json = node_to_json(scene->root);
+    char *text = json_print(json, false);
+    cJSON_Delete(json);
+    return text;
+}
+
 static struct field *compile_field(const struct scene *scene)
 {
     struct error err = {0};
@@ -114,12 +123,12 @@ static void check_scene(struct random *random, struct scene *scene,
         double worst = compare_distances(field, &batch, points);
         if (!(worst <= TOLERANCE)) {
             fail_msg("%s, round %d: distances differ by %g\n%s", name, round, worst,
-                     scene_print(scene, true));
+                     root_text(scene));
         }
         size_t bad = count_bad_surfaces(field, &batch, points);
         if (bad > 0) {
             fail_msg("%s, round %d: %zu of %zu surfaces differ\n%s", name, round, bad, points,
-                     scene_print(scene, true));
+                     root_text(scene));
         }
         random_numbers(random, scene->root, limits);
         field_unref(field);

@@ -35,8 +35,7 @@ void random_direction(struct random *random, double out[3])
 }
 
 /* One component of a parameter, somewhere useful inside its range. */
-static double component(struct random *random, const struct param *param,
-                        const struct random_limits *limits)
+static double component(struct random *random, const struct param *param)
 {
     switch (param->type) {
     case PARAM_BOOL:
@@ -44,8 +43,7 @@ static double component(struct random *random, const struct param *param,
         return (double)random_below(random, 2);
     case PARAM_INT:
     case PARAM_IVEC3:
-        return limits->bounded ? (double)random_below(random, 5)
-                               : (double)random_below(random, 6) - 1;
+        return (double)random_below(random, 6) - 1;
     case PARAM_ENUM:
         return 0;
     default:
@@ -76,8 +74,7 @@ static void write_value(FILE *out, const struct param *param, const double *numb
     fprintf(out, count == 3 ? "]" : "");
 }
 
-static void write_params(struct random *random, FILE *out, const struct node_type *type,
-                         const struct random_limits *limits)
+static void write_params(struct random *random, FILE *out, const struct node_type *type)
 {
     fprintf(out, "\"params\":{");
     const char *comma = "";
@@ -87,7 +84,7 @@ static void write_params(struct random *random, FILE *out, const struct node_typ
         }
         double numbers[3];
         for (int i = 0; i < 3; i++) {
-            numbers[i] = component(random, param, limits);
+            numbers[i] = component(random, param);
         }
         fprintf(out, "%s\"%s\":", comma, param->name);
         write_value(out, param, numbers);
@@ -142,7 +139,7 @@ void random_node(struct random *random, FILE *out, const struct node_type *type,
                  const struct random_limits *limits)
 {
     fprintf(out, "{\"type\":\"%s\",", type->record.name);
-    write_params(random, out, type, limits);
+    write_params(random, out, type);
     if (!limits->plain) {
         write_transform(random, out, limits);
     }
@@ -217,7 +214,7 @@ void random_numbers(struct random *random, struct node *node, const struct rando
     const struct param *params = node->type->record.params;
     for (size_t i = 0; params[i].name; i++) {
         for (int c = 0; c < param_components(params[i].type); c++) {
-            node->params.values[i].number[c] = component(random, &params[i], limits);
+            node->params.values[i].number[c] = component(random, &params[i]);
         }
     }
     if (!limits->plain) {

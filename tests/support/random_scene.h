@@ -21,7 +21,7 @@ void random_direction(struct random *random, double out[3]);
 /* What scenes may hold. */
 struct random_limits {
     int depth;    /* of operations and modifiers; 0: only shapes */
-    bool bounded; /* no planes, no endless repetition */
+    bool bounded; /* no planes */
     bool exact;   /* only shapes with exact distances and uniform scales */
     bool plain;   /* no transforms */
 };
