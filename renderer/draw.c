@@ -103,7 +103,6 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_samples, s
         free(draw);
         return NULL;
     }
-    gl->Disable(GL_DITHER);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     return draw;
 }

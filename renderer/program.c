@@ -12,12 +12,14 @@
 #include "protocol/memory.h"
 #include "targets.h"
 
+enum { PRELOAD_MAX = 4096 }; /* vec4s */
+
 struct program {
     struct program_cache *cache;
     struct program *next; /* in the cache's list */
     uint64_t shape_hash;
     char *map_text, *surface_text;
-    size_t number_count;
+    size_t number_count, map_count;
     int refs;
     uint64_t last_use;
     enum program_state state;
@@ -49,33 +51,56 @@ bool numbers_in_texture(const struct gl *gl, size_t number_count)
 
 /* --- the compiling thread --- */
 
-static bool link_passes(const struct gl *gl, const struct program *program, struct pass *march,
-                        struct pass *light, struct error *err)
+/* What glsl/numbers.glsl wants to know. */
+static char *make_defines(const struct program *program, bool preload, bool in_texture)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    if (!out) {
+        abort();
+    }
+    fprintf(out, "#define NUMBERS_COUNT %zu\n%s", program->number_count,
+            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "");
+    if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
+        fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
+                program->map_count);
+        for (size_t i = 0; i < program->map_count; i++) {
+            fprintf(out, " X(%zu)", i);
+        }
+        fputc('\n', out);
+    }
+    if (fclose(out) != 0) {
+        abort();
+    }
+    return text;
+}
+
+static bool link_passes(const struct gl *gl, const struct program *program, bool preload,
+                        struct pass *march, struct pass *light, struct error *err)
 {
     static const char *const march_files[] = {
         "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
-        "operations.glsl", "map", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
+        "operations.glsl", "map", "numbers_any.glsl", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
     static const char *const light_files[] = {
         "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
         "operations.glsl", "map", "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL};
-    char defines[96];
+    char *defines = make_defines(program, preload, numbers_in_texture(gl, program->number_count));
     struct pass_source source = {defines, march_files, program->map_text, program->surface_text};
+    bool ok = pass_init(march, gl, &source, err);
 
-    snprintf(defines, sizeof defines, "#define NUMBERS_COUNT %zu\n%s",
-             program->number_count ? program->number_count : 1,
-             numbers_in_texture(gl, program->number_count) ? "#define NUMBERS_IN_TEXTURE\n" : "");
-    if (!pass_init(march, gl, &source, err)) {
-        return false;
-    }
     source.files = light_files;
-    return pass_init(light, gl, &source, err);
+    ok = ok && pass_init(light, gl, &source, err);
+    free(defines);
+    return ok;
 }
 
 /* One pixel through both passes, with nothing in the buffers: the driver finishes its work. */
 static void warm_up(const struct gl *gl, const struct targets *targets, const struct program *program,
                     const struct pass *march, const struct pass *light)
 {
-    const size_t bytes = 16 * (program->number_count ? program->number_count : 1);
+    const size_t bytes = 16 * program->number_count;
     const bool texture = numbers_in_texture(gl, program->number_count);
     float *zeros = memory_alloc(1, bytes);
     const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
@@ -113,7 +138,7 @@ static void compile_one(struct program_cache *cache, const struct targets *targe
     const struct gl *gl = cache->gl;
     struct pass march = {0}, light = {0};
     struct error err = {0};
-    const bool ok = link_passes(gl, program, &march, &light, &err);
+    const bool ok = link_passes(gl, program, cache->egl->software, &march, &light, &err);
 
     if (ok) {
         warm_up(gl, targets, program, &march, &light);
@@ -319,6 +344,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->map_text = memory_text(source->map_text);
     program->surface_text = memory_text(source->surface_text);
     program->number_count = source->number_count;
+    program->map_count = source->map_count;
     program->refs = 1;
     program->queued = true;
     pthread_mutex_lock(&cache->lock);

@@ -21,7 +21,8 @@ struct program_cache;
 struct program_source {
     uint64_t shape_hash;
     const char *map_text, *surface_text; /* of shader.h; copied */
-    size_t number_count;    /* vec4s that N() reads */
+    size_t number_count; /* vec4s in the buffer; at least 1 */
+    size_t map_count;    /* the first so many are those that the map reads */
 };
 
 /* The compile context of `egl` belongs to the cache until program_cache_destroy. */

@@ -56,6 +56,8 @@ bool targets_init(struct targets *out_targets, const struct gl *gl, int width, i
         targets.out_buffers[i] = make_buffer(gl, &targets.out[i], 1);
         complete = complete && check_buffer(gl, targets.out_buffers[i]);
     }
+    /* The same state in every context: drivers compile anew for another one. */
+    gl->Disable(GL_DITHER);
     gl->GenVertexArrays(1, &targets.vertices);
     gl->BindVertexArray(targets.vertices);
     if (!gl_check(gl, "making targets", err)) {

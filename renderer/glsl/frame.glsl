@@ -32,3 +32,13 @@ layout(std140, binding = 0) uniform Frame {
 /* xy: first pixel of the tile; z: always 0, so that loops starting there are not unrolled. */
 uniform ivec4 tile;
 #define zero tile.z
+
+/* Where a ray is inside the bounds: entry and exit; exit < entry where it misses them. */
+vec2 bounds_span(vec3 origin, vec3 direction)
+{
+    vec3 inverse = 1.0 / direction;
+    vec3 a = (bounds_min.xyz - origin) * inverse;
+    vec3 b = (bounds_max.xyz - origin) * inverse;
+    vec3 near = min(a, b), far = max(a, b);
+    return vec2(max(near.x, max(near.y, near.z)), min(far.x, min(far.y, far.z)));
+}

@@ -5,51 +5,10 @@ layout(binding = 0) uniform sampler2D geometry;
 layout(binding = 1) uniform usampler2D matter;
 layout(binding = 2) uniform usampler2D more;
 
+#define PI 3.14159265
+#define OCCLUSION_SAMPLES 5
+
 layout(location = 0) out vec4 out_color;
-
-/* How much of a light reaches `from`, 0..1. The penumbra of a light of angular size 1/k follows
- * from the least distance-to-length ratio along the ray, taken between steps where the spheres of
- * two steps meet (Aaltonen: GPU-based clay simulation and ray-tracing tech in Claybook, GDC 2018;
- * Quilez: soft shadows in raymarched SDFs). */
-float shadow(vec3 from, vec3 towards, float start, float reach, float k, bool hard, bool needed)
-{
-    float light = 1.0, t = start, before = 1e20;
-    int steps = needed ? modes.w : 0;
-
-    for (int i = zero; i < steps; i++) {
-        float d = map(from + towards * t);
-        float back = before < 1e19 ? d * d / (2.0 * before) : 0.0;
-        float closest = sqrt(max(d * d - back * back, 0.0));
-        light = min(light, k * closest / max(t - back, 1e-6));
-        before = d;
-        t += max(d, 0.25 * start);
-        if (d < 1e-5 || light < 0.004 || t > reach) {
-            light = d < 1e-5 ? 0.0 : light;
-            break;
-        }
-    }
-    light = clamp(light, 0.0, 1.0);
-    light = hard ? step(0.02, light) : light * light * (3.0 - 2.0 * light);
-    return needed ? light : 0.0;
-}
-
-/* Darkening where other surfaces are near: how much smaller than the distance from the surface the
- * field is, along the normal (Evans: Fast approximations for global illumination, SIGGRAPH 2006). */
-float occlusion(vec3 p, vec3 n, float start, bool hit)
-{
-    const int samples = 5;
-    float dark = 0.0, weight = 1.0, sum = 0.0;
-    int count = hit ? samples : 0;
-
-    for (int i = zero; i < count; i++) {
-        float h = start + ground.w * float((i + 1) * (i + 1)) / float(samples * samples);
-        float d = map(p + n * h);
-        dark += weight * clamp((h - d) / h, 0.0, 1.0);
-        sum += weight;
-        weight *= 0.75;
-    }
-    return 1.0 - dark / max(sum, 1.0);
-}
 
 struct Incoming {
     vec3 direction; /* towards the light */
@@ -73,41 +32,92 @@ Incoming incoming(Light light, vec3 p)
     return Incoming(away / r, light.color.rgb * fall, r);
 }
 
+/* Distance of occlusion sample i, 0 and up: dense near the surface. */
+float occlusion_place(int i, float start)
+{
+    float x = float(i + 1) / float(OCCLUSION_SAMPLES);
+    return start + ground.w * x * x;
+}
+
+/* Blinn-Phong for one light. */
+vec3 reflected(Surface s, vec3 n, vec3 view, vec3 towards)
+{
+    vec3 halfway = normalize(towards + view);
+    float gloss = pow(max(dot(n, halfway), 0.0), s.shininess);
+    /* The factor keeps the light of a highlight the same however narrow it is. */
+    return s.diffuse / PI + s.specular * (gloss * (s.shininess + 8.0) / (8.0 * PI));
+}
+
+/* In a loop of one round for occlusion and one for each light, so that map() stands in the program
+ * once.
+ *
+ * Occlusion: how much less than the distance from the surface the field is along the normal (Evans:
+ * Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006).
+ *
+ * Shadow: the penumbra of a light of angular size 1/k follows from the least ratio of distance to
+ * length along the ray, taken between steps, where the spheres of two steps meet (Aaltonen: GPU-based
+ * clay simulation and ray-tracing tech in Claybook, GDC 2018). */
 vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
 {
     float print = footprint(t);
     vec3 p = ray.origin + ray.direction * t;
-    vec3 view = -ray.direction;
     vec3 from = p + n * (1.5 * print);
-    float open = occlusion(p, n, 2.0 * print, hit);
-    vec3 sum = s.emission + s.ambient * s.diffuse * sky_ambient(n) * open;
+    vec3 ambient = s.ambient * s.diffuse * sky_ambient(n);
+    vec3 sum = s.emission;
 
-    for (int i = zero; i < modes.x; i++) {
-        Incoming light = incoming(lights[i], p);
-        float lambert = dot(n, light.direction);
-        bool needed = hit && lambert > 0.0;
-        float shade = 1.0;
-        int kind = int(lights[i].extent.z);
-        float far = light.reach - lights[i].extent.x;
-        shade = shadow(from, light.direction, 2.0 * print, far, lights[i].color.w,
-                       kind == SHADOW_HARD, needed && kind != SHADOW_NONE);
-        shade = kind == SHADOW_NONE ? 1.0 : shade;
-        vec3 halfway = normalize(light.direction + view);
-        float gloss = pow(max(dot(n, halfway), 0.0), s.shininess) * (s.shininess + 8.0) / 8.0;
-        vec3 reflected = s.diffuse + s.specular * gloss * 0.25;
-        sum += needed ? light.color * reflected * (lambert * shade) : vec3(0.0);
+    for (int round = zero - 1; round < modes.x; round++) {
+        bool open = round < 0;
+        Light light = lights[max(round, 0)];
+        Incoming ray_in = incoming(light, p);
+        int kind = int(light.extent.z);
+        float lambert = dot(n, ray_in.direction);
+        vec3 along = open ? n : ray_in.direction;
+        vec3 base = open ? p : from;
+        float far = min(ray_in.reach - light.extent.x, bounds_span(from, along).y);
+        float near = 2.0 * print;
+        int steps = kind == SHADOW_NONE || lambert <= 0.0 ? 0 : modes.w;
+        float x = open ? occlusion_place(0, near) : near;
+        float shade = 1.0, before = INFINITY, dark = 0.0, weight = 1.0, weights = 0.0;
+
+        steps = hit ? (open ? OCCLUSION_SAMPLES : steps) : 0;
+        for (int i = zero; i < steps; i++) {
+            float d = map(base + along * x);
+            dark += weight * clamp(1.0 - d / x, 0.0, 1.0);
+            weights += weight;
+            weight *= 0.75;
+
+            float back = d * d / (2.0 * before);
+            float closest = sqrt(max(d * d - back * back, 0.0));
+            shade = min(shade, light.color.w * closest / max(x - back, near));
+            before = max(d, 1e-6);
+            if (!open && (d < 0.05 * print || shade < 0.004 || x > far)) {
+                shade = x > far ? shade : 0.0;
+                break;
+            }
+            x = open ? occlusion_place(i + 1, near) : x + max(d, 0.5 * print);
+        }
+        shade = clamp(shade, 0.0, 1.0);
+        shade = kind == SHADOW_HARD ? step(0.02, shade) : shade * shade * (3.0 - 2.0 * shade);
+        vec3 direct = ray_in.color * reflected(s, n, -ray.direction, ray_in.direction);
+        sum += open ? ambient * (1.0 - dark / max(weights, 1.0))
+                    : direct * (max(lambert, 0.0) * (kind == SHADOW_NONE ? 1.0 : shade));
     }
     return sum;
 }
 
 void main()
 {
+    preload();
     ivec2 here = ivec2(gl_FragCoord.xy);
     vec4 g = texelFetch(geometry, here, 0);
     Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
     Ray ray = camera_ray(tile.xy * size.z + here);
     bool hit = g.w < INFINITY;
-    vec3 color = lit(ray, hit ? g.w : 0.0, hit ? g.xyz : vec3(0.0, 1.0, 0.0), s, hit);
+    float t = hit ? g.w : 0.0;
+    vec3 around = sky(ray.direction);
+    vec3 color = lit(ray, t, hit ? g.xyz : vec3(0.0, 1.0, 0.0), s, hit);
 
-    out_color = vec4(hit ? color : sky(ray.direction), 1.0);
+    /* What is far fades into the sky, so that endless ground has no edge. */
+    color = mix(color, around, smoothstep(0.15, 1.0, t / bounds_max.w));
+    out_color = vec4(hit ? color : around, 1.0);
 }
