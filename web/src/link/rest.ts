@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The REST side of the server: scenes, examples, pictures, schema, files. */
 import { isObject, type Json, listOf, numberOf, textOf } from "../model/json.ts";
+import type { Operation } from "../model/operations.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
 
 export interface SceneEntry {
@@ -42,6 +43,8 @@ export interface Rest {
     deleteScene(id: string): Promise<void>;
     readScene(id: string): Promise<Json>;
     replaceScene(id: string, document: Json): Promise<void>;
+    /* Applies operations without opening the scene. */
+    editScene(id: string, ops: readonly Operation[]): Promise<void>;
     listExamples(): Promise<readonly ExampleEntry[]>;
     readSchema(): Promise<Schema>;
     /* Addresses for <img> and links. */
@@ -128,6 +131,12 @@ export function createRest(base: string, token: string | null): Rest {
             await request(`/v1/scenes/${segment(id)}`, {
                 method: "PUT",
                 body: JSON.stringify(document),
+            });
+        },
+        editScene: async (id, ops) => {
+            await request(`/v1/scenes/${segment(id)}`, {
+                method: "PATCH",
+                body: JSON.stringify(ops),
             });
         },
         listExamples: async () =>

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* The page: the scene that the address names, or the start page; and what lies over both. */
+import { Component, type ReactNode, useEffect } from "react";
+import type { Editor } from "./editor.ts";
+import { EditorPage } from "./frame/Editor.tsx";
+import { useKeys } from "./frame/keys.ts";
+import { Notices } from "./frame/Notices.tsx";
+import { CommandPalette } from "./palettes/Commands.tsx";
+import { Keys } from "./palettes/Keys.tsx";
+import { Button } from "./parts/Button.tsx";
+import { TipProvider } from "./parts/Tip.tsx";
+import { goTo, useRoute } from "./route.ts";
+import { ScenesPage } from "./scenes/Scenes.tsx";
+import { EditorContext, useView } from "./state.ts";
+import { t } from "./texts.ts";
+import { useTheme } from "./theme.ts";
+import "./parts/theme.css";
+import "./parts/base.css";
+
+export function App({ editor }: { editor: Editor }) {
+    return (
+        <Guard>
+            <EditorContext value={editor}>
+                <TipProvider delay={500} closeDelay={50}>
+                    <Pages editor={editor} />
+                </TipProvider>
+            </EditorContext>
+        </Guard>
+    );
+}
+
+function Pages({ editor }: { editor: Editor }) {
+    const scene = useRoute();
+    const popup = useView((view) => view.popup);
+    useTheme();
+    useKeys(editor);
+    useEffect(() => {
+        editor.open(scene);
+    }, [editor, scene]);
+    useEffect(() => {
+        if (popup === "scenes") {
+            editor.stores.view.setState({ popup: null });
+            goTo(null);
+        }
+    }, [editor, popup]);
+    return (
+        <>
+            {scene === null ? <ScenesPage /> : <EditorPage />}
+            <CommandPalette />
+            <Keys />
+            <Notices />
+        </>
+    );
+}
+
+/* Shows what went wrong instead of a blank page. */
+class Guard extends Component<{ children: ReactNode }, { error: Error | null }> {
+    override state = { error: null as Error | null };
+
+    static getDerivedStateFromError(error: Error) {
+        return { error };
+    }
+
+    override render() {
+        if (this.state.error === null) {
+            return this.props.children;
+        }
+        return (
+            <main className="crash">
+                <h1>{t("app.failed")}</h1>
+                <pre>{this.state.error.message}</pre>
+                <Button look="primary" onClick={() => window.location.reload()}>
+                    {t("app.reload")}
+                </Button>
+            </main>
+        );
+    }
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/* The page's one set of stores, link and REST, and what commands may ask of the page. */
+import { createLink, type Link } from "../link/link.ts";
+import { createRest, type Rest, takeToken } from "../link/rest.ts";
+import type { App } from "../model/commands.ts";
+import { EMPTY_SCHEMA } from "../model/schema.ts";
+import { createStores, type Stores } from "../model/stores.ts";
+import { INITIAL_VIEW, type Subject } from "../model/view.ts";
+import { chooseFile, saveDocument, uploadFile } from "./files.ts";
+
+export interface Editor extends App {
+    readonly stores: Stores;
+    readonly link: Link;
+    readonly rest: Rest;
+    /* Opens a scene of the server; null closes the one that is open. */
+    open(scene: string | null): void;
+    /* What the inspector shows. */
+    show(subject: Subject): void;
+    /* The picture's element, for its size; null where there is none. */
+    setPicture(element: HTMLElement | null): void;
+}
+
+export function createEditor(): Editor {
+    const token = takeToken(window.location, window.sessionStorage);
+    const rest = createRest("", token);
+    const stores = createStores(window.localStorage);
+    const link = createLink(stores, { base: "", token });
+    let picture: HTMLElement | null = null;
+    const editor: Editor = {
+        stores,
+        link,
+        rest,
+        edit: (ops, options) => link.edit(ops, options),
+        undo: () => link.undo(),
+        redo: () => link.redo(),
+        aspect: () => (picture ? picture.clientWidth / Math.max(1, picture.clientHeight) : 1.5),
+        writeClipboard: (text) => void navigator.clipboard?.writeText(text).catch(() => undefined),
+        readClipboard: () => navigator.clipboard.readText(),
+        download: () => void saveDocument(editor),
+        upload: () => chooseFile((file) => void uploadFile(editor, file)),
+        open: (scene) => void openScene(editor, scene),
+        show: (subject) =>
+            stores.view.setState(
+                subject.kind === "nodes" ? { subject } : { subject, selection: [] },
+            ),
+        setPicture: (element) => {
+            picture = element;
+        },
+    };
+    return editor;
+}
+
+async function openScene(editor: Editor, scene: string | null): Promise<void> {
+    const { stores, link, rest } = editor;
+    link.disconnect();
+    stores.view.setState(({ preferences }) => ({ ...INITIAL_VIEW, preferences }));
+    if (scene === null) {
+        return;
+    }
+    let { schema } = stores.document.getState();
+    if (schema === EMPTY_SCHEMA) {
+        schema = await rest.readSchema();
+    }
+    link.connect(scene, schema);
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/* A colour: linear in the document, sRGB for the eye. What is brighter than white is a colour
+ * times a strength. */
+import { useRef, useState } from "react";
+import { HexColorPicker } from "react-colorful";
+import { numbersOf, type Param } from "../../model/schema.ts";
+import { vectorOf } from "../../model/transform.ts";
+import { fromHex, printNumber, splitStrength, tidy, toHex } from "../../model/units.ts";
+import { Popover } from "../parts/Popover.tsx";
+import { t } from "../texts.ts";
+import { NumberField } from "./Number.tsx";
+import { TextField } from "./Text.tsx";
+import type { FieldProps } from "./types.ts";
+import "./fields.css";
+
+const MOST_STRENGTH = 1000;
+
+const strengthParam: Param = {
+    name: "strength",
+    type: "float",
+    unit: null,
+    default: 1,
+    min: 1,
+    max: MOST_STRENGTH,
+    aboveMin: false,
+    nonzero: false,
+    uniform: false,
+    direction: false,
+    step: null,
+    choices: [],
+    main: false,
+    doc: "",
+};
+
+export function ColourField(props: FieldProps<readonly number[]>) {
+    const { label, value, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
+    const { base, strength } = splitStrength(vectorOf(numbersOf(value)));
+    const hex = toHex(base);
+    const picking = useRef<readonly number[] | null>(null);
+    const [shown, setShown] = useState<string | null>(null);
+    const bright = (colour: readonly number[], by: number): number[] =>
+        colour.map((x) => tidy(x * by));
+    const pick = (next: string): void => {
+        const colour = fromHex(next);
+        if (colour !== null && next !== hex) {
+            setShown(next);
+            picking.current = bright(colour, strength);
+            onInput(picking.current);
+        }
+    };
+    const settle = (): void => {
+        if (picking.current !== null) {
+            onCommit(picking.current);
+            picking.current = null;
+        }
+        setShown(null);
+    };
+    return (
+        <Popover
+            label={label}
+            side="left"
+            onOpenChange={(open) => open || settle()}
+            trigger={
+                <button
+                    type="button"
+                    className="colour-button"
+                    aria-label={`${label} ${hex}`}
+                    aria-describedby={describedBy}
+                >
+                    <span className="colour-chip" style={{ background: hex }} />
+                    <span className="colour-hex">{hex}</span>
+                    {strength > 1 && (
+                        <span className="colour-strength">× {printNumber(strength)}</span>
+                    )}
+                </button>
+            }
+        >
+            {/* biome-ignore lint/a11y/noStaticElementInteractions: hears the end of a drag inside */}
+            <div className="colour-sheet" onPointerUp={settle} onKeyUp={settle}>
+                <HexColorPicker color={shown ?? hex} onChange={pick} />
+                <div className="colour-row">
+                    <span>{t("field.hex")}</span>
+                    <TextField
+                        label={`${label} ${t("field.hex")}`}
+                        value={hex}
+                        fallback={hex}
+                        onInput={() => undefined}
+                        onCancel={() => undefined}
+                        onRefuse={onRefuse}
+                        onCommit={(text) => {
+                            const colour = fromHex(text);
+                            onRefuse(colour === null ? t("field.notColour") : null);
+                            if (colour !== null) {
+                                onCommit(bright(colour, strength));
+                            }
+                        }}
+                    />
+                </div>
+                <div className="colour-row">
+                    <span>{t("field.strength")}</span>
+                    <NumberField
+                        param={strengthParam}
+                        label={`${label} ${t("field.strength")}`}
+                        value={tidy(strength)}
+                        fallback={1}
+                        onInput={(by) => onInput(bright(base, by))}
+                        onCommit={(by) => onCommit(bright(base, by))}
+                        onCancel={onCancel}
+                        onRefuse={onRefuse}
+                    />
+                </div>
+            </div>
+        </Popover>
+    );
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* A line of text, sent when it is left or Enter is pressed; Escape restores. */
+import { useState } from "react";
+import type { FieldProps } from "./types.ts";
+import "./fields.css";
+
+interface Props extends FieldProps<string> {
+    placeholder?: string;
+    maxLength?: number;
+}
+
+export function TextField({ label, value, placeholder, maxLength, describedBy, onCommit }: Props) {
+    const [draft, setDraft] = useState<string | null>(null);
+    const commit = (): void => {
+        if (draft !== null && draft !== value) {
+            onCommit(draft);
+        }
+        setDraft(null);
+    };
+    return (
+        <input
+            className="text-field"
+            aria-label={label}
+            aria-describedby={describedBy}
+            value={draft ?? value}
+            placeholder={placeholder}
+            maxLength={maxLength}
+            spellCheck={false}
+            autoComplete="off"
+            onChange={(event) => setDraft(event.target.value)}
+            onBlur={commit}
+            onKeyDown={(event) => {
+                if (event.key === "Enter") {
+                    commit();
+                    event.currentTarget.select();
+                } else if (event.key === "Escape" && draft !== null) {
+                    event.stopPropagation();
+                    setDraft(null);
+                }
+            }}
+        />
+    );
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* Three numbers in the colours of their axes; a pasted "1 2 3" fills all. Scales can be linked. */
+import { Link2, Link2Off } from "lucide-react";
+import { useState } from "react";
+import { numbersOf, type Param } from "../../model/schema.ts";
+import { parseVector } from "../../model/units.ts";
+import { IconButton } from "../parts/Button.tsx";
+import { t } from "../texts.ts";
+import { type Axis, NumberField } from "./Number.tsx";
+import type { FieldProps } from "./types.ts";
+import "./fields.css";
+
+const axes: readonly Axis[] = ["x", "y", "z"];
+
+interface Props extends FieldProps<number | readonly number[]> {
+    param: Param;
+}
+
+export function VectorField({ param, label, value, fallback, ...rest }: Props) {
+    const numbers = numbersOf(value);
+    const defaults = numbersOf(fallback);
+    const even = numbers.every((x) => x === numbers[0]);
+    const mayLink = param.uniform;
+    const [linked, setLinked] = useState(mayLink && even);
+    const one = mayLink && linked && even;
+    const put = (send: (value: readonly number[]) => void, axis: number) => (x: number) =>
+        send(one ? [x, x, x] : numbers.map((old, i) => (i === axis ? x : old)));
+    const paste = (text: string): boolean => {
+        const numbers = parseVector(text);
+        if (numbers !== null) {
+            rest.onCommit(numbers);
+        }
+        return numbers !== null;
+    };
+    return (
+        // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+        <div className="vector" role="group" aria-label={label}>
+            {(one ? axes.slice(0, 1) : axes).map((axis, i) => (
+                <NumberField
+                    key={axis}
+                    param={param}
+                    axis={one ? undefined : axis}
+                    label={one ? label : `${label} ${axis}`}
+                    value={numbers[i] ?? 0}
+                    fallback={defaults[i] ?? 0}
+                    describedBy={rest.describedBy}
+                    onInput={put(rest.onInput, i)}
+                    onCommit={put(rest.onCommit, i)}
+                    onCancel={rest.onCancel}
+                    onRefuse={rest.onRefuse}
+                    onPasteText={paste}
+                />
+            ))}
+            {mayLink && (
+                <IconButton
+                    title={one ? t("field.unlink") : t("field.link")}
+                    data-size="s"
+                    aria-pressed={one}
+                    onClick={() => {
+                        setLinked(!one);
+                        if (!one && !even) {
+                            const x = numbers[0] ?? 1;
+                            rest.onCommit([x, x, x]);
+                        }
+                    }}
+                >
+                    {one ? <Link2 size={14} /> : <Link2Off size={14} />}
+                </IconButton>
+            )}
+        </div>
+    );
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* How a parameter's number is scrubbed, stepped, typed and shown; values are the document's. */
+import type { Param } from "../../model/schema.ts";
+import {
+    fromShown,
+    isAngle,
+    parseInUnit,
+    printInUnit,
+    scrubStep,
+    snap,
+    tidy,
+    toShown,
+} from "../../model/units.ts";
+import type { ScrubKeys } from "./scrub.ts";
+
+/* Degrees per pixel, and pixels per whole number. */
+const DEGREES_PER_PIXEL = 0.5;
+const PIXELS_PER_WHOLE = 8;
+const FINE = 0.1;
+const SNAP_DEGREES = 15;
+
+export interface Display {
+    print(value: number): string;
+    /* Null where the text means nothing. */
+    parse(text: string, current: number): number | null;
+    /* The value after a drag of so many pixels from `start`. */
+    scrub(start: number, pixels: number, keys: ScrubKeys): number;
+    /* What one arrow key adds. */
+    arrow(value: number, coarse: boolean, fine: boolean): number;
+}
+
+export function displayOf(param: Param): Display {
+    const { unit } = param;
+    const whole = param.type === "int" || param.type === "ivec3";
+    const stored = (shown: number): number => tidy(fromShown(shown, unit));
+    const stepPerPixel = (shown: number): number => {
+        if (whole) {
+            return 1 / PIXELS_PER_WHOLE;
+        }
+        return isAngle(unit) ? DEGREES_PER_PIXEL : scrubStep(shown);
+    };
+    const decade = (shown: number): number => {
+        if (whole) {
+            return 1;
+        }
+        return isAngle(unit) ? SNAP_DEGREES : 10 * scrubStep(shown);
+    };
+    return {
+        print: (value) => printInUnit(value, unit),
+        parse: (text, current) => {
+            const value = parseInUnit(text, unit, current);
+            return value === null ? null : tidy(value);
+        },
+        scrub: (start, pixels, keys) => {
+            const from = toShown(start, unit);
+            const to = from + pixels * stepPerPixel(from) * (keys.fine ? FINE : 1);
+            const snapped = keys.snap ? snap(to, decade(from) * (keys.fine ? FINE : 1)) : to;
+            return stored(whole ? Math.round(snapped) : snapped);
+        },
+        arrow: (value, coarse, fine) => {
+            const shown = toShown(value, unit);
+            const plain = whole || isAngle(unit) ? 1 : 10 * scrubStep(shown);
+            const step = param.step === null ? plain : toShown(param.step, unit);
+            const scaled = step * (coarse ? 10 : 1) * (fine && !whole ? FINE : 1);
+            return fromShown(scaled, unit);
+        },
+    };
+}

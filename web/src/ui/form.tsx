@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT */
+/* Forms from the schema: one row of a table becomes one labelled field. The only place that knows
+ * which field a type gets; a type it does not know gets checked JSON, never nothing. */
+import { memo, type ReactNode, useEffect, useId, useRef, useState } from "react";
+import type { Gesture } from "../link/link.ts";
+import { paramAt } from "../model/document.ts";
+import { equalJson } from "../model/json.ts";
+import type { Operation } from "../model/operations.ts";
+import { type Param, type Value, valueIn } from "../model/schema.ts";
+import { ColourField } from "./fields/Colour.tsx";
+import { EnumField } from "./fields/Enum.tsx";
+import { FlagField, FlagsField } from "./fields/Flag.tsx";
+import { JsonField } from "./fields/Json.tsx";
+import { NumberField } from "./fields/Number.tsx";
+import { ReferenceField } from "./fields/Reference.tsx";
+import { TextField } from "./fields/Text.tsx";
+import type { FieldProps } from "./fields/types.ts";
+import { VectorField } from "./fields/Vector.tsx";
+import { paramTitle } from "./names.ts";
+import { useDocument, useEditor } from "./state.ts";
+import { t } from "./texts.ts";
+import "./inspector/inspector.css";
+
+type Make = (param: Param, props: FieldProps<never>, place: string) => ReactNode;
+
+/* The props of a field are typed by its value; the table is where types of values are told. */
+const as = <T,>(props: FieldProps<never>): FieldProps<T> => props as unknown as FieldProps<T>;
+const number: Make = (param, props) => <NumberField param={param} {...as<number>(props)} />;
+const vector: Make = (param, props) => (
+    <VectorField param={param} {...as<number | readonly number[]>(props)} />
+);
+
+const fields: Record<string, Make> = {
+    float: number,
+    int: number,
+    vec3: vector,
+    ivec3: vector,
+    bool: (_param, props) => <FlagField {...as<boolean>(props)} />,
+    bvec3: (_param, props) => <FlagsField {...as<readonly boolean[]>(props)} />,
+    color: (_param, props) => <ColourField {...as<readonly number[]>(props)} />,
+    enum: (param, props) => <EnumField choices={param.choices} {...as<string>(props)} />,
+    text: (_param, props) => <TextField {...as<string>(props)} />,
+    material: (_param, props, place) => <ReferenceField place={place} {...as<string>(props)} />,
+};
+
+const unknown: Make = (_param, props) => <JsonField {...as<Value>(props)} />;
+
+export function fieldFor(type: string): Make {
+    return fields[type] ?? unknown;
+}
+
+interface FormProps {
+    params: readonly Param[];
+    /* The place of a row is `base` + "/" + its name. */
+    base: string;
+    /* What the values belong to, for names such as "head radius". */
+    owner: string;
+}
+
+export const Form = memo(function Form({ params, base, owner }: FormProps) {
+    return params.map((param) => (
+        <FormRow
+            key={`${base}/${param.name}`}
+            param={param}
+            place={`${base}/${param.name}`}
+            owner={owner}
+        />
+    ));
+});
+
+interface RowProps {
+    param: Param;
+    place: string;
+    owner: string;
+}
+
+/* Subscribes to its own value, so that a drag renders this row and no other. */
+const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
+    const id = useId();
+    const values = useDocument((state) => {
+        const found = state.document && paramAt(state.schema, state.document, place);
+        return found?.values[param.name];
+    });
+    const problem = useDocument((state) => problemAt(state.problems, place));
+    const [refused, setRefused] = useState<string | null>(null);
+    const { onInput, onCommit, onCancel, onReset } = useGesture(place, param, owner);
+    const value = valueIn(values === undefined ? {} : { [param.name]: values }, param);
+    const changed = values !== undefined && !equalJson(values as never, param.default as never);
+    const title = paramTitle(param);
+    const message = refused ?? problem;
+    const row = useRef<HTMLDivElement>(null);
+    useBackspaceReset(row, changed, onReset);
+
+    return (
+        <div
+            className="form-row"
+            ref={row}
+            data-param={param.name}
+            data-shake={problem ? "" : undefined}
+        >
+            <span className="form-label" title={param.doc}>
+                {title}
+            </span>
+            <div className="form-field">
+                {fieldFor(param.type)(
+                    param,
+                    {
+                        label: title,
+                        value: value as never,
+                        fallback: param.default as never,
+                        describedBy: message ? `${id}-error` : undefined,
+                        onInput: onInput as (value: never) => void,
+                        onCommit: onCommit as (value: never) => void,
+                        onCancel,
+                        onRefuse: setRefused,
+                    },
+                    place,
+                )}
+            </div>
+            {changed && (
+                <button
+                    type="button"
+                    className="form-reset"
+                    tabIndex={-1}
+                    aria-label={t("field.reset", { name: title })}
+                    title={t("field.reset", { name: title })}
+                    onClick={onReset}
+                />
+            )}
+            {message && (
+                <p className="form-error" id={`${id}-error`} role="alert">
+                    {message}
+                </p>
+            )}
+        </div>
+    );
+});
+
+function problemAt(
+    problems: ReadonlyMap<string, { readonly place: string; readonly message: string }>,
+    place: string,
+): string | null {
+    for (const problem of problems.values()) {
+        if (problem.place === place) {
+            return problem.message;
+        }
+    }
+    return null;
+}
+
+/* One gesture is one undo step; a cancelled one leaves none. */
+function useGesture(place: string, param: Param, owner: string) {
+    const { link } = useEditor();
+    const gesture = useRef<Gesture | null>(null);
+    const label = t("edit.set", { owner, name: paramTitle(param) });
+    const set = (value: Value | null): Operation[] => [{ op: "set", at: place, value }];
+    return {
+        onInput: (value: Value): void => {
+            gesture.current ??= link.gesture(label);
+            gesture.current.edit(set(value));
+        },
+        onCommit: (value: Value): void => {
+            if (gesture.current === null) {
+                link.edit(set(value), { label });
+            } else {
+                gesture.current.edit(set(value));
+                gesture.current.end();
+                gesture.current = null;
+            }
+        },
+        onCancel: (): void => {
+            gesture.current?.cancel();
+            gesture.current = null;
+        },
+        onReset: (): void => {
+            link.edit(set(null), { label });
+        },
+    };
+}
+
+/* Backspace over a row that is not being typed into: the default again. */
+function useBackspaceReset(
+    row: { readonly current: HTMLDivElement | null },
+    changed: boolean,
+    onReset: () => void,
+): void {
+    const reset = useRef(onReset);
+    reset.current = onReset;
+    useEffect(() => {
+        if (!changed) {
+            return;
+        }
+        const key = (event: KeyboardEvent): void => {
+            const typing = document.activeElement?.matches("input, textarea, [contenteditable]");
+            if (event.key === "Backspace" && !typing && row.current?.matches(":hover")) {
+                event.preventDefault();
+                event.stopPropagation();
+                reset.current();
+            }
+        };
+        window.addEventListener("keydown", key, true);
+        return () => window.removeEventListener("keydown", key, true);
+    }, [changed, row]);
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* A command as an icon button or a menu item: title, key and reason come from the table. */
+import type { ReactNode } from "react";
+import { commandById, runCommand } from "../../model/commands.ts";
+import { IconButton } from "../parts/Button.tsx";
+import { MenuItem } from "../parts/Menu.tsx";
+import { useDocument, useEditor, useView } from "../state.ts";
+import { keyText } from "./keys.ts";
+
+interface Props {
+    id: string;
+    children?: ReactNode;
+}
+
+/* Renders anew when what commands depend on has changed. */
+function useReason(id: string): string | null {
+    const editor = useEditor();
+    useDocument((state) => state.document === null);
+    useDocument((state) => state.canUndo);
+    useDocument((state) => state.canRedo);
+    useView((view) => view.selection);
+    return commandById(id)?.whyNot(editor) ?? null;
+}
+
+export function ActButton({ id, children }: Props) {
+    const editor = useEditor();
+    const command = commandById(id);
+    const reason = useReason(id);
+    return (
+        command && (
+            <IconButton
+                title={command.title}
+                keys={keyText(command.keys[0])}
+                whyNot={reason}
+                data-command={id}
+                onClick={() => runCommand(editor, command)}
+            >
+                {children}
+            </IconButton>
+        )
+    );
+}
+
+export function ActItem({ id, danger, icon }: { id: string; danger?: boolean; icon?: ReactNode }) {
+    const editor = useEditor();
+    const command = commandById(id);
+    const reason = useReason(id);
+    return (
+        command && (
+            <MenuItem
+                icon={icon}
+                danger={danger}
+                keys={keyText(command.keys[0])}
+                disabled={reason !== null}
+                onSelect={() => runCommand(editor, command)}
+            >
+                {command.title}
+            </MenuItem>
+        )
+    );
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+/* The bar: scenes, the scene's name, undo, Add, search, theme, files, help. */
+import {
+    ChevronDown,
+    CircleHelp,
+    Copy,
+    FileImage,
+    FileJson,
+    Monitor,
+    Moon,
+    Plus,
+    Redo2,
+    Search,
+    Sun,
+    Undo2,
+    Upload,
+} from "lucide-react";
+import { useState } from "react";
+import { redoTitle, undoTitle } from "../../model/history.ts";
+import { setPreferences } from "../../model/stores.ts";
+import type { Theme } from "../../model/view.ts";
+import { report, savePicture } from "../files.ts";
+import { Button, IconButton } from "../parts/Button.tsx";
+import { Logo } from "../parts/Logo.tsx";
+import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
+import { Tip } from "../parts/Tip.tsx";
+import { addressOf, goTo } from "../route.ts";
+import { useDocument, useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import { ActItem } from "./Act.tsx";
+import { keyText } from "./keys.ts";
+import { Region } from "./Region.tsx";
+import { Saved } from "./Saved.tsx";
+import "./layout.css";
+
+export function Bar({ narrow }: { narrow: boolean }) {
+    return (
+        <Region as="header" name={t("region.bar")} className="bar">
+            <Tip text={t("bar.scenes")} keys={keyText("Ctrl+O")}>
+                <a className="bar-logo" href={addressOf(null)} aria-label={t("bar.scenes")}>
+                    <Logo size={20} />
+                </a>
+            </Tip>
+            <Name />
+            <span className="bar-line" />
+            <History />
+            <AddButton narrow={narrow} />
+            <span className="bar-space" />
+            <SearchButton narrow={narrow} />
+            <span className="bar-space" />
+            {narrow ? <Saved compact /> : <ThemeButton />}
+            {!narrow && <HelpButton />}
+        </Region>
+    );
+}
+
+function Name() {
+    const editor = useEditor();
+    const name = useDocument((state) => state.document?.info.name as string | undefined);
+    const scene = useDocument((state) => state.scene);
+    const [draft, setDraft] = useState<string | null>(null);
+    const commit = (): void => {
+        if (draft !== null && draft !== (name ?? "")) {
+            const ops = [{ op: "set" as const, at: "/name", value: draft === "" ? null : draft }];
+            editor.link.edit(ops, { label: t("edit.rename", { name: name ?? t("bar.untitled") }) });
+        }
+        setDraft(null);
+    };
+    if (draft !== null) {
+        return (
+            <input
+                className="bar-name-input"
+                aria-label={t("bar.rename")}
+                // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
+                autoFocus
+                maxLength={200}
+                value={draft}
+                onFocus={(event) => event.currentTarget.select()}
+                onChange={(event) => setDraft(event.target.value)}
+                onBlur={commit}
+                onKeyDown={(event) => {
+                    if (event.key === "Enter") {
+                        commit();
+                    } else if (event.key === "Escape") {
+                        event.stopPropagation();
+                        setDraft(null);
+                    }
+                }}
+            />
+        );
+    }
+    return (
+        <div className="bar-name">
+            <Menu
+                trigger={
+                    <Button>
+                        <span className="ellipsis">{name ?? scene ?? t("bar.untitled")}</span>
+                        <ChevronDown size={14} aria-hidden="true" />
+                    </Button>
+                }
+            >
+                <SceneMenu onRename={() => setDraft(name ?? "")} />
+            </Menu>
+        </div>
+    );
+}
+
+function SceneMenu({ onRename }: { onRename: () => void }) {
+    const editor = useEditor();
+    const scene = useDocument((state) => state.scene);
+    const copy = async (): Promise<void> => {
+        try {
+            goTo(await editor.rest.createFromScene(scene ?? ""));
+        } catch (error) {
+            report(editor, error);
+        }
+    };
+    return (
+        <>
+            <MenuItem onSelect={onRename}>{t("scenes.rename")}</MenuItem>
+            <MenuItem icon={<Copy size={14} />} onSelect={() => void copy()}>
+                {t("bar.duplicate")}
+            </MenuItem>
+            <MenuLine />
+            <MenuItem icon={<FileJson size={14} />} onSelect={() => editor.download()}>
+                {t("bar.downloadJson")}
+            </MenuItem>
+            <MenuItem icon={<FileImage size={14} />} onSelect={() => void savePicture(editor)}>
+                {t("bar.downloadPng")}
+            </MenuItem>
+            <MenuItem icon={<Upload size={14} />} onSelect={() => editor.upload()}>
+                {t("bar.upload")}
+            </MenuItem>
+            <MenuLine />
+            <ActItem id="scene.open" />
+            <ActItem id="view.theme" />
+            <ActItem id="help.keys" />
+        </>
+    );
+}
+
+function History() {
+    const editor = useEditor();
+    const canUndo = useDocument((state) => state.canUndo);
+    const canRedo = useDocument((state) => state.canRedo);
+    const undo = useDocument((state) => undoTitle(state.history));
+    const redo = useDocument((state) => redoTitle(state.history));
+    return (
+        <>
+            <IconButton
+                title={undo}
+                keys={keyText("Ctrl+Z")}
+                data-command="edit.undo"
+                whyNot={canUndo ? null : t("history.noUndo")}
+                onClick={() => editor.undo()}
+            >
+                <Undo2 size={16} />
+            </IconButton>
+            <IconButton
+                title={redo}
+                keys={keyText("Ctrl+Shift+Z")}
+                data-command="edit.redo"
+                whyNot={canRedo ? null : t("history.noRedo")}
+                onClick={() => editor.redo()}
+            >
+                <Redo2 size={16} />
+            </IconButton>
+        </>
+    );
+}
+
+function AddButton({ narrow }: { narrow: boolean }) {
+    const editor = useEditor();
+    return (
+        <Tip text={t("add.title")} keys={keyText("Shift+A")}>
+            <Button
+                look="primary"
+                icon={<Plus size={15} strokeWidth={2.4} />}
+                data-command="node.add"
+                aria-label={narrow ? t("bar.add") : undefined}
+                onClick={() => editor.stores.view.setState({ popup: "add" })}
+            >
+                {!narrow && t("bar.add")}
+            </Button>
+        </Tip>
+    );
+}
+
+function SearchButton({ narrow }: { narrow: boolean }) {
+    const editor = useEditor();
+    const open = (): void => editor.stores.view.setState({ popup: "commands" });
+    if (narrow) {
+        return (
+            <IconButton title={t("bar.search")} onClick={open}>
+                <Search size={16} />
+            </IconButton>
+        );
+    }
+    return (
+        <button type="button" className="search-button" onClick={open}>
+            <Search size={14} aria-hidden="true" />
+            <span className="ellipsis">{t("bar.search")}</span>
+            <kbd>{keyText("Ctrl+K")}</kbd>
+        </button>
+    );
+}
+
+const themes: readonly Theme[] = ["auto", "light", "dark"];
+const themeIcons = { auto: Monitor, light: Sun, dark: Moon };
+
+export function ThemeButton() {
+    const { stores } = useEditor();
+    const theme = useView((view) => view.preferences.theme);
+    const Icon = themeIcons[theme];
+    const next = themes[(themes.indexOf(theme) + 1) % themes.length] ?? "auto";
+    return (
+        <IconButton
+            title={t("bar.theme", { theme: t(`theme.${theme}`) })}
+            onClick={() => setPreferences(stores.view, { theme: next })}
+        >
+            <Icon size={16} />
+        </IconButton>
+    );
+}
+
+function HelpButton() {
+    const editor = useEditor();
+    return (
+        <IconButton
+            title={t("bar.help")}
+            keys="?"
+            onClick={() => editor.stores.view.setState({ popup: "help" })}
+        >
+            <CircleHelp size={16} />
+        </IconButton>
+    );
+}

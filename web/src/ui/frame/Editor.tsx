@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+/* The editor's layout: three columns on a wide window, two on a narrower one, a picture with a
+ * sheet below it on a phone. */
+import { Group, Panel, Separator, useDefaultLayout } from "react-resizable-panels";
+import { Inspector } from "../inspector/Inspector.tsx";
+import { Add } from "../palettes/Add.tsx";
+import { Resources } from "../scene/Resources.tsx";
+import { Scene } from "../scene/Scene.tsx";
+import { useView } from "../state.ts";
+import { t } from "../texts.ts";
+import { useMedia } from "../theme.ts";
+import { View } from "../view/View.tsx";
+import { Bar } from "./Bar.tsx";
+import { Region } from "./Region.tsx";
+import { Sheet } from "./Sheet.tsx";
+import { Status } from "./Status.tsx";
+import "./layout.css";
+
+/* From here on the tree and the inspector have a column each; below the second one, a sheet. */
+export const WIDE = "(min-width: 1100px)";
+export const NARROW = "(max-width: 719px)";
+
+export function EditorPage() {
+    const hidden = useView((view) => view.chromeHidden);
+    const wide = useMedia(WIDE);
+    const narrow = useMedia(NARROW);
+    return (
+        <div className="editor">
+            {hidden ? <span /> : <Bar narrow={narrow} />}
+            <Middle hidden={hidden} layout={narrow ? "sheet" : wide ? "columns" : "stack"} />
+            {hidden || narrow ? <span /> : <Status />}
+            <Add />
+        </div>
+    );
+}
+
+function Middle({ hidden, layout }: { hidden: boolean; layout: "columns" | "stack" | "sheet" }) {
+    if (hidden) {
+        return <Picture />;
+    }
+    if (layout === "sheet") {
+        return <Sheet picture={<Picture />} />;
+    }
+    return layout === "columns" ? <Columns /> : <Stack />;
+}
+
+function Picture() {
+    return (
+        <Region as="main" name={t("region.view")} context="view">
+            <View />
+        </Region>
+    );
+}
+
+function SceneRegion() {
+    return (
+        <Region name={t("region.scene")} context="tree">
+            <Scene />
+            <Resources />
+        </Region>
+    );
+}
+
+function InspectorRegion() {
+    return (
+        <Region as="aside" name={t("region.inspector")}>
+            <Inspector />
+        </Region>
+    );
+}
+
+function Columns() {
+    const saved = useDefaultLayout({ id: "columns", storage: localStorage });
+    return (
+        <Group id="columns" orientation="horizontal" {...saved}>
+            <Panel
+                id="scene"
+                defaultSize={264}
+                minSize={200}
+                maxSize={480}
+                groupResizeBehavior="preserve-pixel-size"
+            >
+                <SceneRegion />
+            </Panel>
+            <Separator className="separator" aria-label={t("region.resizeScene")} />
+            <Panel id="view" minSize={320}>
+                <Picture />
+            </Panel>
+            <Separator className="separator" aria-label={t("region.resizeInspector")} />
+            <Panel
+                id="inspector"
+                defaultSize={312}
+                minSize={260}
+                maxSize={520}
+                groupResizeBehavior="preserve-pixel-size"
+            >
+                <InspectorRegion />
+            </Panel>
+        </Group>
+    );
+}
+
+function Stack() {
+    const saved = useDefaultLayout({ id: "stack", storage: localStorage });
+    const inner = useDefaultLayout({ id: "stack-inner", storage: localStorage });
+    return (
+        <Group id="stack" orientation="horizontal" {...saved}>
+            <Panel id="view" minSize={280}>
+                <Picture />
+            </Panel>
+            <Separator className="separator" aria-label={t("region.resizeInspector")} />
+            <Panel
+                id="side"
+                defaultSize={300}
+                minSize={260}
+                maxSize={440}
+                groupResizeBehavior="preserve-pixel-size"
+            >
+                <Group id="stack-inner" orientation="vertical" {...inner}>
+                    <Panel id="scene" minSize={140} defaultSize="50%">
+                        <SceneRegion />
+                    </Panel>
+                    <Separator className="separator" aria-label={t("region.resizeStack")} />
+                    <Panel id="inspector" minSize={140}>
+                        <InspectorRegion />
+                    </Panel>
+                </Group>
+            </Panel>
+        </Group>
+    );
+}

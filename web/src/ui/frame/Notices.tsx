@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* Messages: the newest few in a corner, told politely to screen readers; all but errors leave by
+ * themselves. */
+import { CircleAlert, Info, TriangleAlert, X } from "lucide-react";
+import { memo, useEffect } from "react";
+import { nodeOfPlace } from "../../model/document.ts";
+import { dismissNotice, type Notice } from "../../model/stores.ts";
+import { Button, IconButton } from "../parts/Button.tsx";
+import { useDocument, useEditor, useNotices } from "../state.ts";
+import { t } from "../texts.ts";
+import "../view/view.css";
+
+const MOST_SHOWN = 3;
+const STAY_MS = 6000;
+
+/* What the pills and the fields show already. */
+const elsewhere = new Set(["compiling", "compiled"]);
+
+const icons = { info: Info, warning: TriangleAlert, error: CircleAlert };
+
+export function Notices() {
+    const notices = useNotices((state) => state.notices);
+    const shown = notices.filter(({ code }) => !elsewhere.has(code)).slice(-MOST_SHOWN);
+    return (
+        <section className="notices" aria-label={t("notices.title")} aria-live="polite">
+            {shown.map((notice) => (
+                <NoticeCard key={notice.id} notice={notice} />
+            ))}
+        </section>
+    );
+}
+
+const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
+    const { stores } = useEditor();
+    const { id, level, message, place, count, code } = notice;
+    const node = nodeOfPlace(place);
+    const known = useDocument((state) => node !== null && state.document?.nodes.has(node) === true);
+    useEffect(() => {
+        if (level === "error") {
+            return;
+        }
+        const timer = setTimeout(() => dismissNotice(stores.notices, id), STAY_MS);
+        return () => clearTimeout(timer);
+    }, [stores, id, level]);
+    const Icon = icons[level];
+    const select = (): void => {
+        if (node !== null) {
+            stores.view.setState({ selection: [node], subject: { kind: "nodes" } });
+        }
+    };
+    return (
+        <div className="notice popup" data-level={level} data-code={code}>
+            <Icon size={16} aria-hidden="true" />
+            <div className="notice-text">
+                {message}
+                {count > 1 && ` (${t("notices.times", { count })})`}
+                {place !== "" && <div className="notice-place">{place}</div>}
+            </div>
+            {known && <Button onClick={select}>{t("notices.show")}</Button>}
+            <IconButton
+                title={t("dismiss")}
+                data-size="s"
+                onClick={() => dismissNotice(stores.notices, id)}
+            >
+                <X size={14} />
+            </IconButton>
+        </div>
+    );
+});

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/* On a phone: the picture above, one sheet below with three heights. */
+import { type ReactNode, useRef, useState } from "react";
+import { Inspector } from "../inspector/Inspector.tsx";
+import { Resources } from "../scene/Resources.tsx";
+import { Scene } from "../scene/Scene.tsx";
+import { type TextKey, t } from "../texts.ts";
+import { Region } from "./Region.tsx";
+import "./layout.css";
+
+type Tab = "scene" | "inspector" | "setup";
+
+const tabs: readonly { id: Tab; title: TextKey }[] = [
+    { id: "scene", title: "sheet.scene" },
+    { id: "inspector", title: "sheet.inspector" },
+    { id: "setup", title: "sheet.setup" },
+];
+
+const heights = ["76px", "46%", "82%"] as const;
+
+export function Sheet({ picture }: { picture: ReactNode }) {
+    const [tab, setTab] = useState<Tab>("scene");
+    const [height, setHeight] = useState(1);
+    const from = useRef<number | null>(null);
+    const show = (next: Tab): void => {
+        setTab(next);
+        setHeight((now) => Math.max(1, now));
+    };
+    const release = (y: number): void => {
+        const moved = from.current === null ? 0 : y - from.current;
+        from.current = null;
+        const step = Math.abs(moved) < 8 ? (height === 2 ? -2 : 1) : moved < 0 ? 1 : -1;
+        setHeight(Math.min(2, Math.max(0, height + step)));
+    };
+    return (
+        <div className="stack" style={{ gridTemplateRows: `1fr ${heights[height]}` }}>
+            {picture}
+            <div className="sheet">
+                <button
+                    type="button"
+                    className="sheet-grip"
+                    aria-label={t("region.sheet")}
+                    onPointerDown={(event) => {
+                        from.current = event.clientY;
+                        event.currentTarget.setPointerCapture(event.pointerId);
+                    }}
+                    onPointerUp={(event) => release(event.clientY)}
+                    onKeyDown={(event) => {
+                        if (event.key === "Enter" || event.key === " ") {
+                            event.preventDefault();
+                            setHeight((height + 1) % heights.length);
+                        }
+                    }}
+                />
+                <div className="sheet-tabs" role="tablist">
+                    {tabs.map(({ id, title }) => (
+                        <button
+                            key={id}
+                            type="button"
+                            role="tab"
+                            className="sheet-tab"
+                            id={`sheet-tab-${id}`}
+                            aria-controls="sheet-panel"
+                            aria-selected={tab === id}
+                            onClick={() => show(id)}
+                        >
+                            {t(title)}
+                        </button>
+                    ))}
+                </div>
+                <div
+                    id="sheet-panel"
+                    role="tabpanel"
+                    aria-labelledby={`sheet-tab-${tab}`}
+                    className="sheet-body"
+                >
+                    <Region
+                        name={t(tab === "inspector" ? "region.inspector" : "region.scene")}
+                        context={tab === "scene" ? "tree" : "anywhere"}
+                    >
+                        {tab === "scene" && <Scene />}
+                        {tab === "inspector" && <Inspector />}
+                        {tab === "setup" && <Resources />}
+                    </Region>
+                </div>
+            </div>
+        </div>
+    );
+}

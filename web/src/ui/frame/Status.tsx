@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* The line below: what can be done next with what is selected, and whether all is saved. */
+import { useView } from "../state.ts";
+import { type TextKey, t } from "../texts.ts";
+import { keyText } from "./keys.ts";
+import { Region } from "./Region.tsx";
+import { Saved } from "./Saved.tsx";
+import "./layout.css";
+
+interface Hint {
+    key?: string;
+    gesture?: TextKey;
+    what: TextKey;
+}
+
+const nothing: readonly Hint[] = [
+    { gesture: "hint.click", what: "hint.clickDo" },
+    { gesture: "hint.drag", what: "hint.dragDo" },
+    { gesture: "hint.rightDrag", what: "hint.rightDragDo" },
+    { key: "Shift+A", what: "hint.add" },
+    { key: "?", what: "hint.keys" },
+];
+
+const something: readonly Hint[] = [
+    { gesture: "hint.scrub", what: "hint.scrubDo" },
+    { key: "F2", what: "hint.rename" },
+    { key: "Ctrl+D", what: "hint.duplicate" },
+    { key: "F", what: "hint.frame" },
+    { key: "?", what: "hint.keys" },
+];
+
+export function Status() {
+    const selected = useView((view) => view.selection.length > 0);
+    return (
+        <Region as="footer" name={t("region.status")} className="status">
+            <div className="status-hints">
+                {(selected ? something : nothing).map(({ key, gesture, what }) => (
+                    <span key={what}>
+                        {key ? <kbd>{keyText(key)}</kbd> : gesture && <b>{t(gesture)}</b>}
+                        {t(what)}
+                    </span>
+                ))}
+            </div>
+            <div className="status-end">
+                <Saved />
+            </div>
+        </Region>
+    );
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* Names of the schema as people read them: smooth_union -> smooth union, fov -> field of view. */
+import type { Param } from "../model/schema.ts";
+
+const spoken: Record<string, string> = {
+    fov: "field of view",
+    ior: "refraction index",
+    k: "smoothness",
+    a: "point A",
+    b: "point B",
+};
+
+export function words(name: string): string {
+    return name.replaceAll("_", " ");
+}
+
+export function paramTitle(param: Param): string {
+    return spoken[param.name] ?? words(param.name);
+}
+
+/* With a capital: for headings and menus. */
+export function typeTitle(type: string): string {
+    const text = words(type);
+    return text.charAt(0).toUpperCase() + text.slice(1);
+}

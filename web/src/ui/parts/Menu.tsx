@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* Menus: opened by a button, or at a point (a right click or a long press). */
+import { Menu as Base } from "@base-ui/react/menu";
+import type { ReactElement, ReactNode } from "react";
+import "./popup.css";
+
+interface MenuProps {
+    trigger: ReactElement;
+    align?: "start" | "center" | "end";
+    children: ReactNode;
+}
+
+export function Menu({ trigger, align = "start", children }: MenuProps) {
+    return (
+        <Base.Root modal={false}>
+            <Base.Trigger render={trigger} />
+            <Base.Portal>
+                <Base.Positioner className="above-all" align={align} sideOffset={4}>
+                    <Base.Popup className="popup menu">{children}</Base.Popup>
+                </Base.Positioner>
+            </Base.Portal>
+        </Base.Root>
+    );
+}
+
+interface PointMenuProps {
+    at: { x: number; y: number } | null;
+    label: string;
+    onClose: () => void;
+    children: ReactNode;
+}
+
+export function PointMenu({ at, label, onClose, children }: PointMenuProps) {
+    const anchor = at && { getBoundingClientRect: () => new DOMRect(at.x, at.y, 0, 0) };
+    return (
+        <Base.Root open={at !== null} onOpenChange={(open) => open || onClose()} modal={false}>
+            <Base.Portal>
+                <Base.Positioner className="above-all" anchor={anchor} align="start" sideOffset={2}>
+                    <Base.Popup className="popup menu" aria-label={label}>
+                        {children}
+                    </Base.Popup>
+                </Base.Positioner>
+            </Base.Portal>
+        </Base.Root>
+    );
+}
+
+interface ItemProps {
+    icon?: ReactNode;
+    keys?: string;
+    danger?: boolean;
+    disabled?: boolean;
+    onSelect: () => void;
+    children: ReactNode;
+}
+
+export function MenuItem({ icon, keys, danger, disabled, onSelect, children }: ItemProps) {
+    return (
+        <Base.Item
+            className="menu-item"
+            data-danger={danger || undefined}
+            disabled={disabled}
+            onClick={onSelect}
+        >
+            <span className="menu-icon">{icon}</span>
+            <span className="menu-text">{children}</span>
+            {keys && <span className="menu-keys">{keys}</span>}
+        </Base.Item>
+    );
+}
+
+export function MenuLine() {
+    return <Base.Separator className="menu-line" />;
+}

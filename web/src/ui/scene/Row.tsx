@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* One row of the tree. */
+import type { ItemInstance } from "@headless-tree/core";
+import { ChevronRight, CircleAlert, Eye, EyeOff } from "lucide-react";
+import { isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
+import { rename, setVisible } from "../../model/edits.ts";
+import { nodeType } from "../../model/schema.ts";
+import { Glyph } from "../parts/Glyph.tsx";
+import { Swatch } from "../parts/Swatch.tsx";
+import { useDocument, useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import "./scene.css";
+
+interface Props {
+    item: ItemInstance<SceneNode | null>;
+    node: SceneNode | undefined;
+    top: number;
+    height: number;
+    indent: number;
+    onMenu: (at: { x: number; y: number }) => void;
+}
+
+export function Row({ item, node, top, height, indent, onMenu }: Props) {
+    const { stores } = useEditor();
+    const id = item.getId();
+    const group = useDocument((state) => nodeType(state.schema, node?.type ?? "")?.group);
+    const problem = useDocument((state) => state.problems.get(id)?.message ?? null);
+    const hovered = useView((view) => view.hovered === id);
+    const renaming = useView((view) => view.renaming === id);
+    if (!node) {
+        return null;
+    }
+    const { onClick: _click, ...props } = item.getProps();
+    const name = nodeLabel(node);
+    const own = node.common.material;
+    const level = item.getItemMeta().level;
+    const foldable = node.children.length > 0;
+    return (
+        // biome-ignore lint/a11y/noStaticElementInteractions: getProps makes it a treeitem
+        // biome-ignore lint/a11y/useKeyWithClickEvents: the tree's own keys do it
+        // biome-ignore lint/a11y/useAriaPropsSupportedByRole: getProps makes it a treeitem
+        <div
+            {...props}
+            className="tree-row"
+            aria-expanded={foldable ? item.isExpanded() : undefined}
+            style={{ insetBlockStart: top, blockSize: height, paddingInlineStart: level * indent }}
+            data-node={id}
+            data-type={node.type}
+            data-hidden={isVisible(node) ? undefined : ""}
+            data-hovered={hovered || undefined}
+            data-unnamed={node.common.name ? undefined : ""}
+            data-drop={item.isUnorderedDragTarget() ? "inside" : undefined}
+            onClick={(event) => {
+                stores.view.setState({ subject: { kind: "nodes" } });
+                if (event.ctrlKey || event.metaKey) {
+                    item.toggleSelect();
+                } else if (event.shiftKey) {
+                    item.selectUpTo(false);
+                } else {
+                    item.getTree().setSelectedItems([id]);
+                }
+                item.setFocused();
+                item.getElement()?.focus();
+            }}
+            onDoubleClick={() => stores.view.setState({ renaming: id })}
+            onContextMenu={(event) => {
+                event.preventDefault();
+                if (!item.isSelected()) {
+                    item.getTree().setSelectedItems([id]);
+                }
+                onMenu({ x: event.clientX, y: event.clientY });
+            }}
+        >
+            <Twist item={item} foldable={foldable} name={name} />
+            <Glyph type={node.type} group={group} />
+            {renaming ? <Rename node={node} /> : <span className="tree-name ellipsis">{name}</span>}
+            {problem && (
+                <span
+                    className="tree-error"
+                    role="img"
+                    title={problem}
+                    aria-label={t("scene.problem", { message: problem })}
+                >
+                    <CircleAlert size={14} />
+                </span>
+            )}
+            {typeof own === "string" && own !== "" && <Swatch name={own} className="tree-swatch" />}
+            <EyeButton node={node} name={name} />
+        </div>
+    );
+}
+
+function Twist({ item, foldable, name }: { item: Props["item"]; foldable: boolean; name: string }) {
+    if (!foldable) {
+        return <span className="tree-twist" />;
+    }
+    return (
+        <button
+            type="button"
+            className="tree-twist"
+            tabIndex={-1}
+            aria-label={t("scene.expand", { name })}
+            onClick={(event) => {
+                event.stopPropagation();
+                if (item.isExpanded()) {
+                    item.collapse();
+                } else {
+                    item.expand();
+                }
+            }}
+        >
+            <ChevronRight size={13} />
+        </button>
+    );
+}
+
+function EyeButton({ node, name }: { node: SceneNode; name: string }) {
+    const { stores, link } = useEditor();
+    const visible = isVisible(node);
+    const title = t(visible ? "scene.hide" : "scene.show", { name });
+    return (
+        <button
+            type="button"
+            className="tree-eye"
+            tabIndex={-1}
+            data-off={visible ? undefined : ""}
+            aria-label={title}
+            title={title}
+            onDoubleClick={(event) => event.stopPropagation()}
+            onClick={(event) => {
+                event.stopPropagation();
+                const { document } = stores.document.getState();
+                if (document) {
+                    const edit = setVisible(document, [node.id], !visible);
+                    link.edit(edit.ops, { label: edit.label });
+                }
+            }}
+        >
+            {visible ? <Eye size={14} /> : <EyeOff size={14} />}
+        </button>
+    );
+}
+
+function Rename({ node }: { node: SceneNode }) {
+    const { stores, link } = useEditor();
+    const name = nodeLabel(node);
+    const finish = (text: string | null, element: HTMLElement): void => {
+        const row = element.closest<HTMLElement>("[role='treeitem']");
+        if (stores.view.getState().renaming !== node.id) {
+            return;
+        }
+        stores.view.setState({ renaming: null });
+        const { document } = stores.document.getState();
+        if (document && text !== null && text !== name) {
+            const edit = rename(document, node.id, text);
+            link.edit(edit.ops, { label: edit.label });
+        }
+        row?.focus();
+    };
+    return (
+        <input
+            className="tree-rename"
+            aria-label={t("scene.rename", { name })}
+            // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
+            autoFocus
+            defaultValue={name}
+            maxLength={200}
+            onFocus={(event) => event.currentTarget.select()}
+            onClick={(event) => event.stopPropagation()}
+            onDoubleClick={(event) => event.stopPropagation()}
+            onBlur={(event) => finish(event.currentTarget.value, event.currentTarget)}
+            onKeyDown={(event) => {
+                event.stopPropagation();
+                if (event.key === "Enter") {
+                    finish(event.currentTarget.value, event.currentTarget);
+                } else if (event.key === "Escape") {
+                    finish(null, event.currentTarget);
+                }
+            }}
+        />
+    );
+}

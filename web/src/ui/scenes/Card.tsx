@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT */
+/* Cards of the start page: a picture, a name, and for own scenes what can be done with them. */
+import { Copy, Download, Ellipsis, ImageOff, Pencil, Trash2 } from "lucide-react";
+import { useEffect, useRef, useState } from "react";
+import { download, type ExampleEntry, type SceneEntry } from "../../link/rest.ts";
+import { report } from "../files.ts";
+import { Button, IconButton } from "../parts/Button.tsx";
+import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
+import { addressOf } from "../route.ts";
+import { useEditor } from "../state.ts";
+import { t } from "../texts.ts";
+import { age } from "./age.ts";
+import { timeOf } from "./Scenes.tsx";
+import "./scenes.css";
+
+const PICTURE = { width: 480, height: 300 };
+/* How long a deleted scene can be taken back. */
+const UNDO_MS = 10_000;
+
+/* A picture behind a token is fetched, any other is left to the browser. */
+function Picture({ url, name }: { url: string; name: string }) {
+    const { rest } = useEditor();
+    const [source, setSource] = useState(rest.token === null ? url : null);
+    const [missing, setMissing] = useState(false);
+    useEffect(() => {
+        if (rest.token === null) {
+            setSource(url);
+            return;
+        }
+        let made: string | null = null;
+        let gone = false;
+        rest.fetchImage(url).then(
+            (address) => {
+                made = address;
+                if (gone) {
+                    URL.revokeObjectURL(address);
+                } else {
+                    setSource(address);
+                }
+            },
+            () => setMissing(true),
+        );
+        return () => {
+            gone = true;
+            if (made !== null) {
+                URL.revokeObjectURL(made);
+            }
+        };
+    }, [rest, url]);
+    return (
+        <span className="card-picture">
+            {missing ? (
+                <span className="card-missing">
+                    <ImageOff size={22} aria-hidden="true" />
+                </span>
+            ) : (
+                source !== null && (
+                    <img
+                        src={source}
+                        alt={name}
+                        loading="lazy"
+                        decoding="async"
+                        width={PICTURE.width}
+                        height={PICTURE.height}
+                        onError={() => setMissing(true)}
+                    />
+                )
+            )}
+        </span>
+    );
+}
+
+interface ExampleProps {
+    example: ExampleEntry;
+    onOpen: () => void;
+}
+
+export function ExampleCard({ example, onOpen }: ExampleProps) {
+    const { rest } = useEditor();
+    return (
+        <li className="card" data-example={example.id}>
+            <button type="button" className="card-open" onClick={onOpen}>
+                <Picture url={rest.exampleImageUrl(example.id)} name="" />
+                <span className="card-text">
+                    <span className="card-name ellipsis">{example.name || example.id}</span>
+                </span>
+                <span className="card-meta card-doc">{example.description}</span>
+            </button>
+        </li>
+    );
+}
+
+interface SceneProps {
+    scene: SceneEntry;
+    onChange: () => void;
+    onLeave: () => void;
+}
+
+export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
+    const editor = useEditor();
+    const { rest } = editor;
+    const [renaming, setRenaming] = useState(false);
+    const { id } = scene;
+    const name = scene.name || id;
+    const attempt = (act: () => Promise<unknown>) => async (): Promise<void> => {
+        try {
+            await act();
+            onChange();
+        } catch (error) {
+            report(editor, error);
+        }
+    };
+    const rename = (text: string): void => {
+        setRenaming(false);
+        if (text !== scene.name) {
+            void attempt(() =>
+                rest.editScene(id, [{ op: "set", at: "/name", value: text || null }]),
+            )();
+        }
+    };
+    const picture = `${rest.imageUrl(id, PICTURE.width, PICTURE.height)}&r=${scene.revision}`;
+    return (
+        <li className="card" data-scene={id}>
+            <a className="card-open" href={addressOf(id)} aria-label={name}>
+                <Picture url={picture} name="" />
+            </a>
+            <div className="card-text">
+                {renaming ? (
+                    <RenameField name={name} onDone={rename} onCancel={() => setRenaming(false)} />
+                ) : (
+                    <span className="card-name ellipsis">{name}</span>
+                )}
+                <Menu
+                    align="end"
+                    trigger={
+                        <IconButton title={t("scenes.more", { name })} data-size="s">
+                            <Ellipsis size={15} />
+                        </IconButton>
+                    }
+                >
+                    <MenuItem icon={<Pencil size={14} />} onSelect={() => setRenaming(true)}>
+                        {t("scenes.rename")}
+                    </MenuItem>
+                    <MenuItem
+                        icon={<Copy size={14} />}
+                        onSelect={() => void attempt(() => rest.createFromScene(id))()}
+                    >
+                        {t("scenes.duplicate")}
+                    </MenuItem>
+                    <MenuItem
+                        icon={<Download size={14} />}
+                        onSelect={() =>
+                            void attempt(async () => download(name, await rest.readScene(id)))()
+                        }
+                    >
+                        {t("bar.downloadJson")}
+                    </MenuItem>
+                    <MenuLine />
+                    <MenuItem icon={<Trash2 size={14} />} danger onSelect={onLeave}>
+                        {t("scenes.delete")}
+                    </MenuItem>
+                </Menu>
+            </div>
+            <span className="card-meta">
+                {t("scenes.meta", {
+                    count: scene.nodes,
+                    nodes: scene.nodes,
+                    age: age(timeOf(scene)),
+                })}
+                {scene.viewers > 0 && ` · ${t("scenes.viewers", { count: scene.viewers })}`}
+            </span>
+        </li>
+    );
+}
+
+interface RenameProps {
+    name: string;
+    onDone: (name: string) => void;
+    onCancel: () => void;
+}
+
+function RenameField({ name, onDone, onCancel }: RenameProps) {
+    return (
+        <input
+            className="text-field"
+            aria-label={t("scenes.nameOf", { name })}
+            // biome-ignore lint/a11y/noAutofocus: the user has just asked to type here
+            autoFocus
+            defaultValue={name}
+            maxLength={200}
+            onFocus={(event) => event.currentTarget.select()}
+            onBlur={(event) => onDone(event.currentTarget.value.trim())}
+            onKeyDown={(event) => {
+                event.stopPropagation();
+                if (event.key === "Enter") {
+                    event.currentTarget.blur();
+                } else if (event.key === "Escape") {
+                    onCancel();
+                }
+            }}
+        />
+    );
+}
+
+interface LeavingProps {
+    name: string;
+    onUndo: () => void;
+    onGone: () => void;
+}
+
+/* A deleted scene's last ten seconds. */
+export function Leaving({ name, onUndo, onGone }: LeavingProps) {
+    const gone = useRef(onGone);
+    gone.current = onGone;
+    useEffect(() => {
+        const timer = setTimeout(() => gone.current(), UNDO_MS);
+        return () => clearTimeout(timer);
+    }, []);
+    return (
+        <div className="notice popup leaving" role="status">
+            <Trash2 size={15} aria-hidden="true" />
+            <span className="notice-text">{t("scenes.deleted", { name })}</span>
+            <Button onClick={onUndo}>{t("undo.act")}</Button>
+        </div>
+    );
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* The start page: own scenes, examples, a new scene, files dropped anywhere. */
+import { CircleHelp, Plus, Upload } from "lucide-react";
+import { useCallback, useEffect, useRef, useState } from "react";
+import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
+import { report, uploadFile } from "../files.ts";
+import { ThemeButton } from "../frame/Bar.tsx";
+import { Button, IconButton } from "../parts/Button.tsx";
+import { Logo } from "../parts/Logo.tsx";
+import { goTo } from "../route.ts";
+import { useEditor } from "../state.ts";
+import { t } from "../texts.ts";
+import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
+import { useDrop } from "./drop.ts";
+import "./scenes.css";
+
+/* What a new scene starts with: nothing but a root. */
+const EMPTY_SCENE = {
+    format: "fieldcast/1",
+    name: t("bar.untitled"),
+    root: { id: "root", type: "union", children: [] },
+};
+
+interface Lists {
+    scenes: readonly SceneEntry[] | null;
+    examples: readonly ExampleEntry[];
+    failed: string | null;
+    reload: () => void;
+}
+
+function useLists(): Lists {
+    const { rest } = useEditor();
+    const [scenes, setScenes] = useState<readonly SceneEntry[] | null>(null);
+    const [examples, setExamples] = useState<readonly ExampleEntry[]>([]);
+    const [failed, setFailed] = useState<string | null>(null);
+    const reload = useCallback(() => {
+        rest.listScenes().then(
+            (list) => {
+                setScenes([...list].sort(newestFirst));
+                setFailed(null);
+            },
+            (error: Error) => setFailed(error.message),
+        );
+    }, [rest]);
+    useEffect(() => {
+        reload();
+        rest.listExamples().then(setExamples, () => undefined /* told by the other request */);
+    }, [rest, reload]);
+    return { scenes, examples, failed, reload };
+}
+
+/* Scenes that are shown as deleted and can still be taken back. Leaving the page deletes them. */
+function useLeaving(reload: () => void) {
+    const editor = useEditor();
+    const [leaving, setLeaving] = useState<readonly SceneEntry[]>([]);
+    const now = useRef(leaving);
+    now.current = leaving;
+    const stay = (id: string): void => setLeaving((old) => old.filter((scene) => scene.id !== id));
+    const remove = (id: string): void => {
+        editor.rest
+            .deleteScene(id)
+            .catch((error: unknown) => report(editor, error))
+            .finally(() => {
+                reload();
+                stay(id);
+            });
+    };
+    useEffect(
+        () => () => {
+            for (const { id } of now.current) {
+                void editor.rest.deleteScene(id).catch(() => undefined);
+            }
+        },
+        [editor],
+    );
+    return {
+        leaving,
+        leave: (scene: SceneEntry): void => setLeaving((old) => [...old, scene]),
+        stay,
+        remove,
+    };
+}
+
+function newestFirst(a: SceneEntry, b: SceneEntry): number {
+    return timeOf(b) - timeOf(a);
+}
+
+/* Milliseconds; a number of the server counts seconds. */
+export function timeOf({ modified }: SceneEntry): number {
+    const time = typeof modified === "number" ? modified * 1000 : Date.parse(modified);
+    return Number.isFinite(time) ? time : 0;
+}
+
+export function ScenesPage() {
+    const editor = useEditor();
+    const { scenes, examples, failed, reload } = useLists();
+    const { leaving, leave, stay, remove } = useLeaving(reload);
+    const dropping = useDrop((file) => void uploadFile(editor, file));
+    const start = async (make: () => Promise<string>): Promise<void> => {
+        try {
+            goTo(await make());
+        } catch (error) {
+            report(editor, error);
+        }
+    };
+    const shown = scenes?.filter((scene) => !leaving.some(({ id }) => id === scene.id)) ?? [];
+    return (
+        <div className="scenes">
+            <Head onNew={() => void start(() => editor.rest.createScene(EMPTY_SCENE))} />
+            <main className="scenes-body" data-region={t("scenes.title")} tabIndex={-1}>
+                {failed !== null && (
+                    <p className="page-note" role="alert">
+                        {t("scenes.failed", { message: failed })}
+                        <Button look="outline" onClick={reload}>
+                            {t("link.retry")}
+                        </Button>
+                    </p>
+                )}
+                <div className="scenes-head">
+                    <h2>{t("scenes.title")}</h2>
+                    {scenes?.length === 0 && <p>{t("scenes.none")}</p>}
+                </div>
+                <ul className="cards" data-testid="scenes">
+                    <li className="card">
+                        <button
+                            type="button"
+                            className="card-new"
+                            onClick={() => void start(() => editor.rest.createScene(EMPTY_SCENE))}
+                        >
+                            <Plus size={22} aria-hidden="true" />
+                            {t("scenes.new")}
+                        </button>
+                    </li>
+                    {shown.map((scene) => (
+                        <SceneCard
+                            key={scene.id}
+                            scene={scene}
+                            onChange={reload}
+                            onLeave={() => leave(scene)}
+                        />
+                    ))}
+                </ul>
+                <div className="scenes-head">
+                    <h2>{t("scenes.examples")}</h2>
+                    <p>{t("scenes.examplesDoc")}</p>
+                </div>
+                <ul className="cards" data-testid="examples">
+                    {examples.map((example) => (
+                        <ExampleCard
+                            key={example.id}
+                            example={example}
+                            onOpen={() =>
+                                void start(() => editor.rest.createFromExample(example.id))
+                            }
+                        />
+                    ))}
+                </ul>
+            </main>
+            <div className="leaving-list">
+                {leaving.map((scene) => (
+                    <Leaving
+                        key={scene.id}
+                        name={scene.name || scene.id}
+                        onUndo={() => stay(scene.id)}
+                        onGone={() => remove(scene.id)}
+                    />
+                ))}
+            </div>
+            {dropping && <div className="drop-cover">{t("scenes.drop")}</div>}
+        </div>
+    );
+}
+
+function Head({ onNew }: { onNew: () => void }) {
+    const editor = useEditor();
+    return (
+        <header className="scenes-bar" data-region={t("region.bar")} tabIndex={-1}>
+            <div>
+                <h1 className="brand">
+                    <Logo size={26} />
+                    {t("app.name")}
+                </h1>
+                <span className="brand-line">{t("scenes.tagline")}</span>
+                <span className="bar-space" />
+                <ThemeButton />
+                <IconButton
+                    title={t("bar.help")}
+                    keys="?"
+                    onClick={() => editor.stores.view.setState({ popup: "help" })}
+                >
+                    <CircleHelp size={16} />
+                </IconButton>
+                <Button look="outline" icon={<Upload size={14} />} onClick={() => editor.upload()}>
+                    {t("scenes.upload")}
+                </Button>
+                <Button look="primary" icon={<Plus size={15} />} onClick={onNew}>
+                    {t("scenes.new")}
+                </Button>
+            </div>
+        </header>
+    );
+}

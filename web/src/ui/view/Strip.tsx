@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* The state of the connection when there is something to say: the last picture stays, edits are
+ * kept and sent later. */
+import { CloudOff } from "lucide-react";
+import { Button } from "../parts/Button.tsx";
+import { useDocument, useEditor, useLink } from "../state.ts";
+import { t } from "../texts.ts";
+import "./view.css";
+
+export function Strip() {
+    const { link } = useEditor();
+    const connection = useLink((state) => state.connection);
+    const reason = useLink((state) => state.reason);
+    const waiting = useDocument((state) => state.waiting);
+    const text =
+        connection === "refused"
+            ? t("link.refused", { reason })
+            : waiting > 0
+              ? t("link.offlineWaiting", { count: waiting })
+              : t("link.offline");
+    const shown = connection === "offline" || connection === "refused";
+    return (
+        <div role="status" className="strip-place">
+            {shown && (
+                <div className="strip" data-testid="strip">
+                    <CloudOff size={15} aria-hidden="true" />
+                    <span>{text}</span>
+                    <Button onClick={() => link.retry()}>{t("link.retry")}</Button>
+                </div>
+            )}
+        </div>
+    );
+}

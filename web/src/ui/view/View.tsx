@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+/* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
+ * picks; React draws only what lies over it. */
+import { useEffect, useRef, useState } from "react";
+import { attachInput } from "../../overlay/input.ts";
+import { Button } from "../parts/Button.tsx";
+import { NodeMenu } from "../scene/NodeMenu.tsx";
+import { useDocument, useEditor, useLink, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import { Crumbs } from "./Crumbs.tsx";
+import { inputActions } from "./input.ts";
+import { Outputs } from "./Outputs.tsx";
+import { SoftwareChip, StatePill } from "./State.tsx";
+import { StatisticsPill } from "./Statistics.tsx";
+import { Strip } from "./Strip.tsx";
+import "./view.css";
+
+export function View() {
+    return (
+        <div className="view">
+            <Picture />
+            <Empty />
+            <Hint />
+            <Strip />
+            <div className="view-top">
+                <Crumbs />
+                <span className="view-space" />
+                <Outputs />
+            </div>
+            <div className="view-bottom">
+                <StatePill />
+                <StatisticsPill />
+                <SoftwareChip />
+            </div>
+        </div>
+    );
+}
+
+function Picture() {
+    const editor = useEditor();
+    const place = useRef<HTMLDivElement>(null);
+    const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
+    useEffect(() => {
+        const element = place.current;
+        if (element === null) {
+            return;
+        }
+        editor.setPicture(element);
+        const hide = editor.link.attach(element);
+        const stop = attachInput(element, inputActions(editor, element, setMenu));
+        return () => {
+            stop();
+            hide();
+            editor.setPicture(null);
+        };
+    }, [editor]);
+    return (
+        <>
+            <div
+                ref={place}
+                className="view-picture"
+                data-testid="picture"
+                data-region-focus=""
+                role="application"
+                aria-label={t("view.picture")}
+                aria-describedby="view-help"
+                // biome-ignore lint/a11y/noNoninteractiveTabindex: arrow keys look around in it
+                tabIndex={0}
+            />
+            <p id="view-help" className="unseen">
+                {t("view.help")}
+            </p>
+            <NodeMenu at={menu} onClose={() => setMenu(null)} />
+        </>
+    );
+}
+
+function Empty() {
+    const { stores } = useEditor();
+    const empty = useDocument(({ document }) => document !== null && document.nodes.size === 1);
+    if (!empty) {
+        return null;
+    }
+    return (
+        <div className="view-empty">
+            <div className="glass">
+                <p>{t("view.empty")}</p>
+                <Button look="primary" onClick={() => stores.view.setState({ popup: "add" })}>
+                    {t("view.emptyAdd")}
+                </Button>
+            </div>
+        </div>
+    );
+}
+
+/* One hint at a time; each goes for good when it was followed. */
+function Hint() {
+    const done = useView((view) => view.preferences.hintsDone);
+    const pictured = useLink((state) => state.frame.state !== "none");
+    const next = !done.includes("drag") ? "drag" : !done.includes("click") ? "click" : null;
+    useFollowed(next);
+    if (!pictured || next === null) {
+        return null;
+    }
+    return (
+        <p className="glass view-hint">{t(next === "drag" ? "view.hintDrag" : "view.hintClick")}</p>
+    );
+}
+
+function useFollowed(hint: "drag" | "click" | null): void {
+    const { stores } = useEditor();
+    useEffect(() => {
+        const done = (name: string): void =>
+            stores.view.setState(({ preferences }) => ({
+                preferences: { ...preferences, hintsDone: [...preferences.hintsDone, name] },
+            }));
+        if (hint === "drag") {
+            return stores.camera.subscribe(({ own }) => own && done(hint));
+        }
+        if (hint === "click") {
+            return stores.view.subscribe((now, before) => {
+                if (now.selection.length > 0 && now.selection !== before.selection) {
+                    done(hint);
+                }
+            });
+        }
+        return undefined;
+    }, [stores, hint]);
+}
