@@ -23,7 +23,7 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs bench lint format check golden-accept clean install \
+.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept clean install \
         uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -170,7 +170,7 @@ test: test-deps ## install what is missing, build with ASan and UBSan, run all t
 
 bench: test-deps ## measure; prints JSON
 	$(again) all
-	$(Q)cd $(S) && tests/run --bench $(abspath $(OUT))
+	$(Q)cd $(S) && node tests/bench.mjs $(abspath $(OUT)) $(ARGS)
 
 lint: ## the rules of the house
 	$(Q)cd $(S) && node tests/lint/lint.mjs
@@ -186,6 +186,9 @@ check: ## lint and test
 golden-accept: ## take the picture just drawn as the reference of CASE=name
 	$(again) CONFIG=release programs
 	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
+
+docs: fieldcast ## write the table of options into README.md
+	$(Q)$(S)/deploy/update-readme.sh $(OUT)/fieldcast $(S)/README.md
 
 # --- use ---
 

@@ -203,26 +203,35 @@ static bool measure_pictures(struct renderer *renderer, struct resident *residen
     return encoders;
 }
 
-static cJSON *measure_example(const struct renderer_params *params, struct renderer *renderer,
-                              const struct asset *example, int rounds, struct error *err)
+/* One renderer at a time: they share EGL's display. */
+static cJSON *measure_example(const struct renderer_params *params, const struct asset *example,
+                              int rounds, struct error *err)
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
+    cJSON *row = NULL;
     if (!scene) {
         return NULL;
     }
-    cJSON *row = cJSON_CreateObject();
-    cJSON_AddStringToObject(row, "example", example->path);
-    cJSON_AddNumberToObject(row, "nodes", (double)scene->node_count);
+    size_t nodes = scene->node_count;
     cJSON *compiling = measure_compiling(params, scene, err);
-    struct resident *resident = resident_create(renderer, scene, 1);
-    if (compiling) {
+    struct renderer *renderer = compiling ? renderer_create(params, err) : NULL;
+    if (renderer) {
+        struct resident *resident = resident_create(renderer, scene, 1);
+        scene = NULL;
+        row = cJSON_CreateObject();
+        cJSON_AddStringToObject(row, "example", example->path);
+        cJSON_AddNumberToObject(row, "nodes", (double)nodes);
         cJSON_AddItemToObject(row, "first_picture", compiling);
+        compiling = NULL;
+        if (!measure_pictures(renderer, resident, rounds, row, err)) {
+            cJSON_Delete(row);
+            row = NULL;
+        }
+        resident_destroy(resident);
     }
-    if (!compiling || !measure_pictures(renderer, resident, rounds, row, err)) {
-        cJSON_Delete(row);
-        row = NULL;
-    }
-    resident_destroy(resident);
+    renderer_destroy(renderer);
+    cJSON_Delete(compiling);
+    scene_destroy(scene);
     return row;
 }
 
@@ -251,25 +260,20 @@ static void add_ratios(cJSON *rows)
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
                      struct error *err)
 {
-    struct renderer *renderer = renderer_create(params, err);
-    cJSON *rows = renderer ? cJSON_CreateArray() : NULL;
-    for (size_t i = 0; rows && i < examples_count; i++) {
+    cJSON *rows = cJSON_CreateArray();
+    for (size_t i = 0; i < examples_count; i++) {
         const struct asset *example = &examples_table[i];
         if (only && strcmp(only, example->path) != 0) {
             continue;
         }
         fprintf(stderr, "fieldcast: drawing %s\n", example->path);
-        cJSON *row = measure_example(params, renderer, example, rounds, err);
-        if (row) {
-            cJSON_AddItemToArray(rows, row);
-        } else {
+        cJSON *row = measure_example(params, example, rounds, err);
+        if (!row) {
             cJSON_Delete(rows);
-            rows = NULL;
+            return NULL;
         }
+        cJSON_AddItemToArray(rows, row);
     }
-    renderer_destroy(renderer);
-    if (rows) {
-        add_ratios(rows);
-    }
+    add_ratios(rows);
     return rows;
 }

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// The command line as a user meets it: output, exit status, and what is left on disk.
+import assert from 'node:assert';
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import net from 'node:net';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+
+const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..');
+const program = process.env.FIELDCAST ?? path.join(root, 'build/release/fieldcast');
+const SMALL = ['--width', '32', '--height', '24', '--samples', '1'];
+const SPHERE = '{"format":"fieldcast/1","root":{"type":"sphere"}}';
+
+let folder;
+before(() => {
+    folder = fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-cli-'));
+});
+after(() => fs.rmSync(folder, { recursive: true, force: true }));
+
+// Runs the program; with `binary` stdout stays a Buffer.
+function run(args, { input, binary = false, env = {} } = {}) {
+    const result = spawnSync(program, args, {
+        cwd: folder,
+        input,
+        env: { ...process.env, ...env },
+        maxBuffer: 1 << 28,
+    });
+    return {
+        status: result.status,
+        out: binary ? result.stdout : String(result.stdout),
+        err: String(result.stderr),
+    };
+}
+
+function succeed(args, options) {
+    const result = run(args, options);
+    assert.equal(result.status, 0, result.err + result.out);
+    return result;
+}
+
+function write(name, text) {
+    fs.writeFileSync(path.join(folder, name), text);
+    return name;
+}
+
+const pngSize = (bytes) => {
+    assert.equal(bytes.subarray(1, 4).toString(), 'PNG');
+    return [bytes.readUInt32BE(16), bytes.readUInt32BE(20)];
+};
+
+test('version and help', () => {
+    assert.match(succeed(['--version']).out, /^fieldcast \d+\.\d+\.\d+\n$/);
+    const help = succeed(['--help']).out;
+    for (const command of ['serve', 'render', 'check', 'schema', 'doctor', 'bench']) {
+        assert.match(help, new RegExp(`^  ${command} `, 'm'));
+        assert.match(succeed([command, '--help']).out, new RegExp(`^Usage: fieldcast ${command}`));
+        assert.equal(succeed(['help', command]).out, succeed([command, '--help']).out);
+    }
+    assert.doesNotMatch(help, /worker/);
+});
+
+test('misuse says what is meant, on stderr, with status 2', () => {
+    for (const [args, message] of [
+        [[], /^Usage/],
+        [['sreve'], /sreve: is no command; did you mean "serve"\?/],
+        [['serve', '--prot', '1'], /--prot: is no option of fieldcast serve; did you mean "port"\?/],
+        [['serve', '--port', '70000'], /--port: 70000 is above the maximum 65535/],
+        [['render'], /render: needs SCENE.json/],
+        [['render', 'example:snowman'], /--output: is needed/],
+        [['render', 'example:snowman', '-o', 'x.bmp'], /x\.bmp has no known extension/],
+    ]) {
+        const result = run(args);
+        assert.equal(result.status, 2, args.join(' '));
+        assert.match(result.err, message);
+        assert.equal(result.out, '');
+    }
+});
+
+test('check names file, place and rule', () => {
+    const good = write('good.json', SPHERE);
+    const bad = write(
+        'bad.json',
+        '{"format":"fieldcast/1","root":{"id":"ball","type":"sphere","params":{"radius":-1}}}',
+    );
+    assert.equal(succeed(['check', good]).out, '');
+    const result = run(['check', good, bad, 'absent.json', 'example:snowman']);
+    assert.equal(result.status, 1);
+    const lines = result.out.trimEnd().split('\n');
+    assert.equal(lines.length, 2, result.out);
+    assert.match(lines[0], /^bad\.json: \/nodes\/ball\/params\/radius: /);
+    assert.equal(lines[1], 'absent.json: No such file or directory');
+});
+
+test('check reads stdin', () => {
+    succeed(['check', '-'], { input: SPHERE });
+    const result = run(['check', '-'], { input: '{"format":' });
+    assert.equal(result.status, 1);
+    assert.match(result.out, /^-: line 1/);
+});
+
+test('every example is right', () => {
+    const examples = fs.readdirSync(path.join(root, 'protocol/examples'));
+    assert.ok(examples.length >= 8);
+    succeed(['check', ...examples.map((name) => `example:${path.basename(name, '.json')}`)]);
+});
+
+test('schema is JSON with the registry in it', () => {
+    const schema = JSON.parse(succeed(['schema']).out);
+    assert.match(schema.$schema, /2020-12/);
+    assert.ok(schema['x-fieldcast'].nodes.some((node) => node.type === 'sphere'));
+});
+
+test('render writes PNG, JPEG and NPY by the extension', () => {
+    for (const [name, starts] of [
+        ['a.png', '\x89PNG'],
+        ['a.jpg', '\xff\xd8'],
+        ['a.npy', '\x93NUMPY'],
+    ]) {
+        succeed(['render', 'example:first-steps', '-o', name, ...SMALL]);
+        const bytes = fs.readFileSync(path.join(folder, name));
+        assert.equal(bytes.subarray(0, starts.length).toString('latin1'), starts);
+    }
+    assert.deepEqual(pngSize(fs.readFileSync(path.join(folder, 'a.png'))), [32, 24]);
+});
+
+test('render goes through stdin and stdout', () => {
+    const file = write('sphere.json', SPHERE);
+    const args = ['-o', '-', '--format', 'png', ...SMALL];
+    const piped = succeed(['render', '-', ...args], { input: SPHERE, binary: true });
+    assert.deepEqual(pngSize(piped.out), [32, 24]);
+    const read = succeed(['render', file, ...args], { binary: true });
+    assert.ok(piped.out.equals(read.out));
+});
+
+test('render shows what it is asked for', () => {
+    const picture = (...args) =>
+        succeed(['render', 'example:snowman', '-o', '-', '--format', 'png', ...SMALL, ...args], {
+            binary: true,
+        }).out.toString('base64');
+    const pictures = [
+        picture(),
+        picture('--aov', 'depth'),
+        picture('--aov', 'normal'),
+        picture('--aov', 'id'),
+        picture('--position', '0,9,9'),
+        picture('--target', '3,0,0'),
+        picture('--fov', '80'),
+    ];
+    assert.equal(new Set(pictures).size, pictures.length);
+    assert.equal(picture(), pictures[0], 'the same picture twice');
+});
+
+test('the mode of a written file is the usual one, and a failure leaves nothing', () => {
+    const target = path.join(folder, 'kept.png');
+    succeed(['render', 'example:first-steps', '-o', 'kept.png', ...SMALL]);
+    assert.equal(fs.statSync(target).mode & 0o777, 0o666 & ~process.umask());
+    const kept = fs.readFileSync(target);
+    const names = fs.readdirSync(folder);
+    const result = run(['render', 'absent.json', '-o', 'kept.png', ...SMALL]);
+    assert.equal(result.status, 1);
+    assert.match(result.err, /absent\.json: No such file/);
+    assert.ok(fs.readFileSync(target).equals(kept));
+    const nowhere = run(['render', 'example:first-steps', '-o', 'no/where.png', ...SMALL]);
+    assert.equal(nowhere.status, 1);
+    assert.match(nowhere.err, /no\/where\.png: No such file or directory/);
+    assert.deepEqual(fs.readdirSync(folder), names);
+});
+
+test('render refuses what the scene would refuse', () => {
+    const result = run(['render', 'example:snowmna', '-o', 'x.png']);
+    assert.equal(result.status, 1);
+    assert.match(result.err, /example:snowmna: is no example; did you mean "snowman"\?/);
+    const fov = run(['render', 'example:snowman', '-o', 'x.png', '--fov', '0']);
+    assert.notEqual(fov.status, 0);
+    assert.match(fov.err, /--fov: /);
+});
+
+test('a GPU that is asked for and not there is an error', () => {
+    const doctor = succeed(['doctor', '--port', '0']).out;
+    const result = run(['render', 'example:first-steps', '-o', 'gpu.png', '--device', 'gpu', ...SMALL]);
+    if (/drawn by the CPU|closed to this user/.test(doctor)) {
+        assert.equal(result.status, 1);
+        assert.match(result.err, /GPU|software/i);
+    } else {
+        assert.equal(result.status, 0, result.err);
+    }
+});
+
+test('doctor says what fails', async () => {
+    const good = succeed(['doctor', '--port', '0', '--data', path.join(folder, 'data')]);
+    assert.match(good.out, /^ok {4}drawing .*OpenGL 4\.\d/m);
+    assert.match(good.out, /^ok {4}data .*will be made/m);
+    assert.ok(!fs.existsSync(path.join(folder, 'data')));
+
+    const taken = net.createServer();
+    await new Promise((resolve) => taken.listen(0, '127.0.0.1', resolve));
+    const port = String(taken.address().port);
+    const busy = run(['doctor', '--port', port]);
+    taken.close();
+    assert.equal(busy.status, 1);
+    assert.match(busy.out, /^FAIL {2}port .* is in use/m);
+
+    const blocked = run(['doctor', '--port', '0', '--data', path.join(write('file', ''), 'data')]);
+    assert.equal(blocked.status, 1);
+    assert.match(blocked.out, /^FAIL {2}data /m);
+});
+
+test('serve refuses a token file that is none', () => {
+    const short = run(['serve', '--port', '0', '--data', 'data', '--token-file', write('token', 'short\n')]);
+    assert.equal(short.status, 2);
+    assert.match(short.err, /token: the first line must be a token of 16 to 200/);
+});
+
+test('the example config file holds only what is known', () => {
+    const text = fs.readFileSync(path.join(root, 'deploy/fieldcast.conf'), 'utf8');
+    const settings = text.replace(/^# (?=[a-z-]+ = )/gm, '').replace(/^token-file.*\n/m, '');
+    assert.ok(settings.match(/^[a-z-]+ = /gm).length >= 8);
+    const file = write('example.conf', settings);
+    const env = { HOME: folder };
+    succeed(['doctor', '--config', file, '--port', '0'], { env });
+    const broken = run(['doctor', '--config', write('broken.conf', `${settings}prot = 1\n`)], { env });
+    assert.equal(broken.status, 2);
+    assert.match(broken.err, /broken\.conf:\d+: prot: is no option of the config file/);
+});
+
+test("README's table is that of `fieldcast help options`", () => {
+    const readme = fs.readFileSync(path.join(root, 'README.md'), 'utf8');
+    assert.ok(readme.includes(succeed(['help', 'options']).out), 'run: make docs');
+});
