@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: MIT */
+/* Undo and redo: groups, authors, and what others did meanwhile. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/edit.h"
+#include "protocol/json.h"
+#include "protocol/limits.h"
+#include "tests/support/random_edit.h"
+
+static const char base[] =
+    "{\"format\":\"fieldcast/1\",\"materials\":{\"snow\":{\"shader\":\"phong\"},"
+    "\"ice\":{\"shader\":\"phong\"}},"
+    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
+    "{\"id\":\"body\",\"type\":\"sphere\"},{\"id\":\"head\",\"type\":\"sphere\"}]}}";
+
+static struct scene *scene;
+static struct history *history;
+static struct error err;
+
+static int set_up(void **state)
+{
+    (void)state;
+    scene = scene_parse(base, strlen(base), &err);
+    history = history_create();
+    return scene ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    scene_destroy(scene);
+    history_destroy(history);
+    return 0;
+}
+
+static void edit_as(const char *author, const char *group, const char *text)
+{
+    cJSON *ops = json_parse(text, strlen(text), &err), *inverse;
+    assert_non_null(ops);
+    assert_true(edit_apply(scene, ops, NULL, &inverse, &err));
+    history_record(history, author, group, inverse);
+    cJSON_Delete(ops);
+}
+
+static void set_radius(const char *author, const char *group, const char *id, double radius)
+{
+    char text[200];
+    snprintf(text, sizeof text,
+             "[{\"op\":\"set\",\"at\":\"/nodes/%s/params/radius\",\"value\":%g}]", id, radius);
+    edit_as(author, group, text);
+}
+
+static double radius_of(const char *id)
+{
+    return record_number(&scene_find(scene, id)->params, "radius");
+}
+
+static bool undo(const char *author)
+{
+    cJSON *applied = NULL;
+    bool ok = history_undo(history, scene, author, &applied, &err);
+    cJSON_Delete(applied);
+    return ok;
+}
+
+static bool redo(const char *author)
+{
+    cJSON *applied = NULL;
+    bool ok = history_redo(history, scene, author, &applied, &err);
+    cJSON_Delete(applied);
+    return ok;
+}
+
+static void assert_depth(const char *author, size_t undo_steps, size_t redo_steps)
+{
+    size_t undos, redos;
+    history_depth(history, author, &undos, &redos);
+    assert_int_equal(undos, undo_steps);
+    assert_int_equal(redos, redo_steps);
+}
+
+static void test_nothing_to_undo(void **state)
+{
+    (void)state;
+    assert_false(undo("anna"));
+    assert_int_equal(err.kind, ERROR_NOT_FOUND);
+    assert_false(redo("anna"));
+    assert_depth("anna", 0, 0);
+}
+
+static void test_a_group_is_one_step(void **state)
+{
+    (void)state;
+    char *before = scene_print(scene, false);
+    for (int i = 1; i <= 1000; i++) {
+        set_radius("anna", "drag", "body", i);
+    }
+    assert_depth("anna", 1, 0);
+    cJSON *applied;
+    assert_true(history_undo(history, scene, "anna", &applied, &err));
+    assert_int_equal(cJSON_GetArraySize(applied), 1); /* only the oldest value was kept */
+    cJSON_Delete(applied);
+    char *after = scene_print(scene, false);
+    assert_string_equal(before, after);
+    assert_true(redo("anna"));
+    assert_float_equal(radius_of("body"), 1000, 0);
+    free(before);
+    free(after);
+}
+
+static void test_other_groups_and_no_group_are_steps(void **state)
+{
+    (void)state;
+    set_radius("anna", "one", "body", 2);
+    set_radius("anna", "two", "body", 3);
+    set_radius("anna", "", "body", 4);
+    set_radius("anna", "", "body", 5);
+    set_radius("anna", NULL, "body", 6);
+    assert_depth("anna", 5, 0);
+    assert_true(undo("anna"));
+    assert_true(undo("anna"));
+    assert_float_equal(radius_of("body"), 4, 0);
+    assert_depth("anna", 3, 2);
+    set_radius("anna", "", "head", 9); /* a new edit forgets what was undone */
+    assert_depth("anna", 4, 0);
+}
+
+static void test_authors_undo_their_own(void **state)
+{
+    (void)state;
+    set_radius("anna", "", "body", 2);
+    set_radius("bert", "", "head", 3);
+    assert_true(undo("anna"));
+    assert_float_equal(radius_of("body"), 0.5, 0);
+    assert_float_equal(radius_of("head"), 3, 0);
+    assert_depth("bert", 1, 0);
+    assert_true(undo("bert"));
+    assert_float_equal(radius_of("head"), 0.5, 0);
+}
+
+static void test_what_others_removed_is_skipped(void **state)
+{
+    (void)state;
+    set_radius("anna", "", "head", 2);
+    set_radius("anna", "", "body", 3);
+    edit_as("bert", "", "[{\"op\":\"remove\",\"at\":\"/nodes/body\"}]");
+    assert_false(undo("anna"));
+    assert_string_equal(err.place, "/nodes/body/params/radius");
+    assert_true(undo("anna")); /* the step that cannot be undone is gone */
+    assert_float_equal(radius_of("head"), 0.5, 0);
+    assert_true(undo("bert"));
+    assert_float_equal(radius_of("body"), 3, 0);
+}
+
+/* Dropping an older value would here leave the material in use when its insertion is undone. */
+static void test_groups_with_more_than_values_keep_all(void **state)
+{
+    (void)state;
+    char *before = scene_print(scene, false);
+    edit_as("anna", "g", "[{\"op\":\"set\",\"at\":\"/nodes/body/material\",\"value\":\"snow\"}]");
+    edit_as("anna", "g",
+            "[{\"op\":\"insert\",\"into\":\"/materials\",\"name\":\"new\","
+            "\"value\":{\"shader\":\"phong\"}}]");
+    edit_as("anna", "g", "[{\"op\":\"set\",\"at\":\"/nodes/body/material\",\"value\":\"new\"}]");
+    edit_as("anna", "g", "[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"box\"}]");
+    assert_depth("anna", 1, 0);
+    assert_true(undo("anna"));
+    char *after = scene_print(scene, false);
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+}
+
+static void test_steps_are_bounded(void **state)
+{
+    (void)state;
+    for (int i = 0; i < LIMIT_UNDO_GROUPS + 10; i++) {
+        set_radius("anna", "", "body", i + 1);
+    }
+    assert_depth("anna", LIMIT_UNDO_GROUPS, 0);
+    while (undo("anna")) {
+    }
+    assert_float_equal(radius_of("body"), 10, 0);
+    assert_depth("anna", 0, LIMIT_UNDO_GROUPS);
+}
+
+static void test_authors_are_bounded(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= LIMIT_SESSIONS; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "author-%d", i);
+        set_radius(name, "", "body", i + 1);
+        if (i == 1) {
+            set_radius("author-0", "", "body", 1); /* heard of again */
+        }
+    }
+    assert_depth("author-0", 2, 0);
+    assert_depth("author-1", 0, 0);
+    assert_depth("author-2", 1, 0);
+}
+
+static const char *const authors[] = {"anna", "bert"};
+
+static void random_step(struct random *random, struct scene *wild, struct history *steps)
+{
+    static const char *const groups[] = {"", "", "a", "b"};
+    cJSON *ops = random_edit(random, wild), *inverse;
+    if (edit_apply(wild, ops, NULL, &inverse, NULL)) {
+        history_record(steps, authors[random_below(random, 2)], groups[random_below(random, 4)],
+                       inverse);
+    }
+    cJSON_Delete(ops);
+}
+
+/* Whatever two authors did, n undos of one and as many redos give back every byte. */
+static void test_undos_and_redos_cancel(void **state)
+{
+    (void)state;
+    size_t total = 0;
+    for (uint64_t seed = 1; seed <= 150; seed++) {
+        struct random random = {seed};
+        struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
+        struct history *steps = history_create();
+        for (int round = 0; round < 4; round++) {
+            for (int i = 0; i < 20; i++) {
+                random_step(&random, wild, steps);
+            }
+            const char *author = authors[random_below(&random, 2)];
+            char *before = scene_print(wild, false);
+            size_t undos, redos, wanted, done = 0;
+            history_depth(steps, author, &wanted, &redos);
+            wanted = random_below(&random, wanted + 1);
+            for (size_t i = 0; i < wanted; i++) {
+                done += history_undo(steps, wild, author, NULL, NULL);
+            }
+            history_depth(steps, author, &undos, &redos);
+            assert_int_equal(redos, done);
+            for (size_t i = 0; i < done; i++) {
+                assert_true(history_redo(steps, wild, author, NULL, NULL));
+            }
+            char *after = scene_print(wild, false);
+            assert_string_equal(before, after);
+            free(before);
+            free(after);
+            total += done;
+        }
+        history_destroy(steps);
+        scene_destroy(wild);
+    }
+    assert_true(total > 1000);
+}
+
+/* One author alone gets back to the first byte, whatever the groups. */
+static void test_undoing_everything_gives_the_beginning(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 150; seed++) {
+        struct random random = {seed};
+        struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
+        struct history *steps = history_create();
+        char *before = scene_print(wild, false);
+        for (int i = 0; i < 40; i++) {
+            cJSON *ops = random_edit(&random, wild), *inverse;
+            if (edit_apply(wild, ops, NULL, &inverse, NULL)) {
+                history_record(steps, "anna", random_below(&random, 2) ? "g" : "", inverse);
+            }
+            cJSON_Delete(ops);
+        }
+        char *end = scene_print(wild, false), *text;
+        while (history_undo(steps, wild, "anna", NULL, NULL)) {
+        }
+        text = scene_print(wild, false);
+        assert_string_equal(before, text);
+        free(text);
+        while (history_redo(steps, wild, "anna", NULL, NULL)) {
+        }
+        text = scene_print(wild, false);
+        assert_string_equal(end, text);
+        free(text);
+        free(before);
+        free(end);
+        history_destroy(steps);
+        scene_destroy(wild);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_nothing_to_undo, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_group_is_one_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_other_groups_and_no_group_are_steps, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_authors_undo_their_own, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_what_others_removed_is_skipped, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_groups_with_more_than_values_keep_all, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_steps_are_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_authors_are_bounded, set_up, tear_down),
+        cmocka_unit_test(test_undos_and_redos_cancel),
+        cmocka_unit_test(test_undoing_everything_gives_the_beginning),
+    };
+    return cmocka_run_group_tests_name("history", tests, NULL, NULL);
+}
