@@ -337,13 +337,18 @@ static bool scan_key(struct scan *scan)
     return true;
 }
 
+static int compare_names(const struct key *a, const struct key *b, const char *names)
+{
+    if (a->length != b->length) {
+        return a->length < b->length ? -1 : 1;
+    }
+    return a->length == 0 ? 0 : memcmp(names + a->name, names + b->name, a->length);
+}
+
 static int compare_keys(const void *a, const void *b, void *names)
 {
     const struct key *x = a, *y = b;
-    if (x->length != y->length) {
-        return x->length < y->length ? -1 : 1;
-    }
-    int order = memcmp((char *)names + x->name, (char *)names + y->name, x->length);
+    int order = compare_names(x, y, names);
     return order ? order : x->at < y->at ? -1 : 1;
 }
 
@@ -357,12 +362,11 @@ static bool check_duplicates(struct scan *scan, size_t first)
     }
     qsort_r(keys, count, sizeof *keys, compare_keys, scan->names);
     for (size_t i = 1; i < count; i++) {
-        if (keys[i].length == keys[i - 1].length &&
-            memcmp(scan->names + keys[i].name, scan->names + keys[i - 1].name, keys[i].length) ==
-                0) {
+        if (compare_names(&keys[i - 1], &keys[i], scan->names) == 0) {
+            int shown = keys[i].length < 64 ? (int)keys[i].length : 64;
             char message[128];
-            snprintf(message, sizeof message, "duplicate member \"%.*s\"",
-                     (int)(keys[i].length < 64 ? keys[i].length : 64), scan->names + keys[i].name);
+            snprintf(message, sizeof message, "duplicate member \"%.*s\"", shown,
+                     shown ? scan->names + keys[i].name : "");
             return fail_at(scan, keys[i].at, ERROR_SYNTAX, message);
         }
     }

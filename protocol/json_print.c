@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writing JSON: numbers and strings as ECMAScript's JSON.stringify writes them, so that the web
  * client and the server give the same bytes. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,13 +41,13 @@ struct decimal {
     int point; /* value = 0.DIGITS * 10^point */
 };
 
-/* The fewest digits that read back as `value`: 15 are always kept by a double and %e pads them
- * with zeros, so 1 to 14 need not be tried. */
+/* The fewest digits that read back as `value`: a normal double keeps any 15, and %e pads with
+ * zeros, so fewer need not be tried. */
 static struct decimal shortest_decimal(double value)
 {
     struct decimal decimal = {.count = 0};
     char text[40];
-    for (int digits = 15; digits <= 17; digits++) {
+    for (int digits = value < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*e", digits - 1, value);
         if (strtod(text, NULL) == value) {
             break;
