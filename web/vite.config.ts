@@ -59,5 +59,9 @@ export default defineConfig({
             },
         },
     },
-    test: { include: ["tests/**/*.test.ts", "tests/**/*.test.tsx"], exclude: ["tests/e2e/**"] },
+    test: {
+        include: ["tests/**/*.test.ts", "tests/**/*.test.tsx"],
+        exclude: ["tests/e2e/**"],
+        testTimeout: 600_000 /* a slow machine is no fault of the code */,
+    },
 });

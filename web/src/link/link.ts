@@ -543,7 +543,15 @@ class SceneLink implements Link {
             x: pixel(x, element.clientWidth, size.width),
             y: pixel(y, element.clientHeight, size.height),
         });
-        return new Promise((take, fail) => this.#picking.set(pick, { take, fail }));
+        return new Promise((take, fail) => {
+            this.#picking.set(pick, { take, fail });
+            /* The server answers only the newest of many. */
+            setTimeout(() => {
+                if (this.#picking.delete(pick)) {
+                    fail(new Error("no answer"));
+                }
+            }, PICK_ANSWER_MS);
+        });
     }
 
     #failPicks(): void {
@@ -558,6 +566,7 @@ class SceneLink implements Link {
 const ATTEMPTS_BEFORE_PROBE = 2;
 /* Answers that waiting will not change. */
 const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];
+const PICK_ANSWER_MS = 10_000;
 /* Hidden pages get no animation frames. */
 const LATEST_FLUSH_MS = 50;
 

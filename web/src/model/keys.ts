@@ -20,9 +20,9 @@ const NAMED: Record<string, string> = {
     Escape: "Esc",
 };
 
-/* Without Ctrl and Alt a sign such as ? or + is its own name, whatever keys make it. */
+/* Without Alt a sign such as ? or + is its own name, whatever keys make it. */
 function signOf(press: KeyPress): string | null {
-    const single = [...press.key].length === 1;
+    const single = !press.altKey && [...press.key].length === 1;
     return single && !/[a-z0-9 ]/i.test(press.key) ? press.key : null;
 }
 

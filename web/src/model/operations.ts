@@ -425,6 +425,9 @@ function moveNode(
     if (isInside(draft.document, parent, id)) {
         throw new Refusal("conflict", at, `${id} cannot move into its own subtree`);
     }
+    if (before === id) {
+        throw new Refusal("conflict", at, "it cannot come before itself");
+    }
     const back: Operation = {
         op: "move",
         at,

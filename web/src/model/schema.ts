@@ -34,6 +34,10 @@ export interface Param {
     readonly max: number | null;
     readonly aboveMin: boolean;
     readonly nonzero: boolean;
+    /* One number may stand for three equal ones. */
+    readonly uniform: boolean;
+    /* Any length but 0. */
+    readonly direction: boolean;
     readonly step: number | null;
     readonly choices: readonly string[];
     readonly main: boolean;
@@ -114,6 +118,8 @@ function readParam(json: JsonObject): Param {
         max: typeof json.max === "number" ? json.max : null,
         aboveMin: json.above_min === true,
         nonzero: json.nonzero === true,
+        uniform: json.uniform === true,
+        direction: json.direction === true,
         step: typeof json.step === "number" && json.step > 0 ? json.step : null,
         choices: listOf(json.choices).map((choice) => textOf(choice)),
         main: json.main === true,
@@ -223,7 +229,7 @@ function checkForm(param: Param, value: Value): string | null {
         case "bool":
             return typeof value === "boolean" ? null : "true or false is expected";
         case "vec3":
-            return typeof value === "number" || isNumberList(value, 3)
+            return (param.uniform && typeof value === "number") || isNumberList(value, 3)
                 ? null
                 : "three numbers are expected";
         case "ivec3":
@@ -287,6 +293,7 @@ export function checkValue(param: Param, value: Value): string | null {
                 return problem;
             }
         }
+        return param.direction && value.every((x) => x === 0) ? "a direction is not 0 0 0" : null;
     }
     return null;
 }

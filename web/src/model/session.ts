@@ -51,6 +51,8 @@ export type SessionMessage =
           readonly revision: number;
           readonly epoch: Epoch;
           readonly last_edit: number;
+          readonly undo?: number;
+          readonly redo?: number;
       }
     | { readonly type: "document"; readonly revision: number; readonly document: Json }
     | {
@@ -244,6 +246,8 @@ function welcome(session: Session, message: Extract<SessionMessage, { type: "wel
             pending,
             settling: [],
             nextEdit: Math.max(session.nextEdit, last + 1),
+            undo: message.undo ?? session.undo,
+            redo: message.redo ?? session.redo,
             landedEdit: last,
             landedRevision: message.revision,
         }),

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: MIT */
+import { expect, test } from "vitest";
+import {
+    type App,
+    COMMANDS,
+    type Context,
+    commandById,
+    commandForKey,
+    overlap,
+    runCommand,
+    searchCommands,
+} from "../src/model/commands.ts";
+import { printDocument } from "../src/model/document.ts";
+import { addNode, moveNodes, paste, wrap } from "../src/model/edits.ts";
+import type { KeyPress } from "../src/model/keys.ts";
+import { apply, type Operation } from "../src/model/operations.ts";
+import { createStores } from "../src/model/stores.ts";
+import { SCHEMA, scene } from "./fixture.ts";
+
+/* A page without a server: edits apply to its document. */
+function page(selection: readonly string[] = []) {
+    const stores = createStores(null);
+    stores.document.setState({ document: scene(), schema: SCHEMA, scene: "s" });
+    stores.view.setState({ selection });
+    const clipboard = { text: "" };
+    const done: string[] = [];
+    const app: App = {
+        stores,
+        edit: (ops: readonly Operation[], options) => {
+            const { document } = stores.document.getState();
+            const result = document && apply(document, ops, SCHEMA);
+            if (!result?.ok) {
+                throw new Error(result?.problem.message);
+            }
+            done.push(options?.label ?? "");
+            stores.document.setState({ document: result.document });
+            return true;
+        },
+        undo: () => void done.push("undo"),
+        redo: () => void done.push("redo"),
+        aspect: () => 1.5,
+        writeClipboard: (text) => {
+            clipboard.text = text;
+        },
+        readClipboard: async () => clipboard.text,
+        download: () => void done.push("download"),
+        upload: () => void done.push("upload"),
+    };
+    const run = (id: string): string | null => {
+        const command = commandById(id);
+        if (!command) {
+            throw new Error(`no command ${id}`);
+        }
+        return runCommand(app, command);
+    };
+    const children = (id: string) => stores.document.getState().document?.nodes.get(id)?.children;
+    return { app, stores, run, children, done, clipboard };
+}
+
+const press = (key: string, mods: string = "", code = ""): KeyPress => ({
+    key,
+    code,
+    ctrlKey: mods.includes("c"),
+    metaKey: mods.includes("m"),
+    shiftKey: mods.includes("s"),
+    altKey: mods.includes("a"),
+});
+
+test("no key means two commands in one place", () => {
+    for (const a of COMMANDS) {
+        for (const b of COMMANDS) {
+            if (a !== b && overlap(a.when, b.when)) {
+                expect(a.keys.filter((key) => b.keys.includes(key))).toEqual([]);
+            }
+        }
+    }
+});
+
+test("every command has an id of its own and a title", () => {
+    expect(new Set(COMMANDS.map(({ id }) => id)).size).toBe(COMMANDS.length);
+    expect(COMMANDS.filter(({ title }) => title === "")).toEqual([]);
+});
+
+test("keys that belong to the browser or to the focus are left alone", () => {
+    const taken = ["Tab", "Shift+Tab", "Ctrl+N", "Ctrl+T", "Ctrl+W", "F5", "Ctrl+R", "Enter"];
+    expect(COMMANDS.flatMap(({ keys }) => keys).filter((key) => taken.includes(key))).toEqual([]);
+});
+
+test.each<[KeyPress, Context, string | undefined]>([
+    [press("k", "c", "KeyK"), "anywhere", "palette.open"],
+    [press("k", "m", "KeyK"), "anywhere", "palette.open"],
+    [press("A", "s", "KeyA"), "tree", "node.add"],
+    [press("z", "c", "KeyZ"), "anywhere", "edit.undo"],
+    [press("Z", "cs", "KeyZ"), "anywhere", "edit.redo"],
+    [press("Delete"), "tree", "node.delete"],
+    [press("d", "c", "KeyD"), "view", "node.duplicate"],
+    [press("F2"), "tree", "node.rename"],
+    [press("h", "", "KeyH"), "tree", "node.hide"],
+    [press("˙", "a", "KeyH"), "tree", "node.showAll"],
+    [press("ArrowUp", "a"), "tree", "node.up"],
+    [press("ArrowUp"), "view", "camera.orbit.up"],
+    [press("ArrowUp"), "tree", undefined],
+    [press("ArrowLeft", "s"), "view", "camera.pan.left"],
+    [press("f", "", "KeyF"), "view", "camera.frame"],
+    [press("1", "", "Numpad1"), "anywhere", "camera.front"],
+    [press("1", "", "Digit1"), "anywhere", undefined],
+    [press("+", "s", "Equal"), "view", "camera.nearer"],
+    [press("?", "s", "Slash"), "anywhere", "help.keys"],
+    [press("Escape"), "anywhere", "escape"],
+])("%o in %s", (key, where, id) => {
+    expect(commandForKey(key, where, false, true)?.id).toBe(id);
+});
+
+test("a key typed into a field is no command, and single keys can be switched off", () => {
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", true, true)).toBeNull();
+    expect(commandForKey(press("z", "c", "KeyZ"), "anywhere", true, true)).toBeNull();
+    expect(commandForKey(press("k", "c", "KeyK"), "anywhere", true, true)?.id).toBe("palette.open");
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", false, false)).toBeNull();
+    expect(commandForKey(press("Delete"), "anywhere", false, false)?.id).toBe("node.delete");
+});
+
+test("delete leaves the neighbour selected; the root stays", () => {
+    const { run, stores, children } = page(["body"]);
+    expect(run("node.delete")).toBeNull();
+    expect(children("neck")).toEqual(["head"]);
+    expect(stores.view.getState().selection).toEqual(["head"]);
+    stores.view.setState({ selection: ["root"] });
+    expect(run("node.delete")).not.toBeNull();
+    stores.view.setState({ selection: [] });
+    expect(run("node.delete")).not.toBeNull();
+});
+
+test("duplicate puts a copy with new ids behind the original", () => {
+    const { run, stores, children } = page(["neck"]);
+    run("node.duplicate");
+    expect(children("root")).toEqual(["neck", "neck-1", "hat"]);
+    expect(children("neck-1")).toEqual(["body-1", "head-1"]);
+    expect(stores.view.getState().selection).toEqual(["neck-1"]);
+});
+
+test("copy, cut and paste go through text", async () => {
+    const { run, stores, children, clipboard } = page(["head"]);
+    run("node.cut");
+    expect(children("neck")).toEqual(["body"]);
+    expect(JSON.parse(clipboard.text)).toMatchObject({ nodes: [{ id: "head" }] });
+    stores.view.setState({ selection: ["hat"] });
+    run("node.paste");
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(children("root")).toEqual(["neck", "hat", "head-1"]);
+    clipboard.text = "hello";
+    run("node.paste");
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(stores.notices.getState().notices).toHaveLength(1);
+});
+
+test("a pasted node gives up a material that is not here", () => {
+    const text = JSON.stringify({ nodes: [{ id: "n", type: "box", material: "tin" }] });
+    const edit = paste(scene(), SCHEMA, [], text);
+    expect(edit?.ops).toMatchObject([{ value: { id: "n-1", type: "box" } }]);
+    expect(JSON.stringify(edit)).not.toContain("tin");
+});
+
+test("reorder steps among siblings and says when there is no further", () => {
+    const { run, children } = page(["head"]);
+    expect(run("node.up")).toBeNull();
+    expect(children("neck")).toEqual(["head", "body"]);
+    expect(run("node.up")).not.toBeNull();
+    expect(run("node.down")).toBeNull();
+    expect(children("neck")).toEqual(["body", "head"]);
+});
+
+test("wrap and dissolve are each other's way back", () => {
+    const { app, run, stores, children } = page(["body", "head"]);
+    const before = JSON.stringify(printDocument(scene()));
+    run("node.wrap.difference");
+    expect(children("neck")).toEqual(["difference-1"]);
+    expect(children("difference-1")).toEqual(["body", "head"]);
+    expect(run("node.dissolve")).toBeNull();
+    const { document } = stores.document.getState();
+    expect(document && JSON.stringify(printDocument(document))).toBe(before);
+    expect(wrap(scene(), ["root"], "group").ops).toEqual([]);
+    expect(app).toBeDefined();
+});
+
+test("adding goes behind a shape, into an operation, around a selection", () => {
+    expect(addNode(scene(), SCHEMA, "sphere", []).ops).toMatchObject([
+        { into: "/nodes/root", before: null, value: { id: "sphere-1" } },
+    ]);
+    expect(addNode(scene(), SCHEMA, "box", ["body"]).ops).toMatchObject([
+        { into: "/nodes/neck", before: "head" },
+    ]);
+    expect(addNode(scene(), SCHEMA, "box", ["neck"]).ops).toMatchObject([{ into: "/nodes/neck" }]);
+    expect(addNode(scene(), SCHEMA, "union", ["head"]).ops).toMatchObject([
+        { op: "insert", into: "/nodes/neck" },
+        { op: "move", at: "/nodes/head" },
+    ]);
+});
+
+test("moving before a node that moves along goes before the next that stays", () => {
+    const edit = moveNodes(scene(), ["body", "head"], { into: "neck", before: "body" });
+    expect(apply(scene(), edit.ops, SCHEMA).ok).toBe(true);
+    expect(edit.ops.at(-1)).toMatchObject({ before: null });
+});
+
+test("hide, hide others, show all", () => {
+    const { run, stores } = page(["head"]);
+    const hidden = () =>
+        [...(stores.document.getState().document?.nodes.values() ?? [])]
+            .filter((node) => node.common.visible === false)
+            .map((node) => node.id);
+    run("node.hide");
+    expect(hidden()).toEqual(["head", "hat"]);
+    run("node.hide");
+    expect(hidden()).toEqual(["hat"]);
+    run("node.hideOthers");
+    expect(hidden().sort()).toEqual(["body", "hat"]);
+    run("node.showAll");
+    expect(hidden()).toEqual([]);
+    expect(run("node.showAll")).not.toBeNull();
+});
+
+test("Escape peels one layer at a time", () => {
+    const { run, stores } = page(["head"]);
+    stores.view.setState({ popup: "add", renaming: "head" });
+    run("escape");
+    expect(stores.view.getState()).toMatchObject({ renaming: null, popup: "add" });
+    run("escape");
+    expect(stores.view.getState()).toMatchObject({ popup: null, selection: ["head"] });
+    run("escape");
+    expect(stores.view.getState().selection).toEqual([]);
+    expect(run("escape")).not.toBeNull();
+});
+
+test("the camera moves without an edit until it is saved", () => {
+    const { run, stores, done } = page(["head"]);
+    run("camera.orbit.left");
+    run("camera.frame");
+    expect(stores.camera.getState().own).toBe(true);
+    expect(stores.camera.getState().camera.target).toEqual([0, 1.3, 0]);
+    expect(done).toEqual([]);
+    run("camera.save");
+    expect(done).toEqual(["set camera"]);
+    expect(stores.camera.getState().own).toBe(false);
+});
+
+test("the palette finds by any words of the title", () => {
+    expect(searchCommands("dup")[0]?.id).toBe("node.duplicate");
+    expect(searchCommands("everything frame")[0]?.id).toBe("camera.home");
+    expect(searchCommands("xyzzy")).toEqual([]);
+    expect(searchCommands("").some(({ keyOnly }) => keyOnly)).toBe(false);
+});
+
+test("preferences survive, broken ones do not spread", () => {
+    const kept = new Map<string, string>([
+        ["fieldcast.preferences", '{"theme":"dark","panels":5}'],
+    ]);
+    const storage = {
+        getItem: (key: string) => kept.get(key) ?? null,
+        setItem: (key: string, value: string) => void kept.set(key, value),
+    };
+    const first = createStores(storage).view;
+    expect(first.getState().preferences).toMatchObject({
+        theme: "dark",
+        panels: { scene: true, inspector: true },
+    });
+    first.setState(({ preferences }) => ({ preferences: { ...preferences, quality: "sharp" } }));
+    expect(createStores(storage).view.getState().preferences.quality).toBe("sharp");
+});

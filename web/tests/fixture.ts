@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT */
+/* A small registry, a document, and seeded random edits for the tests of the model. */
+import { preorder, readDocument, type SceneDocument } from "../src/model/document.ts";
+import type { Json, JsonObject } from "../src/model/json.ts";
+import type { Operation } from "../src/model/operations.ts";
+import { readSchema } from "../src/model/schema.ts";
+
+const float = (name: string, more: JsonObject = {}): JsonObject => ({
+    name,
+    type: "float",
+    default: 1,
+    min: 0,
+    max: 1000,
+    doc: name,
+    ...more,
+});
+const vec3 = (name: string, more: JsonObject = {}): JsonObject => ({
+    name,
+    type: "vec3",
+    default: [0, 0, 0],
+    doc: name,
+    ...more,
+});
+const node = (type: string, group: string, params: JsonObject[], words = ""): JsonObject => ({
+    type,
+    group,
+    exactness: "exact",
+    doc: `A ${type}.`,
+    words,
+    children: "many",
+    params,
+});
+const length = { unit: "length" };
+
+export const SCHEMA = readSchema({
+    "x-fieldcast": {
+        nodes: [
+            node("sphere", "primitive", [float("radius", { ...length, above_min: true })], "ball"),
+            node("box", "primitive", [vec3("size", { default: [1, 1, 1], ...length })]),
+            node("torus", "primitive", [float("radius", length), float("tube", length)], "donut"),
+            node("union", "operation", []),
+            node("difference", "operation", []),
+            node("smooth_union", "operation", [float("k", { default: 0.1 })]),
+            node("group", "structure", []),
+        ],
+        node: [
+            { name: "name", type: "text", default: "" },
+            { name: "material", type: "material", default: "" },
+            { name: "visible", type: "bool", default: true },
+        ],
+        transform: [
+            vec3("translation", length),
+            vec3("rotation", { unit: "angle" }),
+            vec3("scale", { default: [1, 1, 1], nonzero: true, uniform: true }),
+        ],
+        lights: [
+            {
+                type: "directional",
+                params: [
+                    vec3("direction", { default: [0, -1, 0], direction: true }),
+                    float("intensity"),
+                ],
+            },
+            { type: "point", params: [vec3("position", length), float("intensity")] },
+        ],
+        shaders: [
+            { type: "phong", params: [{ name: "diffuse", type: "color", default: [1, 1, 1] }] },
+            {
+                type: "flat",
+                params: [
+                    { name: "diffuse", type: "color", default: [1, 1, 1] },
+                    float("glow", { max: 2 }),
+                ],
+            },
+        ],
+        camera: [
+            vec3("position", { default: [0, 1, 5], ...length }),
+            vec3("target", length),
+            vec3("up", { default: [0, 1, 0], direction: true }),
+            float("fov", { default: 45, min: 1, max: 170, unit: "degrees" }),
+        ],
+        environment: [{ name: "type", type: "enum", choices: ["sky", "solid"], default: "sky" }],
+        render: [{ name: "samples", type: "int", default: 2, min: 1, max: 4 }],
+        limits: [{ name: "nodes", value: 100000, unit: "nodes", doc: "" }],
+    },
+});
+
+export const SCENE: Json = {
+    format: "fieldcast/1",
+    name: "Snowman",
+    camera: { position: [0, 1.5, 6], target: [0, 1, 0], fov: 45 },
+    lights: [
+        { id: "sun", type: "directional", direction: [0, -1, 0], intensity: 3 },
+        { id: "lamp", type: "point", intensity: 2 },
+    ],
+    materials: {
+        snow: { shader: "phong", properties: { diffuse: [0.9, 0.9, 0.95] } },
+        coal: { shader: "flat", properties: { diffuse: [0, 0, 0], glow: 1 } },
+    },
+    environment: { type: "sky" },
+    render: { samples: 2 },
+    root: {
+        id: "root",
+        type: "union",
+        children: [
+            {
+                id: "neck",
+                type: "smooth_union",
+                material: "snow",
+                params: { k: 0.2 },
+                children: [
+                    { id: "body", type: "sphere", params: { radius: 1 } },
+                    {
+                        id: "head",
+                        type: "sphere",
+                        params: { radius: 0.6 },
+                        transform: { translation: [0, 1.3, 0] },
+                    },
+                ],
+            },
+            { id: "hat", type: "box", name: "Hat", visible: false },
+        ],
+    },
+};
+
+export function scene(): SceneDocument {
+    return readDocument(SCENE);
+}
+
+/* Mulberry32 (Tommy Ettinger): the same numbers for the same seed everywhere. */
+export function random(seed: number): () => number {
+    let state = seed >>> 0;
+    return () => {
+        state = (state + 0x6d2b79f5) >>> 0;
+        let t = Math.imul(state ^ (state >>> 15), 1 | state);
+        t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+        return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+    };
+}
+
+export function choose<T>(items: readonly T[], next: () => number): T {
+    return items[Math.floor(next() * items.length)] as T;
+}
+
+const MISSING = "gone";
+
+/* One operation that may or may not fit the document. */
+export function randomOperation(
+    document: SceneDocument,
+    next: () => number,
+    fresh: () => string,
+): Operation {
+    const ids = [...preorder(document), MISSING];
+    const id = choose(ids, next);
+    const x = Math.round(next() * 100) / 10;
+    const materials = [...document.materials.map(({ name }) => name), MISSING];
+    const material = choose(materials, next);
+    const lights = [...document.lights.map(({ name }) => name), MISSING];
+    const light = choose(lights, next);
+    const children = document.nodes.get(id)?.children ?? [];
+    const before = choose([null, null, ...children], next);
+    const set = (at: string, value: Json): Operation => ({ op: "set", at, value });
+    const kinds: readonly (() => Operation)[] = [
+        () => set(`/nodes/${id}/transform/translation`, choose([[x, 0, 1], null], next)),
+        () => set(`/nodes/${id}/transform`, choose([{ scale: 2 }, {}, null], next)),
+        () => set(`/nodes/${id}/params/radius`, choose([x + 1, null], next)),
+        () => set(`/nodes/${id}/params/k`, x),
+        () => set(`/nodes/${id}/name`, choose(["x", null], next)),
+        () => set(`/nodes/${id}/visible`, choose([false, null], next)),
+        () => set(`/nodes/${id}/material`, choose([material, null], next)),
+        () => set(`/nodes/${id}/type`, choose(["sphere", "torus", "box", "union", "?"], next)),
+        () => set("/camera/fov", choose([x + 1, null], next)),
+        () => set("/camera", choose([{ fov: 30 }, null], next)),
+        () => set("/render/samples", 3),
+        () => set("/name", choose(["A", null], next)),
+        () => set(`/lights/${light}/intensity`, x),
+        () => set(`/lights/${light}/type`, choose(["point", "directional"], next)),
+        () => set(`/materials/${material}/properties/diffuse`, [x, x, x]),
+        () => set(`/materials/${material}/shader`, choose(["phong", "flat"], next)),
+        () => ({
+            op: "insert",
+            into: `/nodes/${id}`,
+            before,
+            value: {
+                id: fresh(),
+                type: "union",
+                children: [{ id: fresh(), type: "sphere", params: { radius: x + 1 } }],
+            },
+        }),
+        () => ({
+            op: "insert",
+            into: "/materials",
+            before: choose([null, ...materials], next),
+            name: fresh(),
+            value: { shader: "phong", properties: {} },
+        }),
+        () => ({
+            op: "insert",
+            into: "/lights",
+            before: choose([null, ...lights], next),
+            value: { id: fresh(), type: "point" },
+        }),
+        () => ({ op: "remove", at: `/nodes/${id}` }),
+        () => ({ op: "remove", at: `/materials/${material}` }),
+        () => ({ op: "remove", at: `/lights/${light}` }),
+        () => ({ op: "move", at: `/nodes/${choose(ids, next)}`, into: `/nodes/${id}`, before }),
+        () => ({
+            op: "move",
+            at: `/lights/${light}`,
+            into: "/lights",
+            before: choose([null, ...lights], next),
+        }),
+        () => ({
+            op: "move",
+            at: `/materials/${material}`,
+            into: "/materials",
+            before: choose([null, ...materials], next),
+        }),
+    ];
+    return choose(kinds, next)();
+}

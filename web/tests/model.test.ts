@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/* Schema, history, selection, notices, looking things up. */
+import { expect, test } from "vitest";
+import {
+    freeId,
+    freeName,
+    materialOf,
+    nodeOfPlace,
+    paramAt,
+    preorder,
+    topmost,
+} from "../src/model/document.ts";
+import {
+    EMPTY_HISTORY,
+    fitHistory,
+    forgetStep,
+    recordRedo,
+    recordStep,
+    recordUndo,
+    redoTitle,
+    undoTitle,
+} from "../src/model/history.ts";
+import {
+    checkValue,
+    clampNumber,
+    type Param,
+    searchNodeTypes,
+    type Value,
+} from "../src/model/schema.ts";
+import { addNotice, createStores, dismissNotice } from "../src/model/stores.ts";
+import { text } from "../src/model/texts.ts";
+import { select } from "../src/model/view.ts";
+import { SCHEMA, scene } from "./fixture.ts";
+
+const paramOf = (place: string): Param => {
+    const found = paramAt(SCHEMA, scene(), place);
+    if (!found) {
+        throw new Error(`nothing at ${place}`);
+    }
+    return found.param;
+};
+
+test.each<[string, Value, string | null]>([
+    ["/nodes/body/params/radius", 1, null],
+    ["/nodes/body/params/radius", 0, "0 is not above 0"],
+    ["/nodes/body/params/radius", 2000, "2000 is above the maximum 1000"],
+    ["/nodes/body/params/radius", -1, "-1 is below the minimum 0"],
+    ["/nodes/body/params/radius", Number.NaN, "NaN is not a finite number"],
+    ["/nodes/body/params/radius", "1", "a number is expected"],
+    ["/nodes/body/transform/scale", 2, null],
+    ["/nodes/body/transform/scale", [1, 0, 1], "0 is not allowed"],
+    ["/nodes/body/transform/translation", 2, "three numbers are expected"],
+    ["/nodes/body/transform/translation", [1, 2], "three numbers are expected"],
+    ["/lights/sun/direction", [0, 0, 0], "a direction is not 0 0 0"],
+    ["/materials/snow/properties/diffuse", [1, -1, 0], "-1 is below the minimum 0"],
+    ["/environment/type", "sky", null],
+    ["/environment/type", "moon", "one of sky, solid is expected"],
+    ["/render/samples", 1.5, "1.5 is not a whole number"],
+    ["/nodes/body/visible", 1, "true or false is expected"],
+    ["/camera/fov", 171, "171 is above the maximum 170"],
+])("%s = %o", (place, value, problem) => {
+    expect(checkValue(paramOf(place), value)).toBe(problem);
+});
+
+test("scrubbing stops at what is allowed", () => {
+    for (const x of [-5, 0, 5, 5000]) {
+        const radius = paramOf("/nodes/body/params/radius");
+        expect(checkValue(radius, clampNumber(radius, x))).toBeNull();
+        const samples = paramOf("/render/samples");
+        expect(checkValue(samples, clampNumber(samples, x + 0.4))).toBeNull();
+    }
+});
+
+test("a donut is found under torus", () => {
+    expect(searchNodeTypes(SCHEMA, "donut").map(({ type }) => type)).toEqual(["torus"]);
+    expect(searchNodeTypes(SCHEMA, "union")[0]?.type).toBe("union");
+    expect(searchNodeTypes(SCHEMA, "smooth union")[0]?.type).toBe("smooth_union");
+    expect(searchNodeTypes(SCHEMA, "")).toHaveLength(SCHEMA.nodes.length);
+});
+
+test("materials come from the nearest node that names one", () => {
+    expect(materialOf(scene(), "head")).toEqual({ material: "snow", from: "neck" });
+    expect(materialOf(scene(), "hat")).toBeNull();
+});
+
+test("walks, free names, the node of a place", () => {
+    const document = scene();
+    expect(preorder(document)).toEqual(["root", "neck", "body", "head", "hat"]);
+    expect(topmost(document, ["head", "hat", "neck"])).toEqual(["neck", "hat"]);
+    expect(freeId(document, "body")).toBe("body-1");
+    expect(freeId(document, "body-1", new Set(["body-1"]))).toBe("body-2");
+    expect(freeName(document, "materials", "snow")).toBe("snow-1");
+    expect(nodeOfPlace("/nodes/body/params/radius")).toBe("body");
+    expect(nodeOfPlace("/3/nodes/body")).toBe("body");
+    expect(nodeOfPlace("/camera/fov")).toBeNull();
+});
+
+test("one group is one step, and the server's counts win", () => {
+    let history = recordStep(EMPTY_HISTORY, { group: "a", label: "move head" });
+    history = recordStep(history, { group: "a", label: "" });
+    expect(history.undo).toHaveLength(1);
+    history = recordStep(history, { group: "", label: "delete hat" });
+    expect(undoTitle(history)).toBe("Undo delete hat");
+    history = recordUndo(history);
+    expect([undoTitle(history), redoTitle(history)]).toEqual(["Undo move head", "Redo delete hat"]);
+    history = recordRedo(history);
+    expect(undoTitle(history)).toBe("Undo delete hat");
+    const fitted = fitHistory(history, 4, 0);
+    expect(fitted.undo.map(({ label }) => label)).toEqual(["", "", "move head", "delete hat"]);
+    expect(fitHistory(fitted, 1, 0).undo.map(({ label }) => label)).toEqual(["delete hat"]);
+    expect(forgetStep(history, "a")).toBe(history);
+});
+
+test("selection replaces, adds and toggles; the active node is last", () => {
+    expect(select(["a"], "b", "replace")).toEqual(["b"]);
+    expect(select(["a", "b"], "a", "add")).toEqual(["b", "a"]);
+    expect(select(["a", "b"], "a", "toggle")).toEqual(["b"]);
+    expect(select(["a"], null, "replace")).toEqual([]);
+    expect(select(["a"], null, "add")).toEqual(["a"]);
+});
+
+test("equal notices in a row count up", () => {
+    const { notices } = createStores(null);
+    const one = { level: "info", code: "x", message: "m" } as const;
+    addNotice(notices, one);
+    addNotice(notices, one);
+    addNotice(notices, { ...one, place: "/nodes/a" });
+    expect(notices.getState().notices.map(({ count }) => count)).toEqual([2, 1]);
+    dismissNotice(notices, notices.getState().notices[0]?.id ?? 0);
+    expect(notices.getState().notices).toHaveLength(1);
+});
+
+test("texts are filled in", () => {
+    expect(text("saved", { revision: 7 })).toBe("Everything is saved, revision 7.");
+});

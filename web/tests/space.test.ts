@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* Vectors, rotations, cameras, bounds. */
+import { expect, test } from "vitest";
+import { ballOf } from "../src/model/bounds.ts";
+import {
+    axes,
+    type Camera,
+    cameraOf,
+    distance,
+    dolly,
+    frame,
+    orbit,
+    pan,
+    printCamera,
+    ray,
+    unitsPerPixel,
+    viewFrom,
+} from "../src/model/camera.ts";
+import { readDocument } from "../src/model/document.ts";
+import {
+    add,
+    anglesOf,
+    apply,
+    dot,
+    fromWorld,
+    length,
+    type Matrix,
+    rotation,
+    scale,
+    subtract,
+    toWorld,
+    transformUnder,
+    type Vector,
+} from "../src/model/transform.ts";
+import { random, SCHEMA, scene } from "./fixture.ts";
+
+function close(a: Vector, b: Vector, tolerance = 1e-9): void {
+    expect(length(subtract(a, b))).toBeLessThanOrEqual(tolerance);
+}
+
+function closeMatrix(a: Matrix, b: Matrix): void {
+    for (const i of [0, 1, 2] as const) {
+        close(a[i], b[i], 1e-6);
+    }
+}
+
+const randomVector = (next: () => number, size: number): Vector => [
+    (next() - 0.5) * size,
+    (next() - 0.5) * size,
+    (next() - 0.5) * size,
+];
+
+test("R = Rz Ry Rx: x turns first", () => {
+    const quarter = Math.PI / 2;
+    close(apply(rotation([quarter, 0, 0]), [0, 1, 0]), [0, 0, 1]);
+    close(apply(rotation([0, quarter, 0]), [0, 0, 1]), [1, 0, 0]);
+    close(apply(rotation([0, 0, quarter]), [1, 0, 0]), [0, 1, 0]);
+    close(apply(rotation([quarter, 0, quarter]), [0, 1, 0]), [0, 0, 1]);
+});
+
+test("angles come back from their rotation, near to what they were", () => {
+    const next = random(2);
+    for (let i = 0; i < 2000; i++) {
+        const angles = randomVector(next, 20);
+        const matrix = rotation(angles);
+        closeMatrix(rotation(anglesOf(matrix)), matrix);
+        close(anglesOf(matrix, angles), angles, 1e-6);
+    }
+    for (const y of [Math.PI / 2, -Math.PI / 2]) {
+        const matrix = rotation([0.3, y, 0.7]);
+        closeMatrix(rotation(anglesOf(matrix, [0.3, y, 0.7])), matrix);
+    }
+});
+
+const NESTED = readDocument({
+    root: {
+        id: "root",
+        type: "union",
+        transform: { translation: [1, 2, 3], rotation: [0.1, 0.2, 0.3], scale: 2 },
+        children: [
+            {
+                id: "a",
+                type: "group",
+                transform: { rotation: [1, 0, 0], translation: [0, 5, 0] },
+                children: [
+                    { id: "x", type: "sphere", transform: { rotation: [0, 1, 0], scale: 3 } },
+                ],
+            },
+            { id: "b", type: "group", transform: { scale: 0.5, rotation: [0, 0, 2] } },
+            { id: "c", type: "group", transform: { scale: [1, 2, 1] } },
+        ],
+    },
+});
+
+test("world and own space are inverse, and a new parent keeps the place", () => {
+    const point: Vector = [0.3, -0.4, 0.5];
+    close(fromWorld(NESTED, "x", toWorld(NESTED, "x", point)), point);
+    const transform = transformUnder(NESTED, "x", "b");
+    expect(transform).not.toBeNull();
+    const nodes = new Map(NESTED.nodes);
+    const node = nodes.get("x");
+    if (node && transform) {
+        nodes.set("x", { ...node, parent: "b", transform: { ...transform } });
+    }
+    close(toWorld({ ...NESTED, nodes }, "x", point), toWorld(NESTED, "x", point), 1e-6);
+    expect(transformUnder(NESTED, "x", "c")).toBeNull();
+});
+
+const CAMERA: Camera = { position: [0, 1, 5], target: [0, 1, 0], up: [0, 1, 0], fov: 45 };
+
+test("orbit keeps the distance, goes right and up, and stops at the poles", () => {
+    const right = orbit(CAMERA, 0.1, 0);
+    expect(right.position[0]).toBeGreaterThan(0);
+    const raised = orbit(CAMERA, 0, 0.1);
+    expect(raised.position[1]).toBeGreaterThan(1);
+    expect(distance(orbit(CAMERA, 1, 0.5))).toBeCloseTo(5, 9);
+    const top = orbit(CAMERA, 0, 10);
+    expect(top.position[1]).toBeCloseTo(6, 2);
+    expect(axes(top).up[1]).toBeGreaterThan(0);
+    close(orbit(orbit(CAMERA, 0.4, 0.2), -0.4, -0.2).position, CAMERA.position, 1e-9);
+});
+
+test("pan moves what is at the target by exactly the pointer's way", () => {
+    const height = 400;
+    const moved = pan(CAMERA, 10, 0, height);
+    expect(moved.target[0]).toBeCloseTo(-10 * unitsPerPixel(CAMERA, height), 9);
+    close(subtract(moved.position, moved.target), subtract(CAMERA.position, CAMERA.target));
+    expect(pan(CAMERA, 0, 10, height).target[1]).toBeGreaterThan(1);
+});
+
+test("dolly keeps what lies under the pointer", () => {
+    const pointer = { x: 100, y: 50, width: 640, height: 360 };
+    const hit = (camera: Camera): Vector => {
+        const direction = ray(camera, pointer);
+        const { forward } = axes(camera);
+        const along = scale(direction, distance(camera) / dot(direction, forward));
+        return add(camera.position, along);
+    };
+    const nearer = dolly(CAMERA, 0.5, pointer);
+    expect(distance(nearer)).toBeCloseTo(2.5, 9);
+    close(hit(nearer), hit(CAMERA), 1e-9);
+    expect(distance(dolly(CAMERA, 0))).toBeGreaterThan(0);
+});
+
+test("the middle of the view is straight ahead", () => {
+    close(ray(CAMERA, { x: 320, y: 180, width: 640, height: 360 }), [0, 0, -1]);
+});
+
+test("framing shows the whole ball, high or wide", () => {
+    const ball = { center: [3, 0, 0] as Vector, radius: 2 };
+    for (const aspect of [0.5, 1, 2]) {
+        const framed = frame(CAMERA, ball, aspect);
+        close(framed.target, ball.center);
+        const half = Math.asin(ball.radius / distance(framed));
+        const vertical = (framed.fov * Math.PI) / 360;
+        const horizontal = Math.atan(Math.tan(vertical) * aspect);
+        expect(half).toBeLessThan(Math.min(vertical, horizontal));
+        expect(half).toBeGreaterThan(0.7 * Math.min(vertical, horizontal));
+    }
+});
+
+test("fixed views look along their axis with the picture upright", () => {
+    close(axes(viewFrom(CAMERA, "right")).forward, [-1, 0, 0]);
+    close(axes(viewFrom(CAMERA, "top")).up, [0, 0, -1], 0.02);
+    expect(distance(viewFrom(CAMERA, "top"))).toBeCloseTo(5, 9);
+});
+
+test("a camera is read with defaults and printed with few digits", () => {
+    expect(cameraOf({ position: [1, 2, 3] }, { fov: 50 })).toMatchObject({
+        position: [1, 2, 3],
+        fov: 50,
+    });
+    expect(printCamera({ ...CAMERA, position: [1 / 3, 0, 0] }).position).toEqual([0.333333, 0, 0]);
+});
+
+test("the ball of a node holds it, through its parents", () => {
+    const document = scene();
+    const head = ballOf(document, SCHEMA, ["head"]);
+    close(head.center, [0, 1.3, 0]);
+    expect(head.radius).toBeGreaterThanOrEqual(0.6);
+    const all = ballOf(document, SCHEMA);
+    expect(all.radius + 1e-9).toBeGreaterThanOrEqual(length(subtract(head.center, all.center)));
+    expect(ballOf(document, SCHEMA, ["hat"]).radius).toBe(1); /* hidden: nothing to see */
+    close(ballOf(NESTED, SCHEMA, ["x"]).center, toWorld(NESTED, "x", [0, 0, 0]));
+});
