@@ -172,6 +172,11 @@ static bool collect(struct job *job)
     return true;
 }
 
+bool job_step_possible(const struct job *job)
+{
+    return job->state != JOB_WAITING || program_state(job->snapshot->program) != PROGRAM_PENDING;
+}
+
 enum job_state job_step(struct job *job)
 {
     if (job->state == JOB_WAITING) {

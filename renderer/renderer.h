@@ -94,6 +94,8 @@ enum job_state { JOB_WAITING /* for a compilation */, JOB_RUNNING, JOB_DONE, JOB
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
 /* Draws one tile and returns soon. */
 enum job_state job_step(struct job *job);
+/* False while a step would only wait for the compiler. */
+bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
 struct job_times { uint32_t march_us, light_us, read_us; };
