@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* Counters and gauges, and their Prometheus text. Any thread. */
+#ifndef SERVER_METRICS_H
+#define SERVER_METRICS_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+/* X(NAME, "name after fieldcast_", "type", "help") */
+#define METRICS(X)                                                                                 \
+    X(HTTP_REQUESTS, "http_requests_total", "counter", "HTTP requests answered")                   \
+    X(HTTP_ERRORS, "http_errors_total", "counter", "HTTP requests answered with 4xx or 5xx")       \
+    X(REFUSED, "connections_refused_total", "counter", "Connections refused by the acceptor")      \
+    X(SESSIONS, "sessions", "gauge", "Live connections")                                           \
+    X(SESSIONS_TOTAL, "sessions_total", "counter", "Live connections since the start")             \
+    X(ROOMS, "rooms", "gauge", "Open scenes")                                                      \
+    X(SCENES, "scenes", "gauge", "Scenes in the store")                                            \
+    X(EDITS, "edits_total", "counter", "Edits accepted")                                           \
+    X(EDITS_REJECTED, "edits_rejected_total", "counter", "Edits refused")                          \
+    X(EDITS_DURABLE, "edits_durable_total", "counter", "Edits committed to the store")             \
+    X(COMMITS, "store_commits_total", "counter", "Transactions committed")                         \
+    X(COMMIT_US, "store_commit_microseconds_total", "counter", "Time spent in commits")            \
+    X(RENDERS, "renders_total", "counter", "Pictures asked of the worker")                         \
+    X(RENDERS_FAILED, "renders_failed_total", "counter", "Pictures that the worker refused")       \
+    X(RENDER_QUEUE, "render_queue", "gauge", "Pictures asked and not yet there")                   \
+    X(RENDER_US, "render_microseconds_total", "counter", "Worker's time in march, light, read")    \
+    X(ENCODE_US, "encode_microseconds_total", "counter", "Worker's time in encoders")              \
+    X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
+    X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \
+    X(FRAME_BYTES, "frame_bytes_total", "counter", "Payload bytes of frames sent")                 \
+    X(WORKER_UP, "worker_up", "gauge", "1 while the worker is ready")                              \
+    X(WORKER_RESTARTS, "worker_restarts_total", "counter", "Workers replaced")                     \
+    X(COMPILATIONS, "shader_compilations_total", "counter", "Shader programs compiled")            \
+    X(CACHE_HITS, "shader_cache_hits_total", "counter", "Scenes whose program was there already")  \
+    X(TILES, "tiles_total", "counter", "Tiles drawn")                                              \
+    X(PICTURES, "pictures_total", "counter", "Pictures drawn")                                     \
+    X(RESIDENT_BYTES, "worker_resident_bytes", "gauge", "Memory of the worker")
+
+enum metric {
+#define X(name, text, type, help) METRIC_##name,
+    METRICS(X)
+#undef X
+        METRIC_COUNT
+};
+
+struct metrics {
+    _Atomic int64_t value[METRIC_COUNT];
+};
+
+static inline void metric_add(struct metrics *metrics, enum metric metric, int64_t amount)
+{
+    atomic_fetch_add_explicit(&metrics->value[metric], amount, memory_order_relaxed);
+}
+
+static inline void metric_set(struct metrics *metrics, enum metric metric, int64_t value)
+{
+    atomic_store_explicit(&metrics->value[metric], value, memory_order_relaxed);
+}
+
+/* Prometheus text format 0.0.4; caller frees. */
+char *metrics_print(const struct metrics *metrics);
+
+#endif
