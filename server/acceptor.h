@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* The listening socket. Peeks at each connection's first request head, refuses what is malformed,
+ * late or too much, and hands the socket to the WebSocket or the HTTP side. Knows neither.
+ *
+ *   accept -> [head complete within 5 s?] -> well formed? -> upgrade accepted? -> ws
+ *                  | 408, 431                  | 400, 505         `-----------> http
+ */
+#ifndef SERVER_ACCEPTOR_H
+#define SERVER_ACCEPTOR_H
+
+#include <sys/socket.h>
+
+#include "head.h"
+#include "metrics.h"
+#include "protocol/error.h"
+
+struct acceptor;
+
+/* All are called on the acceptor's thread. */
+struct acceptor_events {
+    void *data;
+    /* Takes `fd` when it returns true; the head has been read from it. False: http gets it. */
+    bool (*upgrade)(void *data, int fd, const struct head *head);
+    /* Takes `fd`, nothing has been read from it. */
+    void (*http)(void *data, int fd, const struct sockaddr *address, socklen_t length);
+    /* Connections http serves now; above `http_limit` new ones get 503. */
+    int (*http_count)(void *data);
+    int http_limit;
+    /* `watch_fd` became readable (-1: nothing to watch). */
+    int watch_fd;
+    void (*watch)(void *data);
+};
+
+/* Listens and starts the thread. `address` is numeric. */
+struct acceptor *acceptor_create(const char *address, int port,
+                                 const struct acceptor_events *events, struct metrics *metrics,
+                                 struct error *err);
+int acceptor_port(const struct acceptor *acceptor);
+/* Ends the thread, closes the listening socket and everything undecided. */
+void acceptor_stop(struct acceptor *acceptor);
+void acceptor_destroy(struct acceptor *acceptor);
+
+#endif
