@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT */
+/* The queue and its thread. */
+#include "store.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "log.h"
+#include "protocol/memory.h"
+#include "store_sqlite.h"
+
+struct store {
+    struct store_sqlite *db;
+    struct metrics *metrics;
+    int lock_fd;
+    pthread_t thread;
+    bool running;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    struct store_write *first, **end; /* waiting */
+    uint64_t pushed, told;
+    bool closing;
+};
+
+static void write_destroy(struct store_write *write)
+{
+    free(write->text);
+    free(write->name);
+    free(write);
+}
+
+void store_loaded_finish(struct store_loaded *loaded)
+{
+    for (size_t i = 0; i < loaded->edit_count; i++) {
+        free(loaded->edits[i].ops);
+    }
+    free(loaded->edits);
+    free(loaded->authors);
+    free(loaded->document);
+    memset(loaded, 0, sizeof(*loaded));
+}
+
+static void commit_batch(struct store *store, const struct store_write *batch)
+{
+    struct error err = {0};
+    int64_t start = clock_us(), edits = 0;
+
+    if (!store_sqlite_commit(store->db, batch, &err)) {
+        log_error("store", "%s: %s; ending, so that nothing is told durable that is not",
+                  err.place, err.message);
+        _exit(STORE_EXIT_STATUS);
+    }
+    for (; batch; batch = batch->next) {
+        edits += batch->kind == STORE_EDIT;
+    }
+    metric_add(store->metrics, METRIC_COMMITS, 1);
+    metric_add(store->metrics, METRIC_COMMIT_US, clock_us() - start);
+    metric_add(store->metrics, METRIC_EDITS_DURABLE, edits);
+}
+
+/* Tells and frees a committed batch; returns how many writes it held. */
+static uint64_t tell_batch(struct store_write *batch)
+{
+    uint64_t count = 0;
+
+    while (batch) {
+        struct store_write *next = batch->next;
+
+        if (batch->on_durable) {
+            batch->on_durable(batch->data);
+        }
+        write_destroy(batch);
+        batch = next;
+        count++;
+    }
+    return count;
+}
+
+static void *run(void *data)
+{
+    struct store *store = data;
+
+    pthread_mutex_lock(&store->lock);
+    for (;;) {
+        while (!store->first && !store->closing) {
+            pthread_cond_wait(&store->changed, &store->lock);
+        }
+        if (!store->first) {
+            break;
+        }
+        struct store_write *batch = store->first;
+        store->first = NULL;
+        store->end = &store->first;
+        pthread_mutex_unlock(&store->lock);
+
+        commit_batch(store, batch);
+        uint64_t count = tell_batch(batch);
+
+        pthread_mutex_lock(&store->lock);
+        store->told += count;
+        pthread_cond_broadcast(&store->changed);
+    }
+    pthread_mutex_unlock(&store->lock);
+    return NULL;
+}
+
+/* The lock goes with the process, whatever ends it. */
+static bool take_directory(struct store *store, const char *directory, struct error *err)
+{
+    char path[4096];
+
+    if (mkdir(directory, 0700) != 0 && errno != EEXIST) {
+        return error_set(err, ERROR_UNAVAILABLE, directory, "cannot be made: %s", strerror(errno));
+    }
+    if (snprintf(path, sizeof(path), "%s/lock", directory) >= (int)sizeof(path)) {
+        return error_set(err, ERROR_LIMIT, directory, "the path is too long");
+    }
+    store->lock_fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (store->lock_fd < 0) {
+        return error_set(err, ERROR_UNAVAILABLE, path, "%s", strerror(errno));
+    }
+    if (flock(store->lock_fd, LOCK_EX | LOCK_NB) != 0) {
+        return error_set(err, ERROR_CONFLICT, directory, "another fieldcast uses this directory");
+    }
+    return true;
+}
+
+struct store *store_open(const char *directory, struct metrics *metrics, struct error *err)
+{
+    struct store *store = memory_alloc(1, sizeof(*store));
+    char path[4096];
+
+    store->metrics = metrics;
+    store->lock_fd = -1;
+    store->end = &store->first;
+    pthread_mutex_init(&store->lock, NULL);
+    pthread_cond_init(&store->changed, NULL);
+    if (!take_directory(store, directory, err)) {
+        goto fail;
+    }
+    snprintf(path, sizeof(path), "%s/scenes.sqlite", directory);
+    store->db = store_sqlite_open(path, err);
+    if (!store->db) {
+        goto fail;
+    }
+    if (pthread_create(&store->thread, NULL, run, store) != 0) {
+        error_set(err, ERROR_INTERNAL, "store", "no thread can be started");
+        goto fail;
+    }
+    store->running = true;
+    return store;
+fail:
+    store_close(store);
+    return NULL;
+}
+
+void store_close(struct store *store)
+{
+    if (!store) {
+        return;
+    }
+    if (store->running) {
+        pthread_mutex_lock(&store->lock);
+        store->closing = true;
+        pthread_cond_broadcast(&store->changed);
+        pthread_mutex_unlock(&store->lock);
+        pthread_join(store->thread, NULL);
+    }
+    store_sqlite_close(store->db);
+    if (store->lock_fd >= 0) {
+        close(store->lock_fd);
+    }
+    pthread_cond_destroy(&store->changed);
+    pthread_mutex_destroy(&store->lock);
+    free(store);
+}
+
+bool store_list(struct store *store, void (*each)(void *data, const struct store_scene *scene),
+                void *data, struct error *err)
+{
+    return store_sqlite_list(store->db, each, data, err);
+}
+
+bool store_load(struct store *store, const char *scene, struct store_loaded *out,
+                struct error *err)
+{
+    return store_sqlite_load(store->db, scene, out, err);
+}
+
+void store_push(struct store *store, struct store_write *write)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_REALTIME, &now);
+    write->time_ms = (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+    write->next = NULL;
+    pthread_mutex_lock(&store->lock);
+    *store->end = write;
+    store->end = &write->next;
+    store->pushed++;
+    pthread_cond_broadcast(&store->changed);
+    pthread_mutex_unlock(&store->lock);
+}
+
+void store_flush(struct store *store)
+{
+    pthread_mutex_lock(&store->lock);
+    uint64_t wanted = store->pushed;
+    while (store->told < wanted) {
+        pthread_cond_wait(&store->changed, &store->lock);
+    }
+    pthread_mutex_unlock(&store->lock);
+}

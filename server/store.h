@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes on disk: for each a snapshot of its document, the log of edits since, and the newest edit
+ * number of each author. Writes are queued and committed in order by one thread, as many as wait
+ * in one transaction; what was told durable survives kill -9 and loss of power. A failed commit
+ * ends the program with STORE_EXIT_STATUS: after a failed fsync nothing on disk can be trusted to
+ * become durable by trying again. Only store_sqlite.c knows the database. */
+#ifndef SERVER_STORE_H
+#define SERVER_STORE_H
+
+#include <stdint.h>
+
+#include "metrics.h"
+#include "protocol/error.h"
+#include "protocol/limits.h"
+
+enum {
+    STORE_EXIT_STATUS = 74,  /* EX_IOERR */
+    STORE_LOG_KEPT = 10000,  /* edits kept before the newest snapshot, for reading by people */
+};
+
+struct store;
+
+enum store_kind {
+    STORE_CREATE,   /* a scene with its first document */
+    STORE_EDIT,     /* an entry of the log */
+    STORE_REPLACE,  /* a new document at a new revision */
+    STORE_SNAPSHOT, /* the document at a revision that the log has reached */
+    STORE_DELETE,
+};
+
+struct store_write {
+    enum store_kind kind;
+    char scene[LIMIT_ID_BYTES + 1];
+    uint64_t revision;
+    char author[LIMIT_ID_BYTES + 1];
+    int64_t edit; /* the author's number; 0: none */
+    char *text;   /* owned: operations of an edit, else the document */
+    char *name;   /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
+    size_t nodes;
+    int64_t time_ms; /* since 1970 */
+    /* On the writer's thread after the commit; may be NULL. */
+    void (*on_durable)(void *data);
+    void *data;
+    struct store_write *next; /* the store's */
+};
+
+/* A row of the list of scenes. */
+struct store_scene {
+    const char *id, *name;
+    uint64_t revision;
+    size_t nodes;
+    int64_t modified_ms;
+};
+
+/* What store_load found: a document, and the edits that come after it in order. */
+struct store_edit {
+    uint64_t revision;
+    char author[LIMIT_ID_BYTES + 1];
+    int64_t edit;
+    char *ops;
+};
+struct store_author {
+    char author[LIMIT_ID_BYTES + 1];
+    int64_t edit;
+};
+struct store_loaded {
+    char *document;
+    uint64_t revision; /* of `document` */
+    struct store_edit *edits;
+    size_t edit_count;
+    struct store_author *authors;
+    size_t author_count;
+};
+void store_loaded_finish(struct store_loaded *loaded);
+
+/* Makes the directory when it is missing and takes hold of it against other processes. */
+struct store *store_open(const char *directory, struct metrics *metrics, struct error *err);
+/* Commits what is queued, then closes. */
+void store_close(struct store *store);
+/* Calls `each` for every scene, by id. */
+bool store_list(struct store *store, void (*each)(void *data, const struct store_scene *scene),
+                void *data, struct error *err);
+/* Any thread; sees what is committed. */
+bool store_load(struct store *store, const char *scene, struct store_loaded *out,
+                struct error *err);
+/* Any thread; takes a `write` from the heap, with its texts. Never waits. */
+void store_push(struct store *store, struct store_write *write);
+/* Waits until everything pushed before is committed and told. */
+void store_flush(struct store *store);
+
+#endif

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: MIT */
+/* SQLite in WAL mode with synchronous=FULL: each commit is on the disk when it returns. */
+#include "store_sqlite.h"
+
+#include <pthread.h>
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+
+enum { SCHEMA_VERSION = 1 };
+
+static const char schema[] =
+    "CREATE TABLE scenes(id TEXT PRIMARY KEY, name TEXT NOT NULL, revision INTEGER NOT NULL,"
+    " nodes INTEGER NOT NULL, modified INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE snapshots(scene TEXT NOT NULL, revision INTEGER NOT NULL,"
+    " document TEXT NOT NULL, UNIQUE(scene, revision));"
+    "CREATE TABLE edits(scene TEXT NOT NULL, revision INTEGER NOT NULL, author TEXT NOT NULL,"
+    " edit INTEGER NOT NULL, time INTEGER NOT NULL, ops TEXT NOT NULL,"
+    " PRIMARY KEY(scene, revision)) WITHOUT ROWID;"
+    /* An author's edit is in the log once, whatever happens. */
+    "CREATE UNIQUE INDEX edits_once ON edits(scene, author, edit) WHERE edit > 0;"
+    "CREATE TABLE authors(scene TEXT NOT NULL, author TEXT NOT NULL, edit INTEGER NOT NULL,"
+    " PRIMARY KEY(scene, author)) WITHOUT ROWID;"
+    "PRAGMA user_version = 1;";
+
+/* Parameters of every statement: 1 scene, 2 revision, 3 author, 4 edit, 5 text, 6 name, 7 nodes,
+ * 8 time, 9 edits kept. */
+enum statement {
+    CREATE_SCENE,
+    UPDATE_SCENE,
+    ADD_SNAPSHOT,
+    DROP_SNAPSHOTS,
+    ADD_EDIT,
+    SET_AUTHOR,
+    CUT_LOG,
+    DELETE_SCENE,
+    DELETE_SNAPSHOTS,
+    DELETE_EDITS,
+    DELETE_AUTHORS,
+    STATEMENT_COUNT
+};
+
+static const char *const texts[STATEMENT_COUNT] = {
+    [CREATE_SCENE] = "INSERT INTO scenes(id, name, revision, nodes, modified)"
+                     " VALUES(?1, ?6, ?2, ?7, ?8)",
+    [UPDATE_SCENE] = "UPDATE scenes SET name=?6, revision=?2, nodes=?7, modified=?8 WHERE id=?1",
+    [ADD_SNAPSHOT] = "INSERT OR REPLACE INTO snapshots(scene, revision, document)"
+                     " VALUES(?1, ?2, ?5)",
+    [DROP_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1 AND revision<?2",
+    [ADD_EDIT] = "INSERT INTO edits(scene, revision, author, edit, time, ops)"
+                 " VALUES(?1, ?2, ?3, ?4, ?8, ?5)",
+    [SET_AUTHOR] = "INSERT INTO authors(scene, author, edit) SELECT ?1, ?3, ?4 WHERE ?4 > 0"
+                   " ON CONFLICT(scene, author) DO UPDATE SET edit=excluded.edit",
+    [CUT_LOG] = "DELETE FROM edits WHERE scene=?1 AND revision<=?2-?9",
+    [DELETE_SCENE] = "DELETE FROM scenes WHERE id=?1",
+    [DELETE_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1",
+    [DELETE_EDITS] = "DELETE FROM edits WHERE scene=?1",
+    [DELETE_AUTHORS] = "DELETE FROM authors WHERE scene=?1",
+};
+
+/* What each kind of write runs. */
+static const int steps[][5] = {
+    [STORE_CREATE] = {CREATE_SCENE, ADD_SNAPSHOT, -1},
+    [STORE_EDIT] = {ADD_EDIT, SET_AUTHOR, UPDATE_SCENE, -1},
+    [STORE_REPLACE] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, UPDATE_SCENE, -1},
+    [STORE_SNAPSHOT] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, CUT_LOG, -1},
+    [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, -1},
+};
+
+struct store_sqlite {
+    sqlite3 *writer, *reader;
+    sqlite3_stmt *statements[STATEMENT_COUNT];
+    pthread_mutex_t read_lock;
+};
+
+static bool database_error(sqlite3 *db, const char *what, struct error *err)
+{
+    return error_set(err, ERROR_INTERNAL, "store", "%s: %s", what, sqlite3_errmsg(db));
+}
+
+static bool execute(sqlite3 *db, const char *sql, struct error *err)
+{
+    return sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK || database_error(db, sql, err);
+}
+
+static int user_version(sqlite3 *db)
+{
+    sqlite3_stmt *statement = NULL;
+    int version = -1;
+
+    if (sqlite3_prepare_v2(db, "PRAGMA user_version", -1, &statement, NULL) == SQLITE_OK &&
+        sqlite3_step(statement) == SQLITE_ROW) {
+        version = sqlite3_column_int(statement, 0);
+    }
+    sqlite3_finalize(statement);
+    return version;
+}
+
+static bool open_writer(struct store_sqlite *db, const char *file, struct error *err)
+{
+    if (sqlite3_open_v2(file, &db->writer,
+                        SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX,
+                        NULL) != SQLITE_OK) {
+        return database_error(db->writer, file, err);
+    }
+    sqlite3_busy_timeout(db->writer, 5000);
+    if (!execute(db->writer, "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL", err)) {
+        return false;
+    }
+    int version = user_version(db->writer);
+    if (version == 0) {
+        char sql[sizeof(schema) + 32];
+
+        snprintf(sql, sizeof(sql), "BEGIN IMMEDIATE;%sCOMMIT", schema);
+        if (!execute(db->writer, sql, err)) {
+            return false;
+        }
+    } else if (version != SCHEMA_VERSION) {
+        return error_set(err, ERROR_INVALID, file, "written by another version: %d, not %d",
+                         version, SCHEMA_VERSION);
+    }
+    for (int i = 0; i < STATEMENT_COUNT; i++) {
+        if (sqlite3_prepare_v2(db->writer, texts[i], -1, &db->statements[i], NULL) != SQLITE_OK) {
+            return database_error(db->writer, texts[i], err);
+        }
+    }
+    return true;
+}
+
+struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
+{
+    struct store_sqlite *db = memory_alloc(1, sizeof(*db));
+
+    pthread_mutex_init(&db->read_lock, NULL);
+    if (!open_writer(db, file, err)) {
+        goto fail;
+    }
+    if (sqlite3_open_v2(file, &db->reader, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, NULL) !=
+        SQLITE_OK) {
+        database_error(db->reader, file, err);
+        goto fail;
+    }
+    sqlite3_busy_timeout(db->reader, 5000);
+    return db;
+fail:
+    store_sqlite_close(db);
+    return NULL;
+}
+
+void store_sqlite_close(struct store_sqlite *db)
+{
+    if (!db) {
+        return;
+    }
+    for (int i = 0; i < STATEMENT_COUNT; i++) {
+        sqlite3_finalize(db->statements[i]);
+    }
+    sqlite3_close(db->reader);
+    sqlite3_close(db->writer); /* the last one checkpoints */
+    pthread_mutex_destroy(&db->read_lock);
+    free(db);
+}
+
+/* --- writing --- */
+
+static void bind_text(sqlite3_stmt *statement, int index, const char *text)
+{
+    /* A statement that lacks the parameter answers SQLITE_RANGE, which is right. */
+    sqlite3_bind_text(statement, index, text ? text : "", -1, SQLITE_STATIC);
+}
+
+static bool run_statement(struct store_sqlite *db, int which, const struct store_write *write,
+                          struct error *err)
+{
+    sqlite3_stmt *statement = db->statements[which];
+
+    bind_text(statement, 1, write->scene);
+    sqlite3_bind_int64(statement, 2, (sqlite3_int64)write->revision);
+    bind_text(statement, 3, write->author);
+    sqlite3_bind_int64(statement, 4, write->edit);
+    bind_text(statement, 5, write->text);
+    bind_text(statement, 6, write->name);
+    sqlite3_bind_int64(statement, 7, (sqlite3_int64)write->nodes);
+    sqlite3_bind_int64(statement, 8, write->time_ms);
+    sqlite3_bind_int64(statement, 9, STORE_LOG_KEPT);
+    bool ok = sqlite3_step(statement) == SQLITE_DONE;
+    if (!ok) {
+        error_set(err, ERROR_INTERNAL, write->scene, "revision %llu: %s",
+                  (unsigned long long)write->revision, sqlite3_errmsg(db->writer));
+    }
+    sqlite3_reset(statement);
+    sqlite3_clear_bindings(statement);
+    return ok;
+}
+
+static bool write_one(struct store_sqlite *db, const struct store_write *write, struct error *err)
+{
+    for (const int *step = steps[write->kind]; *step >= 0; step++) {
+        if (!run_statement(db, *step, write, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool store_sqlite_commit(struct store_sqlite *db, const struct store_write *writes,
+                         struct error *err)
+{
+    if (!execute(db->writer, "BEGIN IMMEDIATE", err)) {
+        return false;
+    }
+    for (; writes; writes = writes->next) {
+        if (!write_one(db, writes, err)) {
+            execute(db->writer, "ROLLBACK", NULL);
+            return false;
+        }
+    }
+    return execute(db->writer, "COMMIT", err);
+}
+
+/* --- reading --- */
+
+static char *column_text(sqlite3_stmt *statement, int column)
+{
+    return memory_text((const char *)sqlite3_column_text(statement, column));
+}
+
+static void column_id(sqlite3_stmt *statement, int column, char out[LIMIT_ID_BYTES + 1])
+{
+    snprintf(out, LIMIT_ID_BYTES + 1, "%s", (const char *)sqlite3_column_text(statement, column));
+}
+
+/* Calls `row` for each row; `scene` is parameter 1 where the statement has one. */
+static bool query(struct store_sqlite *db, const char *sql, const char *scene, int64_t number,
+                  void (*row)(void *data, sqlite3_stmt *statement), void *data, struct error *err)
+{
+    sqlite3_stmt *statement = NULL;
+    int result = sqlite3_prepare_v2(db->reader, sql, -1, &statement, NULL);
+
+    if (result == SQLITE_OK) {
+        bind_text(statement, 1, scene);
+        sqlite3_bind_int64(statement, 2, number);
+        while ((result = sqlite3_step(statement)) == SQLITE_ROW) {
+            row(data, statement);
+        }
+    }
+    if (result != SQLITE_DONE) {
+        database_error(db->reader, sql, err);
+    }
+    sqlite3_finalize(statement);
+    return result == SQLITE_DONE;
+}
+
+struct list_call {
+    void (*each)(void *data, const struct store_scene *scene);
+    void *data;
+};
+
+static void list_row(void *data, sqlite3_stmt *statement)
+{
+    struct list_call *call = data;
+    struct store_scene scene = {
+        .id = (const char *)sqlite3_column_text(statement, 0),
+        .name = (const char *)sqlite3_column_text(statement, 1),
+        .revision = (uint64_t)sqlite3_column_int64(statement, 2),
+        .nodes = (size_t)sqlite3_column_int64(statement, 3),
+        .modified_ms = sqlite3_column_int64(statement, 4),
+    };
+
+    call->each(call->data, &scene);
+}
+
+bool store_sqlite_list(struct store_sqlite *db,
+                       void (*each)(void *data, const struct store_scene *scene), void *data,
+                       struct error *err)
+{
+    struct list_call call = {each, data};
+
+    pthread_mutex_lock(&db->read_lock);
+    bool ok = query(db, "SELECT id, name, revision, nodes, modified FROM scenes ORDER BY id", "", 0,
+                    list_row, &call, err);
+    pthread_mutex_unlock(&db->read_lock);
+    return ok;
+}
+
+static void document_row(void *data, sqlite3_stmt *statement)
+{
+    struct store_loaded *loaded = data;
+
+    loaded->revision = (uint64_t)sqlite3_column_int64(statement, 0);
+    loaded->document = column_text(statement, 1);
+}
+
+static void edit_row(void *data, sqlite3_stmt *statement)
+{
+    struct store_loaded *loaded = data;
+
+    loaded->edits =
+        memory_resize(loaded->edits, loaded->edit_count + 1, sizeof(*loaded->edits));
+    struct store_edit *edit = &loaded->edits[loaded->edit_count++];
+    edit->revision = (uint64_t)sqlite3_column_int64(statement, 0);
+    column_id(statement, 1, edit->author);
+    edit->edit = sqlite3_column_int64(statement, 2);
+    edit->ops = column_text(statement, 3);
+}
+
+static void author_row(void *data, sqlite3_stmt *statement)
+{
+    struct store_loaded *loaded = data;
+
+    loaded->authors =
+        memory_resize(loaded->authors, loaded->author_count + 1, sizeof(*loaded->authors));
+    struct store_author *author = &loaded->authors[loaded->author_count++];
+    column_id(statement, 0, author->author);
+    author->edit = sqlite3_column_int64(statement, 1);
+}
+
+static bool load_rows(struct store_sqlite *db, const char *scene, struct store_loaded *out,
+                      struct error *err)
+{
+    if (!query(db,
+               "SELECT revision, document FROM snapshots WHERE scene=?1"
+               " ORDER BY revision DESC LIMIT 1",
+               scene, 0, document_row, out, err)) {
+        return false;
+    }
+    if (!out->document) {
+        return error_set(err, ERROR_NOT_FOUND, scene, "there is no such scene");
+    }
+    return query(db,
+                 "SELECT revision, author, edit, ops FROM edits WHERE scene=?1 AND revision>?2"
+                 " ORDER BY revision",
+                 scene, (int64_t)out->revision, edit_row, out, err) &&
+           query(db, "SELECT author, edit FROM authors WHERE scene=?1", scene, 0, author_row, out,
+                 err);
+}
+
+bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
+                       struct error *err)
+{
+    memset(out, 0, sizeof(*out));
+    pthread_mutex_lock(&db->read_lock);
+    /* One transaction: the three queries see one state. */
+    bool ok = execute(db->reader, "BEGIN", err) && load_rows(db, scene, out, err);
+    execute(db->reader, "COMMIT", NULL);
+    pthread_mutex_unlock(&db->read_lock);
+    if (!ok) {
+        store_loaded_finish(out);
+    }
+    return ok;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* The database under the store. One writer thread and any number of readers, which share a lock of
+ * their own. */
+#ifndef SERVER_STORE_SQLITE_H
+#define SERVER_STORE_SQLITE_H
+
+#include "store.h"
+
+struct store_sqlite;
+
+struct store_sqlite *store_sqlite_open(const char *file, struct error *err);
+void store_sqlite_close(struct store_sqlite *db);
+/* Writes the whole list in one transaction. False: nothing of it is in the database. */
+bool store_sqlite_commit(struct store_sqlite *db, const struct store_write *writes,
+                         struct error *err);
+bool store_sqlite_list(struct store_sqlite *db,
+                       void (*each)(void *data, const struct store_scene *scene), void *data,
+                       struct error *err);
+bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
+                       struct error *err);
+
+#endif
