@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: MIT */
+#include "renders.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+#include "hub.h"
+#include "log.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "room.h"
+#include "say.h"
+
+struct render {
+    struct render *next;
+    uint32_t id;
+    struct render_order order;
+    char *document; /* a copy of order.document */
+    int deaths;     /* workers lost while this was asked and belongs to no room */
+    bool sent;
+    int64_t deadline;
+};
+
+void renders_init(struct renders *renders)
+{
+    memset(renders, 0, sizeof(*renders));
+    renders->end = &renders->first;
+}
+
+static void render_destroy(struct render *render)
+{
+    cJSON_Delete(render->order.fields);
+    free(render->document);
+    free(render);
+}
+
+/* Takes it out of the list. */
+static void detach(struct hub *hub, struct render *render)
+{
+    struct renders *renders = &hub->renders;
+    struct render **link = &renders->first;
+
+    while (*link != render) {
+        link = &(*link)->next;
+    }
+    *link = render->next;
+    if (!render->next) {
+        renders->end = link;
+    }
+    renders->images -= render->order.priority == RENDER_IMAGE;
+    metric_add(&hub->metrics, METRIC_RENDER_QUEUE, -1);
+}
+
+void renders_finish(struct renders *renders)
+{
+    while (renders->first) {
+        struct render *render = renders->first;
+
+        renders->first = render->next;
+        render_destroy(render);
+    }
+    renders_init(renders);
+}
+
+static void scene_name(const struct render *render, char out[LIMIT_ID_BYTES + 16])
+{
+    if (render->order.room) {
+        snprintf(out, LIMIT_ID_BYTES + 16, "%s", render->order.room->id);
+    } else {
+        snprintf(out, LIMIT_ID_BYTES + 16, "~%" PRIu32, render->id);
+    }
+}
+
+/* --- to the worker --- */
+
+static void send_and_delete(struct hub *hub, cJSON *packet)
+{
+    supervisor_send(hub->supervisor, packet);
+    cJSON_Delete(packet);
+}
+
+static void send_simple(struct hub *hub, const char *type, const struct render *render)
+{
+    cJSON *packet = say_begin(type);
+
+    if (strcmp(type, "drop") == 0) {
+        char name[LIMIT_ID_BYTES + 16];
+
+        scene_name(render, name);
+        cJSON_AddStringToObject(packet, "scene", name);
+    } else {
+        cJSON_AddNumberToObject(packet, "job", render->id);
+    }
+    send_and_delete(hub, packet);
+}
+
+static void send_scene(struct hub *hub, const struct render *render)
+{
+    if (render->order.room) {
+        if (!render->order.room->resident) {
+            send_and_delete(hub, room_scene_packet(render->order.room));
+            render->order.room->resident = true;
+        }
+        return;
+    }
+    char name[LIMIT_ID_BYTES + 16];
+    cJSON *packet = say_begin("scene");
+
+    scene_name(render, name);
+    cJSON_AddStringToObject(packet, "scene", name);
+    cJSON_AddNumberToObject(packet, "revision", 1);
+    cJSON_AddItemToObject(packet, "document",
+                          json_parse(render->document, strlen(render->document), NULL));
+    send_and_delete(hub, packet);
+}
+
+static void send_render(struct hub *hub, struct render *render)
+{
+    char name[LIMIT_ID_BYTES + 16];
+    cJSON *packet = cJSON_Duplicate(render->order.fields, true);
+
+    send_scene(hub, render);
+    scene_name(render, name);
+    cJSON_AddStringToObject(packet, "type", render->order.type);
+    cJSON_AddStringToObject(packet, "scene", name);
+    cJSON_AddNumberToObject(packet, strcmp(render->order.type, "pick") == 0 ? "pick" : "job",
+                            render->id);
+    cJSON_AddNumberToObject(packet, "priority", render->order.priority);
+    render->sent = true;
+    send_and_delete(hub, packet);
+}
+
+/* Has to do with the loss of a worker, perhaps as its cause. */
+static bool is_suspect(const struct render *render)
+{
+    return render->order.room ? render->order.room->deaths > 0 : render->deaths > 0;
+}
+
+/* Sends what may go. A suspect goes alone, so that the next loss has one possible cause. */
+static void dispatch(struct hub *hub)
+{
+    bool any_sent = false, suspect_sent = false;
+
+    if (!hub->renders.ready) {
+        return;
+    }
+    for (struct render *render = hub->renders.first; render; render = render->next) {
+        any_sent |= render->sent;
+        suspect_sent |= render->sent && is_suspect(render);
+    }
+    for (struct render *render = hub->renders.first; render && !suspect_sent;
+         render = render->next) {
+        if (render->sent) {
+            continue;
+        }
+        if (is_suspect(render)) {
+            if (any_sent) {
+                return;
+            }
+            suspect_sent = true;
+        }
+        send_render(hub, render);
+        any_sent = true;
+    }
+}
+
+uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err)
+{
+    struct renders *renders = &hub->renders;
+
+    if (order->room && order->room->left_out) {
+        error_set(err, ERROR_UNAVAILABLE, order->room->id,
+                  "drawing this scene ended the render process %d times; edit it to try again",
+                  RENDER_DEATHS);
+    } else if (order->priority == RENDER_IMAGE && renders->images >= LIMIT_IMAGE_QUEUE) {
+        error_set(err, ERROR_UNAVAILABLE, "", "%d pictures wait already; the limit is %d",
+                  renders->images, LIMIT_IMAGE_QUEUE);
+    } else {
+        struct render *render = memory_alloc(1, sizeof(*render));
+
+        renders->last_id = renders->last_id % 0x7fffffff + 1;
+        render->id = renders->last_id;
+        render->order = *order;
+        render->document = order->document ? memory_text(order->document) : NULL;
+        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
+        *renders->end = render;
+        renders->end = &render->next;
+        renders->images += order->priority == RENDER_IMAGE;
+        metric_add(&hub->metrics, METRIC_RENDERS, 1);
+        metric_add(&hub->metrics, METRIC_RENDER_QUEUE, 1);
+        dispatch(hub);
+        return render->id;
+    }
+    cJSON_Delete(order->fields);
+    return 0;
+}
+
+/* --- ends of an order --- */
+
+static struct render *find(const struct renders *renders, uint32_t id)
+{
+    struct render *render = renders->first;
+
+    while (render && render->id != id) {
+        render = render->next;
+    }
+    return render;
+}
+
+static void finish(struct hub *hub, struct render *render, const struct packet *answer,
+                   const struct error *err)
+{
+    detach(hub, render);
+    if (!render->order.room && render->sent) {
+        send_simple(hub, "drop", render);
+    }
+    render->order.on_done(render->order.data, answer, err);
+    render_destroy(render);
+}
+
+static void cancel(struct hub *hub, struct render *render)
+{
+    detach(hub, render);
+    if (render->sent) {
+        send_simple(hub, "cancel", render);
+        if (!render->order.room) {
+            send_simple(hub, "drop", render);
+        }
+    }
+    render_destroy(render);
+}
+
+void renders_cancel(struct hub *hub, uint32_t id)
+{
+    struct render *render = find(&hub->renders, id);
+
+    if (render) {
+        cancel(hub, render);
+        dispatch(hub);
+    }
+}
+
+void renders_fail_all(struct hub *hub, const char *why)
+{
+    struct error err = {0};
+
+    error_set(&err, ERROR_UNAVAILABLE, "", "%s", why);
+    while (hub->renders.first) {
+        finish(hub, hub->renders.first, NULL, &err);
+    }
+}
+
+void renders_cancel_room(struct hub *hub, const struct room *room)
+{
+    struct error err = {0};
+    struct render *render = hub->renders.first;
+
+    error_set(&err, ERROR_NOT_FOUND, room->id, "the scene was deleted");
+    while (render) {
+        struct render *next = render->next;
+
+        if (render->order.room == room) {
+            finish(hub, render, NULL, &err);
+            next = hub->renders.first; /* the callback may have changed the list */
+        }
+        render = next;
+    }
+}
+
+bool renders_has_room(const struct renders *renders, const struct room *room)
+{
+    const struct render *render = renders->first;
+
+    while (render && render->order.room != room) {
+        render = render->next;
+    }
+    return render != NULL;
+}
+
+static void count_times(struct hub *hub, const cJSON *frame)
+{
+    metric_add(&hub->metrics, METRIC_RENDER_US,
+               (int64_t)(json_member_number(frame, "march_us", 0) +
+                         json_member_number(frame, "light_us", 0) +
+                         json_member_number(frame, "read_us", 0)));
+    metric_add(&hub->metrics, METRIC_ENCODE_US, (int64_t)json_member_number(frame, "encode_us", 0));
+}
+
+static enum error_kind kind_of(const char *code)
+{
+    for (int kind = ERROR_NONE + 1; kind < ERROR_INTERNAL; kind++) {
+        if (strcmp(error_kind_name(kind), code) == 0) {
+            return kind;
+        }
+    }
+    return ERROR_INTERNAL;
+}
+
+void renders_answer(struct hub *hub, const struct packet *packet)
+{
+    const cJSON *json = packet->json;
+    bool picked = cJSON_HasObjectItem(json, "pick");
+    struct render *render =
+        find(&hub->renders, (uint32_t)json_member_number(json, picked ? "pick" : "job", 0));
+
+    if (!render || !render->sent) {
+        return; /* cancelled meanwhile */
+    }
+    if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
+        struct error err = {0};
+
+        error_set(&err, kind_of(json_member_text(json, "code", "")),
+                  json_member_text(json, "place", ""), "%s", json_member_text(json, "message", ""));
+        metric_add(&hub->metrics, METRIC_RENDERS_FAILED, 1);
+        finish(hub, render, NULL, &err);
+    } else {
+        count_times(hub, json);
+        if (render->order.room) {
+            render->order.room->deaths = 0;
+        }
+        finish(hub, render, packet, NULL);
+    }
+    dispatch(hub);
+}
+
+/* --- the worker's fate --- */
+
+void renders_worker_ready(struct hub *hub)
+{
+    hub->renders.ready = true;
+    dispatch(hub);
+}
+
+/* Which scenes may have been the cause: those asked for, and those whose shader was compiling. */
+static void blame(struct hub *hub)
+{
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        bool asked = room->resident && room->shown < room->revision;
+
+        for (struct render *r = hub->renders.first; r && !asked; r = r->next) {
+            asked = r->sent && r->order.room == room;
+        }
+        room->resident = false;
+        room->shown = 0;
+        if (!asked || room->left_out) {
+            continue;
+        }
+        if (++room->deaths >= RENDER_DEATHS) {
+            room->left_out = true;
+            log_error("renders", "scene %s ended the worker %d times and is left out until edited",
+                      room->id, room->deaths);
+            room_tell_all(room, "error", "scene_left_out", "",
+                          "Drawing this scene ended the render process repeatedly. It is not "
+                          "drawn again before it is edited.");
+        }
+    }
+}
+
+static bool gives_up(const struct render *render)
+{
+    return !render->order.again ||
+           (render->order.room ? render->order.room->left_out : render->deaths >= RENDER_DEATHS);
+}
+
+void renders_worker_down(struct hub *hub)
+{
+    struct error err = {0};
+
+    hub->renders.ready = false;
+    blame(hub);
+    error_set(&err, ERROR_UNAVAILABLE, "", "the render process ended while it drew this");
+    for (struct render *render = hub->renders.first, *next; render; render = next) {
+        next = render->next;
+        if (!render->sent) {
+            continue;
+        }
+        render->deaths++;
+        render->sent = false;
+        if (gives_up(render)) {
+            finish(hub, render, NULL, &err);
+        }
+    }
+}
+
+int64_t renders_tick(struct hub *hub, int64_t now_ms)
+{
+    struct error err = {0};
+    int64_t next_deadline = 0;
+
+    error_set(&err, ERROR_UNAVAILABLE, "", "the picture took longer than %d seconds",
+              RENDER_DEADLINE_MS / 1000);
+    for (struct render *render = hub->renders.first, *next; render; render = next) {
+        next = render->next;
+        if (render->deadline > now_ms) {
+            next_deadline = clock_earlier(next_deadline, render->deadline);
+            continue;
+        }
+        if (render->sent) {
+            send_simple(hub, "cancel", render);
+        }
+        finish(hub, render, NULL, &err);
+    }
+    return next_deadline;
+}

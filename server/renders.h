@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures and picks asked of the worker and not yet answered. Survives the worker: what was asked
+ * is asked again of the next one, and a scene that kills workers is left out. Every function is
+ * called under the hub's lock. */
+#ifndef SERVER_RENDERS_H
+#define SERVER_RENDERS_H
+
+#include <cjson/cJSON.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "protocol/error.h"
+#include "renderer/worker.h"
+
+struct hub;
+struct room;
+struct render;
+
+enum {
+    RENDER_MOVING = 0, /* priorities: the lowest number goes first */
+    RENDER_STILL = 1,
+    RENDER_LOSSLESS = 2,
+    RENDER_IMAGE = 3,
+    RENDER_DEADLINE_MS = 120000,
+    RENDER_DEATHS = 2, /* workers that one scene may take with it */
+};
+
+struct renders {
+    struct render *first, **end; /* in order of asking */
+    uint32_t last_id;
+    int images; /* with priority RENDER_IMAGE */
+    bool ready; /* a worker is there */
+};
+
+struct render_order {
+    const char *type;     /* "render" or "pick" */
+    struct room *room;    /* the scene; or */
+    const char *document; /* the text of one that is used once */
+    cJSON *fields;        /* the packet's other members; taken */
+    int priority;
+    bool again; /* ask the next worker when this one dies */
+    /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */
+    void (*on_done)(void *data, const struct packet *answer, const struct error *err);
+    void *data;
+};
+
+void renders_init(struct renders *renders);
+void renders_finish(struct renders *renders);
+/* Id of the order; 0 and `err` when too many wait or the scene is left out. */
+uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err);
+void renders_cancel(struct hub *hub, uint32_t id);
+/* Answers every order of the room with ERROR_NOT_FOUND. */
+void renders_cancel_room(struct hub *hub, const struct room *room);
+bool renders_has_room(const struct renders *renders, const struct room *room);
+/* Answers every order with ERROR_UNAVAILABLE. */
+void renders_fail_all(struct hub *hub, const char *why);
+
+/* Events of the supervisor. */
+void renders_worker_ready(struct hub *hub);
+void renders_worker_down(struct hub *hub);
+/* A packet of type frame, failed or picked. */
+void renders_answer(struct hub *hub, const struct packet *packet);
+/* Fails what is too old; returns the next deadline or 0. */
+int64_t renders_tick(struct hub *hub, int64_t now_ms);
+
+#endif

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: MIT */
+/* One thread polls the socket of the worker. Packets that the socket does not take at once wait in
+ * a queue, so that nobody who holds a lock ever waits for the worker. */
+#include "supervisor.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "log.h"
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+
+enum {
+    PING_MS = 250,
+    START_MS = 60000,       /* a worker may take so long to become ready */
+    STEADY_MS = 2000,       /* one that lived longer is replaced at once */
+    BACKOFF_FIRST_MS = 100, /* else after a pause, doubled each time */
+    BACKOFF_MAX_MS = 5000,
+};
+
+struct chunk {
+    struct chunk *next;
+    size_t length, sent;
+    uint8_t *bytes;
+};
+
+struct supervisor {
+    struct supervisor_params params;
+    pthread_t thread;
+    int wake_fd;
+    atomic_bool stopping;
+
+    pthread_mutex_t lock; /* guards fd, ready, chunks */
+    int fd;               /* -1: no worker */
+    bool ready;
+    struct chunk *first, **end;
+
+    /* The thread's own. */
+    pid_t pid;
+    struct packet_reader reader;
+    int64_t started, heard, next_ping, next_start;
+    int backoff_ms;
+    int64_t counted[4]; /* the last pong's counters */
+};
+
+/* --- sending --- */
+
+static void chunks_clear(struct supervisor *supervisor)
+{
+    while (supervisor->first) {
+        struct chunk *chunk = supervisor->first;
+
+        supervisor->first = chunk->next;
+        free(chunk->bytes);
+        free(chunk);
+    }
+    supervisor->end = &supervisor->first;
+}
+
+/* Under the lock: writes what the socket takes. */
+static void chunks_write(struct supervisor *supervisor)
+{
+    struct chunk *chunk;
+
+    while ((chunk = supervisor->first) != NULL) {
+        ssize_t sent = send(supervisor->fd, chunk->bytes + chunk->sent,
+                            chunk->length - chunk->sent, MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent < 0) {
+            return; /* full, or dead: then the reading side notices */
+        }
+        chunk->sent += (size_t)sent;
+        if (chunk->sent < chunk->length) {
+            continue;
+        }
+        supervisor->first = chunk->next;
+        if (!supervisor->first) {
+            supervisor->end = &supervisor->first;
+        }
+        free(chunk->bytes);
+        free(chunk);
+    }
+}
+
+void supervisor_wake(struct supervisor *supervisor)
+{
+    eventfd_write(supervisor->wake_fd, 1);
+}
+
+static void send_packet(struct supervisor *supervisor, const cJSON *packet)
+{
+    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
+
+    chunk->bytes = packet_pack(packet, NULL, 0, &chunk->length);
+    pthread_mutex_lock(&supervisor->lock);
+    if (!supervisor->ready) {
+        pthread_mutex_unlock(&supervisor->lock);
+        free(chunk->bytes);
+        free(chunk);
+        return;
+    }
+    *supervisor->end = chunk;
+    supervisor->end = &chunk->next;
+    chunks_write(supervisor);
+    bool rest = supervisor->first != NULL;
+    pthread_mutex_unlock(&supervisor->lock);
+    if (rest) {
+        supervisor_wake(supervisor);
+    }
+}
+
+void supervisor_send(struct supervisor *supervisor, const cJSON *packet)
+{
+    send_packet(supervisor, packet);
+}
+
+/* --- the process --- */
+
+static bool spawn(struct supervisor *supervisor, int child_fd)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, child_fd, WORKER_FD);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    int result = posix_spawn(&supervisor->pid, "/proc/self/exe", &actions, &attributes,
+                             (char *const *)supervisor->params.argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    if (result != 0) {
+        supervisor->pid = 0;
+        log_error("worker", "cannot be started: %s", strerror(result));
+    }
+    return result == 0;
+}
+
+static void start(struct supervisor *supervisor)
+{
+    int pair[2];
+
+    supervisor->started = supervisor->heard = clock_ms();
+    supervisor->next_start = 0;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) {
+        log_error("worker", "no socket: %s", strerror(errno));
+        supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
+        return;
+    }
+    bool ok = spawn(supervisor, pair[1]);
+    close(pair[1]);
+    if (!ok) {
+        close(pair[0]);
+        supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
+        return;
+    }
+    memset(supervisor->counted, 0, sizeof(supervisor->counted));
+    pthread_mutex_lock(&supervisor->lock);
+    supervisor->fd = pair[0];
+    pthread_mutex_unlock(&supervisor->lock);
+    log_info("worker", "started as process %d", (int)supervisor->pid);
+}
+
+static void describe_exit(int status, char *out, size_t size)
+{
+    if (WIFSIGNALED(status)) {
+        snprintf(out, size, "ended by signal %d (%s)", WTERMSIG(status),
+                 strsignal(WTERMSIG(status)));
+    } else {
+        snprintf(out, size, "ended with status %d", WEXITSTATUS(status));
+    }
+}
+
+static void plan_restart(struct supervisor *supervisor)
+{
+    int64_t now = clock_ms();
+
+    if (now - supervisor->started > STEADY_MS) {
+        supervisor->backoff_ms = 0;
+        supervisor->next_start = now;
+        return;
+    }
+    supervisor->backoff_ms =
+        supervisor->backoff_ms ? supervisor->backoff_ms * 2 : BACKOFF_FIRST_MS;
+    if (supervisor->backoff_ms > BACKOFF_MAX_MS) {
+        supervisor->backoff_ms = BACKOFF_MAX_MS;
+    }
+    supervisor->next_start = now + supervisor->backoff_ms;
+}
+
+/* Kills what is left of the worker and tells why. */
+static void take_down(struct supervisor *supervisor, const char *reason)
+{
+    char text[160];
+    int status = 0;
+
+    pthread_mutex_lock(&supervisor->lock);
+    close(supervisor->fd);
+    supervisor->fd = -1;
+    supervisor->ready = false;
+    chunks_clear(supervisor);
+    pthread_mutex_unlock(&supervisor->lock);
+    packet_reader_finish(&supervisor->reader);
+    memset(&supervisor->reader, 0, sizeof(supervisor->reader));
+    kill(supervisor->pid, SIGKILL);
+    waitpid(supervisor->pid, &status, 0);
+    supervisor->pid = 0;
+    if (reason) {
+        snprintf(text, sizeof(text), "%s", reason);
+    } else {
+        describe_exit(status, text, sizeof(text));
+    }
+    metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 0);
+    if (atomic_load(&supervisor->stopping)) {
+        return;
+    }
+    metric_add(supervisor->params.metrics, METRIC_WORKER_RESTARTS, 1);
+    log_warning("worker", "%s; another one is started", text);
+    plan_restart(supervisor);
+    supervisor->params.on_down(supervisor->params.data, text);
+}
+
+/* --- receiving --- */
+
+/* A worker counts from 0; ours go on over restarts. */
+static void count_pong(struct supervisor *supervisor, const cJSON *pong)
+{
+    static const struct {
+        const char *member;
+        enum metric metric;
+    } counters[4] = {{"compilations", METRIC_COMPILATIONS},
+                     {"cache_hits", METRIC_CACHE_HITS},
+                     {"tiles", METRIC_TILES},
+                     {"pictures", METRIC_PICTURES}};
+
+    for (int i = 0; i < 4; i++) {
+        int64_t value = (int64_t)json_member_number(pong, counters[i].member, 0);
+
+        metric_add(supervisor->params.metrics, counters[i].metric, value - supervisor->counted[i]);
+        supervisor->counted[i] = value;
+    }
+    metric_set(supervisor->params.metrics, METRIC_RESIDENT_BYTES,
+               (int64_t)json_member_number(pong, "resident_bytes", 0));
+}
+
+static void receive_packet(struct supervisor *supervisor, const struct packet *packet)
+{
+    const char *type = json_member_text(packet->json, "type", "");
+
+    supervisor->heard = clock_ms();
+    if (strcmp(type, "pong") == 0) {
+        count_pong(supervisor, packet->json);
+    } else if (strcmp(type, "ready") == 0) {
+        pthread_mutex_lock(&supervisor->lock);
+        supervisor->ready = true;
+        pthread_mutex_unlock(&supervisor->lock);
+        metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 1);
+        supervisor->params.on_ready(supervisor->params.data, packet->json);
+    } else {
+        supervisor->params.on_packet(supervisor->params.data, type, packet);
+    }
+}
+
+/* False: the worker is gone or talks nonsense. */
+static bool receive(struct supervisor *supervisor)
+{
+    uint8_t bytes[65536];
+    ssize_t got = recv(supervisor->fd, bytes, sizeof(bytes), MSG_DONTWAIT);
+    struct packet packet;
+    int result;
+
+    if (got <= 0) {
+        return got < 0 && (errno == EAGAIN || errno == EINTR);
+    }
+    packet_reader_add(&supervisor->reader, bytes, (size_t)got);
+    while ((result = packet_reader_next(&supervisor->reader, &packet)) == 1) {
+        receive_packet(supervisor, &packet);
+        packet_finish(&packet);
+    }
+    return result == 0;
+}
+
+/* --- the loop --- */
+
+static void ping(struct supervisor *supervisor, int64_t now)
+{
+    cJSON *packet = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(packet, "type", "ping");
+    cJSON_AddNumberToObject(packet, "ping", (double)now);
+    send_packet(supervisor, packet);
+    cJSON_Delete(packet);
+    supervisor->next_ping = now + PING_MS;
+}
+
+static void watch_over(struct supervisor *supervisor, int64_t now)
+{
+    if (supervisor->fd < 0) {
+        if (supervisor->next_start <= now) {
+            start(supervisor);
+        }
+        return;
+    }
+    int limit = supervisor->ready ? supervisor->params.silence_ms : START_MS;
+    if (now - supervisor->heard > limit) {
+        char reason[80];
+
+        snprintf(reason, sizeof(reason), "silent for %lld ms",
+                 (long long)(now - supervisor->heard));
+        take_down(supervisor, reason);
+    } else if (supervisor->ready && supervisor->next_ping <= now) {
+        ping(supervisor, now);
+    }
+}
+
+static int wait_ms(const struct supervisor *supervisor, int64_t wish)
+{
+    int64_t next = clock_earlier(wish, supervisor->fd < 0       ? supervisor->next_start
+                                       : supervisor->ready ? supervisor->next_ping
+                                                           : clock_ms() + PING_MS);
+    int64_t left = next - clock_ms();
+
+    return left < 0 ? 0 : left > 1000 ? 1000 : (int)left;
+}
+
+static void wait_and_receive(struct supervisor *supervisor, int timeout_ms)
+{
+    struct pollfd fds[2] = {{.fd = supervisor->wake_fd, .events = POLLIN},
+                            {.fd = supervisor->fd, .events = POLLIN}};
+    eventfd_t ignored;
+
+    pthread_mutex_lock(&supervisor->lock);
+    if (supervisor->first) {
+        fds[1].events |= POLLOUT;
+    }
+    pthread_mutex_unlock(&supervisor->lock);
+    if (poll(fds, 2, timeout_ms) <= 0) {
+        return;
+    }
+    if (fds[0].revents) {
+        eventfd_read(supervisor->wake_fd, &ignored);
+    }
+    if (fds[1].revents & POLLOUT) {
+        pthread_mutex_lock(&supervisor->lock);
+        chunks_write(supervisor);
+        pthread_mutex_unlock(&supervisor->lock);
+    }
+    if ((fds[1].revents & (POLLIN | POLLHUP | POLLERR)) && !receive(supervisor)) {
+        take_down(supervisor, NULL);
+    }
+}
+
+static void *run(void *data)
+{
+    struct supervisor *supervisor = data;
+
+    while (!atomic_load(&supervisor->stopping)) {
+        watch_over(supervisor, clock_ms());
+        int64_t wish = supervisor->params.on_tick(supervisor->params.data, clock_ms());
+
+        wait_and_receive(supervisor, wait_ms(supervisor, wish));
+    }
+    if (supervisor->fd >= 0) {
+        take_down(supervisor, "stopped");
+    }
+    return NULL;
+}
+
+struct supervisor *supervisor_create(const struct supervisor_params *params)
+{
+    struct supervisor *supervisor = memory_alloc(1, sizeof(*supervisor));
+
+    supervisor->params = *params;
+    supervisor->fd = -1;
+    supervisor->end = &supervisor->first;
+    supervisor->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    pthread_mutex_init(&supervisor->lock, NULL);
+    if (supervisor->wake_fd < 0 || pthread_create(&supervisor->thread, NULL, run, supervisor)) {
+        abort();
+    }
+    return supervisor;
+}
+
+void supervisor_stop(struct supervisor *supervisor)
+{
+    if (supervisor && !atomic_exchange(&supervisor->stopping, true)) {
+        supervisor_wake(supervisor);
+        pthread_join(supervisor->thread, NULL);
+    }
+}
+
+void supervisor_destroy(struct supervisor *supervisor)
+{
+    if (!supervisor) {
+        return;
+    }
+    supervisor_stop(supervisor);
+    close(supervisor->wake_fd);
+    pthread_mutex_destroy(&supervisor->lock);
+    free(supervisor);
+}
