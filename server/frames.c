@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: MIT */
+#include "frames.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+#include "hub.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "protocol/nodes.h"
+#include "room.h"
+#include "session.h"
+
+/* Side lengths of moving pictures, relative to the view. */
+static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25};
+enum { SCALE_COUNT = sizeof(scales) / sizeof(*scales), FIRST_STEP = 2 };
+
+struct quality_rule {
+    double target_ms; /* what a moving picture may take */
+    int last_step;    /* how far it may shrink */
+};
+
+static const struct quality_rule quality_rules[] = {
+    [QUALITY_AUTO] = {50, SCALE_COUNT - 1},
+    [QUALITY_SMOOTH] = {25, SCALE_COUNT - 1},
+    [QUALITY_SHARP] = {120, 2},
+};
+
+/* How each level is encoded. */
+struct level_rule {
+    const char *format;
+    int priority, quality, samples;
+    bool chroma_halved, fast, exact;
+    int after_ms; /* rest of the view before it is due */
+    uint8_t flags;
+};
+
+static const struct level_rule level_rules[] = {
+    [FRAMES_MOVING] = {"jpg", RENDER_MOVING, 60, 1, true, true, false, 0, FRAME_KEY},
+    [FRAMES_STILL] = {"jpg", RENDER_STILL, 88, 1, false, true, false, FRAMES_STILL_MS,
+                      FRAME_KEY | FRAME_STILL},
+    [FRAMES_LOSSLESS] = {"png", RENDER_LOSSLESS, 0, 0, false, true, true, FRAMES_LOSSLESS_MS,
+                         FRAME_KEY | FRAME_STILL | FRAME_LOSSLESS},
+};
+
+void frames_init(struct frames *frames)
+{
+    memset(frames, 0, sizeof(*frames));
+    frames->step = FIRST_STEP;
+}
+
+static void drop_job(struct session *session)
+{
+    if (session->frames.job) {
+        renders_cancel(session->hub, session->frames.job);
+        session->frames.job = 0;
+    }
+}
+
+void frames_finish(struct session *session)
+{
+    drop_job(session);
+    for (int i = 0; i < FRAMES_VIEWS; i++) {
+        free(session->frames.views[i].camera);
+    }
+}
+
+/* --- views --- */
+
+static struct frames_view *newest_view(struct frames *frames)
+{
+    return frames->has_view ? &frames->views[frames->newest] : NULL;
+}
+
+const struct frames_view *frames_find_view(const struct frames *frames, uint32_t seq)
+{
+    if (!frames->has_view) {
+        return NULL;
+    }
+    for (int i = 0; i < FRAMES_VIEWS; i++) {
+        if (frames->views[i].seq == seq && frames->views[i].width > 0) {
+            return &frames->views[i];
+        }
+    }
+    return &frames->views[frames->newest];
+}
+
+/* The camera in its canonical text, so that equal ones compare equal. */
+static bool read_camera(const cJSON *json, char **out_text, struct error *err)
+{
+    struct record camera;
+
+    *out_text = NULL;
+    if (!json) {
+        return true;
+    }
+    record_init(&camera, &camera_type);
+    bool ok = record_read(&camera, json, "/camera", err);
+    if (ok) {
+        cJSON *object = cJSON_CreateObject();
+
+        record_print(&camera, object);
+        *out_text = json_print(object, false);
+        cJSON_Delete(object);
+    }
+    record_finish(&camera);
+    return ok;
+}
+
+static enum frames_quality find_quality(const char *name)
+{
+    return strcmp(name, "smooth") == 0  ? QUALITY_SMOOTH
+           : strcmp(name, "sharp") == 0 ? QUALITY_SHARP
+                                        : QUALITY_AUTO;
+}
+
+static bool same_text(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static bool same_picture(const struct frames_view *a, const struct frames_view *b)
+{
+    return a->width == b->width && a->height == b->height && a->aov == b->aov &&
+           a->quality == b->quality && a->visible == b->visible && same_text(a->camera, b->camera);
+}
+
+bool frames_set_view(struct session *session, const cJSON *message, struct error *err)
+{
+    struct frames *frames = &session->frames;
+    struct frames_view *old = newest_view(frames);
+    struct frames_view view = {
+        .seq = (uint32_t)json_member_number(message, "seq", 0),
+        .width = (int)json_member_number(message, "width", 0),
+        .height = (int)json_member_number(message, "height", 0),
+        .aov = aov_find(json_member_text(message, "aov", "color")),
+        .quality = find_quality(json_member_text(message, "quality", "auto")),
+        .visible = json_member_bool(message, "visible", true),
+    };
+
+    if (!read_camera(cJSON_GetObjectItemCaseSensitive(message, "camera"), &view.camera, err)) {
+        return false;
+    }
+    if (old && same_picture(old, &view)) {
+        old->seq = view.seq;
+        free(view.camera);
+        return true;
+    }
+    frames->newest = old ? (frames->newest + 1) % FRAMES_VIEWS : 0;
+    free(frames->views[frames->newest].camera);
+    frames->views[frames->newest] = view;
+    frames->has_view = true;
+    frames_changed(session);
+    return true;
+}
+
+void frames_changed(struct session *session)
+{
+    struct frames *frames = &session->frames;
+
+    frames->changed_at = clock_ms();
+    frames->done = FRAMES_NOTHING;
+    if (frames->job_level > FRAMES_MOVING) {
+        drop_job(session);
+    }
+    supervisor_wake(session->hub->supervisor);
+}
+
+/* --- flow --- */
+
+static int flight_slot(const struct frames *frames, uint32_t number)
+{
+    for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
+        if (frames->flight[i].number == number) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Frames arrive in order: what is before the acknowledged one was shown or skipped. */
+void frames_acknowledge(struct session *session, uint32_t number)
+{
+    struct frames *frames = &session->frames;
+
+    for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
+        if (frames->flight[i].number && frames->flight[i].number <= number) {
+            frames->flight[i].number = 0;
+        }
+    }
+    supervisor_wake(session->hub->supervisor);
+}
+
+static bool has_credit(const struct frames *frames, int64_t now_ms)
+{
+    bool free_slot = false;
+
+    for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
+        if (!frames->flight[i].number) {
+            free_slot = true;
+        } else if (now_ms - frames->flight[i].sent_ms > FRAMES_STALL_MS) {
+            return false;
+        }
+    }
+    return free_slot;
+}
+
+/* --- how large a moving picture is --- */
+
+static double predicted_ms(const struct frames *frames, const struct frames_view *view, int step)
+{
+    return frames->ns_per_pixel * view->width * view->height * scales[step] * scales[step] * 1e-6;
+}
+
+static void choose_step(struct frames *frames, const struct frames_view *view)
+{
+    const struct quality_rule *rule = &quality_rules[view->quality];
+
+    if (frames->ns_per_pixel > 0) {
+        int step = 0;
+
+        /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
+        while (step < rule->last_step &&
+               predicted_ms(frames, view, step) >
+                   rule->target_ms * (step < frames->step ? 0.8 : 1.1)) {
+            step++;
+        }
+        frames->step = step;
+    }
+    if (frames->step > rule->last_step) {
+        frames->step = rule->last_step;
+    }
+}
+
+static void learn(struct frames *frames)
+{
+    double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
+
+    frames->ns_per_pixel =
+        frames->ns_per_pixel > 0 ? frames->ns_per_pixel + 0.3 * (took - frames->ns_per_pixel)
+                                 : took;
+}
+
+/* --- asking and receiving --- */
+
+static void send_frame(struct session *session, const struct packet *answer)
+{
+    struct frames *frames = &session->frames;
+    const cJSON *json = answer->json;
+    bool newest = json_member_bool(json, "newest", true);
+    struct frame_header header = {
+        .codec = strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG
+                                                                              : FRAME_JPEG,
+        .flags = level_rules[frames->job_level].flags | (newest ? 0 : FRAME_STALE),
+        .number = ++frames->last_number,
+        .payload_bytes = (uint32_t)answer->payload_length,
+        .revision = (uint64_t)json_member_number(json, "revision", 0),
+        .input = frames->job_seq,
+        .width = (uint16_t)json_member_number(json, "width", 0),
+        .height = (uint16_t)json_member_number(json, "height", 0),
+        .view_width = (uint16_t)frames->job_view_width,
+        .view_height = (uint16_t)frames->job_view_height,
+        .queue_us = (uint32_t)json_member_number(json, "queue_us", 0),
+        .march_us = (uint32_t)json_member_number(json, "march_us", 0),
+        .light_us = (uint32_t)json_member_number(json, "light_us", 0),
+        .read_us = (uint32_t)json_member_number(json, "read_us", 0),
+        .encode_us = (uint32_t)json_member_number(json, "encode_us", 0),
+    };
+    struct blob *payload = blob_create(answer->payload, answer->payload_length);
+    uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
+
+    blob_unref(payload);
+    if (given_up) {
+        int slot = flight_slot(frames, given_up);
+
+        if (slot >= 0) {
+            frames->flight[slot].number = 0;
+        }
+        metric_add(&session->hub->metrics, METRIC_FRAMES_DROPPED, 1);
+    }
+    int slot = flight_slot(frames, 0);
+    if (slot >= 0) {
+        frames->flight[slot].number = header.number;
+        frames->flight[slot].sent_ms = clock_ms();
+    }
+    frames->stale = !newest;
+    session->wake(session->connection);
+}
+
+static void on_picture(void *data, const struct packet *answer, const struct error *err)
+{
+    struct session *session = data;
+    struct frames *frames = &session->frames;
+
+    frames->job = 0;
+    if (!answer) {
+        /* Another worker is asked again; a refusal would only be repeated. */
+        if (err->kind == ERROR_UNAVAILABLE) {
+            frames->done = FRAMES_NOTHING;
+        }
+        return;
+    }
+    if (frames->job_level == FRAMES_MOVING) {
+        learn(frames);
+    }
+    send_frame(session, answer);
+    if (frames->stale && session->room->shown >= session->room->revision) {
+        frames_changed(session);
+    }
+}
+
+void frames_shown(struct session *session)
+{
+    if (session->frames.stale) {
+        session->frames.stale = false;
+        frames_changed(session);
+    }
+}
+
+static cJSON *picture_fields(struct frames *frames, const struct frames_view *view,
+                             enum frames_level level)
+{
+    const struct level_rule *rule = &level_rules[level];
+    double scale = level == FRAMES_MOVING ? scales[frames->step] : 1;
+    int width = (int)fmax(1, lround(view->width * scale));
+    int height = (int)fmax(1, lround(view->height * scale));
+    cJSON *fields = cJSON_CreateObject();
+
+    cJSON_AddNumberToObject(fields, "width", width);
+    cJSON_AddNumberToObject(fields, "height", height);
+    if (view->camera) {
+        cJSON_AddItemToObject(fields, "camera",
+                              json_parse(view->camera, strlen(view->camera), NULL));
+    }
+    cJSON_AddStringToObject(fields, "aov", aov_name(view->aov));
+    cJSON_AddNumberToObject(fields, "samples", rule->samples);
+    /* JPEG would spoil what is no colour. */
+    cJSON_AddStringToObject(fields, "format", view->aov == AOV_COLOR ? rule->format : "png");
+    cJSON_AddNumberToObject(fields, "quality", rule->quality);
+    cJSON_AddBoolToObject(fields, "chroma_halved", rule->chroma_halved);
+    cJSON_AddBoolToObject(fields, "fast", rule->fast);
+    cJSON_AddBoolToObject(fields, "exact", rule->exact);
+    frames->job_pixels = (int64_t)width * height;
+    return fields;
+}
+
+static void ask(struct session *session, enum frames_level level)
+{
+    struct frames *frames = &session->frames;
+    const struct frames_view *view = newest_view(frames);
+
+    choose_step(frames, view);
+    struct render_order order = {
+        .type = "render",
+        .room = session->room,
+        .fields = picture_fields(frames, view, level),
+        .priority = level_rules[level].priority,
+        .on_done = on_picture,
+        .data = session,
+    };
+    frames->done = level;
+    frames->job_level = level;
+    frames->job_seq = view->seq;
+    frames->job_view_width = view->width;
+    frames->job_view_height = view->height;
+    frames->job_asked_us = clock_us();
+    frames->job = renders_submit(session->hub, &order, NULL);
+}
+
+int64_t frames_pump(struct session *session, int64_t now_ms)
+{
+    struct frames *frames = &session->frames;
+    const struct frames_view *view = newest_view(frames);
+
+    if (!view || !view->visible || !session->room || session->room->left_out ||
+        session->close_code || !session->hub->renders.ready || frames->job ||
+        frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
+        return 0;
+    }
+    int64_t due = frames->changed_at + level_rules[frames->done + 1].after_ms;
+    if (now_ms < due) {
+        return due;
+    }
+    ask(session, frames->done + 1);
+    return 0;
+}

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: MIT */
+#include "hub.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "clock.h"
+#include "log.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "protocol/schema.h"
+#include "room.h"
+#include "session.h"
+
+void hub_lock(struct hub *hub)
+{
+    pthread_mutex_lock(&hub->lock);
+}
+
+void hub_unlock(struct hub *hub)
+{
+    pthread_mutex_unlock(&hub->lock);
+}
+
+/* --- rooms --- */
+
+static struct room *find_room(const struct hub *hub, const char *id)
+{
+    struct room *room = hub->rooms;
+
+    while (room && strcmp(room->id, id) != 0) {
+        room = room->next;
+    }
+    return room;
+}
+
+static void add_room(struct hub *hub, struct room *room)
+{
+    room->next = hub->rooms;
+    hub->rooms = room;
+    metric_add(&hub->metrics, METRIC_ROOMS, 1);
+}
+
+static void remove_room(struct hub *hub, struct room *room)
+{
+    struct room **link = &hub->rooms;
+
+    while (*link != room) {
+        link = &(*link)->next;
+    }
+    *link = room->next;
+    metric_add(&hub->metrics, METRIC_ROOMS, -1);
+    if (room->resident) {
+        cJSON *packet = cJSON_CreateObject();
+
+        cJSON_AddStringToObject(packet, "type", "drop");
+        cJSON_AddStringToObject(packet, "scene", room->id);
+        supervisor_send(hub->supervisor, packet);
+        cJSON_Delete(packet);
+    }
+}
+
+static struct room *load_room(struct hub *hub, const char *id, struct error *err)
+{
+    struct store_loaded loaded;
+    struct room *room = NULL;
+
+    if (store_load(hub->store, id, &loaded, err)) {
+        room = room_load(hub, id, &loaded, err);
+        store_loaded_finish(&loaded);
+        if (!room) {
+            log_error("hub", "scene %s cannot be read: %s: %s", id, err->place, err->message);
+            err->kind = ERROR_INTERNAL;
+        }
+    }
+    return room;
+}
+
+bool hub_id_is_valid(const char *id)
+{
+    size_t length = strlen(id);
+
+    return length > 0 && length <= LIMIT_ID_BYTES &&
+           strspn(id, "abcdefghijklmnopqrstuvwxyz0123456789-") == length;
+}
+
+bool hub_has_scene(struct hub *hub, const char *id)
+{
+    hub_lock(hub);
+    bool found = catalog_find(&hub->catalog, id) != NULL;
+    hub_unlock(hub);
+    return found;
+}
+
+static struct room *no_such_scene(const char *id, struct error *err)
+{
+    error_set(err, ERROR_NOT_FOUND, "", "there is no scene %s", id);
+    return NULL;
+}
+
+/* Only this function loads, one scene at a time, so a room found missing stays missing until here
+ * it is added. A room that left memory was committed before. */
+struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
+{
+    hub_lock(hub);
+    struct room *room = find_room(hub, id);
+    if (room) {
+        return room;
+    }
+    bool exists = catalog_find(&hub->catalog, id) != NULL;
+    hub_unlock(hub);
+    if (!exists) {
+        return no_such_scene(id, err);
+    }
+
+    pthread_mutex_lock(&hub->load_lock);
+    hub_lock(hub);
+    room = find_room(hub, id);
+    if (!room) {
+        hub_unlock(hub);
+        struct room *loaded = load_room(hub, id, err);
+
+        hub_lock(hub);
+        if (loaded && catalog_find(&hub->catalog, id)) {
+            room = loaded;
+            add_room(hub, room);
+        } else {
+            room_destroy(loaded);
+        }
+    }
+    if (!room) {
+        hub_unlock(hub);
+        if (err && err->kind == ERROR_NONE) {
+            no_such_scene(id, err);
+        }
+    }
+    pthread_mutex_unlock(&hub->load_lock);
+    return room;
+}
+
+/* An id that people can say: "amber-fox-482". */
+static void invent_id(const struct hub *hub, char out[LIMIT_ID_BYTES + 1])
+{
+    static const char *const colours[] = {"amber", "azure", "coral", "ivory", "jade",  "lilac",
+                                          "mint",  "ochre", "olive", "pearl", "ruby",  "sable",
+                                          "sand",  "slate", "teal",  "umber"};
+    static const char *const things[] = {"arch",  "bell",  "bridge", "cloud",  "cove",  "dune",
+                                         "fern",  "fox",   "harbor", "island", "maple", "meadow",
+                                         "otter", "river", "stone",  "tower"};
+    uint32_t number = 0;
+
+    do {
+        if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+            abort();
+        }
+        snprintf(out, LIMIT_ID_BYTES + 1, "%s-%s-%u", colours[number & 15],
+                 things[number >> 4 & 15], 100 + (number >> 8) % 99900);
+    } while (catalog_find(&hub->catalog, out));
+}
+
+struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene,
+                               void (*then)(void *data), void *data, struct error *err)
+{
+    char name[LIMIT_ID_BYTES + 1];
+
+    hub_lock(hub);
+    snprintf(name, sizeof(name), "%s", id);
+    if (!*name) {
+        invent_id(hub, name);
+    }
+    if (atomic_load(&hub->draining)) {
+        error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
+    } else if (!hub_id_is_valid(name)) {
+        error_set(err, ERROR_INVALID, "?id", "an id is 1 to %d of a-z, 0-9 and -", LIMIT_ID_BYTES);
+    } else if (catalog_find(&hub->catalog, name)) {
+        error_set(err, ERROR_CONFLICT, "?id", "there is a scene %s already", name);
+    } else {
+        struct room *room = room_create(hub, name, scene, 1);
+
+        add_room(hub, room);
+        room_store_new(room, then, data);
+        metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog.count);
+        return room;
+    }
+    hub_unlock(hub);
+    scene_destroy(scene);
+    return NULL;
+}
+
+void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data), void *data)
+{
+    renders_cancel_room(hub, room);
+    while (room->sessions) {
+        session_close(room->sessions, CLOSE_NORMAL, "deleted", -1);
+        session_leave_room(room->sessions);
+    }
+    remove_room(hub, room);
+    catalog_remove(&hub->catalog, room->id);
+    metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog.count);
+    room_store_deleted(room, then, data);
+}
+
+/* --- events of the worker --- */
+
+static void copy_text(char *out, size_t size, const cJSON *object, const char *member)
+{
+    snprintf(out, size, "%s", json_member_text(object, member, ""));
+}
+
+static void on_ready(void *data, const cJSON *ready)
+{
+    struct hub *hub = data;
+    struct renderer_info *info = &hub->renderer;
+    const cJSON *renderer = cJSON_GetObjectItemCaseSensitive(ready, "renderer");
+
+    hub_lock(hub);
+    copy_text(info->name, sizeof(info->name), renderer, "name");
+    copy_text(info->version, sizeof(info->version), renderer, "version");
+    copy_text(info->device, sizeof(info->device), renderer, "device");
+    info->software = json_member_bool(renderer, "software", false);
+    log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
+    if (hub->worker_was_lost) {
+        for (struct room *room = hub->rooms; room; room = room->next) {
+            room_tell_all(room, "info", "worker_ready", "", "The render process is back.");
+        }
+    }
+    renders_worker_ready(hub);
+    hub_unlock(hub);
+}
+
+static void on_down(void *data, const char *reason)
+{
+    struct hub *hub = data;
+
+    hub_lock(hub);
+    hub->worker_was_lost = true;
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        room_tell_all(room, "warning", "worker_restarting", "",
+                      "The render process ended and is started again.");
+    }
+    log_debug("hub", "worker down: %s", reason);
+    renders_worker_down(hub);
+    hub_unlock(hub);
+}
+
+/* The newest shape of a scene can be drawn, or cannot. */
+static void compiled(struct hub *hub, const cJSON *packet, bool broken)
+{
+    struct room *room = find_room(hub, json_member_text(packet, "scene", ""));
+    uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
+
+    if (!room) {
+        return;
+    }
+    if (revision > room->shown) {
+        room->shown = revision;
+    }
+    if (broken) {
+        room_tell_all(room, "error", "compile_failed", json_member_text(packet, "place", ""),
+                      json_member_text(packet, "message", ""));
+        return;
+    }
+    for (struct session *session = room->sessions; session; session = session->next) {
+        frames_shown(session);
+    }
+}
+
+static void on_packet(void *data, const char *type, const struct packet *packet)
+{
+    struct hub *hub = data;
+
+    hub_lock(hub);
+    if (strcmp(type, "shown") == 0) {
+        compiled(hub, packet->json, false);
+    } else if (strcmp(type, "broken") == 0) {
+        compiled(hub, packet->json, true);
+    } else {
+        renders_answer(hub, packet);
+    }
+    hub_unlock(hub);
+}
+
+/* --- time --- */
+
+/* Scenes that nobody has looked at for a while leave memory, once all is committed. */
+static void close_idle_rooms(struct hub *hub, int64_t now_ms)
+{
+    for (struct room *room = hub->rooms, *next; room; room = next) {
+        next = room->next;
+        if (room->sessions || room->pending || renders_has_room(&hub->renders, room) ||
+            now_ms - room->idle_since < ROOM_IDLE_MS) {
+            continue;
+        }
+        if (room->edits_since_snapshot) {
+            room_snapshot(room);
+            continue;
+        }
+        remove_room(hub, room);
+        room_destroy(room);
+    }
+}
+
+static int64_t on_tick(void *data, int64_t now_ms)
+{
+    struct hub *hub = data;
+
+    hub_lock(hub);
+    int64_t next = renders_tick(hub, now_ms);
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        for (struct session *session = room->sessions; session; session = session->next) {
+            next = clock_earlier(next, frames_pump(session, now_ms));
+        }
+    }
+    if (now_ms >= hub->next_cleaning) {
+        close_idle_rooms(hub, now_ms);
+        hub->next_cleaning = now_ms + 5000;
+    }
+    hub_unlock(hub);
+    return next;
+}
+
+/* --- birth and death --- */
+
+static void build_schema(struct hub *hub)
+{
+    cJSON *schema = schema_build();
+    unsigned sum = 0;
+
+    hub->schema = json_print(schema, false);
+    cJSON_Delete(schema);
+    for (const char *c = hub->schema; *c; c++) {
+        sum = sum * 31 + (unsigned char)*c;
+    }
+    snprintf(hub->schema_tag, sizeof(hub->schema_tag), "\"schema-%08x\"", sum);
+}
+
+static void add_to_catalog(void *data, const struct store_scene *scene)
+{
+    catalog_set(data, scene->id, scene->name, scene->revision, scene->nodes, scene->modified_ms);
+}
+
+struct hub *hub_create(const struct hub_params *params, struct error *err)
+{
+    struct hub *hub = memory_alloc(1, sizeof(*hub));
+
+    pthread_mutex_init(&hub->lock, NULL);
+    pthread_mutex_init(&hub->load_lock, NULL);
+    renders_init(&hub->renders);
+    hub->access = params->access;
+    hub->web_dir = params->web_dir;
+    build_schema(hub);
+    hub->store = store_open(params->data_dir, &hub->metrics, err);
+    if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err)) {
+        hub_destroy(hub);
+        return NULL;
+    }
+    metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog.count);
+    /* Its thread calls into the hub at once, and finds the pointer only under the lock. */
+    hub_lock(hub);
+    hub->supervisor = supervisor_create(&(struct supervisor_params){
+        .argv = params->worker_argv,
+        .silence_ms = params->worker_silence_ms,
+        .metrics = &hub->metrics,
+        .data = hub,
+        .on_ready = on_ready,
+        .on_packet = on_packet,
+        .on_down = on_down,
+        .on_tick = on_tick,
+    });
+    hub_unlock(hub);
+    return hub;
+}
+
+void hub_drain(struct hub *hub)
+{
+    hub_lock(hub);
+    atomic_store(&hub->draining, true);
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (room->edits_since_snapshot) {
+            room_snapshot(room);
+        }
+    }
+    renders_fail_all(hub, "the server is shutting down");
+    hub_unlock(hub);
+    store_flush(hub->store);
+}
+
+void hub_stop(struct hub *hub)
+{
+    if (hub) {
+        supervisor_stop(hub->supervisor);
+    }
+}
+
+void hub_destroy(struct hub *hub)
+{
+    if (!hub) {
+        return;
+    }
+    hub_stop(hub);
+    supervisor_destroy(hub->supervisor);
+    store_close(hub->store);
+    while (hub->rooms) {
+        struct room *room = hub->rooms;
+
+        hub->rooms = room->next;
+        room_destroy(room);
+    }
+    renders_finish(&hub->renders);
+    catalog_finish(&hub->catalog);
+    free(hub->schema);
+    pthread_mutex_destroy(&hub->load_lock);
+    pthread_mutex_destroy(&hub->lock);
+    free(hub);
+}

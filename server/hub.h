@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+/* What all threads share, under one mutex: open scenes (rooms), the list of scenes, live sessions,
+ * pictures being rendered. Sections under the lock are short: nothing in them waits for the disk,
+ * a socket or the worker.
+ *
+ * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | store writer | main (signals).
+ * Order of locks: load_lock, lock, then the private ones of store, supervisor, http and ws. */
+#ifndef SERVER_HUB_H
+#define SERVER_HUB_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "access.h"
+#include "catalog.h"
+#include "metrics.h"
+#include "protocol/scene.h"
+#include "renders.h"
+#include "store.h"
+#include "supervisor.h"
+
+struct room;
+struct ws;
+
+struct hub {
+    pthread_mutex_t lock;      /* guards everything below that changes */
+    pthread_mutex_t load_lock; /* one load at a time; taken before `lock` */
+    struct access access;
+    struct metrics metrics; /* atomic by itself */
+    struct store *store;
+    struct supervisor *supervisor;
+    struct ws *ws; /* set before its thread starts */
+    const char *web_dir;
+    char *schema, schema_tag[32]; /* of /v1/schema.json; never change */
+
+    struct catalog catalog;
+    struct room *rooms;
+    struct renders renders;
+    struct renderer_info renderer; /* of the newest worker; name "" before the first */
+    bool worker_was_lost;
+    int64_t next_cleaning; /* clock_ms */
+    atomic_bool draining;
+};
+
+struct hub_params {
+    struct access access;
+    const char *data_dir;
+    const char *web_dir;
+    const char *const *worker_argv;
+    int worker_silence_ms;
+};
+
+/* Opens the store, reads the list of scenes, starts the worker. */
+struct hub *hub_create(const struct hub_params *params, struct error *err);
+/* From here on edits are refused; commits what there is, with snapshots, and waits for it. */
+void hub_drain(struct hub *hub);
+/* Ends the worker and its thread; sessions may still go. */
+void hub_stop(struct hub *hub);
+/* After everybody who calls into the hub has stopped. */
+void hub_destroy(struct hub *hub);
+
+void hub_lock(struct hub *hub);
+void hub_unlock(struct hub *hub);
+/* Takes the lock and gives the open room, loaded if it was not. NULL, and the lock not held, when
+ * there is no such scene or it cannot be read. */
+struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err);
+bool hub_has_scene(struct hub *hub, const char *id);
+/* Creates a scene; takes the lock, returns holding it, like hub_lock_room. Takes `scene` in any
+ * case. `id` "" finds one. `then` runs after the commit on the store's thread. */
+struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene,
+                               void (*then)(void *data), void *data, struct error *err);
+/* Under the lock: forgets and deletes the scene; the room is gone afterwards. */
+void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data), void *data);
+/* `[a-z0-9-]{1,64}` */
+bool hub_id_is_valid(const char *id);
+
+#endif

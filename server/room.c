@@ -1,0 +1,465 @@
+/* SPDX-License-Identifier: MIT */
+#include "room.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "clock.h"
+#include "hub.h"
+#include "log.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "say.h"
+#include "session.h"
+
+/* A commit under way. */
+struct commit {
+    struct room *room;
+    uint64_t revision;
+    char author[LIMIT_ID_BYTES + 1];
+    int64_t edit;
+    void (*then)(void *data);
+    void *data;
+};
+
+/* --- birth and death --- */
+
+static void make_epoch(char out[17])
+{
+    uint64_t number = 0;
+
+    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+        abort();
+    }
+    snprintf(out, 17, "%016" PRIx64, number);
+}
+
+struct room *room_create(struct hub *hub, const char *id, struct scene *scene, uint64_t revision)
+{
+    struct room *room = memory_alloc(1, sizeof(*room));
+
+    room->hub = hub;
+    snprintf(room->id, sizeof(room->id), "%s", id);
+    room->scene = scene;
+    room->history = history_create();
+    room->revision = room->durable = room->log_from = revision;
+    room->idle_since = clock_ms();
+    make_epoch(room->epoch);
+    return room;
+}
+
+static void log_clear(struct room *room)
+{
+    for (size_t i = 0; i < ROOM_LOG; i++) {
+        free(room->log[i].ops);
+    }
+    memset(room->log, 0, sizeof(room->log));
+    room->log_bytes = 0;
+    room->log_from = room->revision;
+}
+
+void room_destroy(struct room *room)
+{
+    if (!room) {
+        return;
+    }
+    log_clear(room);
+    while (room->authors) {
+        struct room_author *author = room->authors;
+
+        room->authors = author->next;
+        free(author);
+    }
+    history_destroy(room->history);
+    scene_destroy(room->scene);
+    free(room);
+}
+
+static struct room_author *find_author(const struct room *room, const char *id)
+{
+    struct room_author *author = room->authors;
+
+    while (author && strcmp(author->id, id) != 0) {
+        author = author->next;
+    }
+    return author;
+}
+
+static struct room_author *add_author(struct room *room, const char *id)
+{
+    struct room_author *author = find_author(room, id);
+
+    if (!author) {
+        author = memory_alloc(1, sizeof(*author));
+        snprintf(author->id, sizeof(author->id), "%s", id);
+        author->next = room->authors;
+        room->authors = author;
+    }
+    return author;
+}
+
+static bool replay(struct room *room, const struct store_edit *edit, struct error *err)
+{
+    cJSON *ops = NULL;
+    bool ok = false;
+
+    if (edit->revision != room->revision + 1) {
+        error_set(err, ERROR_INTERNAL, room->id, "the log lacks revision %" PRIu64,
+                  room->revision + 1);
+        return false;
+    }
+    ops = json_parse(edit->ops, strlen(edit->ops), err);
+    ok = ops && edit_apply(room->scene, ops, NULL, NULL, err);
+    cJSON_Delete(ops);
+    room->revision = edit->revision;
+    return ok;
+}
+
+struct room *room_load(struct hub *hub, const char *id, const struct store_loaded *loaded,
+                       struct error *err)
+{
+    struct scene *scene = scene_parse(loaded->document, strlen(loaded->document), err);
+
+    if (!scene) {
+        return NULL;
+    }
+    struct room *room = room_create(hub, id, scene, loaded->revision);
+    for (size_t i = 0; i < loaded->edit_count; i++) {
+        if (!replay(room, &loaded->edits[i], err)) {
+            room_destroy(room);
+            return NULL;
+        }
+    }
+    for (size_t i = 0; i < loaded->author_count; i++) {
+        struct room_author *author = add_author(room, loaded->authors[i].author);
+
+        author->last_edit = author->loaded_edit = loaded->authors[i].edit;
+    }
+    room->durable = room->log_from = room->revision;
+    room->edits_since_snapshot = (int)loaded->edit_count;
+    return room;
+}
+
+/* --- the log in memory --- */
+
+static struct room_entry *log_entry(const struct room *room, uint64_t revision)
+{
+    return (struct room_entry *)&room->log[revision % ROOM_LOG];
+}
+
+static void log_forget_oldest(struct room *room)
+{
+    struct room_entry *entry = log_entry(room, ++room->log_from);
+
+    room->log_cut = true;
+    room->log_bytes -= strlen(entry->ops);
+    free(entry->ops);
+    memset(entry, 0, sizeof(*entry));
+}
+
+static void log_add(struct room *room, const struct room_change *change, const char *ops)
+{
+    size_t length = strlen(ops);
+
+    while (room->log_from + 1 < room->revision &&
+           (room->revision - room->log_from > ROOM_LOG ||
+            room->log_bytes + length > ROOM_LOG_BYTES)) {
+        log_forget_oldest(room);
+    }
+    struct room_entry *entry = log_entry(room, room->revision);
+    *entry = (struct room_entry){
+        .revision = room->revision, .edit = change->edit, .ops = memory_text(ops)};
+    snprintf(entry->author, sizeof(entry->author), "%s", change->author);
+    room->log_bytes += length;
+}
+
+static const struct room_entry *log_find_edit(const struct room *room, const char *author,
+                                              int64_t edit)
+{
+    for (uint64_t r = room->revision; r > room->log_from; r--) {
+        const struct room_entry *entry = log_entry(room, r);
+
+        if (entry->edit == edit && strcmp(entry->author, author) == 0) {
+            return entry;
+        }
+    }
+    return NULL;
+}
+
+int64_t room_last_edit(const struct room *room, const char *author)
+{
+    const struct room_author *known = find_author(room, author);
+
+    return known ? known->last_edit : 0;
+}
+
+/* Whether this number of the author has been used. */
+static enum room_outcome check_number(const struct room *room, const struct room_change *change,
+                                      uint64_t *out_revision, struct error *err)
+{
+    const struct room_author *author = change->edit ? find_author(room, change->author) : NULL;
+
+    if (!author || change->edit > author->last_edit) {
+        return ROOM_APPLIED;
+    }
+    const struct room_entry *entry = log_find_edit(room, change->author, change->edit);
+    if (!entry && change->edit > author->loaded_edit && !room->log_cut) {
+        error_set(err, ERROR_CONFLICT, "/edit",
+                  "numbers count up: %" PRId64 " is not above %" PRId64, change->edit,
+                  author->last_edit);
+        return ROOM_REFUSED;
+    }
+    *out_revision = entry ? entry->revision : room->durable;
+    return ROOM_KNOWN;
+}
+
+/* --- what follows an accepted change --- */
+
+static void on_durable(void *data)
+{
+    struct commit *commit = data;
+    struct room *room = commit->room;
+    struct hub *hub = room->hub;
+
+    hub_lock(hub);
+    if (commit->revision > room->durable) {
+        room->durable = commit->revision;
+    }
+    for (struct session *session = room->sessions; session && commit->edit > 0;
+         session = session->next) {
+        if (strcmp(session->client, commit->author) == 0) {
+            session_tell_durable(session, commit->edit, commit->revision);
+        }
+    }
+    room->pending--;
+    if (room->deleted && room->pending == 0) {
+        room_destroy(room);
+    }
+    hub_unlock(hub);
+    if (commit->then) {
+        commit->then(commit->data);
+    }
+    free(commit);
+}
+
+static void push_write(struct room *room, enum store_kind kind, const struct room_change *change,
+                       char *text)
+{
+    struct store_write *write = memory_alloc(1, sizeof(*write));
+    struct commit *commit = memory_alloc(1, sizeof(*commit));
+    const char *name = record_text(&room->scene->info, "name");
+
+    commit->room = room;
+    commit->revision = room->revision;
+    commit->edit = change->edit;
+    commit->then = change->then;
+    commit->data = change->data;
+    snprintf(commit->author, sizeof(commit->author), "%s", change->author);
+    write->kind = kind;
+    write->revision = room->revision;
+    write->edit = change->edit;
+    write->text = text;
+    write->name = memory_text(name);
+    write->nodes = room->scene->node_count;
+    write->on_durable = on_durable;
+    write->data = commit;
+    snprintf(write->scene, sizeof(write->scene), "%s", room->id);
+    snprintf(write->author, sizeof(write->author), "%s", change->author);
+    room->pending++;
+    store_push(room->hub->store, write);
+    if (kind != STORE_SNAPSHOT && kind != STORE_DELETE) {
+        struct timespec now;
+
+        clock_gettime(CLOCK_REALTIME, &now);
+        catalog_set(&room->hub->catalog, room->id, name, room->revision, room->scene->node_count,
+                    (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000);
+    }
+}
+
+void room_store_new(struct room *room, void (*then)(void *data), void *data)
+{
+    push_write(room, STORE_CREATE,
+               &(struct room_change){.author = "", .then = then, .data = data},
+               scene_print(room->scene, false));
+}
+
+void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
+{
+    room->deleted = true;
+    push_write(room, STORE_DELETE,
+               &(struct room_change){.author = "", .then = then, .data = data}, NULL);
+}
+
+void room_snapshot(struct room *room)
+{
+    room->edits_since_snapshot = 0;
+    push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""},
+               scene_print(room->scene, false));
+}
+
+static void forward_to_worker(struct room *room, const cJSON *ops)
+{
+    if (room->left_out) {
+        room->left_out = false;
+        room->deaths = 0;
+    }
+    if (!room->resident) {
+        return;
+    }
+    cJSON *packet = say_begin("edit");
+    cJSON_AddStringToObject(packet, "scene", room->id);
+    cJSON_AddNumberToObject(packet, "revision", (double)room->revision);
+    cJSON_AddItemReferenceToObject(packet, "ops", (cJSON *)ops);
+    supervisor_send(room->hub->supervisor, packet);
+    cJSON_Delete(packet);
+}
+
+static void tell_others(struct room *room, const struct room_change *change, const char *ops)
+{
+    struct blob *message = say_changed(room->revision, change->author, ops, 0);
+
+    for (struct session *session = room->sessions; session; session = session->next) {
+        if (session != change->session) {
+            session_send(session, message);
+        }
+        frames_changed(session);
+    }
+    blob_unref(message);
+}
+
+/* The scene holds the change already; gives it a revision and tells everybody but the author. */
+static void commit_change(struct room *room, const struct room_change *change, const cJSON *ops)
+{
+    char *text = json_print(ops, false);
+
+    room->revision++;
+    if (change->edit) {
+        add_author(room, change->author)->last_edit = change->edit;
+    }
+    log_add(room, change, text);
+    tell_others(room, change, text);
+    forward_to_worker(room, ops);
+    push_write(room, STORE_EDIT, change, text);
+    metric_add(&room->hub->metrics, METRIC_EDITS, 1);
+    if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
+        room_snapshot(room);
+    }
+}
+
+static bool check_open(const struct room *room, struct error *err)
+{
+    return !atomic_load(&room->hub->draining) ||
+           error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
+}
+
+enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
+                            uint64_t *out_revision, struct error *err)
+{
+    cJSON *applied = NULL, *inverse = NULL;
+    enum room_outcome outcome = check_number(room, change, out_revision, err);
+
+    if (outcome != ROOM_APPLIED) {
+        return outcome;
+    }
+    if (!check_open(room, err) || !edit_apply(room->scene, ops, &applied, &inverse, err)) {
+        metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
+        return ROOM_REFUSED;
+    }
+    history_record(room->history, change->author, change->group, inverse);
+    commit_change(room, change, applied);
+    cJSON_Delete(applied);
+    *out_revision = room->revision;
+    return ROOM_APPLIED;
+}
+
+enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
+                            uint64_t *out_revision, struct error *err)
+{
+    cJSON *applied = NULL;
+    enum room_outcome outcome = check_number(room, change, out_revision, err);
+
+    if (outcome != ROOM_APPLIED) {
+        return outcome;
+    }
+    bool ok = check_open(room, err) &&
+              (redo ? history_redo : history_undo)(room->history, room->scene, change->author,
+                                                   &applied, err);
+    if (!ok) {
+        metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
+        return ROOM_REFUSED;
+    }
+    commit_change(room, change, applied);
+    cJSON_Delete(applied);
+    *out_revision = room->revision;
+    return ROOM_APPLIED;
+}
+
+void room_replace(struct room *room, struct scene *scene, const struct room_change *change)
+{
+    scene_destroy(room->scene);
+    room->scene = scene;
+    history_destroy(room->history);
+    room->history = history_create();
+    room->revision++;
+    room->edits_since_snapshot = 0;
+    room->left_out = false;
+    room->deaths = 0;
+    log_clear(room);
+    room->log_cut = true;
+    if (room->resident) {
+        cJSON *packet = room_scene_packet(room);
+
+        supervisor_send(room->hub->supervisor, packet);
+        cJSON_Delete(packet);
+    }
+    struct blob *message = room_document_message(room);
+    for (struct session *session = room->sessions; session; session = session->next) {
+        session_send(session, message);
+        frames_changed(session);
+    }
+    blob_unref(message);
+    push_write(room, STORE_REPLACE, change, scene_print(room->scene, false));
+    metric_add(&room->hub->metrics, METRIC_EDITS, 1);
+}
+
+/* --- what others ask of it --- */
+
+struct blob *room_document_message(const struct room *room)
+{
+    char *document = scene_print(room->scene, false);
+    struct blob *message = say_document(room->revision, document);
+
+    free(document);
+    return message;
+}
+
+struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client)
+{
+    const struct room_entry *entry = log_entry(room, revision);
+    bool own = strcmp(entry->author, client) == 0;
+
+    return say_changed(revision, entry->author, entry->ops, own ? entry->edit : 0);
+}
+
+cJSON *room_scene_packet(const struct room *room)
+{
+    cJSON *packet = say_begin("scene");
+
+    cJSON_AddStringToObject(packet, "scene", room->id);
+    cJSON_AddNumberToObject(packet, "revision", (double)room->revision);
+    cJSON_AddItemToObject(packet, "document", scene_to_json(room->scene));
+    return packet;
+}
+
+void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
+                   const char *text)
+{
+    struct blob *message = say_notice(level, code, place, text);
+
+    for (struct session *session = room->sessions; session; session = session->next) {
+        session_send(session, message);
+    }
+    blob_unref(message);
+}

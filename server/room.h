@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* One open scene: the document, its revision and history, and who looks at it. The one place where
+ * edits get their order. Every function is called under the hub's lock. */
+#ifndef SERVER_ROOM_H
+#define SERVER_ROOM_H
+
+#include <stdint.h>
+
+#include "outbox.h"
+#include "protocol/edit.h"
+#include "protocol/limits.h"
+#include "protocol/scene.h"
+
+struct hub;
+struct session;
+struct store_loaded;
+
+enum {
+    ROOM_LOG = 2048,            /* edits kept in memory for those who resume */
+    ROOM_LOG_BYTES = 4194304,
+    ROOM_SNAPSHOT_EDITS = 256,
+    ROOM_IDLE_MS = 60000,       /* closed when nobody looked at it for so long */
+};
+
+/* An edit as it was applied. */
+struct room_entry {
+    uint64_t revision;
+    int64_t edit; /* the author's number; 0: none */
+    char author[LIMIT_ID_BYTES + 1];
+    char *ops;
+};
+
+struct room_author {
+    char id[LIMIT_ID_BYTES + 1];
+    int64_t last_edit;   /* newest number in the log */
+    int64_t loaded_edit; /* what that was when the room was opened */
+    struct room_author *next;
+};
+
+struct room {
+    struct hub *hub;
+    struct room *next;
+    char id[LIMIT_ID_BYTES + 1];
+    struct scene *scene;
+    struct history *history;
+    uint64_t revision, durable;
+    char epoch[17]; /* differs whenever revisions may have been given twice */
+    struct room_entry log[ROOM_LOG]; /* ring: entry of revision r at r % ROOM_LOG */
+    uint64_t log_from;               /* the log holds every revision above this one */
+    size_t log_bytes;
+    bool log_cut; /* it no longer holds every edit since the room was opened */
+    struct room_author *authors;
+    struct session *sessions;
+    size_t session_count;
+    size_t pending; /* writes not yet committed: the room stays */
+    int edits_since_snapshot;
+    bool deleted;
+    int64_t idle_since; /* clock_ms; 0: in use */
+
+    /* What the worker has of it. */
+    bool resident;
+    uint64_t shown; /* newest revision that it can draw */
+    int deaths;     /* workers lost while they had to do with this scene, since its last picture */
+    bool left_out;  /* too many: not rendered until it is edited */
+};
+
+/* Takes `scene`. */
+struct room *room_create(struct hub *hub, const char *id, struct scene *scene, uint64_t revision);
+/* The newest state of what the store holds. */
+struct room *room_load(struct hub *hub, const char *id, const struct store_loaded *loaded,
+                       struct error *err);
+void room_destroy(struct room *room);
+/* Queues the creation of a new room's scene, or its deletion, after which the room frees itself. */
+void room_store_new(struct room *room, void (*then)(void *data), void *data);
+void room_store_deleted(struct room *room, void (*then)(void *data), void *data);
+
+struct room_change {
+    const char *author; /* client id, or "rest" */
+    int64_t edit;       /* 0: none */
+    const char *group;
+    struct session *session; /* of the author; NULL: none */
+    void (*then)(void *data); /* after the commit, on the store's thread; may be NULL */
+    void *data;
+};
+
+enum room_outcome { ROOM_APPLIED, ROOM_KNOWN /* a resend: nothing changed */, ROOM_REFUSED };
+
+/* Checks, orders, applies, stores and tells one edit. `then` runs only after ROOM_APPLIED. */
+enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
+                            uint64_t *out_revision, struct error *err);
+enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
+                            uint64_t *out_revision, struct error *err);
+/* Puts another document in place; takes `scene`. */
+void room_replace(struct room *room, struct scene *scene, const struct room_change *change);
+
+int64_t room_last_edit(const struct room *room, const char *author);
+/* The `document` message; caller unrefs. */
+struct blob *room_document_message(const struct room *room);
+/* The `changed` message of a logged revision for `client`: `edit` only where that is the author.
+ * Caller unrefs. */
+struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client);
+void room_snapshot(struct room *room);
+/* The worker's packet that makes the scene resident. Caller deletes. */
+cJSON *room_scene_packet(const struct room *room);
+void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
+                   const char *text);
+
+#endif

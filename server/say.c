@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+#include "say.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/json.h"
+
+struct blob *say(cJSON *message)
+{
+    char *text = json_print(message, false);
+    struct blob *blob = blob_create(text, strlen(text));
+
+    free(text);
+    cJSON_Delete(message);
+    return blob;
+}
+
+cJSON *say_begin(const char *type)
+{
+    cJSON *message = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(message, "type", type);
+    return message;
+}
+
+static struct blob *joined(char *text, size_t length)
+{
+    struct blob *blob = blob_create(text, length);
+
+    free(text);
+    return blob;
+}
+
+struct blob *say_document(uint64_t revision, const char *document)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    fprintf(out, "{\"type\":\"document\",\"revision\":%" PRIu64 ",\"document\":", revision);
+    fputs(document, out);
+    fputc('}', out);
+    fclose(out);
+    return joined(text, length);
+}
+
+/* An author's id needs no escapes: letters, digits, - and _ only. */
+struct blob *say_changed(uint64_t revision, const char *author, const char *ops, int64_t edit)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    fprintf(out, "{\"type\":\"changed\",\"revision\":%" PRIu64 ",\"author\":\"%s\",", revision,
+            author);
+    if (edit > 0) {
+        fprintf(out, "\"edit\":%" PRId64 ",", edit);
+    }
+    fprintf(out, "\"ops\":%s}", ops);
+    fclose(out);
+    return joined(text, length);
+}
+
+struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo)
+{
+    cJSON *message = say_begin("applied");
+
+    cJSON_AddNumberToObject(message, "edit", (double)edit);
+    cJSON_AddNumberToObject(message, "revision", (double)revision);
+    cJSON_AddBoolToObject(message, "durable", durable);
+    cJSON_AddNumberToObject(message, "undo", (double)undo);
+    cJSON_AddNumberToObject(message, "redo", (double)redo);
+    return say(message);
+}
+
+struct blob *say_rejected(int64_t edit, const struct error *err)
+{
+    cJSON *message = say_begin("rejected");
+
+    cJSON_AddNumberToObject(message, "edit", (double)edit);
+    cJSON_AddStringToObject(message, "code", error_kind_name(err->kind));
+    cJSON_AddStringToObject(message, "place", err->place);
+    cJSON_AddStringToObject(message, "message", err->message);
+    return say(message);
+}
+
+struct blob *say_notice(const char *level, const char *code, const char *place, const char *text)
+{
+    cJSON *message = say_begin("notice");
+
+    cJSON_AddStringToObject(message, "level", level);
+    cJSON_AddStringToObject(message, "code", code);
+    cJSON_AddStringToObject(message, "place", place);
+    cJSON_AddStringToObject(message, "message", text);
+    return say(message);
+}
+
+struct blob *say_bye(const char *reason, int retry_ms)
+{
+    cJSON *message = say_begin("bye");
+
+    cJSON_AddStringToObject(message, "reason", reason);
+    if (retry_ms >= 0) {
+        cJSON_AddNumberToObject(message, "retry_ms", retry_ms);
+    }
+    return say(message);
+}

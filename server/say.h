@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* The messages of the server on a live connection, as bytes. The wire form is in
+ * protocol/README.md. Pure; callers unref what they get. */
+#ifndef SERVER_SAY_H
+#define SERVER_SAY_H
+
+#include <cjson/cJSON.h>
+
+#include "outbox.h"
+#include "protocol/error.h"
+
+/* Takes `message`. */
+struct blob *say(cJSON *message);
+/* An object with its `type` already in. */
+cJSON *say_begin(const char *type);
+/* {type, revision, document}: the parts as text, since documents are large. */
+struct blob *say_document(uint64_t revision, const char *document);
+/* `author`'s operations; `edit` 0 is left out. */
+struct blob *say_changed(uint64_t revision, const char *author, const char *ops, int64_t edit);
+struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo);
+struct blob *say_rejected(int64_t edit, const struct error *err);
+struct blob *say_notice(const char *level, const char *code, const char *place, const char *text);
+/* `retry_ms` < 0: do not come back. */
+struct blob *say_bye(const char *reason, int retry_ms);
+
+#endif

@@ -1,0 +1,416 @@
+/* SPDX-License-Identifier: MIT */
+#include "session.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "clock.h"
+#include "hub.h"
+#include "log.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "room.h"
+#include "say.h"
+
+struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
+{
+    struct session *session = memory_alloc(1, sizeof(*session));
+    uint64_t number = 0;
+
+    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+        abort();
+    }
+    snprintf(session->id, sizeof(session->id), "%016" PRIx64, number);
+    session->hub = hub;
+    session->wake = wake;
+    session->connection = connection;
+    outbox_init(&session->outbox);
+    frames_init(&session->frames);
+    metric_add(&hub->metrics, METRIC_SESSIONS, 1);
+    metric_add(&hub->metrics, METRIC_SESSIONS_TOTAL, 1);
+    return session;
+}
+
+void session_leave_room(struct session *session)
+{
+    struct room *room = session->room;
+
+    if (!room) {
+        return;
+    }
+    struct session **link = &room->sessions;
+    while (*link != session) {
+        link = &(*link)->next;
+    }
+    *link = session->next;
+    session->next = NULL;
+    session->room = NULL;
+    room->session_count--;
+    room->idle_since = clock_ms();
+}
+
+static void cancel_picks(struct session *session)
+{
+    for (int i = 0; i < SESSION_PICKS; i++) {
+        if (session->picks[i].job) {
+            renders_cancel(session->hub, session->picks[i].job);
+            session->picks[i].job = 0;
+        }
+    }
+}
+
+void session_destroy(struct session *session)
+{
+    if (!session) {
+        return;
+    }
+    cancel_picks(session);
+    frames_finish(session);
+    session_leave_room(session);
+    outbox_finish(&session->outbox);
+    metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
+    free(session);
+}
+
+/* --- telling --- */
+
+void session_send(struct session *session, struct blob *message)
+{
+    if (session->close_code) {
+        return;
+    }
+    if (!outbox_text(&session->outbox, message)) {
+        /* It can resume later; nothing more is kept for it. */
+        log_info("session", "%s reads too slowly and is closed", session->id);
+        session->close_code = CLOSE_TRY_LATER;
+        session->close_now = true;
+    }
+    session->wake(session->connection);
+}
+
+void session_say(struct session *session, struct blob *message)
+{
+    session_send(session, message);
+    blob_unref(message);
+}
+
+void session_close(struct session *session, int code, const char *reason, int retry_ms)
+{
+    if (session->close_code) {
+        return;
+    }
+    session_say(session, say_bye(reason, retry_ms));
+    session->close_code = code;
+    cancel_picks(session);
+    if (session->frames.job) {
+        renders_cancel(session->hub, session->frames.job);
+        session->frames.job = 0;
+    }
+}
+
+static void say_error(struct session *session, const struct error *err)
+{
+    session_say(session,
+                say_notice("error", error_kind_name(err->kind), err->place, err->message));
+}
+
+static void say_edit_state(struct session *session, int64_t edit, uint64_t revision)
+{
+    size_t undo = 0, redo = 0;
+
+    history_depth(session->room->history, session->client, &undo, &redo);
+    session_say(session, say_applied(edit, revision, revision <= session->room->durable, undo,
+                                     redo));
+}
+
+void session_tell_durable(struct session *session, int64_t edit, uint64_t revision)
+{
+    say_edit_state(session, edit, revision);
+}
+
+void session_frame_written(struct session *session, uint32_t frame, size_t bytes)
+{
+    (void)frame;
+    metric_add(&session->hub->metrics, METRIC_FRAMES_SENT, 1);
+    metric_add(&session->hub->metrics, METRIC_FRAME_BYTES, (int64_t)bytes);
+}
+
+/* --- hello --- */
+
+static void add_limits(cJSON *welcome)
+{
+    cJSON *limits = cJSON_AddObjectToObject(welcome, "limits");
+    size_t count = 0;
+    const struct limit *table = limits_table(&count);
+
+    for (size_t i = 0; i < count; i++) {
+        cJSON_AddNumberToObject(limits, table[i].name, (double)table[i].value);
+    }
+}
+
+static void say_welcome(struct session *session)
+{
+    struct room *room = session->room;
+    const struct renderer_info *info = &session->hub->renderer;
+    cJSON *welcome = say_begin("welcome");
+    size_t undo = 0, redo = 0;
+
+    history_depth(room->history, session->client, &undo, &redo);
+    cJSON_AddStringToObject(welcome, "session", session->id);
+    cJSON_AddStringToObject(welcome, "scene", room->id);
+    cJSON_AddNumberToObject(welcome, "revision", (double)room->revision);
+    cJSON_AddStringToObject(welcome, "epoch", room->epoch);
+    cJSON *renderer = cJSON_AddObjectToObject(welcome, "renderer");
+    cJSON_AddStringToObject(renderer, "name", info->name);
+    cJSON_AddStringToObject(renderer, "version", info->version);
+    cJSON_AddBoolToObject(renderer, "software", info->software);
+    cJSON_AddStringToObject(renderer, "device", info->device);
+    cJSON_AddNumberToObject(welcome, "last_edit", (double)room_last_edit(room, session->client));
+    cJSON_AddNumberToObject(welcome, "undo", (double)undo);
+    cJSON_AddNumberToObject(welcome, "redo", (double)redo);
+    add_limits(welcome);
+    session_say(session, say(welcome));
+}
+
+/* What the client missed, if the log still holds it; else the document. */
+static void bring_up_to_date(struct session *session, const cJSON *hello)
+{
+    struct room *room = session->room;
+    uint64_t known = (uint64_t)json_member_number(hello, "revision", 0);
+    bool resumes = strcmp(json_member_text(hello, "epoch", ""), room->epoch) == 0 &&
+                   known >= room->log_from && known <= room->revision && known > 0;
+
+    if (!resumes) {
+        session_say(session, room_document_message(room));
+        return;
+    }
+    for (uint64_t r = known + 1; r <= room->revision; r++) {
+        session_say(session, room_changed_message(room, r, session->client));
+    }
+}
+
+static void enter_room(struct session *session, struct room *room, const char *client)
+{
+    for (struct session *other = room->sessions, *next; other; other = next) {
+        next = other->next;
+        if (strcmp(other->client, client) == 0) {
+            session_close(other, CLOSE_NORMAL, "replaced", -1);
+            other->client[0] = '\0';
+        }
+    }
+    snprintf(session->client, sizeof(session->client), "%s", client);
+    session->room = room;
+    session->next = room->sessions;
+    room->sessions = session;
+    room->session_count++;
+    room->idle_since = 0;
+}
+
+/* Takes the lock and keeps it. */
+static void hello(struct session *session, const char *scene, const cJSON *message)
+{
+    struct hub *hub = session->hub;
+    struct error err = {0};
+    struct room *room = hub_lock_room(hub, scene, &err);
+
+    if (!room) {
+        hub_lock(hub);
+        say_error(session, &err);
+        session_close(session, CLOSE_POLICY, error_kind_name(err.kind), -1);
+        return;
+    }
+    if (session->close_code) {
+        return;
+    }
+    if (session->room) {
+        error_set(&err, ERROR_INVALID, "/type", "hello was said already");
+        say_error(session, &err);
+        return;
+    }
+    enter_room(session, room, json_member_text(message, "client", ""));
+    say_welcome(session);
+    bring_up_to_date(session, message);
+    if (room->left_out) {
+        error_set(&err, ERROR_UNAVAILABLE, "", "this scene ended the render process repeatedly; "
+                                               "it is not drawn again before it is edited");
+        session_say(session, say_notice("error", "scene_left_out", "", err.message));
+    }
+    log_debug("session", "%s entered %s as %s", session->id, room->id, session->client);
+}
+
+/* --- the other messages --- */
+
+static void edit(struct session *session, const struct message *message)
+{
+    struct error err = {0};
+    uint64_t revision = 0;
+    struct room_change change = {
+        .author = session->client,
+        .edit = (int64_t)json_member_number(message->json, "edit", 0),
+        .group = json_member_text(message->json, "group", NULL),
+        .session = session,
+    };
+    enum room_outcome outcome;
+
+    if (message->kind == MESSAGE_EDIT) {
+        outcome = room_edit(session->room, &change,
+                            cJSON_GetObjectItemCaseSensitive(message->json, "ops"), &revision,
+                            &err);
+    } else {
+        outcome = room_undo(session->room, &change, message->kind == MESSAGE_REDO, &revision, &err);
+        if (outcome == ROOM_APPLIED) {
+            session_say(session, room_changed_message(session->room, revision, session->client));
+        }
+    }
+    if (outcome == ROOM_REFUSED) {
+        session_say(session, say_rejected(change.edit, &err));
+    } else {
+        say_edit_state(session, change.edit, revision);
+    }
+}
+
+static void on_picked(void *data, const struct packet *answer, const struct error *err)
+{
+    static const char *const members[] = {"revision", "node", "position", "normal", "distance"};
+    struct session_pick *pick = data;
+    cJSON *picked;
+
+    pick->job = 0;
+    if (!answer) {
+        say_error(pick->session, err);
+        return;
+    }
+    picked = say_begin("picked");
+    cJSON_AddNumberToObject(picked, "pick", pick->pick);
+    for (size_t i = 0; i < sizeof(members) / sizeof(*members); i++) {
+        cJSON *value = cJSON_GetObjectItemCaseSensitive(answer->json, members[i]);
+
+        cJSON_AddItemToObject(picked, members[i],
+                              value ? cJSON_Duplicate(value, true) : cJSON_CreateNull());
+    }
+    session_say(pick->session, say(picked));
+}
+
+static void pick(struct session *session, const cJSON *message)
+{
+    const struct frames_view *view = frames_find_view(
+        &session->frames, (uint32_t)json_member_number(message, "seq", 0));
+    struct error err = {0};
+
+    if (!view) {
+        error_set(&err, ERROR_INVALID, "/seq", "there was no view yet");
+        say_error(session, &err);
+        return;
+    }
+    struct session_pick *slot = &session->picks[session->next_pick];
+    session->next_pick = (session->next_pick + 1) % SESSION_PICKS;
+    if (slot->job) {
+        renders_cancel(session->hub, slot->job);
+    }
+    cJSON *fields = cJSON_CreateObject();
+    cJSON_AddNumberToObject(fields, "width", view->width);
+    cJSON_AddNumberToObject(fields, "height", view->height);
+    cJSON_AddNumberToObject(fields, "x", json_member_number(message, "x", 0));
+    cJSON_AddNumberToObject(fields, "y", json_member_number(message, "y", 0));
+    if (view->camera) {
+        cJSON_AddItemToObject(fields, "camera",
+                              json_parse(view->camera, strlen(view->camera), NULL));
+    }
+    slot->session = session;
+    slot->pick = json_member_number(message, "pick", 0);
+    struct render_order order = {.type = "pick",
+                                 .room = session->room,
+                                 .fields = fields,
+                                 .priority = RENDER_MOVING,
+                                 .again = true,
+                                 .on_done = on_picked,
+                                 .data = slot};
+    slot->job = renders_submit(session->hub, &order, &err);
+    if (!slot->job) {
+        say_error(session, &err);
+    }
+}
+
+static void view(struct session *session, const cJSON *message)
+{
+    struct error err = {0};
+
+    if (!frames_set_view(session, message, &err)) {
+        say_error(session, &err);
+    }
+}
+
+static void handle(struct session *session, const struct message *message)
+{
+    if (!session->room) {
+        struct error err = {0};
+
+        error_set(&err, ERROR_INVALID, "/type", "the first message must be hello");
+        say_error(session, &err);
+        session_close(session, CLOSE_POLICY, "protocol", -1);
+        return;
+    }
+    switch (message->kind) {
+    case MESSAGE_VIEW:
+        view(session, message->json);
+        break;
+    case MESSAGE_EDIT:
+    case MESSAGE_UNDO:
+    case MESSAGE_REDO:
+        edit(session, message);
+        break;
+    case MESSAGE_PICK:
+        pick(session, message->json);
+        break;
+    case MESSAGE_ACK:
+        frames_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
+        break;
+    default:
+        break;
+    }
+    frames_pump(session, clock_ms());
+}
+
+/* A message that does not keep to the form; if it was an edit, its author waits for an answer. */
+static void refuse(struct session *session, const char *text, size_t length,
+                   const struct error *err)
+{
+    cJSON *json = json_parse(text, length, NULL);
+    const char *type = json_member_text(json, "type", "");
+    double number = json_member_number(json, "edit", 0);
+
+    if (number >= 1 &&
+        (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
+        metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
+        session_say(session, say_rejected((int64_t)number, err));
+    } else {
+        say_error(session, err);
+    }
+    cJSON_Delete(json);
+}
+
+void session_receive(struct session *session, const char *scene, const char *text, size_t length)
+{
+    struct hub *hub = session->hub;
+    struct message message;
+    struct error err = {0};
+
+    if (!message_read(text, length, &message, &err)) {
+        hub_lock(hub);
+        refuse(session, text, length, &err);
+        hub_unlock(hub);
+        return;
+    }
+    if (message.kind == MESSAGE_HELLO) {
+        hello(session, scene, message.json); /* locks */
+    } else {
+        hub_lock(hub);
+        if (!session->close_code) {
+            handle(session, &message);
+        }
+    }
+    hub_unlock(hub);
+    message_finish(&message);
+}

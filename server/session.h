@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* One live connection: what its client says and is told. The connection itself is ws.c's. Every
+ * function is called under the hub's lock. */
+#ifndef SERVER_SESSION_H
+#define SERVER_SESSION_H
+
+#include "frames.h"
+#include "outbox.h"
+
+struct hub;
+struct room;
+
+enum {
+    CLOSE_NORMAL = 1000, /* RFC 6455, 7.4.1 */
+    CLOSE_GOING_AWAY = 1001,
+    CLOSE_POLICY = 1008,
+    CLOSE_TOO_BIG = 1009,
+    CLOSE_TRY_LATER = 1013,
+};
+
+enum { SESSION_PICKS = 8 }; /* questions under way; an older one is given up */
+
+struct session_pick {
+    struct session *session;
+    double pick;
+    uint32_t job; /* 0: free */
+};
+
+struct session {
+    struct hub *hub;
+    struct room *room;
+    struct session *next; /* in the room */
+    char id[17];
+    char client[LIMIT_ID_BYTES + 1]; /* "" before hello */
+    struct outbox outbox;
+    struct frames frames;
+    struct session_pick picks[SESSION_PICKS];
+    int next_pick;
+    int close_code; /* > 0: close when the outbox is empty, or at once when it is full */
+    bool close_now;
+    /* Something is to be written or closed; any thread. */
+    void (*wake)(void *connection);
+    void *connection;
+};
+
+/* The connection is open; the scene's room is not asked for before hello. */
+struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection);
+void session_destroy(struct session *session);
+/* A whole text message. Takes the lock itself, since hello may load the scene. */
+void session_receive(struct session *session, const char *scene, const char *text, size_t length);
+/* `frame` was handed to the socket completely. */
+void session_frame_written(struct session *session, uint32_t frame, size_t bytes);
+
+void session_say(struct session *session, struct blob *message); /* takes the reference */
+void session_send(struct session *session, struct blob *message); /* borrows it */
+void session_close(struct session *session, int code, const char *reason, int retry_ms);
+/* The scene goes away; the connection closes by itself. */
+void session_leave_room(struct session *session);
+/* The commit of an edit of this session's client. */
+void session_tell_durable(struct session *session, int64_t edit, uint64_t revision);
+
+#endif
