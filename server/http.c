@@ -1,0 +1,572 @@
+/* SPDX-License-Identifier: MIT */
+/* The acceptor has looked at the first head of each connection; later ones are looked at here, as
+ * far as libmicrohttpd shows them. A request that waits for a commit or a picture is suspended. */
+#include "http.h"
+
+#include <microhttpd.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/epoll.h>
+#include <unistd.h>
+
+#include "access.h"
+#include "clock.h"
+#include "head.h"
+#include "hub.h"
+#include "log.h"
+#include "protocol/memory.h"
+#include "request.h"
+#include "routes.h"
+
+enum { BODY_PATIENCE = 4 }; /* times the limit that are read before the connection is cut */
+
+enum exchange_state {
+    READING,
+    HANDLING,  /* the handler runs */
+    SUSPENDED, /* it will reply later */
+    REPLIED,
+};
+
+/* One request and its reply. Lives from the request line to libmicrohttpd's completed callback. */
+struct exchange {
+    struct request request; /* first: handlers know only this */
+    struct http *http;
+    struct MHD_Connection *connection;
+    const struct route *route;
+    char *target;
+    bool begun, counted; /* admitted; among http->pending */
+    size_t body_capacity, body_bytes; /* bytes seen, kept or not */
+    int64_t deadline;
+    struct MHD_Response *response; /* under http->lock until REPLIED */
+    int status;
+    enum exchange_state state; /* under http->lock */
+    void (*gone)(void *data);
+    void *gone_data;
+    int64_t started_us;
+};
+
+struct http {
+    struct hub *hub;
+    struct MHD_Daemon *daemon;
+    int gone_epoll;
+    atomic_int connections, pending;
+    pthread_mutex_t lock; /* the states; taken after the hub's lock */
+};
+
+/* --- replies --- */
+
+static const char content_policy[] =
+    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
+    "worker-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
+
+static void add_cors(struct MHD_Response *out, const struct exchange *exchange)
+{
+    const char *origin = request_header(&exchange->request, "Origin");
+
+    if (!origin) {
+        return;
+    }
+    /* Refused origins got a 403 before; one's own page needs none of this. */
+    MHD_add_response_header(out, "Access-Control-Allow-Origin", origin);
+    MHD_add_response_header(out, "Access-Control-Expose-Headers",
+                            "ETag, Location, Fieldcast-Revision, Fieldcast-Size, "
+                            "Fieldcast-Renderer");
+    MHD_add_response_header(out, "Vary", "Origin");
+}
+
+static struct MHD_Response *build_response(const struct exchange *exchange,
+                                           const struct response *response)
+{
+    struct MHD_Response *out = MHD_create_response_from_buffer(
+        response->length, response->body,
+        response->borrowed ? MHD_RESPMEM_PERSISTENT : MHD_RESPMEM_MUST_FREE);
+    bool cache = false;
+
+    if (!out) {
+        abort();
+    }
+    if (response->type) {
+        MHD_add_response_header(out, "Content-Type", response->type);
+    }
+    for (size_t i = 0; i < response->header_count; i++) {
+        cache |= strcmp(response->headers[i].name, "Cache-Control") == 0;
+        MHD_add_response_header(out, response->headers[i].name, response->headers[i].value);
+    }
+    if (!cache) {
+        MHD_add_response_header(out, "Cache-Control", "no-cache");
+    }
+    MHD_add_response_header(out, "X-Content-Type-Options", "nosniff");
+    MHD_add_response_header(out, "Referrer-Policy", "no-referrer");
+    if (response->type && strncmp(response->type, "text/html", 9) == 0) {
+        MHD_add_response_header(out, "Content-Security-Policy", content_policy);
+    }
+    if (response->status != 403) {
+        add_cors(out, exchange);
+    }
+    return out;
+}
+
+/* Under the lock. */
+static void unwatch(struct exchange *exchange)
+{
+    if (exchange->gone) {
+        const union MHD_ConnectionInfo *info = MHD_get_connection_info(
+            exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+
+        epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_DEL, info->connect_fd, NULL);
+        exchange->gone = NULL;
+    }
+}
+
+void request_reply(struct request *request, const struct response *response)
+{
+    struct exchange *exchange = (struct exchange *)request;
+    struct http *http = exchange->http;
+    struct MHD_Response *built = build_response(exchange, response);
+
+    pthread_mutex_lock(&http->lock);
+    bool suspended = exchange->state == SUSPENDED;
+    exchange->response = built;
+    exchange->status = response->status;
+    exchange->state = REPLIED;
+    unwatch(exchange);
+    if (suspended) {
+        MHD_resume_connection(exchange->connection);
+    }
+    pthread_mutex_unlock(&http->lock);
+}
+
+void request_on_gone(struct request *request, void (*gone)(void *data), void *data)
+{
+    struct exchange *exchange = (struct exchange *)request;
+    struct epoll_event event = {.events = EPOLLRDHUP | EPOLLONESHOT, .data.ptr = exchange};
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+
+    pthread_mutex_lock(&exchange->http->lock);
+    if (exchange->state != REPLIED &&
+        epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_ADD, info->connect_fd, &event) == 0) {
+        exchange->gone = gone;
+        exchange->gone_data = data;
+    }
+    pthread_mutex_unlock(&exchange->http->lock);
+}
+
+int http_gone_fd(const struct http *http)
+{
+    return http->gone_epoll;
+}
+
+/* The hub's lock keeps the exchanges alive: those with a `gone` are answered under it only. */
+void http_check_gone(struct http *http)
+{
+    struct epoll_event events[16];
+    struct exchange *gone[16];
+    int count = 0;
+
+    hub_lock(http->hub);
+    pthread_mutex_lock(&http->lock);
+    int found = epoll_wait(http->gone_epoll, events, 16, 0);
+    for (int i = 0; i < found; i++) {
+        struct exchange *exchange = events[i].data.ptr;
+
+        if (exchange->gone) {
+            gone[count++] = exchange;
+        }
+    }
+    pthread_mutex_unlock(&http->lock);
+    for (int i = 0; i < count; i++) {
+        gone[i]->gone(gone[i]->gone_data);
+    }
+    hub_unlock(http->hub);
+}
+
+/* --- checks before a handler sees the request --- */
+
+struct field_check {
+    struct head_fault fault;
+    const char *first[3]; /* of Host, Content-Length, Transfer-Encoding */
+    bool ok;
+};
+
+static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const char *name,
+                                   size_t name_length, const char *value, size_t value_length)
+{
+    static const char *const single[3] = {"Host", "Content-Length", "Transfer-Encoding"};
+    struct field_check *check = data;
+
+    (void)kind;
+    check->ok = head_field_check(name, name_length, value ? value : "", value_length,
+                                 &check->fault);
+    for (int i = 0; i < 3 && check->ok; i++) {
+        if (strcasecmp(name, single[i]) != 0) {
+            continue;
+        }
+        if (check->first[i]) {
+            check->fault = (struct head_fault){400, "a header that may come once comes twice"};
+            check->ok = false;
+        }
+        check->first[i] = value ? value : "";
+    }
+    return check->ok ? MHD_YES : MHD_NO;
+}
+
+static bool check_framing(const struct exchange *exchange, const char *version,
+                          struct response *out)
+{
+    struct field_check check = {.ok = true};
+
+    MHD_get_connection_values_n(exchange->connection, MHD_HEADER_KIND, check_field, &check);
+    if (check.ok && head_framing_check(check.first[0], check.first[1], check.first[2],
+                                       strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
+        return true;
+    }
+    *out = response_problem(check.fault.status, "syntax", "", check.fault.message);
+    response_add(out, "Connection", "close");
+    return false;
+}
+
+static bool check_access(const struct exchange *exchange, bool open, struct response *out)
+{
+    const struct request *request = &exchange->request;
+    struct access_request values = {
+        .host = request_header(request, "Host"),
+        .origin = request_header(request, "Origin"),
+        .authorization = request_header(request, "Authorization"),
+        .protocols = request_header(request, "Sec-WebSocket-Protocol"),
+    };
+    struct error err = {0};
+    int status = access_check(&exchange->http->hub->access, &values, open, &err);
+
+    if (status) {
+        *out = response_problem(status, status == 401 ? "unauthorized" : error_kind_name(err.kind),
+                                err.place, err.message);
+    }
+    return status == 0;
+}
+
+static bool is_json(const char *type)
+{
+    if (!type) {
+        return true;
+    }
+    size_t length = strcspn(type, "; \t");
+
+    return (length == 16 && strncasecmp(type, "application/json", 16) == 0) ||
+           (length > 5 && strncasecmp(type, "application/", 12) == 0 &&
+            strncasecmp(type + length - 5, "+json", 5) == 0);
+}
+
+static bool check_body(const struct exchange *exchange, struct response *out)
+{
+    const char *length = request_header(&exchange->request, "Content-Length");
+    bool chunked = request_header(&exchange->request, "Transfer-Encoding") != NULL;
+    bool any = chunked || (length && strtoull(length, NULL, 10) > 0);
+    char detail[100];
+
+    if (exchange->route->body == BODY_NONE && any) {
+        *out = response_problem(400, "syntax", "", "this request takes no body");
+    } else if (length && strtoull(length, NULL, 10) > LIMIT_DOCUMENT_BYTES) {
+        snprintf(detail, sizeof(detail), "the body of %s bytes is above the maximum %d", length,
+                 LIMIT_DOCUMENT_BYTES);
+        *out = response_problem(413, "too_large", "", detail);
+    } else if (exchange->route->body == BODY_JSON &&
+               !is_json(request_header(&exchange->request, "Content-Type"))) {
+        *out = response_problem(415, "invalid", "Content-Type", "the body must be application/json");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* Another site's page that may use this server asks first what it may do. */
+static struct response preflight(void)
+{
+    struct response response = {.status = 204, .body = "", .borrowed = true};
+
+    response_add(&response, "Access-Control-Allow-Methods", "GET, POST, PUT, PATCH, DELETE");
+    response_add(&response, "Access-Control-Allow-Headers",
+                 "Authorization, Content-Type, If-Match, If-None-Match");
+    response_add(&response, "Access-Control-Max-Age", "600");
+    return response;
+}
+
+/* False: `*out` is the answer. */
+static bool admit(struct exchange *exchange, const char *method, const char *version,
+                  struct response *out)
+{
+    struct request *request = &exchange->request;
+    struct error err = {0};
+
+    request->method = method;
+    if (!check_framing(exchange, version, out)) {
+        return false;
+    }
+    if (!exchange->target || !request_parse_target(request, exchange->target, &err)) {
+        *out = response_problem(400, "syntax", err.place, err.message);
+        return false;
+    }
+    exchange->route = routes_find(request, out);
+    bool is_preflight =
+        strcmp(method, "OPTIONS") == 0 && request_header(request, "Origin") &&
+        request_header(request, "Access-Control-Request-Method");
+    bool found = exchange->route != NULL;
+    struct response refusal;
+    if (!check_access(exchange, is_preflight || (found && exchange->route->open), &refusal)) {
+        if (!found) {
+            free(out->body);
+        }
+        *out = refusal;
+        return false;
+    }
+    if (is_preflight) {
+        free(out->body);
+        *out = preflight();
+        return false;
+    }
+    if (!found) {
+        return false;
+    }
+    if (atomic_load(&exchange->http->hub->draining) && !exchange->route->open) {
+        *out = response_problem(503, "unavailable", "", "the server is shutting down");
+        return false;
+    }
+    return check_body(exchange, out);
+}
+
+/* --- libmicrohttpd's callbacks --- */
+
+static const char *find_header(const struct request *request, const char *name)
+{
+    return MHD_lookup_connection_value(((const struct exchange *)request)->connection,
+                                       MHD_HEADER_KIND, name);
+}
+
+static void *on_target(void *data, const char *target, struct MHD_Connection *connection)
+{
+    struct http *http = data;
+    struct exchange *exchange = memory_alloc(1, sizeof(*exchange));
+
+    exchange->http = http;
+    exchange->connection = connection;
+    exchange->target = target ? memory_text(target) : NULL;
+    exchange->request.hub = http->hub;
+    exchange->request.header = find_header;
+    exchange->started_us = clock_us();
+    return exchange;
+}
+
+static enum MHD_Result queue_reply(struct exchange *exchange)
+{
+    struct hub *hub = exchange->http->hub;
+    enum MHD_Result result =
+        MHD_queue_response(exchange->connection, (unsigned)exchange->status, exchange->response);
+
+    metric_add(&hub->metrics, METRIC_HTTP_REQUESTS, 1);
+    metric_add(&hub->metrics, METRIC_HTTP_ERRORS, exchange->status >= 400);
+    log_debug("http", "%s %s %d %lld us", exchange->request.method,
+              exchange->request.path ? exchange->request.path : "?", exchange->status,
+              (long long)(clock_us() - exchange->started_us));
+    return result;
+}
+
+static enum MHD_Result answer_now(struct exchange *exchange, const struct response *response)
+{
+    request_reply(&exchange->request, response);
+    return queue_reply(exchange);
+}
+
+static void add_body(struct exchange *exchange, const char *bytes, size_t length)
+{
+    struct request *request = &exchange->request;
+
+    if (request->body_length + length + 1 > exchange->body_capacity) {
+        exchange->body_capacity = (request->body_length + length + 1) * 2;
+        request->body = memory_resize(request->body, exchange->body_capacity, 1);
+    }
+    memcpy(request->body + request->body_length, bytes, length);
+    request->body_length += length;
+    request->body[request->body_length] = '\0';
+}
+
+/* The library takes no reply in the middle of a body. So what is too much is read away for a while
+ * and then refused, and what is too slow is cut off. */
+static enum MHD_Result receive_body(struct exchange *exchange, const char *bytes, size_t *length)
+{
+    exchange->body_bytes += *length;
+    if (clock_ms() > exchange->deadline ||
+        exchange->body_bytes > (size_t)BODY_PATIENCE * LIMIT_DOCUMENT_BYTES) {
+        return MHD_NO;
+    }
+    if (exchange->body_bytes <= LIMIT_DOCUMENT_BYTES) {
+        add_body(exchange, bytes, *length);
+    }
+    *length = 0;
+    return MHD_YES;
+}
+
+static enum MHD_Result refuse_body(struct exchange *exchange)
+{
+    char detail[100];
+
+    snprintf(detail, sizeof(detail), "the body of %zu bytes is above the maximum %d",
+             exchange->body_bytes, LIMIT_DOCUMENT_BYTES);
+    struct response response = response_problem(413, "too_large", "", detail);
+    return answer_now(exchange, &response);
+}
+
+static enum MHD_Result handle(struct exchange *exchange)
+{
+    struct http *http = exchange->http;
+
+    exchange->state = HANDLING;
+    exchange->counted = true;
+    atomic_fetch_add(&http->pending, 1);
+    exchange->route->handle(&exchange->request);
+    pthread_mutex_lock(&http->lock);
+    bool replied = exchange->state == REPLIED;
+    if (!replied) {
+        exchange->state = SUSPENDED;
+        MHD_suspend_connection(exchange->connection);
+    }
+    pthread_mutex_unlock(&http->lock);
+    return replied ? queue_reply(exchange) : MHD_YES;
+}
+
+static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, const char *url,
+                                 const char *method, const char *version, const char *upload,
+                                 size_t *upload_size, void **connection_data)
+{
+    struct exchange *exchange = *connection_data;
+    struct response response = {0};
+
+    (void)data;
+    (void)connection;
+    (void)url;
+    if (!exchange->begun) {
+        exchange->begun = true;
+        exchange->deadline = clock_ms() + HTTP_BODY_MS;
+        return admit(exchange, method, version, &response) ? MHD_YES
+                                                           : answer_now(exchange, &response);
+    }
+    if (*upload_size > 0) {
+        return receive_body(exchange, upload, upload_size);
+    }
+    pthread_mutex_lock(&exchange->http->lock);
+    enum exchange_state state = exchange->state;
+    pthread_mutex_unlock(&exchange->http->lock);
+    if (state == REPLIED) {
+        return queue_reply(exchange);
+    }
+    return exchange->body_bytes > LIMIT_DOCUMENT_BYTES ? refuse_body(exchange) : handle(exchange);
+}
+
+static void on_completed(void *data, struct MHD_Connection *connection, void **connection_data,
+                         enum MHD_RequestTerminationCode code)
+{
+    struct exchange *exchange = *connection_data;
+
+    (void)data;
+    (void)connection;
+    (void)code;
+    if (!exchange) {
+        return;
+    }
+    if (exchange->counted) {
+        atomic_fetch_sub(&exchange->http->pending, 1);
+    }
+    if (exchange->response) {
+        MHD_destroy_response(exchange->response);
+    }
+    request_finish(&exchange->request);
+    free(exchange->target);
+    free(exchange);
+    *connection_data = NULL;
+}
+
+static void on_connection(void *data, struct MHD_Connection *connection, void **socket_data,
+                          enum MHD_ConnectionNotificationCode code)
+{
+    struct http *http = data;
+
+    (void)connection;
+    (void)socket_data;
+    if (code == MHD_CONNECTION_NOTIFY_CLOSED) {
+        atomic_fetch_sub(&http->connections, 1);
+    }
+}
+
+static void on_log(void *data, const char *format, va_list arguments)
+{
+    char line[400];
+
+    (void)data;
+    vsnprintf(line, sizeof(line), format, arguments);
+    log_debug("http", "%s", line);
+}
+
+/* --- life --- */
+
+struct http *http_create(struct hub *hub, struct error *err)
+{
+    struct http *http = memory_alloc(1, sizeof(*http));
+
+    http->hub = hub;
+    pthread_mutex_init(&http->lock, NULL);
+    http->gone_epoll = epoll_create1(EPOLL_CLOEXEC);
+    http->daemon = MHD_start_daemon(
+        MHD_USE_NO_LISTEN_SOCKET | MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_EPOLL | MHD_USE_ITC |
+            MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG,
+        0, NULL, NULL, on_access, http, MHD_OPTION_EXTERNAL_LOGGER, on_log, NULL,
+        MHD_OPTION_URI_LOG_CALLBACK, on_target, http, MHD_OPTION_NOTIFY_COMPLETED, on_completed,
+        http, MHD_OPTION_NOTIFY_CONNECTION, on_connection, http, MHD_OPTION_CONNECTION_LIMIT,
+        (unsigned)HTTP_CONNECTIONS + 64, MHD_OPTION_CONNECTION_TIMEOUT,
+        (unsigned)HTTP_IDLE_SECONDS, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+    if (!http->daemon || http->gone_epoll < 0) {
+        error_set(err, ERROR_INTERNAL, "http", "libmicrohttpd cannot be started");
+        http_destroy(http);
+        return NULL;
+    }
+    return http;
+}
+
+void http_adopt(struct http *http, int fd, const struct sockaddr *address, socklen_t length)
+{
+    atomic_fetch_add(&http->connections, 1);
+    if (MHD_add_connection(http->daemon, fd, address, length) != MHD_YES) {
+        atomic_fetch_sub(&http->connections, 1); /* it has closed the socket */
+    }
+}
+
+int http_count(const struct http *http)
+{
+    return atomic_load(&((struct http *)http)->connections);
+}
+
+void http_drain(struct http *http, int wait_ms)
+{
+    int64_t end = clock_ms() + wait_ms;
+
+    while (atomic_load(&http->pending) > 0 && clock_ms() < end) {
+        usleep(5000);
+    }
+}
+
+void http_destroy(struct http *http)
+{
+    if (!http) {
+        return;
+    }
+    if (http->daemon) {
+        MHD_stop_daemon(http->daemon);
+    }
+    if (http->gone_epoll >= 0) {
+        close(http->gone_epoll);
+    }
+    pthread_mutex_destroy(&http->lock);
+    free(http);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* The HTTP side: an adapter to libmicrohttpd, with one thread of its own. Turns its callbacks into
+ * requests and replies, checks framing and access of every request, bounds bodies in size and
+ * time. Knows no route but by the table. */
+#ifndef SERVER_HTTP_H
+#define SERVER_HTTP_H
+
+#include <sys/socket.h>
+
+#include "protocol/error.h"
+
+enum {
+    HTTP_CONNECTIONS = 512,
+    HTTP_IDLE_SECONDS = 15,
+    HTTP_BODY_MS = 30000, /* for a whole body, however it trickles */
+};
+
+struct hub;
+struct http;
+
+struct http *http_create(struct hub *hub, struct error *err);
+/* Any thread; takes `fd`, from which nothing has been read. */
+void http_adopt(struct http *http, int fd, const struct sockaddr *address, socklen_t length);
+int http_count(const struct http *http);
+/* Readable when a client that waits for an answer has left; then call http_check_gone. */
+int http_gone_fd(const struct http *http);
+void http_check_gone(struct http *http);
+/* Waits at most `wait_ms` for requests under way. */
+void http_drain(struct http *http, int wait_ms);
+void http_destroy(struct http *http);
+
+#endif

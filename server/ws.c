@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: MIT */
+/* Of libwebsockets 4.1.6 only what is safe is used: one protocol, no extensions, no HTTP/2, no
+ * header of the client's (it gets a handshake of ours), and no lws_write() while an earlier one is
+ * still under way. lws_cancel_service() is the one function that other threads may call. */
+#include "ws.h"
+
+#include <libwebsockets.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "hub.h"
+#include "log.h"
+#include "outbox.h"
+#include "protocol/memory.h"
+#include "session.h"
+
+enum {
+    HELLO_SECONDS = 10,
+    PING_SECONDS = 10,
+    HANGUP_SECONDS = 25, /* without a pong or anything else */
+    PIECES_PER_TURN = 16,
+    CLOSE_UNSUPPORTED = 1003,
+};
+
+/* One connection. Made by ws_adopt, then the service thread's. */
+struct link {
+    struct ws *ws;
+    struct link *next;
+    int fd; /* until it is adopted */
+    char handshake[512];
+    char scene[LIMIT_ID_BYTES + 1];
+    struct lws *wsi;
+    struct session *session; /* between ESTABLISHED and CLOSED */
+    atomic_bool dirty;
+    char *text; /* the message being collected */
+    size_t length, capacity;
+};
+
+struct ws {
+    struct hub *hub;
+    struct lws_context *context;
+    struct lws_vhost *vhost;
+    pthread_t thread;
+    bool running;
+    atomic_bool stopping, draining, kicked;
+    atomic_int count;
+    pthread_mutex_t lock; /* guards `adopted` */
+    struct link *adopted;
+    /* The service thread's. */
+    struct link *links, *adopting;
+    uint8_t scratch[LWS_PRE + FRAME_HEADER_BYTES + OUTBOX_PART_BYTES];
+};
+
+static const lws_retry_bo_t idle_policy = {.secs_since_valid_ping = PING_SECONDS,
+                                           .secs_since_valid_hangup = HANGUP_SECONDS};
+
+static void link_destroy(struct link *link)
+{
+    atomic_fetch_sub(&link->ws->count, 1);
+    free(link->text);
+    free(link);
+}
+
+/* Any thread, mostly under the hub's lock. */
+static void kick(struct ws *ws)
+{
+    if (!atomic_exchange(&ws->kicked, true)) {
+        lws_cancel_service(ws->context);
+    }
+}
+
+static void wake(void *connection)
+{
+    struct link *link = connection;
+
+    atomic_store(&link->dirty, true);
+    kick(link->ws);
+}
+
+/* --- adopting --- */
+
+void ws_adopt(struct ws *ws, int fd, const struct head *head, const char *scene)
+{
+    struct link *link = memory_alloc(1, sizeof(*link));
+
+    link->ws = ws;
+    link->fd = fd;
+    snprintf(link->scene, sizeof(link->scene), "%s", scene);
+    snprintf(link->handshake, sizeof(link->handshake),
+             "GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+             "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: %s\r\n"
+             "Sec-WebSocket-Protocol: " WS_SUBPROTOCOL "\r\n\r\n",
+             head->field[HEAD_WS_KEY]);
+    atomic_fetch_add(&ws->count, 1);
+    pthread_mutex_lock(&ws->lock);
+    link->next = ws->adopted;
+    ws->adopted = link;
+    pthread_mutex_unlock(&ws->lock);
+    kick(ws);
+}
+
+static void adopt_waiting(struct ws *ws)
+{
+    pthread_mutex_lock(&ws->lock);
+    struct link *link = ws->adopted;
+    ws->adopted = NULL;
+    pthread_mutex_unlock(&ws->lock);
+    while (link) {
+        struct link *next = link->next;
+        int fd = link->fd;
+
+        link->next = NULL;
+        ws->adopting = link;
+        if (!lws_adopt_socket_vhost_readbuf(ws->vhost, fd, link->handshake,
+                                            strlen(link->handshake))) {
+            log_debug("ws", "a connection ended during its handshake");
+        }
+        /* NULL is answered both for "never made" and for "made and gone": on_made tells. */
+        if (ws->adopting) {
+            link_destroy(ws->adopting);
+            ws->adopting = NULL;
+        }
+        link = next;
+    }
+}
+
+static void on_made(struct ws *ws, struct lws *wsi)
+{
+    struct link *link = ws->adopting;
+
+    if (!link) {
+        return;
+    }
+    ws->adopting = NULL;
+    link->wsi = wsi;
+    link->next = ws->links;
+    ws->links = link;
+    lws_set_opaque_user_data(wsi, link);
+}
+
+static void on_gone(struct ws *ws, struct link *link)
+{
+    struct link **place = &ws->links;
+
+    while (*place && *place != link) {
+        place = &(*place)->next;
+    }
+    if (*place) {
+        *place = link->next;
+        link_destroy(link);
+    }
+}
+
+/* --- reading --- */
+
+static void on_established(struct link *link)
+{
+    struct hub *hub = link->ws->hub;
+
+    hub_lock(hub);
+    link->session = session_create(hub, wake, link);
+    hub_unlock(hub);
+    lws_set_timer_usecs(link->wsi, (lws_usec_t)HELLO_SECONDS * LWS_USEC_PER_SEC);
+}
+
+static void on_closed(struct link *link)
+{
+    struct hub *hub = link->ws->hub;
+
+    hub_lock(hub);
+    session_destroy(link->session);
+    link->session = NULL;
+    hub_unlock(hub);
+}
+
+static int close_with(struct lws *wsi, int code)
+{
+    lws_close_reason(wsi, (enum lws_close_status)code, NULL, 0);
+    return -1;
+}
+
+static int on_receive(struct link *link, const char *bytes, size_t length)
+{
+    struct lws *wsi = link->wsi;
+
+    lws_validity_confirmed(wsi);
+    if (lws_frame_is_binary(wsi)) {
+        return close_with(wsi, CLOSE_UNSUPPORTED);
+    }
+    if (link->length + length + lws_remaining_packet_payload(wsi) > LIMIT_MESSAGE_BYTES) {
+        return close_with(wsi, CLOSE_TOO_BIG);
+    }
+    if (link->length + length > link->capacity) {
+        link->capacity = (link->length + length) * 2;
+        link->text = memory_resize(link->text, link->capacity, 1);
+    }
+    memcpy(link->text + link->length, bytes, length);
+    link->length += length;
+    if (lws_remaining_packet_payload(wsi) || !lws_is_final_fragment(wsi)) {
+        return 0;
+    }
+    if (link->session) {
+        session_receive(link->session, link->scene, link->text, link->length);
+    }
+    link->length = 0;
+    if (link->capacity > 65536) { /* one large message shall not cost for ever */
+        free(link->text);
+        link->text = NULL;
+        link->capacity = 0;
+    }
+    return 0;
+}
+
+static int on_timer(struct link *link)
+{
+    struct hub *hub = link->ws->hub;
+
+    hub_lock(hub);
+    bool greeted = link->session && link->session->client[0];
+    hub_unlock(hub);
+    return greeted ? 0 : close_with(link->wsi, CLOSE_POLICY);
+}
+
+/* --- writing --- */
+
+static enum lws_write_protocol write_mode(const struct outbox_piece *piece)
+{
+    int mode = !piece->first                ? LWS_WRITE_CONTINUATION
+               : piece->kind == OUTBOX_TEXT ? LWS_WRITE_TEXT
+                                            : LWS_WRITE_BINARY;
+
+    return (enum lws_write_protocol)(mode | (piece->last ? 0 : LWS_WRITE_NO_FIN));
+}
+
+/* 1: written, 0: nothing to write, -1: close. */
+static int write_piece(struct link *link)
+{
+    struct ws *ws = link->ws;
+    struct session *session = link->session;
+    struct outbox_piece piece;
+    int code = 0;
+
+    hub_lock(ws->hub);
+    bool more = !session->close_now && outbox_next(&session->outbox, ws->scratch + LWS_PRE, &piece);
+    if (!more) {
+        code = session->close_code;
+    } else if (piece.frame_done) {
+        session_frame_written(session, piece.frame_done, piece.frame_bytes);
+    }
+    hub_unlock(ws->hub);
+    if (!more) {
+        return code ? close_with(link->wsi, code) : 0;
+    }
+    return lws_write(link->wsi, ws->scratch + LWS_PRE, piece.length, write_mode(&piece)) < 0 ? -1
+                                                                                           : 1;
+}
+
+static int on_writeable(struct link *link)
+{
+    for (int i = 0; i < PIECES_PER_TURN && link->session; i++) {
+        int result = write_piece(link);
+
+        if (result <= 0) {
+            return result;
+        }
+        if (lws_send_pipe_choked(link->wsi)) {
+            break;
+        }
+    }
+    lws_callback_on_writable(link->wsi);
+    return 0;
+}
+
+static void on_kicked(struct ws *ws)
+{
+    bool draining = atomic_load(&ws->draining);
+
+    atomic_store(&ws->kicked, false);
+    adopt_waiting(ws);
+    for (struct link *link = ws->links; link; link = link->next) {
+        if (draining && link->session) {
+            hub_lock(ws->hub);
+            session_close(link->session, CLOSE_GOING_AWAY, "shutting_down", 1000);
+            hub_unlock(ws->hub);
+        }
+        if (atomic_exchange(&link->dirty, false) && link->session) {
+            lws_callback_on_writable(link->wsi);
+        }
+    }
+}
+
+static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                    size_t length)
+{
+    struct ws *ws = lws_context_user(lws_get_context(wsi));
+    struct link *link = reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED
+                            ? NULL
+                            : lws_get_opaque_user_data(wsi);
+
+    (void)user;
+    switch (reason) {
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+        on_kicked(ws);
+        return 0; /* anything else would close the wake-up pipe */
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+        on_made(ws, wsi);
+        return 0;
+    case LWS_CALLBACK_WSI_DESTROY:
+        if (link) {
+            lws_set_opaque_user_data(wsi, NULL);
+            on_gone(ws, link);
+        }
+        return 0;
+    default:
+        break;
+    }
+    if (!link) {
+        return 0;
+    }
+    switch (reason) {
+    case LWS_CALLBACK_ESTABLISHED:
+        on_established(link);
+        return 0;
+    case LWS_CALLBACK_CLOSED:
+        on_closed(link);
+        return 0;
+    case LWS_CALLBACK_RECEIVE:
+        return on_receive(link, in, length);
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+        return on_writeable(link);
+    case LWS_CALLBACK_TIMER:
+        return on_timer(link);
+    default:
+        return 0;
+    }
+}
+
+static const struct lws_protocols protocols[] = {
+    {.name = WS_SUBPROTOCOL,
+     .callback = callback,
+     .rx_buffer_size = 4096,
+     .tx_packet_size = 262144}, /* the default of 4096 costs a factor of five */
+    {.name = NULL},
+};
+
+/* --- life --- */
+
+static void *run(void *data)
+{
+    struct ws *ws = data;
+
+    while (!atomic_load(&ws->stopping)) {
+        if (lws_service(ws->context, 0) < 0) {
+            log_error("ws", "the service loop failed");
+            break;
+        }
+    }
+    return NULL;
+}
+
+static void on_log(int level, const char *line)
+{
+    (void)level;
+    if (!strstr(line, "calling service")) { /* every adoption says this as an error */
+        log_debug("ws", "%s", line);
+    }
+}
+
+struct ws *ws_create(struct hub *hub, struct error *err)
+{
+    struct ws *ws = memory_alloc(1, sizeof(*ws));
+    struct lws_context_creation_info info = {
+        .port = CONTEXT_PORT_NO_LISTEN_SERVER,
+        .vhost_name = "fieldcast",
+        .protocols = protocols,
+        .alpn = "http/1.1",
+        .gid = (gid_t)-1,
+        .uid = (uid_t)-1,
+        .options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME,
+        .fd_limit_per_thread = LIMIT_SESSIONS + 64,
+        .retry_and_idle_policy = &idle_policy,
+        .user = ws,
+    };
+
+    ws->hub = hub;
+    pthread_mutex_init(&ws->lock, NULL);
+    lws_set_log_level(LLL_ERR | LLL_WARN, on_log);
+    ws->context = lws_create_context(&info);
+    ws->vhost = ws->context ? lws_get_vhost_by_name(ws->context, "fieldcast") : NULL;
+    if (!ws->vhost || pthread_create(&ws->thread, NULL, run, ws) != 0) {
+        error_set(err, ERROR_INTERNAL, "ws", "libwebsockets cannot be started");
+        ws_destroy(ws);
+        return NULL;
+    }
+    ws->running = true;
+    return ws;
+}
+
+int ws_count(const struct ws *ws)
+{
+    return atomic_load(&((struct ws *)ws)->count);
+}
+
+void ws_drain(struct ws *ws, int wait_ms)
+{
+    int64_t end = clock_ms() + wait_ms;
+
+    atomic_store(&ws->draining, true);
+    do {
+        atomic_store(&ws->kicked, true);
+        lws_cancel_service(ws->context);
+        usleep(10000);
+    } while (ws_count(ws) > 0 && clock_ms() < end);
+}
+
+void ws_destroy(struct ws *ws)
+{
+    if (!ws) {
+        return;
+    }
+    atomic_store(&ws->stopping, true);
+    if (ws->running) {
+        lws_cancel_service(ws->context);
+        pthread_join(ws->thread, NULL);
+    }
+    if (ws->context) {
+        lws_context_destroy(ws->context);
+    }
+    while (ws->adopted) {
+        struct link *link = ws->adopted;
+
+        ws->adopted = link->next;
+        close(link->fd);
+        link_destroy(link);
+    }
+    pthread_mutex_destroy(&ws->lock);
+    free(ws);
+}
