@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+/* What is not about one scene: the page, examples, schema, health, metrics. */
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "assets.h"
+#include "hub.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "routes.h"
+
+enum { WEB_FILE_BYTES = 67108864 };
+
+static void reply_not_found(struct request *request)
+{
+    struct response response =
+        response_problem(404, "not_found", "", "there is nothing at this address");
+
+    request_reply(request, &response);
+}
+
+/* --- the page --- */
+
+/* Files whose name holds a hash of their content never change. */
+static void add_caching(struct response *response, const char *path)
+{
+    if (strncmp(path, "/assets/", 8) == 0) {
+        response_add(response, "Cache-Control", "public, max-age=31536000, immutable");
+    }
+}
+
+static const char *mime_of(const char *path)
+{
+    static const char *const types[][2] = {{".html", "text/html; charset=utf-8"},
+                                           {".js", "text/javascript; charset=utf-8"},
+                                           {".css", "text/css; charset=utf-8"},
+                                           {".svg", "image/svg+xml"},
+                                           {".png", "image/png"},
+                                           {".json", "application/json"},
+                                           {".webmanifest", "application/json"},
+                                           {".woff2", "font/woff2"},
+                                           {".wasm", "application/wasm"}};
+    const char *dot = strrchr(path, '.');
+
+    for (size_t i = 0; dot && i < sizeof(types) / sizeof(*types); i++) {
+        if (strcmp(types[i][0], dot) == 0) {
+            return types[i][1];
+        }
+    }
+    return "application/octet-stream";
+}
+
+/* A regular file below `directory`, links resolved; NULL: none. */
+static char *read_below(const char *directory, const char *path, size_t *out_length)
+{
+    char wanted[PATH_MAX], root[PATH_MAX], real[PATH_MAX];
+    struct stat status;
+    char *bytes = NULL;
+
+    if (snprintf(wanted, sizeof(wanted), "%s%s", directory, path) >= (int)sizeof(wanted) ||
+        !realpath(directory, root) || !realpath(wanted, real) ||
+        strncmp(real, root, strlen(root)) != 0 || real[strlen(root)] != '/') {
+        return NULL;
+    }
+    int fd = open(real, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
+        status.st_size <= WEB_FILE_BYTES) {
+        bytes = memory_alloc((size_t)status.st_size + 1, 1);
+        *out_length = (size_t)status.st_size;
+        if (read(fd, bytes, *out_length) != (ssize_t)*out_length) {
+            free(bytes);
+            bytes = NULL;
+        }
+    }
+    if (fd >= 0) {
+        close(fd);
+    }
+    return bytes;
+}
+
+static bool reply_file(struct request *request, const char *path)
+{
+    struct response response = {.status = 200};
+
+    if (request->hub->web_dir) {
+        response.body = read_below(request->hub->web_dir, path, &response.length);
+        response.type = mime_of(path);
+        if (!response.body) {
+            return false;
+        }
+    } else {
+        const struct asset *asset = assets_find(path);
+
+        if (!asset) {
+            return false;
+        }
+        response.type = asset->mime;
+        response.body = (void *)asset->bytes;
+        response.length = asset->length;
+        response.borrowed = true;
+        if (asset->gzip) {
+            response_add(&response, "Content-Encoding", "gzip");
+        }
+    }
+    add_caching(&response, path);
+    request_reply(request, &response);
+    return true;
+}
+
+void pages_app(struct request *request)
+{
+    if (!reply_file(request, "/index.html")) {
+        struct response response = response_problem(
+            404, "not_found", "", "this fieldcast was built without the page; see /v1/schema.json");
+
+        request_reply(request, &response);
+    }
+}
+
+void pages_asset(struct request *request)
+{
+    if (!reply_file(request, request->path)) {
+        reply_not_found(request);
+    }
+}
+
+/* --- examples --- */
+
+/* One line about a scene, from what is in it. */
+static void describe(const struct scene *scene, char *out, size_t size)
+{
+    snprintf(out, size, "%zu node%s, %zu light%s, %zu material%s", scene->node_count,
+             scene->node_count == 1 ? "" : "s", scene->lights.count,
+             scene->lights.count == 1 ? "" : "s", scene->materials.count,
+             scene->materials.count == 1 ? "" : "s");
+}
+
+void pages_examples(struct request *request)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON *list = cJSON_AddArrayToObject(json, "examples");
+
+    for (size_t i = 0; i < examples_count; i++) {
+        struct scene *scene = scene_parse((const char *)examples_table[i].bytes,
+                                          examples_table[i].length, NULL);
+        char description[120];
+
+        if (!scene) {
+            continue; /* a test reads them all */
+        }
+        cJSON *item = cJSON_CreateObject();
+        describe(scene, description, sizeof(description));
+        cJSON_AddStringToObject(item, "id", examples_table[i].path);
+        cJSON_AddStringToObject(item, "name", record_text(&scene->info, "name"));
+        cJSON_AddStringToObject(item, "description", description);
+        cJSON_AddItemToArray(list, item);
+        scene_destroy(scene);
+    }
+    request_reply_json(request, 200, json);
+}
+
+void pages_example(struct request *request)
+{
+    const struct asset *example = examples_find(request->capture[0]);
+
+    if (!example) {
+        reply_not_found(request);
+        return;
+    }
+    struct response response = {.status = 200,
+                                .type = "application/json",
+                                .body = (void *)example->bytes,
+                                .length = example->length,
+                                .borrowed = true};
+    request_reply(request, &response);
+}
+
+/* --- about the server --- */
+
+void pages_schema(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct response response = {.status = 304, .body = "", .borrowed = true};
+
+    if (!request_tag_listed(request_header(request, "If-None-Match"), hub->schema_tag)) {
+        response = (struct response){.status = 200,
+                                     .type = "application/schema+json",
+                                     .body = hub->schema,
+                                     .length = strlen(hub->schema),
+                                     .borrowed = true};
+    }
+    response_add(&response, "ETag", "%s", hub->schema_tag);
+    request_reply(request, &response);
+}
+
+void pages_health(struct request *request)
+{
+    cJSON *json = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(json, "status", "alive");
+    cJSON_AddStringToObject(json, "version", FIELDCAST_VERSION);
+    request_reply_json(request, 200, json);
+}
+
+void pages_ready(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct renderer_info info;
+
+    hub_lock(hub);
+    bool ready = hub->renders.ready;
+    info = hub->renderer;
+    hub_unlock(hub);
+    if (!ready || atomic_load(&hub->draining)) {
+        struct response response = response_problem(
+            503, "unavailable", "",
+            ready ? "the server is shutting down" : "the render process is not ready");
+
+        request_reply(request, &response);
+        return;
+    }
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "status", "ready");
+    cJSON_AddStringToObject(json, "renderer", info.name);
+    cJSON_AddBoolToObject(json, "software", info.software);
+    request_reply_json(request, 200, json);
+}
+
+void pages_metrics(struct request *request)
+{
+    struct response response = response_text(200, "text/plain; version=0.0.4; charset=utf-8",
+                                             metrics_print(&request->hub->metrics));
+
+    request_reply(request, &response);
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+/* What does not depend on the HTTP library; request_reply and request_on_gone are http.c's. */
+#include "request.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "protocol/json.h"
+#include "protocol/memory.h"
+
+static int hex_digit(char c)
+{
+    static const char digits[] = "0123456789abcdef";
+    const char *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c + 32 : c) : NULL;
+
+    return at ? (int)(at - digits) : -1;
+}
+
+/* NULL: a bad escape, or one for a control character. */
+static char *decode(const char *text, size_t length, bool plus_is_space)
+{
+    char *out = memory_alloc(length + 1, 1);
+    size_t used = 0;
+
+    for (size_t i = 0; i < length; i++) {
+        int c = (unsigned char)text[i];
+
+        if (c == '%') {
+            int high = i + 2 < length ? hex_digit(text[i + 1]) : -1;
+            int low = i + 2 < length ? hex_digit(text[i + 2]) : -1;
+            c = high < 0 || low < 0 ? 0 : high * 16 + low;
+            i += 2;
+        } else if (c == '+' && plus_is_space) {
+            c = ' ';
+        }
+        if (c < ' ' || c == 0x7f) {
+            free(out);
+            return NULL;
+        }
+        out[used++] = (char)c;
+    }
+    return out;
+}
+
+static bool add_query(struct request *request, const char *text, size_t length, struct error *err)
+{
+    const char *equals = memchr(text, '=', length);
+    size_t name_length = equals ? (size_t)(equals - text) : length;
+
+    if (length == 0) {
+        return true;
+    }
+    if (request->query_count == REQUEST_QUERIES) {
+        return error_set(err, ERROR_LIMIT, "?", "more than %d query parameters", REQUEST_QUERIES);
+    }
+    struct request_pair *pair = &request->query[request->query_count++];
+    pair->name = decode(text, name_length, true);
+    pair->value = equals ? decode(equals + 1, length - name_length - 1, true) : memory_text("");
+    return (pair->name && pair->value) ||
+           error_set(err, ERROR_SYNTAX, "?", "a percent escape is malformed");
+}
+
+bool request_parse_target(struct request *request, const char *target, struct error *err)
+{
+    if (strncasecmp(target, "http://", 7) == 0) {
+        target += 7 + strcspn(target + 7, "/?");
+    }
+    size_t path_length = strcspn(target, "?");
+    const char *query = target + path_length;
+
+    if (path_length == 0) {
+        target = "/";
+        path_length = 1;
+    }
+    request->path = decode(target, path_length, false);
+    if (!request->path) {
+        return error_set(err, ERROR_SYNTAX, "", "a percent escape in the path is malformed");
+    }
+    while (*query) {
+        query++;
+        size_t length = strcspn(query, "&");
+
+        if (!add_query(request, query, length, err)) {
+            return false;
+        }
+        query += length;
+    }
+    return true;
+}
+
+void request_finish(struct request *request)
+{
+    for (size_t i = 0; i < request->query_count; i++) {
+        free(request->query[i].name);
+        free(request->query[i].value);
+    }
+    free(request->path);
+    free(request->body);
+}
+
+const char *request_header(const struct request *request, const char *name)
+{
+    return request->header(request, name);
+}
+
+const char *request_query(const struct request *request, const char *name)
+{
+    for (size_t i = 0; i < request->query_count; i++) {
+        if (strcmp(request->query[i].name, name) == 0) {
+            return request->query[i].value;
+        }
+    }
+    return NULL;
+}
+
+bool request_check_query(const struct request *request, const char *const *names,
+                         struct error *err)
+{
+    for (size_t i = 0; i < request->query_count; i++) {
+        const char *const *name = names;
+        char place[100];
+
+        while (*name && strcmp(*name, request->query[i].name) != 0) {
+            name++;
+        }
+        snprintf(place, sizeof(place), "?%s", request->query[i].name);
+        if (!*name) {
+            return error_set(err, ERROR_INVALID, place, "there is no such parameter");
+        }
+        if (request_query(request, *name) != request->query[i].value) {
+            return error_set(err, ERROR_INVALID, place, "given twice");
+        }
+    }
+    return true;
+}
+
+bool request_tag_listed(const char *list, const char *tag)
+{
+    size_t wanted = strlen(tag);
+
+    while (list && *list) {
+        list += strspn(list, ", \t");
+        size_t length = strcspn(list, ", \t");
+
+        if ((length == 1 && *list == '*') ||
+            (length == wanted && strncmp(list, tag, wanted) == 0)) {
+            return true;
+        }
+        list += length;
+    }
+    return false;
+}
+
+/* --- responses --- */
+
+void response_add(struct response *response, const char *name, const char *format, ...)
+{
+    va_list arguments;
+
+    if (response->header_count == RESPONSE_HEADERS) {
+        abort();
+    }
+    response->headers[response->header_count].name = name;
+    va_start(arguments, format);
+    vsnprintf(response->headers[response->header_count].value, sizeof(response->headers->value),
+              format, arguments);
+    va_end(arguments);
+    response->header_count++;
+}
+
+const char *response_title(int status)
+{
+    static const struct {
+        int status;
+        const char *title;
+    } titles[] = {{400, "Bad Request"},         {401, "Unauthorized"},
+                  {403, "Forbidden"},           {404, "Not Found"},
+                  {405, "Method Not Allowed"},  {408, "Request Timeout"},
+                  {409, "Conflict"},            {412, "Precondition Failed"},
+                  {413, "Content Too Large"},   {415, "Unsupported Media Type"},
+                  {422, "Unprocessable Content"}, {426, "Upgrade Required"},
+                  {500, "Internal Server Error"}, {503, "Service Unavailable"}};
+
+    for (size_t i = 0; i < sizeof(titles) / sizeof(*titles); i++) {
+        if (titles[i].status == status) {
+            return titles[i].title;
+        }
+    }
+    return "Error";
+}
+
+struct response response_text(int status, const char *type, char *text)
+{
+    return (struct response){
+        .status = status, .type = type, .body = text, .length = strlen(text)};
+}
+
+struct response response_json(int status, cJSON *json)
+{
+    char *text = json_print(json, false);
+
+    cJSON_Delete(json);
+    return response_text(status, "application/json", text);
+}
+
+struct response response_problem(int status, const char *code, const char *place,
+                                 const char *detail)
+{
+    cJSON *json = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(json, "type", "about:blank");
+    cJSON_AddStringToObject(json, "title", response_title(status));
+    cJSON_AddNumberToObject(json, "status", status);
+    cJSON_AddStringToObject(json, "detail", detail);
+    cJSON_AddStringToObject(json, "code", code);
+    cJSON_AddStringToObject(json, "place", place);
+    struct response response = response_json(status, json);
+    response.type = "application/problem+json";
+    if (status == 503) {
+        response_add(&response, "Retry-After", "1");
+    } else if (status == 401) {
+        response_add(&response, "WWW-Authenticate", "Bearer realm=\"fieldcast\"");
+    }
+    return response;
+}
+
+struct response response_error(const struct error *err)
+{
+    return response_problem(error_kind_status(err->kind), error_kind_name(err->kind), err->place,
+                            err->message);
+}
+
+void request_reply_error(struct request *request, const struct error *err)
+{
+    struct response response = response_error(err);
+
+    request_reply(request, &response);
+}
+
+void request_reply_json(struct request *request, int status, cJSON *json)
+{
+    struct response response = response_json(status, json);
+
+    request_reply(request, &response);
+}

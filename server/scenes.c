@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes over HTTP: list, create, read, replace, edit, delete. Changes are answered after their
+ * commit. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "assets.h"
+#include "hub.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "room.h"
+#include "routes.h"
+#include "ws.h"
+
+/* A change on its way to the disk. */
+struct waiting {
+    struct request *request;
+    int status;
+    char id[LIMIT_ID_BYTES + 1];
+    uint64_t revision;
+};
+
+static void add_etag(struct response *response, uint64_t revision)
+{
+    response_add(response, "ETag", "\"%" PRIu64 "\"", revision);
+}
+
+/* On the store's thread, or at once where nothing had to be stored. */
+static void answer_change(void *data)
+{
+    struct waiting *waiting = data;
+    struct response response = {.status = waiting->status, .body = "", .borrowed = true};
+
+    if (waiting->status != 204) {
+        cJSON *json = cJSON_CreateObject();
+
+        cJSON_AddStringToObject(json, "id", waiting->id);
+        cJSON_AddNumberToObject(json, "revision", (double)waiting->revision);
+        response = response_json(waiting->status, json);
+        add_etag(&response, waiting->revision);
+    }
+    if (waiting->status == 201) {
+        response_add(&response, "Location", "/v1/scenes/%s", waiting->id);
+    }
+    request_reply(waiting->request, &response);
+    free(waiting);
+}
+
+static struct waiting *wait_for(struct request *request, int status, const char *id)
+{
+    struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
+
+    waiting->request = request;
+    waiting->status = status;
+    snprintf(waiting->id, sizeof(waiting->id), "%s", id);
+    return waiting;
+}
+
+/* --- list, read --- */
+
+static void time_text(int64_t ms, char out[40])
+{
+    time_t seconds = (time_t)(ms / 1000);
+    struct tm parts;
+    char date[32];
+
+    gmtime_r(&seconds, &parts);
+    strftime(date, sizeof(date), "%Y-%m-%dT%H:%M:%S", &parts);
+    snprintf(out, 40, "%s.%03dZ", date, (int)(ms % 1000));
+}
+
+static size_t viewers_of(const struct hub *hub, const char *id)
+{
+    for (const struct room *room = hub->rooms; room; room = room->next) {
+        if (strcmp(room->id, id) == 0) {
+            return room->session_count;
+        }
+    }
+    return 0;
+}
+
+void scenes_list(struct request *request)
+{
+    struct hub *hub = request->hub;
+    cJSON *json = cJSON_CreateObject();
+    cJSON *list = cJSON_AddArrayToObject(json, "scenes");
+
+    hub_lock(hub);
+    for (size_t i = 0; i < hub->catalog.count; i++) {
+        const struct catalog_entry *entry = hub->catalog.entries[i];
+        cJSON *item = cJSON_CreateObject();
+        char modified[40];
+
+        time_text(entry->modified_ms, modified);
+        cJSON_AddStringToObject(item, "id", entry->id);
+        cJSON_AddStringToObject(item, "name", entry->name);
+        cJSON_AddNumberToObject(item, "revision", (double)entry->revision);
+        cJSON_AddNumberToObject(item, "nodes", (double)entry->nodes);
+        cJSON_AddStringToObject(item, "modified", modified);
+        cJSON_AddNumberToObject(item, "viewers", (double)viewers_of(hub, entry->id));
+        cJSON_AddItemToArray(list, item);
+    }
+    hub_unlock(hub);
+    request_reply_json(request, 200, json);
+}
+
+static void tag_of(const struct room *room, char out[32])
+{
+    snprintf(out, 32, "\"%" PRIu64 "\"", room->revision);
+}
+
+void scenes_read(struct request *request)
+{
+    struct error err = {0};
+    struct room *room = hub_lock_room(request->hub, request->capture[0], &err);
+    char tag[32];
+
+    if (!room) {
+        request_reply_error(request, &err);
+        return;
+    }
+    tag_of(room, tag);
+    struct response response = {.status = 304, .body = "", .borrowed = true};
+    if (!request_tag_listed(request_header(request, "If-None-Match"), tag)) {
+        response = response_text(200, "application/json", scene_print(room->scene, false));
+        response_add(&response, "Fieldcast-Revision", "%" PRIu64, room->revision);
+    }
+    hub_unlock(request->hub);
+    response_add(&response, "ETag", "%s", tag);
+    request_reply(request, &response);
+}
+
+/* --- change --- */
+
+static bool check_match(const struct request *request, const struct room *room, struct error *err)
+{
+    const char *match = request_header(request, "If-Match");
+    const char *none = request_header(request, "If-None-Match");
+    char tag[32];
+
+    tag_of(room, tag);
+    if ((match && !request_tag_listed(match, tag)) || request_tag_listed(none, tag)) {
+        return error_set(err, ERROR_PRECONDITION, match ? "If-Match" : "If-None-Match",
+                         "the scene is at revision %s", tag);
+    }
+    return true;
+}
+
+static void create(struct request *request, const char *id, struct scene *scene)
+{
+    struct error err = {0};
+    struct waiting *waiting = wait_for(request, 201, id);
+    struct room *room =
+        hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
+
+    if (!room) {
+        free(waiting);
+        request_reply_error(request, &err);
+        return;
+    }
+    /* The commit's answer cannot overtake this: it waits for the lock first. */
+    snprintf(waiting->id, sizeof(waiting->id), "%s", room->id);
+    waiting->revision = room->revision;
+    hub_unlock(request->hub);
+}
+
+static struct scene *copy_of_example(const char *id, struct error *err)
+{
+    const struct asset *example = examples_find(id);
+
+    if (!example) {
+        error_set(err, ERROR_NOT_FOUND, "/from", "there is no example %s", id);
+        return NULL;
+    }
+    return scene_parse((const char *)example->bytes, example->length, err);
+}
+
+static struct scene *copy_of_scene(struct hub *hub, const char *id, struct error *err)
+{
+    struct room *room = hub_lock_room(hub, id, err);
+
+    if (!room) {
+        return NULL;
+    }
+    struct scene *scene = scene_copy(room->scene);
+    hub_unlock(hub);
+    return scene;
+}
+
+static struct scene *scene_from(struct hub *hub, const cJSON *json, struct error *err)
+{
+    const cJSON *from = cJSON_GetObjectItemCaseSensitive(json, "from");
+
+    if (!from) {
+        return scene_read(json, err);
+    }
+    const char *text = cJSON_IsString(from) ? from->valuestring : "";
+    if (from->next || json->child != from) {
+        error_set(err, ERROR_INVALID, "/from", "stands alone: nothing may be beside it");
+    } else if (strncmp(text, "example:", 8) == 0) {
+        return copy_of_example(text + 8, err);
+    } else if (strncmp(text, "scene:", 6) == 0) {
+        return copy_of_scene(hub, text + 6, err);
+    } else {
+        error_set(err, ERROR_INVALID, "/from", "is \"example:ID\" or \"scene:ID\"");
+    }
+    return NULL;
+}
+
+void scenes_create(struct request *request)
+{
+    static const char *const queries[] = {"id", NULL};
+    struct error err = {0};
+    const char *id = request_query(request, "id");
+    cJSON *json = NULL;
+    struct scene *scene = NULL;
+
+    if (request_check_query(request, queries, &err)) {
+        json = json_parse(request->body ? request->body : "", request->body_length, &err);
+        scene = json ? scene_from(request->hub, json, &err) : NULL;
+    }
+    cJSON_Delete(json);
+    if (!scene) {
+        request_reply_error(request, &err);
+        return;
+    }
+    create(request, id ? id : "", scene);
+}
+
+void scenes_replace(struct request *request)
+{
+    struct error err = {0};
+    struct hub *hub = request->hub;
+    const char *id = request->capture[0];
+    struct scene *scene =
+        scene_parse(request->body ? request->body : "", request->body_length, &err);
+
+    if (!scene) {
+        request_reply_error(request, &err);
+        return;
+    }
+    struct room *room = hub_lock_room(hub, id, &err);
+    if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
+        create(request, id, scene);
+        return;
+    }
+    if (!room || !check_match(request, room, &err)) {
+        if (room) {
+            hub_unlock(hub);
+        }
+        scene_destroy(scene);
+        if (err.kind == ERROR_NOT_FOUND) {
+            err.kind = ERROR_PRECONDITION; /* If-Match, and there is nothing that could match */
+        }
+        request_reply_error(request, &err);
+        return;
+    }
+    struct waiting *waiting = wait_for(request, 200, id);
+    waiting->revision = room->revision + 1;
+    room_replace(room, scene,
+                 &(struct room_change){.author = "rest", .then = answer_change, .data = waiting});
+    hub_unlock(hub);
+}
+
+void scenes_edit(struct request *request)
+{
+    struct error err = {0};
+    cJSON *ops = json_parse(request->body ? request->body : "", request->body_length, &err);
+    struct room *room = ops ? hub_lock_room(request->hub, request->capture[0], &err) : NULL;
+    struct waiting *waiting = wait_for(request, 200, request->capture[0]);
+    bool applied = false;
+
+    if (room) {
+        struct room_change change = {.author = "rest", .then = answer_change, .data = waiting};
+
+        applied = check_match(request, room, &err) &&
+                  room_edit(room, &change, ops, &waiting->revision, &err) == ROOM_APPLIED;
+        hub_unlock(request->hub);
+    }
+    cJSON_Delete(ops);
+    if (!applied) {
+        free(waiting);
+        request_reply_error(request, &err);
+    }
+}
+
+void scenes_delete(struct request *request)
+{
+    struct error err = {0};
+    struct room *room = hub_lock_room(request->hub, request->capture[0], &err);
+
+    if (!room) {
+        request_reply_error(request, &err);
+        return;
+    }
+    bool ok = check_match(request, room, &err);
+    if (ok) {
+        hub_delete_room(request->hub, room, answer_change,
+                        wait_for(request, 204, request->capture[0]));
+    }
+    hub_unlock(request->hub);
+    if (!ok) {
+        request_reply_error(request, &err);
+    }
+}
+
+/* Reached only by what the acceptor did not take for a good WebSocket handshake. */
+void scenes_live(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct response response;
+
+    if (!hub_has_scene(hub, request->capture[0])) {
+        response = response_problem(404, "not_found", "", "there is no such scene");
+    } else if (ws_count(hub->ws) >= LIMIT_SESSIONS) {
+        response = response_problem(503, "unavailable", "", "too many live connections are open");
+    } else {
+        response = response_problem(426, "invalid", "Upgrade",
+                                    "this address speaks WebSocket, version 13, subprotocol "
+                                    WS_SUBPROTOCOL ", on a connection of its own");
+        response_add(&response, "Upgrade", "websocket");
+        response_add(&response, "Sec-WebSocket-Version", "13");
+    }
+    response_add(&response, "Connection", "close");
+    request_reply(request, &response);
+}
