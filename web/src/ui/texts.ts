@@ -62,7 +62,7 @@ const texts = {
 
     "inspector.empty": "Click something in the picture, or pick a row of the scene.",
     "inspector.many": "{count} selected, showing the last",
-    "inspector.shape": "Shape",
+    "inspector.primitive": "Shape",
     "inspector.operation": "Operation",
     "inspector.modifier": "Modifier",
     "inspector.structure": "Group",
@@ -267,6 +267,7 @@ export type TextKey = keyof typeof texts;
 /* The text of a key with {name} filled in; `count` 1 takes the variant ".one" where there is one. */
 export function t(key: TextKey, values: Readonly<Record<string, string | number>> = {}): string {
     const one = `${key}.one`;
-    const pattern: string = values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
-    return pattern.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
+    const pattern: string | undefined = values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
+    /* A word of the schema may be newer than this page. */
+    return (pattern ?? key).replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
 }
