@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/* Client messages are checked by their table; frame headers have the bytes of the README. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/limits.h"
+#include "protocol/messages.h"
+
+static void assert_accepted(const char *text, enum message_kind kind)
+{
+    struct error err = {0};
+    struct message message;
+    if (!message_read(text, strlen(text), &message, &err)) {
+        fail_msg("%s: %s: %s", text, err.place, err.message);
+    }
+    assert_int_equal(message.kind, kind);
+    assert_string_equal(json_member_text(message.json, "type", ""), message_name(kind));
+    message_finish(&message);
+    message_finish(&message); /* twice is fine */
+}
+
+static void assert_refused(const char *text, enum error_kind kind, const char *place,
+                           const char *fragment)
+{
+    struct error err = {0};
+    struct message message;
+    assert_false(message_read(text, strlen(text), &message, &err));
+    if (err.kind != kind || strcmp(err.place, place) != 0 || !strstr(err.message, fragment)) {
+        fail_msg("%s: got %s, %s: %s", text, error_kind_name(err.kind), err.place, err.message);
+    }
+}
+
+static void test_accepts(void **state)
+{
+    (void)state;
+    assert_accepted("{\"type\":\"hello\",\"client\":\"abcd-EF_12\"}", MESSAGE_HELLO);
+    assert_accepted("{\"client\":\"12345678\",\"name\":\"Anna\",\"revision\":9007199254740991,"
+                    "\"epoch\":\"e1\",\"type\":\"hello\"}",
+                    MESSAGE_HELLO);
+    assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":4096}", MESSAGE_VIEW);
+    assert_accepted("{\"type\":\"view\",\"seq\":7,\"width\":640,\"height\":360,\"camera\":"
+                    "{\"position\":[0,1,5],\"fov\":30},\"aov\":\"depth\",\"quality\":\"sharp\","
+                    "\"visible\":false}",
+                    MESSAGE_VIEW);
+    assert_accepted("{\"type\":\"edit\",\"edit\":1,\"ops\":[{\"op\":\"remove\","
+                    "\"at\":\"/nodes/a\"}],\"group\":\"g\",\"label\":\"Remove a\"}",
+                    MESSAGE_EDIT);
+    assert_accepted("{\"type\":\"undo\",\"edit\":2}", MESSAGE_UNDO);
+    assert_accepted("{\"type\":\"redo\",\"edit\":3}", MESSAGE_REDO);
+    assert_accepted("{\"type\":\"pick\",\"pick\":1,\"x\":0,\"y\":10.5,\"seq\":4}", MESSAGE_PICK);
+    assert_accepted("{\"type\":\"ack\",\"frame\":1}", MESSAGE_ACK);
+}
+
+static void test_refuses(void **state)
+{
+    (void)state;
+    assert_refused("", ERROR_SYNTAX, "line 1, column 1", "expected a value");
+    assert_refused("[]", ERROR_SYNTAX, "/type", "expected an object");
+    assert_refused("{}", ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
+    assert_refused("{\"type\":\"helo\"}", ERROR_SYNTAX, "/type",
+                   "unknown message \"helo\"; did you mean \"hello\"?");
+    assert_refused("{\"type\":\"hello\"}", ERROR_SYNTAX, "", "\"hello\" lacks the member \"client\"");
+    assert_refused("{\"type\":\"hello\",\"client\":\"short\"}", ERROR_INVALID, "/client",
+                   "expected 8 to 64");
+    assert_refused("{\"type\":\"hello\",\"client\":\"has.a.dot.\"}", ERROR_INVALID, "/client",
+                   "expected 8 to 64");
+    assert_refused("{\"type\":\"hello\",\"client\":12345678}", ERROR_INVALID, "/client",
+                   "expected 8 to 64");
+    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"revision\":-1}", ERROR_INVALID,
+                   "/revision", "-1 is below the minimum 0");
+    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"color\":1}", ERROR_SYNTAX,
+                   "/color", "has no member \"color\"");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":0,\"height\":10}", ERROR_INVALID,
+                   "/width", "0 is below the minimum 1");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":10,\"height\":4097}", ERROR_INVALID,
+                   "/height", "4097 is above the maximum 4096");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":10.5,\"height\":10}", ERROR_INVALID,
+                   "/width", "10.5 is not a whole number");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"aov\":\"normals\"}",
+                   ERROR_INVALID, "/aov", "did you mean \"normal\"?");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"camera\":{\"fov\":0}}",
+                   ERROR_INVALID, "/camera/fov", "0 is below the minimum 1");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"visible\":1}",
+                   ERROR_INVALID, "/visible", "expected true or false");
+    assert_refused("{\"type\":\"edit\",\"edit\":0,\"ops\":[]}", ERROR_INVALID, "/edit",
+                   "0 is below the minimum 1");
+    assert_refused("{\"type\":\"edit\",\"edit\":1,\"ops\":[]}", ERROR_SYNTAX, "",
+                   "expected an array of operations");
+    assert_refused("{\"type\":\"edit\",\"edit\":1,\"ops\":[{\"op\":\"delete\"}]}", ERROR_SYNTAX,
+                   "/0/op", "unknown operation \"delete\"");
+    assert_refused("{\"type\":\"undo\"}", ERROR_SYNTAX, "", "lacks the member \"edit\"");
+    assert_refused("{\"type\":\"pick\",\"pick\":1,\"x\":0}", ERROR_SYNTAX, "", "member \"y\"");
+    assert_refused("{\"type\":\"ack\",\"frame\":4294967296}", ERROR_INVALID, "/frame",
+                   "4294967296 is above the maximum 4294967295");
+}
+
+static void test_refuses_large_messages(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct message message;
+    char *text = malloc(LIMIT_MESSAGE_BYTES + 1);
+    assert_non_null(text);
+    memset(text, ' ', LIMIT_MESSAGE_BYTES + 1);
+    assert_false(message_read(text, LIMIT_MESSAGE_BYTES + 1, &message, &err));
+    assert_int_equal(err.kind, ERROR_TOO_LARGE);
+    assert_string_equal(err.message, "1048577 bytes are above the maximum 1048576");
+    free(text);
+}
+
+static void test_members_have_fallbacks(void **state)
+{
+    (void)state;
+    cJSON *json = cJSON_Parse("{\"n\":2,\"t\":\"x\",\"b\":true}");
+    assert_float_equal(json_member_number(json, "n", 5), 2, 0);
+    assert_float_equal(json_member_number(json, "t", 5), 5, 0);
+    assert_string_equal(json_member_text(json, "t", "y"), "x");
+    assert_string_equal(json_member_text(json, "none", "y"), "y");
+    assert_true(json_member_bool(json, "b", false));
+    assert_true(json_member_bool(json, "n", true));
+    cJSON_Delete(json);
+}
+
+static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
+    'F',  'C',  'F',  '1',  1,    2,    6,    0,                /* version, codec, flags */
+    4,    3,    2,    1,    8,    7,    6,    5,                /* number, payload bytes */
+    0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09,             /* revision */
+    0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,    5,    0xd0, 2, /* seq, sides */
+    1,    0,    0,    0,    2,    0,    0,    0,    3,    0,    0,    0, /* queue, march, light */
+    4,    0,    0,    0,    0xff, 0xff, 0xff, 0xff,             /* read-back, encode */
+    0,    0,    0,    0,    0,    0,    0,    0,
+};
+
+static const struct frame_header frame = {
+    .codec = FRAME_PNG,
+    .flags = FRAME_STILL | FRAME_LOSSLESS,
+    .number = 0x01020304,
+    .payload_bytes = 0x05060708,
+    .revision = 0x0910111213141516,
+    .input = 0x21222324,
+    .width = 640,
+    .height = 360,
+    .view_width = 1280,
+    .view_height = 720,
+    .queue_us = 1,
+    .march_us = 2,
+    .light_us = 3,
+    .read_us = 4,
+    .encode_us = 0xffffffff,
+};
+
+static void test_frame_header_bytes(void **state)
+{
+    (void)state;
+    uint8_t bytes[FRAME_HEADER_BYTES];
+    struct frame_header back;
+    memset(bytes, 0xaa, sizeof bytes);
+    memset(&back, 0, sizeof back);
+    frame_header_pack(&frame, bytes);
+    assert_memory_equal(bytes, frame_bytes, sizeof bytes);
+    assert_true(frame_header_unpack(bytes, sizeof bytes, &back));
+    assert_int_equal(back.revision, frame.revision);
+    assert_int_equal(back.view_height, frame.view_height);
+    frame_header_pack(&back, bytes);
+    assert_memory_equal(bytes, frame_bytes, sizeof bytes);
+    assert_false(frame_header_unpack(bytes, sizeof bytes - 1, &back));
+    bytes[4] = 2;
+    assert_false(frame_header_unpack(bytes, sizeof bytes, &back));
+    frame_part_pack(0x01020304, bytes);
+    assert_memory_equal(bytes, "FCFP\4\3\2\1", FRAME_PART_HEADER_BYTES);
+    assert_false(frame_header_unpack(bytes, sizeof bytes, &back));
+}
+
+static void test_describes_both_directions(void **state)
+{
+    (void)state;
+    static const char *const server[] = {"welcome",  "document", "applied", "changed",
+                                         "rejected", "picked",   "notice",  "bye"};
+    cJSON *both = messages_describe();
+    const cJSON *client = cJSON_GetObjectItem(both, "client");
+    assert_int_equal(cJSON_GetArraySize(client), MESSAGE_COUNT);
+    for (int i = 0; i < MESSAGE_COUNT; i++) {
+        assert_string_equal(json_member_text(cJSON_GetArrayItem(client, i), "type", ""),
+                            message_name((enum message_kind)i));
+    }
+    const cJSON *list = cJSON_GetObjectItem(both, "server");
+    assert_int_equal(cJSON_GetArraySize(list), 8);
+    for (int i = 0; i < 8; i++) {
+        const cJSON *row = cJSON_GetArrayItem(list, i), *member;
+        assert_string_equal(json_member_text(row, "type", ""), server[i]);
+        cJSON_ArrayForEach(member, cJSON_GetObjectItem(row, "members"))
+        {
+            assert_true(*json_member_text(member, "name", ""));
+            assert_true(*json_member_text(member, "type", ""));
+            assert_true(*json_member_text(member, "doc", ""));
+            assert_true(cJSON_IsBool(cJSON_GetObjectItem(member, "required")));
+        }
+    }
+    cJSON_Delete(both);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_accepts),
+        cmocka_unit_test(test_refuses),
+        cmocka_unit_test(test_refuses_large_messages),
+        cmocka_unit_test(test_members_have_fallbacks),
+        cmocka_unit_test(test_frame_header_bytes),
+        cmocka_unit_test(test_describes_both_directions),
+    };
+    return cmocka_run_group_tests_name("messages", tests, NULL, NULL);
+}

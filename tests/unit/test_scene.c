@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: MIT */
+/* Documents: read strictly, printed so that they read back the same, limits of the tree. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/json.h"
+#include "protocol/limits.h"
+#include "protocol/scene.h"
+#include "tests/support/random_edit.h"
+
+static struct error err;
+
+static struct scene *parse(const char *text)
+{
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+    if (!scene) {
+        fail_msg("%.200s: %s: %s", text, err.place, err.message);
+    }
+    return scene;
+}
+
+static void assert_prints(const char *text, const char *expected)
+{
+    struct scene *scene = parse(text);
+    char *printed = scene_print(scene, false);
+    assert_string_equal(printed, expected);
+    free(printed);
+    scene_destroy(scene);
+}
+
+static void assert_refused(const char *text, enum error_kind kind, const char *place)
+{
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+    assert_null(scene);
+    assert_int_equal(err.kind, kind);
+    assert_string_equal(err.place, place);
+}
+
+#define DOC(members) "{\"format\":\"fieldcast/1\"," members "}"
+#define ROOT(members) DOC("\"root\":{\"id\":\"root\",\"type\":\"union\"" members "}")
+
+static void test_prints_what_is_set(void **state)
+{
+    (void)state;
+    assert_prints(ROOT(""), ROOT(""));
+    assert_prints(DOC("\"shaders\":{},\"models\":{},\"primitives\":{},\"camera\":{},\"lights\":[],"
+                      "\"materials\":{},\"environment\":{},\"render\":{},"
+                      "\"root\":{\"type\":\"union\",\"children\":[],\"params\":{},"
+                      "\"transform\":{}}"),
+                  DOC("\"root\":{\"id\":\"union-1\",\"type\":\"union\"}"));
+    assert_prints(DOC("\"root\":{\"children\":[{\"params\":{\"tube\":0.1,\"radius\":2},"
+                      "\"visible\":false,\"name\":\"Ring\",\"type\":\"torus\",\"id\":\"a\","
+                      "\"transform\":{\"scale\":2,\"translation\":[0,1,0]}}],\"type\":\"union\"},"
+                      "\"render\":{\"samples\":1},\"name\":\"N\""),
+                  DOC("\"name\":\"N\",\"render\":{\"samples\":1},\"root\":{\"id\":\"union-1\","
+                      "\"type\":\"union\",\"children\":[{\"id\":\"a\",\"type\":\"torus\","
+                      "\"name\":\"Ring\",\"visible\":false,\"transform\":{\"translation\":[0,1,0],"
+                      "\"scale\":[2,2,2]},\"params\":{\"radius\":2,\"tube\":0.1}}]}"));
+}
+
+static void test_missing_ids_avoid_given_ones(void **state)
+{
+    (void)state;
+    assert_prints(ROOT(",\"children\":[{\"type\":\"box\"},{\"type\":\"box\"},{\"id\":\"box-1\","
+                       "\"type\":\"sphere\",\"children\":[{\"type\":\"box\"}]}]"),
+                  ROOT(",\"children\":[{\"id\":\"box-2\",\"type\":\"box\"},{\"id\":\"box-3\","
+                       "\"type\":\"box\"},{\"id\":\"box-1\",\"type\":\"sphere\",\"children\":["
+                       "{\"id\":\"box-4\",\"type\":\"box\"}]}]"));
+    assert_prints(DOC("\"lights\":[{\"type\":\"point\"},{\"id\":\"point-2\",\"type\":\"point\"},"
+                      "{\"type\":\"point\"}],\"root\":{\"id\":\"r\",\"type\":\"box\"}"),
+                  DOC("\"lights\":[{\"id\":\"point-1\",\"type\":\"point\"},{\"id\":\"point-2\","
+                      "\"type\":\"point\"},{\"id\":\"point-3\",\"type\":\"point\"}],"
+                      "\"root\":{\"id\":\"r\",\"type\":\"box\"}"));
+}
+
+static void test_places_name_what_is_wrong(void **state)
+{
+    (void)state;
+    assert_refused(ROOT(",\"children\":[{\"type\":\"box\"},{\"type\":\"sphere\",\"children\":["
+                        "{\"type\":\"sphere\",\"params\":{\"radius\":-1}}]}]"),
+                   ERROR_INVALID, "/nodes/root/children/1/children/0/params/radius");
+    assert_refused(ROOT(",\"children\":[{\"id\":\"body\",\"type\":\"sphere\",\"children\":["
+                        "{\"type\":\"sphere\",\"colour\":1}]}]"),
+                   ERROR_INVALID, "/nodes/body/children/0/colour");
+    assert_refused(ROOT(",\"children\":[{\"type\":\"box\",\"id\":\"root\"}]"), ERROR_CONFLICT,
+                   "/nodes/root");
+    assert_refused(ROOT(",\"children\":[{\"type\":\"box\",\"id\":\"b\",\"material\":\"gold\"}]"),
+                   ERROR_INVALID, "/nodes/b/material");
+    assert_string_equal(err.message, "there is no material \"gold\"");
+    assert_refused(DOC("\"root\":{\"type\":\"sphre\"}"), ERROR_INVALID, "/root/type");
+    assert_string_equal(err.message, "unknown type \"sphre\"; did you mean \"sphere\"?");
+    assert_refused(DOC("\"lights\":[{\"type\":\"point\"},{\"type\":\"point\",\"size\":0}]"),
+                   ERROR_INVALID, "/lights/1/size");
+    assert_refused(DOC("\"lights\":[{\"id\":\"a\",\"type\":\"point\"},{\"id\":\"a\","
+                       "\"type\":\"point\"}]"),
+                   ERROR_CONFLICT, "/lights/a");
+    assert_refused(DOC("\"materials\":{\"m\":{\"shader\":\"phong\",\"properties\":{\"x\":1}}}"),
+                   ERROR_INVALID, "/materials/m/properties/x");
+    assert_refused(DOC("\"materials\":{\"a b\":{\"shader\":\"phong\"}}"), ERROR_INVALID,
+                   "/materials/a b");
+    assert_refused(DOC("\"name\":1"), ERROR_INVALID, "/name");
+    assert_refused(DOC("\"shaders\":{\"a\":1}"), ERROR_INVALID, "/shaders");
+    assert_refused("{\"format\":\"fieldcast/2\"}", ERROR_INVALID, "/format");
+    assert_refused("{}", ERROR_INVALID, "/format");
+    assert_refused("[]", ERROR_INVALID, "");
+    assert_refused("{\"format\":\"fieldcast/1\"}", ERROR_INVALID, "/root");
+    assert_refused("{\"format\"", ERROR_SYNTAX, "line 1, column 10");
+}
+
+/* `levels` groups, one in the other. */
+static char *nested(size_t levels)
+{
+    static const char head[] = "{\"format\":\"fieldcast/1\",\"root\":";
+    char *text = malloc(levels * 40 + 100), *at = text;
+    assert_non_null(text);
+    at += sprintf(at, "%s", head);
+    for (size_t i = 1; i < levels; i++) {
+        at += sprintf(at, "{\"type\":\"group\",\"children\":[");
+    }
+    at += sprintf(at, "{\"type\":\"group\"}");
+    for (size_t i = 1; i < levels; i++) {
+        at += sprintf(at, "]}");
+    }
+    strcpy(at, "}");
+    return text;
+}
+
+/* `parents` groups with `children` spheres each. */
+static char *wide(size_t parents, size_t children)
+{
+    char *text = malloc(parents * (children * 20 + 60) + 100), *at = text;
+    assert_non_null(text);
+    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"union\",\"children\":[");
+    for (size_t i = 0; i < parents; i++) {
+        at += sprintf(at, "%s{\"type\":\"group\",\"children\":[", i ? "," : "");
+        for (size_t j = 0; j < children; j++) {
+            at += sprintf(at, "%s{\"type\":\"sphere\"}", j ? "," : "");
+        }
+        at += sprintf(at, "]}");
+    }
+    strcpy(at, "]}}");
+    return text;
+}
+
+static void assert_limit(char *text, size_t nodes, const char *message)
+{
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+    free(text);
+    if (message) {
+        assert_null(scene);
+        assert_int_equal(err.kind, ERROR_LIMIT);
+        assert_string_equal(err.message, message);
+    } else {
+        assert_non_null(scene);
+        assert_int_equal(scene->node_count, nodes);
+        scene_destroy(scene);
+    }
+}
+
+static void test_limits_of_the_tree(void **state)
+{
+    (void)state;
+    assert_limit(nested(LIMIT_NODE_DEPTH), LIMIT_NODE_DEPTH, NULL);
+    assert_limit(nested(LIMIT_NODE_DEPTH + 1), 0, "65 levels of nodes are above the maximum 64");
+    assert_limit(wide(1, LIMIT_CHILDREN), LIMIT_CHILDREN + 2, NULL);
+    assert_limit(wide(1, LIMIT_CHILDREN + 1), 0, "more children than the maximum 10000");
+    assert_limit(wide(11, 9089), 99991, NULL);
+    assert_limit(wide(11, 9090), 0, "more nodes than the maximum 100000");
+}
+
+static void test_long_places_keep_their_end(void **state)
+{
+    (void)state;
+    static const char tail[] = "/children/0/params/radius";
+    char *text = nested(30), *last = strstr(text, "{\"type\":\"group\"}");
+    char *bad = malloc(strlen(text) + 100);
+    assert_non_null(bad);
+    sprintf(bad, "%.*s{\"type\":\"sphere\",\"params\":{\"radius\":-1}}%s", (int)(last - text), text,
+            last + strlen("{\"type\":\"group\"}"));
+    assert_null(scene_parse(bad, strlen(bad), &err));
+    assert_int_equal(strncmp(err.place, "...", 3), 0);
+    assert_string_equal(err.place + strlen(err.place) - strlen(tail), tail);
+    free(bad);
+    free(text);
+}
+
+struct walked {
+    const char *ids[8];
+    size_t count;
+};
+
+static void note(void *data, const struct node *node, size_t index)
+{
+    struct walked *walked = data;
+    assert_int_equal(index, walked->count);
+    walked->ids[walked->count++] = node->id;
+}
+
+static void test_tree_questions(void **state)
+{
+    (void)state;
+    struct scene *scene = parse(
+        DOC("\"materials\":{\"a\":{\"shader\":\"phong\"},\"b\":{\"shader\":\"phong\"}},"
+            "\"root\":{\"id\":\"r\",\"type\":\"union\",\"children\":[{\"id\":\"x\","
+            "\"type\":\"group\",\"material\":\"a\",\"children\":[{\"id\":\"y\",\"type\":\"box\"},"
+            "{\"id\":\"z\",\"type\":\"box\",\"material\":\"b\",\"visible\":false}]},"
+            "{\"id\":\"w\",\"type\":\"box\"}]}"));
+    struct walked walked = {.count = 0};
+    scene_walk(scene, note, &walked);
+    assert_int_equal(walked.count, 5);
+    assert_string_equal(walked.ids[2], "y");
+    assert_string_equal(walked.ids[4], "w");
+    assert_int_equal(node_position(scene_find(scene, "z")), 1);
+    assert_int_equal(node_position(scene->root), 0);
+    assert_string_equal(node_material(scene, scene_find(scene, "y"))->name, "a");
+    assert_string_equal(node_material(scene, scene_find(scene, "z"))->name, "b");
+    assert_null(node_material(scene, scene_find(scene, "w")));
+    assert_null(scene_find(scene, "nobody"));
+    assert_ptr_equal(resource_find(&scene->materials, "b"), scene->materials.items[1]);
+    assert_null(resource_find(&scene->lights, "b"));
+    scene_destroy(scene);
+}
+
+static void test_empty_scene(void **state)
+{
+    (void)state;
+    struct scene *scene = scene_create_empty();
+    char *text = scene_print(scene, false);
+    assert_string_equal(text, ROOT(""));
+    free(text);
+    scene_destroy(scene);
+    scene_destroy(NULL);
+}
+
+/* print(parse(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
+static void test_random_documents_round_trip(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 1000; seed++) {
+        struct random random = {seed};
+        struct scene *scene = random_document(&random, 1 + random_below(&random, 40));
+        char *text = scene_print(scene, false), *pretty = scene_print(scene, true);
+        struct scene *from_text = parse(text), *from_pretty = parse(pretty);
+        struct scene *copy = scene_copy(scene);
+        scene_destroy(scene);
+        struct scene *const same[] = {from_text, from_pretty, copy};
+        for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+            char *again = scene_print(same[i], false);
+            assert_string_equal(again, text);
+            free(again);
+            again = scene_print(same[i], true);
+            assert_string_equal(again, pretty);
+            free(again);
+            scene_destroy(same[i]);
+        }
+        free(text);
+        free(pretty);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_prints_what_is_set),
+        cmocka_unit_test(test_missing_ids_avoid_given_ones),
+        cmocka_unit_test(test_places_name_what_is_wrong),
+        cmocka_unit_test(test_limits_of_the_tree),
+        cmocka_unit_test(test_long_places_keep_their_end),
+        cmocka_unit_test(test_tree_questions),
+        cmocka_unit_test(test_empty_scene),
+        cmocka_unit_test(test_random_documents_round_trip),
+    };
+    return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
+}

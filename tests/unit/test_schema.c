@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/* The schema holds every table, and its references lead somewhere. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/json.h"
+#include "protocol/limits.h"
+#include "protocol/messages.h"
+#include "protocol/nodes.h"
+#include "protocol/schema.h"
+
+static cJSON *schema;
+
+static int set_up(void **state)
+{
+    (void)state;
+    schema = schema_build();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    cJSON_Delete(schema);
+    return 0;
+}
+
+/* "a/b/c" below `json`; fails where a step is missing. */
+static const cJSON *at(const cJSON *json, const char *path)
+{
+    char copy[200], *save = NULL;
+    snprintf(copy, sizeof copy, "%s", path);
+    for (char *name = strtok_r(copy, "/", &save); name; name = strtok_r(NULL, "/", &save)) {
+        const cJSON *next = cJSON_GetObjectItemCaseSensitive(json, name);
+        if (!next) {
+            fail_msg("the schema has no %s (at %s)", path, name);
+        }
+        json = next;
+    }
+    return json;
+}
+
+static void check_references(const cJSON *json)
+{
+    const char *reference = json_member_text(json, "$ref", NULL);
+    if (reference) {
+        assert_int_equal(strncmp(reference, "#/", 2), 0);
+        at(schema, reference + 2);
+    }
+    for (const cJSON *item = json->child; item; item = item->next) {
+        check_references(item);
+    }
+}
+
+static void test_is_a_schema(void **state)
+{
+    (void)state;
+    assert_string_equal(at(schema, "$schema")->valuestring,
+                        "https://json-schema.org/draft/2020-12/schema");
+    assert_true(cJSON_IsFalse(at(schema, "additionalProperties")));
+    assert_string_equal(at(schema, "properties/format/const")->valuestring, "fieldcast/1");
+    check_references(schema);
+    char *text = json_print(schema, true);
+    struct error err = {0};
+    cJSON *again = json_parse(text, strlen(text), &err);
+    assert_non_null(again); /* our own pre-scan takes it */
+    cJSON_Delete(again);
+    free(text);
+}
+
+static const cJSON *rule_for(const char *type)
+{
+    const cJSON *rule;
+    cJSON_ArrayForEach(rule, at(schema, "$defs/node/allOf"))
+    {
+        if (strcmp(at(rule, "if/properties/type/const")->valuestring, type) == 0) {
+            return at(rule, "then/properties/params");
+        }
+    }
+    fail_msg("no rule for %s", type);
+    return NULL;
+}
+
+static void test_every_node_has_a_rule(void **state)
+{
+    (void)state;
+    assert_int_equal(cJSON_GetArraySize(at(schema, "$defs/node/properties/type/enum")),
+                     (int)node_type_count());
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const struct record_type *type = &node_type_at(i)->record;
+        const cJSON *params = rule_for(type->name);
+        assert_int_equal(cJSON_GetArraySize(at(params, "properties")),
+                         (int)record_type_count(type));
+        for (const struct param *param = type->params; param->name; param++) {
+            assert_string_equal(at(at(at(params, "properties"), param->name), "description")
+                                    ->valuestring,
+                                param->doc);
+        }
+    }
+    const cJSON *radius = at(rule_for("sphere"), "properties/radius");
+    assert_float_equal(at(radius, "exclusiveMinimum")->valuedouble, 0, 0);
+    assert_float_equal(at(radius, "maximum")->valuedouble, LIMIT_COORDINATE, 0);
+    assert_float_equal(at(radius, "default")->valuedouble, 0.5, 0);
+    assert_string_equal(at(rule_for("repeat"), "properties/count/items/type")->valuestring,
+                        "integer");
+    assert_int_equal(cJSON_GetArraySize(at(schema, "$defs/transform/properties/scale/anyOf")), 2);
+    assert_int_equal(cJSON_GetArraySize(at(rule_for("plane"), "properties/normal/not/const")), 3);
+}
+
+static void assert_described(const cJSON *rows, const struct record_type *type)
+{
+    assert_int_equal(cJSON_GetArraySize(rows), (int)record_type_count(type));
+    for (int i = 0; type->params[i].name; i++) {
+        cJSON *expected = param_describe(&type->params[i]);
+        assert_true(cJSON_Compare(cJSON_GetArrayItem(rows, i), expected, true));
+        cJSON_Delete(expected);
+    }
+}
+
+static void test_registry(void **state)
+{
+    (void)state;
+    const cJSON *registry = at(schema, "x-fieldcast");
+    static const char *const members[] = {"type",  "group",    "exactness", "doc",
+                                          "words", "children", "params"};
+    assert_int_equal(cJSON_GetArraySize(at(registry, "nodes")), (int)node_type_count());
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const cJSON *row = cJSON_GetArrayItem(at(registry, "nodes"), (int)i);
+        for (size_t m = 0; m < sizeof members / sizeof members[0]; m++) {
+            at(row, members[m]);
+        }
+        assert_string_equal(at(row, "type")->valuestring, node_type_at(i)->record.name);
+        assert_described(at(row, "params"), &node_type_at(i)->record);
+    }
+    assert_described(at(registry, "node"), &node_common_type);
+    assert_described(at(registry, "transform"), &transform_type);
+    assert_described(at(registry, "camera"), &camera_type);
+    assert_described(at(registry, "environment"), &environment_type);
+    assert_described(at(registry, "render"), &render_type);
+    for (int i = 0; light_types[i].name; i++) {
+        const cJSON *row = cJSON_GetArrayItem(at(registry, "lights"), i);
+        assert_described(at(row, "params"), &light_types[i]);
+    }
+    for (int i = 0; shader_types[i].name; i++) {
+        const cJSON *row = cJSON_GetArrayItem(at(registry, "shaders"), i);
+        assert_described(at(row, "params"), &shader_types[i]);
+    }
+    size_t limits;
+    limits_table(&limits);
+    assert_int_equal(cJSON_GetArraySize(at(registry, "limits")), (int)limits);
+    assert_string_equal(json_member_text(at(registry, "errors")->child, "code", ""), "syntax");
+    at(registry, "messages/client");
+    at(registry, "messages/server");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_is_a_schema, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_every_node_has_a_rule, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
+    };
+    return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
+}
