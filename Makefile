@@ -194,9 +194,9 @@ docs: fieldcast ## write the table of options into README.md
 
 data := $(or $(XDG_DATA_HOME),$(HOME)/.local/share)/fieldcast
 
-run: deps ## install what is missing, build, and serve on http://127.0.0.1:8080/
+run: deps ## install what is missing, build, and serve on http://127.0.0.1:8080/ (PORT=8080)
 	$(again) all
-	$(Q)exec $(OUT)/fieldcast serve --host 127.0.0.1 --port 8080 --data '$(data)'
+	$(Q)exec $(OUT)/fieldcast serve --host 127.0.0.1 --port $(or $(PORT),8080) --data '$(data)'
 
 deps test-deps:
 	$(Q)$(S)/deploy/install-deps.sh $(if $(filter test-%,$@),test)
