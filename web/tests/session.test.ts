@@ -158,10 +158,12 @@ class Client {
         this.session = createSession(name, SCHEMA);
     }
 
-    connect(): void {
+    /* The worker's knowledge of the revision may be older than the page's by `lag`. */
+    connect(lag = 0): void {
         this.online = true;
         const { confirmed, revision, epoch } = this.session;
-        this.server.hello(this, confirmed ? revision : 0, epoch as number | null);
+        const known = confirmed ? Math.max(0, revision - lag) : 0;
+        this.server.hello(this, known, epoch as number | null);
     }
 
     lose(): void {
@@ -256,7 +258,7 @@ test("three clients converge over delays, refusals, lost connections and restart
             const client = choose(clients, next);
             const roll = next();
             if (!client.online) {
-                client.connect();
+                client.connect(Math.floor(next() * 3));
             } else if (roll < 0.02) {
                 client.lose();
             } else if (roll < 0.023) {
