@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Nearest names by edit distance (Levenshtein), for short names only. */
+/* Nearest names by edit distance, two letters swapped counting as one change (Damerau 1964, in the
+ * restricted form). For short names only. */
 #include "nearest.h"
 
 #include <stdio.h>
@@ -14,20 +15,22 @@ static size_t least(size_t a, size_t b)
 
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
-    size_t row[LONGEST + 1];
-    for (size_t j = 0; j <= b_length; j++) {
-        row[j] = j;
-    }
-    for (size_t i = 1; i <= a_length; i++) {
-        size_t diagonal = row[0];
+    size_t rows[3][LONGEST + 1]; /* the newest three of the table of distances of prefixes */
+    for (size_t i = 0; i <= a_length; i++) {
+        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *second = rows[(i + 1) % 3];
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
-            size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = least(replaced, least(row[j], row[j - 1]) + 1);
+            if (i == 0) {
+                row[j] = j;
+                continue;
+            }
+            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), least(row[j - 1], above[j]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = least(row[j], second[j - 2] + 1);
+            }
         }
     }
-    return row[b_length];
+    return rows[a_length % 3][b_length];
 }
 
 void nearest_consider(struct nearest *nearest, const char *name)

@@ -176,39 +176,53 @@ static bool sort_node_members(const cJSON *json, const cJSON **found, const char
     return sort_members(json, names, found, place, err);
 }
 
+static bool count_node(struct reader *reader, const char *place, size_t depth)
+{
+    if (depth > LIMIT_NODE_DEPTH) {
+        return error_set(reader->err, ERROR_LIMIT, place,
+                         "%zu levels of nodes are above the maximum %d", depth, LIMIT_NODE_DEPTH);
+    }
+    if (++reader->count > LIMIT_NODES) {
+        return error_set(reader->err, ERROR_LIMIT, place, "more nodes than the maximum %d",
+                         LIMIT_NODES);
+    }
+    return true;
+}
+
+static const struct node_type *read_node_type(const cJSON *json, const char *place,
+                                              struct error *err)
+{
+    char type_place[ERROR_PLACE_BYTES];
+    const char *name;
+    if (!read_type_name(json, &name, place, "type", err)) {
+        return NULL;
+    }
+    const struct node_type *type = node_type_find(name);
+    if (!type) {
+        node_type_unknown(name, error_place(type_place, place, "type"), err);
+    }
+    return type;
+}
+
 static struct node *read_tree(struct reader *reader, const cJSON *json, const char *place,
                               size_t depth)
 {
     const cJSON *found[16];
-    const char *id = NULL, *type_name;
+    const char *id = NULL;
     char path[ERROR_PLACE_BYTES];
     struct error *err = reader->err;
-    if (depth > LIMIT_NODE_DEPTH) {
-        error_set(err, ERROR_LIMIT, place, "%zu levels of nodes are above the maximum %d", depth,
-                  LIMIT_NODE_DEPTH);
-        return NULL;
-    }
-    if (++reader->count > LIMIT_NODES) {
-        error_set(err, ERROR_LIMIT, place, "more nodes than the maximum %d", LIMIT_NODES);
-        return NULL;
-    }
     const cJSON *given = cJSON_IsObject(json) ? cJSON_GetObjectItemCaseSensitive(json, "id") : NULL;
     if (!read_id(given, &id, place, err)) {
         return NULL;
     }
     if (id) {
-        error_place(path, "/nodes", id);
-        place = path;
+        place = error_place(path, "/nodes", id);
     }
-    if (!sort_node_members(json, found, place, err) ||
-        !read_type_name(found[NODE_TYPE], &type_name, place, "type", err)) {
+    if (!count_node(reader, place, depth) || !sort_node_members(json, found, place, err)) {
         return NULL;
     }
-    const struct node_type *type = node_type_find(type_name);
+    const struct node_type *type = read_node_type(found[NODE_TYPE], place, err);
     if (!type) {
-        char type_place[ERROR_PLACE_BYTES];
-        error_place(type_place, place, "type");
-        node_type_unknown(type_name, type_place, err);
         return NULL;
     }
     struct node *node = node_create(type);
