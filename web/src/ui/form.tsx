@@ -96,6 +96,7 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
             className="form-row"
             ref={row}
             data-param={param.name}
+            data-changed={changed || undefined}
             data-shake={problem ? "" : undefined}
         >
             <span className="form-label" title={param.doc}>

@@ -14,6 +14,7 @@ const texts = {
     "region.resizeScene": "Width of the scene panel",
     "region.resizeInspector": "Width of the inspector",
     "region.resizeStack": "Height of the scene panel",
+    "region.resizeTree": "Height of the node tree",
     "region.sheet": "Panel height",
 
     "bar.scenes": "All scenes",
@@ -51,7 +52,7 @@ const texts = {
     "lights.empty": "No lights of its own: a default sun shines.",
     "setup.title": "Setup",
     "setup.camera": "Camera",
-    "setup.environment": "Environment",
+    "setup.environment": "Backdrop",
     "setup.render": "Render",
     "resource.more": "Actions for {name}",
     "resource.duplicate": "Duplicate",
@@ -257,9 +258,9 @@ const texts = {
     "scenes.failed": "The server does not answer: {message}",
     "scenes.tagline": "Sculpt with distance fields, live.",
     "files.refused": "{name} was not opened:",
-    "sheet.scene": "Scene",
-    "sheet.inspector": "Edit",
-    "sheet.setup": "Setup",
+    "tab.scene": "Nodes",
+    "tab.inspector": "Edit",
+    "tab.setup": "Looks",
 } as const;
 
 export type TextKey = keyof typeof texts;
@@ -267,7 +268,8 @@ export type TextKey = keyof typeof texts;
 /* The text of a key with {name} filled in; `count` 1 takes the variant ".one" where there is one. */
 export function t(key: TextKey, values: Readonly<Record<string, string | number>> = {}): string {
     const one = `${key}.one`;
-    const pattern: string | undefined = values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
+    const pattern: string | undefined =
+        values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
     /* A word of the schema may be newer than this page. */
     return (pattern ?? key).replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
 }

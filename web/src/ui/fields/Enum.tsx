@@ -15,6 +15,9 @@ interface Props extends FieldProps<string> {
 export function EnumField({ label, value, choices, describedBy, onCommit }: Props) {
     const group = useRef<HTMLDivElement>(null);
     const letters = choices.reduce((sum, choice) => sum + choice.length, 0);
+    if (choices.length === 1 && value === choices[0]) {
+        return <span className="only-choice">{words(value)}</span>;
+    }
     if (choices.length > MOST_SEGMENTS || letters > MOST_LETTERS) {
         return (
             <Select

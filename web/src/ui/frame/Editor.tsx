@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The editor's layout: three columns on a wide window, two on a narrower one, a picture with a
  * sheet below it on a phone. */
+
+import { useState } from "react";
 import { Group, Panel, Separator, useDefaultLayout } from "react-resizable-panels";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Add } from "../palettes/Add.tsx";
-import { Resources } from "../scene/Resources.tsx";
+import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
 import { useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -14,6 +16,7 @@ import { Bar } from "./Bar.tsx";
 import { Region } from "./Region.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { Status } from "./Status.tsx";
+import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
 
 /* From here on the tree and the inspector have a column each; below the second one, a sheet. */
@@ -53,10 +56,45 @@ function Picture() {
 }
 
 function SceneRegion() {
+    const saved = useDefaultLayout({ id: "scene-split", storage: localStorage });
     return (
         <Region name={t("region.scene")} context="tree">
-            <Scene />
-            <Resources />
+            <Group id="scene-split" orientation="vertical" className="split" {...saved}>
+                <Panel id="tree" minSize={110} defaultSize="58%">
+                    <Scene />
+                </Panel>
+                <Separator className="separator" aria-label={t("region.resizeTree")} />
+                <Panel id="resources" minSize={64}>
+                    <Resources />
+                </Panel>
+            </Group>
+            <Setup />
+        </Region>
+    );
+}
+
+const parts = ["scene", "setup"] as const;
+
+/* Where height is short: the tree and the lists in turns. */
+function SceneTabs() {
+    const [part, setPart] = useState<(typeof parts)[number]>("scene");
+    return (
+        <Region name={t("region.scene")} context="tree">
+            <Tabs
+                tabs={parts.map((id) => ({ id, title: t(`tab.${id}`) }))}
+                active={part}
+                panel="scene-panel"
+                onChange={setPart}
+            />
+            <div
+                id="scene-panel"
+                role="tabpanel"
+                className="tab-panel"
+                aria-label={t(`tab.${part}`)}
+            >
+                {part === "scene" ? <Scene /> : <Resources />}
+            </div>
+            <Setup />
         </Region>
     );
 }
@@ -118,7 +156,7 @@ function Stack() {
             >
                 <Group id="stack-inner" orientation="vertical" {...inner}>
                     <Panel id="scene" minSize={140} defaultSize="50%">
-                        <SceneRegion />
+                        <SceneTabs />
                     </Panel>
                     <Separator className="separator" aria-label={t("region.resizeStack")} />
                     <Panel id="inspector" minSize={140}>

@@ -2,19 +2,15 @@
 /* On a phone: the picture above, one sheet below with three heights. */
 import { type ReactNode, useRef, useState } from "react";
 import { Inspector } from "../inspector/Inspector.tsx";
-import { Resources } from "../scene/Resources.tsx";
+import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
-import { type TextKey, t } from "../texts.ts";
+import { t } from "../texts.ts";
 import { Region } from "./Region.tsx";
+import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
 
-type Tab = "scene" | "inspector" | "setup";
-
-const tabs: readonly { id: Tab; title: TextKey }[] = [
-    { id: "scene", title: "sheet.scene" },
-    { id: "inspector", title: "sheet.inspector" },
-    { id: "setup", title: "sheet.setup" },
-];
+const tabs = ["scene", "inspector", "setup"] as const;
+type Tab = (typeof tabs)[number];
 
 const heights = ["76px", "46%", "82%"] as const;
 
@@ -52,26 +48,16 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                         }
                     }}
                 />
-                <div className="sheet-tabs" role="tablist">
-                    {tabs.map(({ id, title }) => (
-                        <button
-                            key={id}
-                            type="button"
-                            role="tab"
-                            className="sheet-tab"
-                            id={`sheet-tab-${id}`}
-                            aria-controls="sheet-panel"
-                            aria-selected={tab === id}
-                            onClick={() => show(id)}
-                        >
-                            {t(title)}
-                        </button>
-                    ))}
-                </div>
+                <Tabs
+                    tabs={tabs.map((id) => ({ id, title: t(`tab.${id}`) }))}
+                    active={tab}
+                    panel="sheet-panel"
+                    onChange={show}
+                />
                 <div
                     id="sheet-panel"
                     role="tabpanel"
-                    aria-labelledby={`sheet-tab-${tab}`}
+                    aria-label={t(`tab.${tab}`)}
                     className="sheet-body"
                 >
                     <Region
@@ -81,6 +67,7 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                         {tab === "scene" && <Scene />}
                         {tab === "inspector" && <Inspector />}
                         {tab === "setup" && <Resources />}
+                        {tab === "setup" && <Setup />}
                     </Region>
                 </div>
             </div>

@@ -28,7 +28,6 @@ export function Resources() {
         <div className="resources">
             <Materials />
             <Lights />
-            <Setup />
         </div>
     );
 }
@@ -162,30 +161,24 @@ export const setups: readonly {
     { kind: "render", title: "setup.render", icon: SlidersHorizontal },
 ];
 
-function Setup() {
+/* Always in sight below the lists. */
+export function Setup() {
     const editor = useEditor();
     const shown = useView(({ subject }) => subject.kind);
     return (
-        <Section title={t("setup.title")}>
-            <ul className="resource-list">
-                {setups.map(({ kind, title, icon: Icon }) => (
-                    <li
-                        key={kind}
-                        className="resource-row"
-                        data-selected={shown === kind || undefined}
-                    >
-                        <button
-                            type="button"
-                            className="resource-pick"
-                            aria-pressed={shown === kind}
-                            onClick={() => editor.show({ kind })}
-                        >
-                            <Icon size={15} aria-hidden="true" />
-                            <span>{t(title)}</span>
-                        </button>
-                    </li>
-                ))}
-            </ul>
-        </Section>
+        <nav className="setup" aria-label={t("setup.title")}>
+            {setups.map(({ kind, title, icon: Icon }) => (
+                <button
+                    key={kind}
+                    type="button"
+                    className="setup-button"
+                    aria-pressed={shown === kind}
+                    onClick={() => editor.show({ kind })}
+                >
+                    <Icon size={15} aria-hidden="true" />
+                    <span className="ellipsis">{t(title)}</span>
+                </button>
+            ))}
+        </nav>
     );
 }

@@ -43,12 +43,16 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             {...props}
             className="tree-row"
             aria-expanded={foldable ? item.isExpanded() : undefined}
-            style={{ insetBlockStart: top, blockSize: height, paddingInlineStart: level * indent }}
+            style={{
+                insetBlockStart: top,
+                blockSize: height,
+                paddingInlineStart: level * indent,
+                ...({ "--level": level, "--indent": `${indent}px` } as object),
+            }}
             data-node={id}
             data-type={node.type}
             data-hidden={isVisible(node) ? undefined : ""}
             data-hovered={hovered || undefined}
-            data-unnamed={node.common.name ? undefined : ""}
             data-drop={item.isUnorderedDragTarget() ? "inside" : undefined}
             onClick={(event) => {
                 stores.view.setState({ subject: { kind: "nodes" } });
