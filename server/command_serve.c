@@ -83,15 +83,17 @@ int command_serve(const struct options *options)
     struct error err = {0};
     char *token = NULL;
     const char *token_file = option_text(options, OPTION_TOKEN_FILE);
-    if (token_file && !(token = read_token(token_file, &err))) {
+    const char *data = option_text(options, OPTION_DATA);
+    if ((token_file && !(token = read_token(token_file, &err))) || !directory_make(data, &err)) {
         fputs("fieldcast: ", stderr);
         error_print(&err, stderr);
+        free(token);
         return EXIT_USAGE;
     }
     struct serve_params params = {
         .bind = option_text(options, OPTION_HOST),
         .port = option_int(options, OPTION_PORT),
-        .data_dir = option_text(options, OPTION_DATA),
+        .data_dir = data,
         .web_dir = option_text(options, OPTION_WEB),
         .device = (enum device_kind)option_int(options, OPTION_DEVICE),
         .token = token,
