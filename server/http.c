@@ -3,6 +3,7 @@
  * far as libmicrohttpd shows them. A request that waits for a commit or a picture is suspended. */
 #include "http.h"
 
+#include <inttypes.h>
 #include <microhttpd.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -261,18 +262,29 @@ static bool is_json(const char *type)
             strncasecmp(type + length - 5, "+json", 5) == 0);
 }
 
-static bool check_body(const struct exchange *exchange, struct response *out)
+static uint64_t announced_bytes(const struct exchange *exchange)
 {
     const char *length = request_header(&exchange->request, "Content-Length");
-    bool chunked = request_header(&exchange->request, "Transfer-Encoding") != NULL;
-    bool any = chunked || (length && strtoull(length, NULL, 10) > 0);
+
+    return length ? strtoull(length, NULL, 10) : 0;
+}
+
+static bool has_body(const struct exchange *exchange)
+{
+    return announced_bytes(exchange) > 0 ||
+           request_header(&exchange->request, "Transfer-Encoding") != NULL;
+}
+
+static bool check_body(const struct exchange *exchange, struct response *out)
+{
+    uint64_t length = announced_bytes(exchange);
     char detail[100];
 
-    if (exchange->route->body == BODY_NONE && any) {
+    if (exchange->route->body == BODY_NONE && has_body(exchange)) {
         *out = response_problem(400, "syntax", "", "this request takes no body");
-    } else if (length && strtoull(length, NULL, 10) > LIMIT_DOCUMENT_BYTES) {
-        snprintf(detail, sizeof(detail), "the body of %s bytes is above the maximum %d", length,
-                 LIMIT_DOCUMENT_BYTES);
+    } else if (length > LIMIT_DOCUMENT_BYTES) {
+        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %d",
+                 length, LIMIT_DOCUMENT_BYTES);
         *out = response_problem(413, "too_large", "", detail);
     } else if (exchange->route->body == BODY_JSON &&
                !is_json(request_header(&exchange->request, "Content-Type"))) {
@@ -296,16 +308,12 @@ static struct response preflight(void)
 }
 
 /* False: `*out` is the answer. */
-static bool admit(struct exchange *exchange, const char *method, const char *version,
-                  struct response *out)
+static bool admit(struct exchange *exchange, struct response *out)
 {
     struct request *request = &exchange->request;
+    const char *method = request->method;
     struct error err = {0};
 
-    request->method = method;
-    if (!check_framing(exchange, version, out)) {
-        return false;
-    }
     if (!exchange->target || !request_parse_target(request, exchange->target, &err)) {
         *out = response_problem(400, "syntax", err.place, err.message);
         return false;
@@ -402,7 +410,7 @@ static enum MHD_Result receive_body(struct exchange *exchange, const char *bytes
         exchange->body_bytes > (size_t)BODY_PATIENCE * LIMIT_DOCUMENT_BYTES) {
         return MHD_NO;
     }
-    if (exchange->body_bytes <= LIMIT_DOCUMENT_BYTES) {
+    if (exchange->body_bytes <= LIMIT_DOCUMENT_BYTES && !exchange->response) {
         add_body(exchange, bytes, *length);
     }
     *length = 0;
@@ -437,21 +445,40 @@ static enum MHD_Result handle(struct exchange *exchange)
     return replied ? queue_reply(exchange) : MHD_YES;
 }
 
+/* The head is there. A refusal waits until the body has been read away: closing before would reset
+ * the connection and might destroy the reply. Who asks with Expect is told at once. */
+static enum MHD_Result begin(struct exchange *exchange, const char *version)
+{
+    struct response response = {0};
+
+    if (!check_framing(exchange, version, &response)) {
+        return answer_now(exchange, &response);
+    }
+    if (admit(exchange, &response)) {
+        return MHD_YES;
+    }
+    if (has_body(exchange) && !request_header(&exchange->request, "Expect") &&
+        announced_bytes(exchange) <= (uint64_t)BODY_PATIENCE * LIMIT_DOCUMENT_BYTES) {
+        request_reply(&exchange->request, &response);
+        return MHD_YES;
+    }
+    return answer_now(exchange, &response);
+}
+
 static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, const char *url,
                                  const char *method, const char *version, const char *upload,
                                  size_t *upload_size, void **connection_data)
 {
     struct exchange *exchange = *connection_data;
-    struct response response = {0};
 
     (void)data;
     (void)connection;
     (void)url;
     if (!exchange->begun) {
         exchange->begun = true;
+        exchange->request.method = method;
         exchange->deadline = clock_ms() + HTTP_BODY_MS;
-        return admit(exchange, method, version, &response) ? MHD_YES
-                                                           : answer_now(exchange, &response);
+        return begin(exchange, version);
     }
     if (*upload_size > 0) {
         return receive_body(exchange, upload, upload_size);
