@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Starts and ends `fieldcast serve` for a test, in a directory of its own.
+import { spawn } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+
+const root = path.dirname(path.dirname(path.dirname(new URL(import.meta.url).pathname)));
+export const program = process.env.FIELDCAST ?? path.join(root, 'build/release/fieldcast');
+
+export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Asks until the answer is true; the limit only ends a run that hangs. */
+export async function until(question, what, limitMs = 120000) {
+    const end = Date.now() + limitMs;
+    for (;;) {
+        const answer = await question();
+        if (answer) {
+            return answer;
+        }
+        if (Date.now() > end) {
+            throw new Error(`waited in vain for ${what}`);
+        }
+        await sleep(10);
+    }
+}
+
+export const makeDirectory = () => fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-test-'));
+export const removeDirectory = (name) => fs.rmSync(name, { recursive: true, force: true });
+
+/** Child processes of a process. */
+export function childrenOf(pid) {
+    const children = [];
+    for (const task of fs.readdirSync(`/proc/${pid}/task`)) {
+        const text = fs.readFileSync(`/proc/${pid}/task/${task}/children`, 'utf8');
+        children.push(...text.split(' ').filter(Boolean).map(Number));
+    }
+    return children;
+}
+
+export const memoryOf = (pid) =>
+    Number(/VmRSS:\s+(\d+)/.exec(fs.readFileSync(`/proc/${pid}/status`, 'utf8'))[1]) * 1024;
+
+/** Seconds of processor time that a process has used. */
+export function cpuSecondsOf(pid) {
+    const fields = fs.readFileSync(`/proc/${pid}/stat`, 'utf8').split(') ')[1].split(' ');
+    return (Number(fields[11]) + Number(fields[12])) / 100;
+}
+
+/**
+ * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
+ * directory is a fresh one, removed by stop(), unless one is given.
+ */
+export async function startDaemon({ data, args = [], ready = true, limits = '' } = {}) {
+    const directory = data ?? makeDirectory();
+    const all = ['serve', '--port', '0', '--data', directory, ...args];
+    const child = limits
+        ? spawn('sh', ['-c', `${limits}; exec "$0" "$@"`, program, ...all])
+        : spawn(program, all);
+    const daemon = { child, data: directory, errors: '', output: '' };
+    child.stderr.on('data', (bytes) => (daemon.errors += bytes));
+    child.stdout.on('data', (bytes) => (daemon.output += bytes));
+    daemon.exited = new Promise((done) =>
+        child.on('exit', (status, signal) => done({ status, signal })),
+    );
+    let gone = false;
+    daemon.exited.then(() => (gone = true));
+    const match = await until(() => {
+        if (gone) {
+            throw new Error(`the daemon ended:\n${daemon.errors}`);
+        }
+        return /listening on (http:\/\/\S+:(\d+)\/)/.exec(daemon.output);
+    }, 'the daemon to listen');
+    daemon.url = match[1].slice(0, -1);
+    daemon.port = Number(match[2]);
+    daemon.pid = child.pid;
+    daemon.worker = () => childrenOf(daemon.pid)[0];
+    daemon.kill = async (signal = 'SIGKILL') => {
+        child.kill(signal);
+        return daemon.exited;
+    };
+    daemon.stop = async () => {
+        const result = gone ? await daemon.exited : await daemon.kill('SIGTERM');
+        if (!data) {
+            removeDirectory(directory);
+        }
+        return result;
+    };
+    if (ready) {
+        await until(async () => (await fetch(`${daemon.url}/readyz`)).ok, 'the render process');
+    }
+    return daemon;
+}
+
+/** JSON over HTTP; throws where the status is no success. */
+export async function ask(daemon, method, at, body, headers = {}) {
+    const answer = await fetch(daemon.url + at, {
+        method,
+        headers: body === undefined ? headers : { 'content-type': 'application/json', ...headers },
+        body: body === undefined ? undefined : JSON.stringify(body),
+    });
+    const text = await answer.text();
+    if (!answer.ok) {
+        throw new Error(`${method} ${at}: ${answer.status} ${text}`);
+    }
+    return text ? JSON.parse(text) : null;
+}
+
+export async function counter(daemon, name) {
+    const text = await (await fetch(`${daemon.url}/metrics`)).text();
+    return Number(new RegExp(`^fieldcast_${name} (\\S+)$`, 'm').exec(text)[1]);
+}
