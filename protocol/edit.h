@@ -30,8 +30,7 @@ struct history *history_create(void);
 void history_destroy(struct history *history);
 /* Records an edit's inverse. Edits of one author with the same non-empty group join in one step;
  * of several sets of one place in a group only the oldest value is kept. Takes `inverse`. */
-void history_record(struct history *history, const char *author, const char *group,
-                    cJSON *inverse);
+void history_record(struct history *history, const char *author, const char *group, cJSON *inverse);
 /* Applies the newest step of the author to the scene and moves it to the other stack. False with
  * ERROR_NOT_FOUND when there is none. `*out_applied` as in edit_apply. */
 bool history_undo(struct history *history, struct scene *scene, const char *author,

@@ -9,17 +9,17 @@
 /* X(NAME, "wire-code", http-status): the one list of kinds of error. */
 #define ERROR_KINDS(X)                                                                             \
     X(NONE, "none", 200)                                                                           \
-    X(SYNTAX, "syntax", 400)           /* not JSON, not UTF-8, not the expected shape */           \
-    X(INVALID, "invalid", 422)         /* well formed, but a value breaks a rule */                \
-    X(LIMIT, "limit", 422)             /* a limit of limits.h is exceeded */                       \
-    X(TOO_LARGE, "too_large", 413)     /* more bytes than accepted */                              \
-    X(NOT_FOUND, "not_found", 404)     /* the thing addressed does not exist */                    \
-    X(CONFLICT, "conflict", 409)       /* id in use, still referenced, cycle */                    \
+    X(SYNTAX, "syntax", 400)             /* not JSON, not UTF-8, not the expected shape */         \
+    X(INVALID, "invalid", 422)           /* well formed, but a value breaks a rule */              \
+    X(LIMIT, "limit", 422)               /* a limit of limits.h is exceeded */                     \
+    X(TOO_LARGE, "too_large", 413)       /* more bytes than accepted */                            \
+    X(NOT_FOUND, "not_found", 404)       /* the thing addressed does not exist */                  \
+    X(CONFLICT, "conflict", 409)         /* id in use, still referenced, cycle */                  \
     X(PRECONDITION, "precondition", 412) /* If-Match names another revision */                     \
-    X(FORBIDDEN, "forbidden", 403)     /* not with these rights */                                 \
-    X(COMPILE, "compile", 422)         /* a shader does not compile */                             \
-    X(UNAVAILABLE, "unavailable", 503) /* not now: worker restarting, queue full, draining */      \
-    X(INTERNAL, "internal", 500)       /* our fault */
+    X(FORBIDDEN, "forbidden", 403)       /* not with these rights */                               \
+    X(COMPILE, "compile", 422)           /* a shader does not compile */                           \
+    X(UNAVAILABLE, "unavailable", 503)   /* not now: worker restarting, queue full, draining */    \
+    X(INTERNAL, "internal", 500)         /* our fault */
 
 enum error_kind {
 #define X(name, wire, status) ERROR_##name,

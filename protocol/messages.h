@@ -55,8 +55,8 @@ struct frame_header {
     uint32_t number;        /* 1, 2, 3... on this connection */
     uint32_t payload_bytes; /* of the whole frame, over all its parts */
     uint64_t revision;
-    uint32_t input;         /* `seq` of the newest view message that the picture shows */
-    uint16_t width, height; /* of the picture */
+    uint32_t input;                   /* `seq` of the newest view message that the picture shows */
+    uint16_t width, height;           /* of the picture */
     uint16_t view_width, view_height; /* of the view that it fills */
     uint32_t queue_us, march_us, light_us, read_us, encode_us;
 };

@@ -31,8 +31,8 @@ struct node_type {
     /* Largest gradient length of the raw function; the renderer divides by it. 0 means that a rule
      * computed from parameters and bounds gives it (twist). */
     double lipschitz;
-    const char *glsl;  /* name of the GLSL function */
-    const char *words; /* search synonyms for the palette: "donut ring" */
+    const char *glsl;   /* name of the GLSL function */
+    const char *words;  /* search synonyms for the palette: "donut ring" */
     const char *source; /* where the formula comes from */
 };
 

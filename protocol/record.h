@@ -16,11 +16,11 @@ enum param_type {
     PARAM_INT,
     PARAM_BOOL,
     PARAM_VEC3,
-    PARAM_BVEC3, /* three booleans */
-    PARAM_IVEC3, /* three integers */
-    PARAM_COLOR, /* linear RGB, three numbers >= 0; a zero pair bounds it by LIMIT_COORDINATE */
-    PARAM_ENUM,  /* one of `choices`; number[0] is its index */
-    PARAM_TEXT,  /* free text, at most LIMIT_NAME_BYTES */
+    PARAM_BVEC3,    /* three booleans */
+    PARAM_IVEC3,    /* three integers */
+    PARAM_COLOR,    /* linear RGB, three numbers >= 0; a zero pair bounds it by LIMIT_COORDINATE */
+    PARAM_ENUM,     /* one of `choices`; number[0] is its index */
+    PARAM_TEXT,     /* free text, at most LIMIT_NAME_BYTES */
     PARAM_MATERIAL, /* name of a material of the scene, or "" for the parent's */
 };
 
@@ -33,13 +33,13 @@ struct param {
     enum param_unit unit;
     double def[3];
     double min, max;
-    bool above_min;   /* the minimum itself is excluded (radius > 0) */
-    bool nonzero;     /* every component differs from 0 (scale) */
-    bool direction;   /* a vector with a length: not all three are 0 */
-    bool uniform;     /* a vector that is also read from one number, for all three */
-    double step;      /* what one arrow key adds; 0 lets the editor choose */
+    bool above_min;             /* the minimum itself is excluded (radius > 0) */
+    bool nonzero;               /* every component differs from 0 (scale) */
+    bool direction;             /* a vector with a length: not all three are 0 */
+    bool uniform;               /* a vector that is also read from one number, for all three */
+    double step;                /* what one arrow key adds; 0 lets the editor choose */
     const char *const *choices; /* PARAM_ENUM: NULL-terminated */
-    bool main;        /* among the two that a compact view shows */
+    bool main;                  /* among the two that a compact view shows */
     const char *doc;
 };
 
@@ -71,7 +71,7 @@ int record_type_find(const struct record_type *type, const char *name); /* -1: n
 /* Fills `err` for a name that record_type_find does not know, with the nearest one; false. */
 bool record_type_unknown(const struct record_type *type, const char *name, const char *place,
                          struct error *err);
-int param_components(enum param_type type); /* 1, 3, or 0 for text */
+int param_components(enum param_type type);        /* 1, 3, or 0 for text */
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
 /* The range that holds, also where the row names none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Documents: reading them strictly and writing them so that they read back the same. */
+/* Reading documents strictly. Writing them is scene_print.c. */
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,6 @@
 #include "memory.h"
 #include "nearest.h"
 #include "scene_parts.h"
-
-#define FORMAT "fieldcast/1"
 
 /* Members of an object that is no record of its own: each name at most once, no other. The JSON
  * of name i goes to found[i], NULL where absent. */
@@ -377,7 +375,7 @@ static bool read_materials(struct scene *scene, const cJSON *object, struct erro
 /* --- documents --- */
 
 enum {
-    DOC_FORMAT,
+    DOC_SCENE_FORMAT,
     DOC_NAME,
     DOC_CAMERA,
     DOC_LIGHTS,
@@ -396,9 +394,9 @@ static const char *const document_members[] = {
 
 static bool check_format(const cJSON *const *found, struct error *err)
 {
-    const cJSON *format = found[DOC_FORMAT];
-    if (!cJSON_IsString(format) || strcmp(format->valuestring, FORMAT) != 0) {
-        return error_set(err, ERROR_INVALID, "/format", "%s \"" FORMAT "\"",
+    const cJSON *format = found[DOC_SCENE_FORMAT];
+    if (!cJSON_IsString(format) || strcmp(format->valuestring, SCENE_FORMAT) != 0) {
+        return error_set(err, ERROR_INVALID, "/format", "%s \"" SCENE_FORMAT "\"",
                          format ? "expected" : "is missing, expected");
     }
     for (int i = DOC_RESERVED; i < DOC_COUNT; i++) {
@@ -461,85 +459,4 @@ struct scene *scene_parse(const char *text, size_t length, struct error *err)
     struct scene *scene = document ? scene_read(document, err) : NULL;
     cJSON_Delete(document);
     return scene;
-}
-
-/* --- writing --- */
-
-/* Adds the record as an object, unless nothing in it is set. */
-static void add_record(cJSON *object, const char *name, const struct record *record)
-{
-    cJSON *json = cJSON_CreateObject();
-    record_print(record, json);
-    if (json->child) {
-        cJSON_AddItemToObject(object, name, json);
-    } else {
-        cJSON_Delete(json);
-    }
-}
-
-cJSON *node_to_json(const struct node *node)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "id", node->id);
-    cJSON_AddStringToObject(json, "type", node->type->record.name);
-    record_print(&node->common, json);
-    add_record(json, "transform", &node->transform);
-    add_record(json, "params", &node->params);
-    if (node->child_count > 0) {
-        cJSON *children = cJSON_AddArrayToObject(json, "children");
-        for (size_t i = 0; i < node->child_count; i++) {
-            cJSON_AddItemToArray(children, node_to_json(node->children[i]));
-        }
-    }
-    return json;
-}
-
-cJSON *resource_light_json(const struct resource *light)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "id", light->name);
-    cJSON_AddStringToObject(json, "type", light->record.type->name);
-    record_print(&light->record, json);
-    return json;
-}
-
-cJSON *resource_material_json(const struct resource *material)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "shader", material->record.type->name);
-    add_record(json, "properties", &material->record);
-    return json;
-}
-
-cJSON *scene_to_json(const struct scene *scene)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "format", FORMAT);
-    record_print(&scene->info, json);
-    add_record(json, "camera", &scene->camera);
-    if (scene->lights.count > 0) {
-        cJSON *lights = cJSON_AddArrayToObject(json, "lights");
-        for (size_t i = 0; i < scene->lights.count; i++) {
-            cJSON_AddItemToArray(lights, resource_light_json(scene->lights.items[i]));
-        }
-    }
-    if (scene->materials.count > 0) {
-        cJSON *materials = cJSON_AddObjectToObject(json, "materials");
-        for (size_t i = 0; i < scene->materials.count; i++) {
-            const struct resource *material = scene->materials.items[i];
-            cJSON_AddItemToObject(materials, material->name, resource_material_json(material));
-        }
-    }
-    add_record(json, "environment", &scene->environment);
-    add_record(json, "render", &scene->render);
-    cJSON_AddItemToObject(json, "root", node_to_json(scene->root));
-    return json;
-}
-
-char *scene_print(const struct scene *scene, bool pretty)
-{
-    cJSON *json = scene_to_json(scene);
-    char *text = json_print(json, pretty);
-    cJSON_Delete(json);
-    return text;
 }

@@ -6,6 +6,8 @@
 
 #include "scene.h"
 
+#define SCENE_FORMAT "fieldcast/1"
+
 struct scene *scene_create_without_root(void); /* only until it gets one or is destroyed */
 
 struct node *node_create(const struct node_type *type);

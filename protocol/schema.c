@@ -8,6 +8,7 @@
 #include "limits.h"
 #include "messages.h"
 #include "nodes.h"
+#include "scene_parts.h"
 
 #define NAME_PATTERN "^[A-Za-z0-9_.-]{1,64}$"
 
@@ -237,7 +238,7 @@ static cJSON *material_schema(void)
 static void add_document(cJSON *schema, cJSON *properties)
 {
     static const char *const reserved[] = {"shaders", "primitives", "models"};
-    cJSON_AddItemToObject(properties, "format", constant("fieldcast/1"));
+    cJSON_AddItemToObject(properties, "format", constant(SCENE_FORMAT));
     add_properties(properties, &scene_info_type);
     cJSON_AddItemToObject(properties, "camera", reference("camera"));
     cJSON *lights = typed("array");

@@ -30,8 +30,12 @@ static double random_number(struct random *random, const struct param *param)
 
 static cJSON *random_text(struct random *random)
 {
-    static const char *const texts[] = {"", "a", "Schneemann \xe2\x98\x83", "\"quoted\" \\ back/slash",
-                                        "\xf0\x9f\x90\xa7 penguin", "two words"};
+    static const char *const texts[] = {"",
+                                        "a",
+                                        "Schneemann \xe2\x98\x83",
+                                        "\"quoted\" \\ back/slash",
+                                        "\xf0\x9f\x90\xa7 penguin",
+                                        "two words"};
     return cJSON_CreateString(texts[random_below(random, sizeof texts / sizeof texts[0])]);
 }
 
@@ -146,8 +150,7 @@ struct scene *random_document(struct random *random, size_t nodes)
         cJSON_AddItemToArray(lights, random_light(random));
     }
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
-        cJSON_AddItemToObject(document, records[i]->name,
-                              random_record(random, records[i], NULL));
+        cJSON_AddItemToObject(document, records[i]->name, random_record(random, records[i], NULL));
     }
     cJSON_AddItemToObject(document, "name", random_text(random));
     cJSON_ReplaceItemInObjectCaseSensitive(document, "root", random_tree(random, nodes, &list));
@@ -218,9 +221,8 @@ static cJSON *set_in(struct random *random, const struct scene *scene, const cha
     char at[200];
     snprintf(at, sizeof at, "%s/%s", prefix, param ? param->name : "nothing");
     cJSON *op = begin("set", "at", at);
-    cJSON_AddItemToObject(op, "value",
-                          param ? any_value(random, param, &scene->materials)
-                                : cJSON_CreateNumber(1));
+    cJSON_AddItemToObject(
+        op, "value", param ? any_value(random, param, &scene->materials) : cJSON_CreateNumber(1));
     return op;
 }
 
@@ -237,9 +239,8 @@ static cJSON *set_type(struct random *random, const struct node *node)
 static cJSON *set_whole(struct random *random, const char *at, const struct record_type *type)
 {
     cJSON *op = begin("set", "at", at);
-    cJSON_AddItemToObject(op, "value",
-                          chance(random, 0.1) ? cJSON_CreateNull()
-                                              : random_record(random, type, NULL));
+    cJSON_AddItemToObject(
+        op, "value", chance(random, 0.1) ? cJSON_CreateNull() : random_record(random, type, NULL));
     return op;
 }
 
@@ -282,7 +283,8 @@ static cJSON *random_set(struct random *random, const struct scene *scene)
     case 6:
         if (materials->count > 0) {
             size_t index = random_below(random, materials->count);
-            snprintf(place, sizeof place, "/materials/%s/properties", materials->items[index]->name);
+            snprintf(place, sizeof place, "/materials/%s/properties",
+                     materials->items[index]->name);
             return set_in(random, scene, place, materials->items[index]->record.type);
         }
         break;
@@ -335,8 +337,8 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
         snprintf(into, sizeof into, "/nodes/%s", parent->id);
         op = begin("insert", "into", into);
         add_before(random, op, some_child(random, parent));
-        cJSON_AddItemToObject(
-            op, "value", random_tree(random, 1 + random_below(random, 4), &scene->materials));
+        cJSON_AddItemToObject(op, "value",
+                              random_tree(random, 1 + random_below(random, 4), &scene->materials));
         return op;
     }
 }
@@ -348,7 +350,8 @@ static const char *random_thing(struct random *random, const struct scene *scene
     const struct resource_list *const lists[] = {&scene->lights, &scene->materials};
     size_t list = random_below(random, 5);
     *out_home = list == 0 ? "/lights" : list == 1 ? "/materials" : NULL;
-    const char *name = list < 2 ? some_name(random, lists[list]) : random_node_of(random, scene)->id;
+    const char *name =
+        list < 2 ? some_name(random, lists[list]) : random_node_of(random, scene)->id;
     snprintf(place, 100, "%s/%s", *out_home ? *out_home : "/nodes", name ? name : "nobody");
     return name;
 }
@@ -361,9 +364,9 @@ static cJSON *random_move(struct random *random, const struct scene *scene)
     cJSON *op = begin("move", "at", place);
     if (home) {
         cJSON_AddStringToObject(op, "into", home);
-        add_before(random, op,
-                   some_name(random, strcmp(home, "/lights") == 0 ? &scene->lights
-                                                                  : &scene->materials));
+        add_before(
+            random, op,
+            some_name(random, strcmp(home, "/lights") == 0 ? &scene->lights : &scene->materials));
     } else {
         const struct node *parent = random_node_of(random, scene);
         snprintf(into, sizeof into, "/nodes/%s", parent->id);

@@ -47,8 +47,9 @@ static char *case_bytes(const cJSON *json, size_t *out_length)
     const char *hex = json_member_text(json, "hex", NULL);
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(json, "value");
     assert_int_equal((text != NULL) + (hex != NULL) + (value != NULL), 1);
-    char *bytes = hex ? calloc(strlen(hex) / 2 + 1, 1)
-                      : text ? strdup(text) : json_print(value, false);
+    char *bytes = hex    ? calloc(strlen(hex) / 2 + 1, 1)
+                  : text ? strdup(text)
+                         : json_print(value, false);
     assert_non_null(bytes);
     *out_length = hex ? strlen(hex) / 2 : strlen(bytes);
     for (size_t i = 0; hex && i < *out_length; i++) {
@@ -100,8 +101,7 @@ static void check_file(const char *name)
     if (strcmp(error_kind_name(err.kind), json_member_text(expect, "code", "")) != 0 ||
         strcmp(err.place, json_member_text(expect, "place", "?")) != 0 ||
         !strstr(err.message, fragment)) {
-        fail_msg("%s: got %s, \"%s\": %s", path, error_kind_name(err.kind), err.place,
-                 err.message);
+        fail_msg("%s: got %s, \"%s\": %s", path, error_kind_name(err.kind), err.place, err.message);
     }
     char *now = scene_print(base, true);
     if (strcmp(now, base_text) != 0) {

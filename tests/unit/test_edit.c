@@ -99,7 +99,8 @@ static void test_set_values(void **state)
     assert_edit("[{\"op\":\"set\",\"at\":\"/name\",\"value\":\"Winter\"}]", NULL,
                 "[{\"op\":\"set\",\"at\":\"/name\",\"value\":null}]");
     assert_edit("[{\"op\":\"set\",\"at\":\"/nodes/body/transform/scale\",\"value\":2}]",
-                "[{\"op\":\"set\",\"at\":\"/nodes/body/transform/scale\",\"value\":[2,2,2]}]", NULL);
+                "[{\"op\":\"set\",\"at\":\"/nodes/body/transform/scale\",\"value\":[2,2,2]}]",
+                NULL);
     assert_edit("[{\"op\":\"set\",\"at\":\"/nodes/body/material\",\"value\":\"coal\"},"
                 "{\"op\":\"set\",\"at\":\"/nodes/body/visible\",\"value\":false},"
                 "{\"op\":\"set\",\"at\":\"/nodes/body/name\",\"value\":\"B\"}]",
@@ -235,9 +236,10 @@ static void test_some_leaves_out_what_is_gone(void **state)
 static void test_ids_are_not_used_again(void **state)
 {
     (void)state;
-    cJSON *ops = parse("[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}},"
-                       "{\"op\":\"remove\",\"at\":\"/nodes/box-1\"},"
-                       "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}}]");
+    cJSON *ops =
+        parse("[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}},"
+              "{\"op\":\"remove\",\"at\":\"/nodes/box-1\"},"
+              "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}}]");
     assert_true(edit_apply(scene, ops, NULL, NULL, &err));
     assert_null(scene_find(scene, "box-1"));
     assert_non_null(scene_find(scene, "box-2"));

@@ -57,8 +57,7 @@ static void test_accepts_json(void **state)
     assert_printed("[1e3, 1E+3, 1.5e-3, 0.1, 1e-400]", "[1000,1000,0.0015,0.1,0]");
     assert_printed("\"\\\"\\\\\\/\\b\\f\\n\\r\\t\\u001f\\u007f\"",
                    "\"\\\"\\\\/\\b\\f\\n\\r\\t\\u001f\x7f\"");
-    assert_printed("\"\\u00e9\\u20AC\\uD83D\\udc27\"",
-                   "\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x90\xa7\"");
+    assert_printed("\"\\u00e9\\u20AC\\uD83D\\udc27\"", "\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x90\xa7\"");
     assert_printed("\"\xef\xbf\xbf\xf4\x8f\xbf\xbf\"", "\"\xef\xbf\xbf\xf4\x8f\xbf\xbf\"");
     assert_printed("{\"a\":1,\"A\":2,\"\":3}", "{\"a\":1,\"A\":2,\"\":3}");
 }
@@ -134,7 +133,8 @@ static void test_refuses_what_is_not_utf8(void **state)
         "\xed\xa0\x80",     /* surrogate */
         "\xf0\x80\x80\xaf", /* overlong */
         "\xf4\x90\x80\x80", /* above U+10FFFF */
-        "\xf8\x88\x80\x80", "\xff",
+        "\xf8\x88\x80\x80",
+        "\xff",
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         char text[16];
@@ -154,7 +154,8 @@ static void test_refuses_duplicate_members(void **state)
     assert_refused("[{\"x\":{\"k\":[{}],\"k\":0}}]", "line 1, column 17", "duplicate member \"k\"");
     assert_refused("{\"\\ud83d\\udc27\":1,\"\xf0\x9f\x90\xa7\":2}", "line 1, column 19",
                    "duplicate");
-    assert_printed("[{\"a\":{\"a\":{\"a\":1}}},{\"a\":2}]", "[{\"a\":{\"a\":{\"a\":1}}},{\"a\":2}]");
+    assert_printed("[{\"a\":{\"a\":{\"a\":1}}},{\"a\":2}]",
+                   "[{\"a\":{\"a\":{\"a\":1}}},{\"a\":2}]");
 }
 
 static char *repeated(const char *head, const char *part, size_t count, const char *tail)

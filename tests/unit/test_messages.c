@@ -65,7 +65,8 @@ static void test_refuses(void **state)
     assert_refused("{}", ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
     assert_refused("{\"type\":\"helo\"}", ERROR_SYNTAX, "/type",
                    "unknown message \"helo\"; did you mean \"hello\"?");
-    assert_refused("{\"type\":\"hello\"}", ERROR_SYNTAX, "", "\"hello\" lacks the member \"client\"");
+    assert_refused("{\"type\":\"hello\"}", ERROR_SYNTAX, "",
+                   "\"hello\" lacks the member \"client\"");
     assert_refused("{\"type\":\"hello\",\"client\":\"short\"}", ERROR_INVALID, "/client",
                    "expected 8 to 64");
     assert_refused("{\"type\":\"hello\",\"client\":\"has.a.dot.\"}", ERROR_INVALID, "/client",
@@ -128,12 +129,12 @@ static void test_members_have_fallbacks(void **state)
 }
 
 static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
-    'F',  'C',  'F',  '1',  1,    2,    6,    0,                /* version, codec, flags */
-    4,    3,    2,    1,    8,    7,    6,    5,                /* number, payload bytes */
-    0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09,             /* revision */
-    0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,    5,    0xd0, 2, /* seq, sides */
-    1,    0,    0,    0,    2,    0,    0,    0,    3,    0,    0,    0, /* queue, march, light */
-    4,    0,    0,    0,    0xff, 0xff, 0xff, 0xff,             /* read-back, encode */
+    'F',  'C',  'F',  '1',  1,    2,    6,    0,                   /* version, codec, flags */
+    4,    3,    2,    1,    8,    7,    6,    5,                   /* number, payload bytes */
+    0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09,                /* revision */
+    0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0, 5, 0xd0, 2, /* seq, sides */
+    1,    0,    0,    0,    2,    0,    0,    0,    3, 0, 0,    0, /* queue, march, light */
+    4,    0,    0,    0,    0xff, 0xff, 0xff, 0xff,                /* read-back, encode */
     0,    0,    0,    0,    0,    0,    0,    0,
 };
 

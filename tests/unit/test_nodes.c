@@ -18,13 +18,27 @@ static const struct {
     int number;
     const char *name;
 } numbers[] = {
-    {1, "sphere"},         {2, "ellipsoid"},          {3, "box"},
-    {4, "round_box"},      {5, "torus"},              {6, "cylinder"},
-    {7, "capsule"},        {8, "cone"},               {9, "plane"},
-    {101, "union"},        {102, "intersection"},     {103, "difference"},
-    {104, "smooth_union"}, {105, "smooth_intersection"}, {106, "smooth_difference"},
-    {201, "round"},        {202, "shell"},            {203, "mirror"},
-    {204, "repeat"},       {205, "twist"},            {301, "group"},
+    {1, "sphere"},
+    {2, "ellipsoid"},
+    {3, "box"},
+    {4, "round_box"},
+    {5, "torus"},
+    {6, "cylinder"},
+    {7, "capsule"},
+    {8, "cone"},
+    {9, "plane"},
+    {101, "union"},
+    {102, "intersection"},
+    {103, "difference"},
+    {104, "smooth_union"},
+    {105, "smooth_intersection"},
+    {106, "smooth_difference"},
+    {201, "round"},
+    {202, "shell"},
+    {203, "mirror"},
+    {204, "repeat"},
+    {205, "twist"},
+    {301, "group"},
 };
 
 static void test_numbers_are_stable(void **state)
@@ -64,7 +78,7 @@ static void test_rows_are_complete(void **state)
         enum node_group group;
         const char *prefix;
     } kinds[] = {
-        [KIND_SHAPE] = {GROUP_PRIMITIVE, "sd_"},  [KIND_COMBINE] = {GROUP_OPERATION, "op_"},
+        [KIND_SHAPE] = {GROUP_PRIMITIVE, "sd_"},    [KIND_COMBINE] = {GROUP_OPERATION, "op_"},
         [KIND_DISTANCE] = {GROUP_MODIFIER, "mod_"}, [KIND_DOMAIN] = {GROUP_MODIFIER, "dom_"},
         [KIND_GROUP] = {GROUP_STRUCTURE, "op_"},
     };

@@ -105,8 +105,7 @@ static void test_refuses_with_place_value_and_limit(void **state)
     assert_refuses("{\"size\":0}", "/thing/size", "0 is not above the minimum 0");
     assert_refuses("{\"size\":-1}", "/thing/size", "-1 is below the minimum 0");
     assert_refuses("{\"size\":\"1\"}", "/thing/size", "expected a number");
-    assert_refuses("{\"size\":null}", "/thing/size",
-                   "null is not a value: leave the member out");
+    assert_refuses("{\"size\":null}", "/thing/size", "null is not a value: leave the member out");
     assert_refuses("{\"count\":1.5}", "/thing/count", "1.5 is not a whole number");
     assert_refuses("{\"count\":6}", "/thing/count", "6 is above the maximum 5");
     assert_refuses("{\"open\":1}", "/thing/open", "expected true or false");
@@ -259,8 +258,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_reads_and_prints, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up,
-                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_long_texts, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_null_restores_and_failure_keeps, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_copies_share_nothing, set_up, tear_down),

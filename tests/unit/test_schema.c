@@ -98,9 +98,9 @@ static void test_every_node_has_a_rule(void **state)
         assert_int_equal(cJSON_GetArraySize(at(params, "properties")),
                          (int)record_type_count(type));
         for (const struct param *param = type->params; param->name; param++) {
-            assert_string_equal(at(at(at(params, "properties"), param->name), "description")
-                                    ->valuestring,
-                                param->doc);
+            assert_string_equal(
+                at(at(at(params, "properties"), param->name), "description")->valuestring,
+                param->doc);
         }
     }
     const cJSON *radius = at(rule_for("sphere"), "properties/radius");
