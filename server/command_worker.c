@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* fieldcast worker: the render process, started by `serve` with its socket at WORKER_FD. */
 #include <signal.h>
-#include <sys/prctl.h>
 
 #include "command.h"
 #include "drawing.h"
@@ -9,8 +8,9 @@
 
 int command_worker(const struct options *options)
 {
-    /* A front that is killed takes its worker along. */
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    /* A signal from the terminal reaches both processes, but only the front decides when to end. */
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
     struct worker_params params = {
         .memory_limit_bytes = (size_t)option_int(options, OPTION_WORKER_MEMORY) << 20,
     };

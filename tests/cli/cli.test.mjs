@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line as a user meets it: output, exit status, and what is left on disk.
 import assert from 'node:assert';
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import net from 'node:net';
 import os from 'node:os';
@@ -205,6 +205,24 @@ test('doctor says what fails', async () => {
     const blocked = run(['doctor', '--port', '0', '--data', path.join(write('file', ''), 'data')]);
     assert.equal(blocked.status, 1);
     assert.match(blocked.out, /^FAIL {2}data /m);
+});
+
+test('a signal from the terminal, which reaches the worker too, drains', async () => {
+    const args = ['serve', '--port', '0', '--data', path.join(folder, 'made/for/it')];
+    const daemon = spawn(program, args, { detached: true, stdio: ['ignore', 'pipe', 'pipe'] });
+    let log = '';
+    daemon.stderr.on('data', (chunk) => {
+        log += chunk;
+    });
+    const ended = new Promise((resolve) => daemon.on('close', resolve));
+    await new Promise((resolve) => daemon.stdout.once('data', resolve));
+    while (!log.includes('ready')) {
+        await new Promise((resolve) => daemon.stderr.once('data', resolve));
+    }
+    process.kill(-daemon.pid, 'SIGINT');
+    assert.equal(await ended, 0, log);
+    assert.match(log, /draining/);
+    assert.doesNotMatch(log, /too long/);
 });
 
 test('serve refuses a token file that is none', () => {
