@@ -54,10 +54,11 @@ const struct draw_form *draw_form_find(enum aov aov, bool floats)
     return NULL;
 }
 
-void draw_numbers_init(struct draw_numbers *out, const struct gl *gl, const float *numbers,
+void draw_numbers_init(struct draw_numbers *out, const struct draw *draw, const float *numbers,
                        size_t count, size_t capacity)
 {
-    const bool texture = numbers_in_texture(gl, capacity);
+    const struct gl *gl = draw->gl;
+    const bool texture = numbers_in_texture(gl, draw->software, capacity);
     const GLenum target = texture ? GL_TEXTURE_BUFFER : GL_UNIFORM_BUFFER;
     float *padded = memory_alloc(capacity, 16);
 
@@ -140,7 +141,7 @@ static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form
 
     if (pass->program == 0) {
         snprintf(defines, sizeof defines, "#define %s\n", form->define);
-        if (!pass_init(pass, draw->gl, &(struct pass_source){defines, files, NULL, NULL}, err)) {
+        if (!pass_init(pass, draw->gl, &(struct pass_source){.defines = defines, .files = files}, err)) {
             return NULL;
         }
         draw->compilations++;
@@ -231,17 +232,14 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct pro
     slot->tile = tile;
     slot->times = (struct job_times){0};
     gl->BindVertexArray(draw->targets.vertices);
-    targets_bind_textures(&draw->targets, gl);
+    targets_bind(&draw->targets, gl);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
     bind_numbers(numbers, gl);
     mark(draw, slot, 0, &times[0]);
-    gl->Viewport(0, 0, tile.width * n, tile.height * n);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.march_buffer);
-    pass_draw(program_march(program), gl, tile.x, tile.y);
+    pass_compute(program_march(program), gl, tile.x, tile.y, tile.width * n, tile.height * n);
     mark(draw, slot, 1, &times[1]);
     if (form->light) {
-        gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.light_buffer);
-        pass_draw(program_light(program), gl, tile.x, tile.y);
+        pass_compute(program_light(program), gl, tile.x, tile.y, tile.width * n, tile.height * n);
     }
     gl->Viewport(0, 0, tile.width, tile.height);
     gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.out_buffers[form->kind]);

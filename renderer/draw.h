@@ -31,7 +31,7 @@ struct draw_numbers {
     GLuint buffer, texture; /* texture: 0 where a uniform block serves */
 };
 /* `count` vec4s, then zeros up to `capacity`. */
-void draw_numbers_init(struct draw_numbers *out, const struct gl *gl, const float *numbers,
+void draw_numbers_init(struct draw_numbers *out, const struct draw *draw, const float *numbers,
                        size_t count, size_t capacity);
 void draw_numbers_finish(struct draw_numbers *numbers, const struct gl *gl);
 

@@ -16,6 +16,7 @@
     X(BINDBUFFER, BindBuffer)                                                                      \
     X(BINDBUFFERBASE, BindBufferBase)                                                              \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                                            \
+    X(BINDIMAGETEXTURE, BindImageTexture)                                                          \
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
     X(BUFFERDATA, BufferData)                                                                      \
@@ -34,6 +35,7 @@
     X(DELETETEXTURES, DeleteTextures)                                                              \
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                      \
     X(DISABLE, Disable)                                                                            \
+    X(DISPATCHCOMPUTE, DispatchCompute)                                                            \
     X(DRAWARRAYS, DrawArrays)                                                                      \
     X(DRAWBUFFERS, DrawBuffers)                                                                    \
     X(ENABLE, Enable)                                                                              \
@@ -58,6 +60,7 @@
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(MAPBUFFERRANGE, MapBufferRange)                                                              \
+    X(MEMORYBARRIER, MemoryBarrier)                                                                \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(QUERYCOUNTER, QueryCounter)                                                                  \
     X(READBUFFER, ReadBuffer)                                                                      \

@@ -103,13 +103,10 @@ static GLuint compile(const struct gl *gl, GLenum stage, const struct texts *tex
     return shader;
 }
 
-static bool link(const struct gl *gl, GLuint program, GLuint vertex, GLuint fragment,
-                 struct error *err)
+static bool link(const struct gl *gl, GLuint program, struct error *err)
 {
     GLint ok = 0;
 
-    gl->AttachShader(program, vertex);
-    gl->AttachShader(program, fragment);
     gl->LinkProgram(program);
     gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
     if (!ok) {
@@ -137,49 +134,48 @@ static bool collect(struct texts *texts, const char *head, const struct pass_sou
     return true;
 }
 
+/* Compiles one stage and gives it to the program. */
+static bool attach(const struct gl *gl, GLuint program, GLenum stage, const char *head,
+                   const struct pass_source *source, struct error *err)
+{
+    struct texts *texts = memory_alloc(1, sizeof *texts);
+    GLuint shader = 0;
+
+    if (collect(texts, head, source, err)) {
+        shader = compile(gl, stage, texts, err);
+    }
+    if (shader) {
+        gl->AttachShader(program, shader);
+        gl->DeleteShader(shader); /* when the program goes */
+    }
+    free(texts);
+    return shader != 0;
+}
+
 bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_source *source,
                struct error *err)
 {
     static const char *const vertex_files[] = {"full.glsl", NULL};
-    const struct pass_source vertex_source = {"", vertex_files, NULL, NULL};
-    struct texts *vertex_texts = memory_alloc(1, sizeof *vertex_texts);
-    struct texts *fragment_texts = memory_alloc(1, sizeof *fragment_texts);
+    const struct pass_source vertex = {.defines = "", .files = vertex_files};
     const size_t head_size = strlen(source->defines) + 64;
     char *head = memory_alloc(1, head_size);
-    struct pass pass = {0};
-    GLuint vertex = 0, fragment = 0;
-    bool ok = false;
+    struct pass pass = {.program = gl->CreateProgram()};
+    bool ok;
 
     snprintf(head, head_size, "#version 430 core\n#define LIGHTS_MAX %d\n%s", LIMIT_LIGHTS,
              source->defines);
-    if (!collect(vertex_texts, head, &vertex_source, err) ||
-        !collect(fragment_texts, head, source, err)) {
-        goto end;
-    }
-    vertex = compile(gl, GL_VERTEX_SHADER, vertex_texts, err);
-    fragment = vertex ? compile(gl, GL_FRAGMENT_SHADER, fragment_texts, err) : 0;
-    if (!fragment) {
-        goto end;
-    }
-    pass.program = gl->CreateProgram();
-    ok = link(gl, pass.program, vertex, fragment, err);
-    if (ok) {
-        pass.tile = gl->GetUniformLocation(pass.program, "tile");
-        *out_pass = pass;
-    } else {
-        gl->DeleteProgram(pass.program);
-    }
-end:
-    if (vertex) {
-        gl->DeleteShader(vertex);
-    }
-    if (fragment) {
-        gl->DeleteShader(fragment);
-    }
+    ok = (source->compute || attach(gl, pass.program, GL_VERTEX_SHADER, head, &vertex, err)) &&
+         attach(gl, pass.program, source->compute ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER, head,
+                source, err) &&
+         link(gl, pass.program, err);
     free(head);
-    free(vertex_texts);
-    free(fragment_texts);
-    return ok;
+    if (!ok) {
+        pass_finish(&pass, gl);
+        return false;
+    }
+    pass.tile = gl->GetUniformLocation(pass.program, "tile");
+    *out_pass = pass;
+    return true;
 }
 
 void pass_finish(struct pass *pass, const struct gl *gl)
@@ -190,11 +186,25 @@ void pass_finish(struct pass *pass, const struct gl *gl)
     *pass = (struct pass){0};
 }
 
-void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
+static void use(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
 {
     gl->UseProgram(pass->program);
     if (pass->tile >= 0) {
         gl->Uniform4i(pass->tile, tile_x, tile_y, 0, 0);
     }
+}
+
+void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
+{
+    use(pass, gl, tile_x, tile_y);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
+                  int height)
+{
+    use(pass, gl, tile_x, tile_y);
+    gl->DispatchCompute((GLuint)(width + GROUP_SIDE - 1) / GROUP_SIDE,
+                        (GLuint)(height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* One pass over a whole target: a program put together out of files of glsl/. Drivers' messages are
- * turned back into file and line. */
+/* One pass over a tile: a program put together out of files of glsl/. Drivers' messages are turned
+ * back into file and line.
+ *
+ * March and light are compute shaders: some GPUs give the fragment stage a small part of the chip,
+ * and llvmpipe, which may find lane 0 unused in a fragment shader, fetches even what is the same for
+ * all lanes lane by lane there, which made programs four times as large. */
 #ifndef RENDERER_PASS_H
 #define RENDERER_PASS_H
 
@@ -16,12 +20,18 @@ enum {
     UNIT_RADIANCE = 4,
 };
 
+/* Units of the images that are written. */
+enum { IMAGE_GEOMETRY = 0, IMAGE_MATTER = 1, IMAGE_MORE = 2, IMAGE_RADIANCE = 3 };
+
+enum { GROUP_SIDE = 8 }; /* samples that one work group covers: glsl/group.glsl */
+
 struct pass {
     GLuint program;
     GLint tile; /* location of the uniform of that name, -1: not used */
 };
 
 struct pass_source {
+    bool compute;             /* else a fragment shader over the whole target */
     const char *defines;      /* lines for above everything else; may be "" */
     const char *const *files; /* names in glsl/, NULL at the end */
     const char *map, *surface; /* the texts that `files` calls "map" and "surface" */
@@ -31,7 +41,10 @@ struct pass_source {
 bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_source *source,
                struct error *err);
 void pass_finish(struct pass *pass, const struct gl *gl);
-/* Draws the pass into the current framebuffer; the arguments become the uniform `tile`. */
+/* Draws into the current framebuffer; the tile's place becomes the uniform `tile`. */
 void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y);
+/* Runs a compute shader for at least width x height samples. */
+void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
+                  int height);
 
 #endif

@@ -41,12 +41,12 @@ struct program_cache {
     struct error start_error;
 };
 
-bool numbers_in_texture(const struct gl *gl, size_t number_count)
+bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
 {
     GLint bytes = 0;
 
     gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
-    return number_count * 16 > (size_t)bytes;
+    return software || number_count * 16 > (size_t)bytes;
 }
 
 /* --- the compiling thread --- */
@@ -77,17 +77,18 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
     return text;
 }
 
-static bool link_passes(const struct gl *gl, const struct program *program, bool preload,
+static bool link_passes(const struct gl *gl, const struct program *program, bool software,
                         struct pass *march, struct pass *light, struct error *err)
 {
     static const char *const march_files[] = {
-        "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
-        "operations.glsl", "map", "numbers_any.glsl", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
+        "group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",
+        "modifiers.glsl", "operations.glsl", "map", "numbers_any.glsl", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
     static const char *const light_files[] = {
-        "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",  "modifiers.glsl",
-        "operations.glsl", "map", "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL};
-    char *defines = make_defines(program, preload, numbers_in_texture(gl, program->number_count));
-    struct pass_source source = {defines, march_files, program->map_text, program->surface_text};
+        "group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",
+        "modifiers.glsl", "operations.glsl", "map", "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL};
+    char *defines =
+        make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
+    struct pass_source source = {true, defines, march_files, program->map_text, program->surface_text};
     bool ok = pass_init(march, gl, &source, err);
 
     source.files = light_files;
@@ -96,12 +97,15 @@ static bool link_passes(const struct gl *gl, const struct program *program, bool
     return ok;
 }
 
-/* One pixel through both passes, with nothing in the buffers: the driver finishes its work. */
-static void warm_up(const struct gl *gl, const struct targets *targets, const struct program *program,
-                    const struct pass *march, const struct pass *light)
+/* One work group through both passes, with nothing in the buffers: the driver finishes its work. */
+static void warm_up(const struct program_cache *cache, const struct targets *targets,
+                    const struct program *program, const struct pass *march,
+                    const struct pass *light)
 {
+    const struct gl *gl = cache->gl;
     const size_t bytes = 16 * program->number_count;
-    const bool texture = numbers_in_texture(gl, program->number_count);
+    const bool texture =
+        numbers_in_texture(gl, cache->egl->software, program->number_count);
     float *zeros = memory_alloc(1, bytes);
     const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
     GLuint buffers[2], view = 0;
@@ -120,10 +124,8 @@ static void warm_up(const struct gl *gl, const struct targets *targets, const st
         gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
         gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
     }
-    gl->BindFramebuffer(GL_FRAMEBUFFER, targets->march_buffer);
-    pass_draw(march, gl, 0, 0);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, targets->light_buffer);
-    pass_draw(light, gl, 0, 0);
+    pass_compute(march, gl, 0, 0, targets->width, targets->height);
+    pass_compute(light, gl, 0, 0, targets->width, targets->height);
     gl->Finish();
     gl->DeleteBuffers(2, buffers);
     if (view) {
@@ -141,7 +143,7 @@ static void compile_one(struct program_cache *cache, const struct targets *targe
     const bool ok = link_passes(gl, program, cache->egl->software, &march, &light, &err);
 
     if (ok) {
-        warm_up(gl, targets, program, &march, &light);
+        warm_up(cache, targets, program, &march, &light);
     } else {
         pass_finish(&march, gl);
         gl->Finish();
@@ -198,7 +200,7 @@ static void *thread_main(void *data)
     struct targets targets = {0};
     struct error err = {0};
     const bool ok = egl_bind(cache->egl, cache->egl->compile, &err) &&
-                    targets_init(&targets, gl, 1, 1, &err);
+                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
 
     pthread_mutex_lock(&cache->lock);
     cache->running = ok;
@@ -208,8 +210,7 @@ static void *thread_main(void *data)
     pthread_mutex_unlock(&cache->lock);
     if (ok) {
         gl_debug(gl, cache->sink);
-        targets_bind_textures(&targets, gl);
-        gl->Viewport(0, 0, 1, 1);
+        targets_bind(&targets, gl);
         work(cache, &targets);
         targets_finish(&targets, gl);
     }

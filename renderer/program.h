@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Linked GL programs, one pair (march, light) for each shape of a field, kept by shape hash.
  *
- * A second thread with a context of its own compiles, links and draws one pixel, because drivers do
- * most of their work at the first draw. The drawing thread never waits for it. */
+ * A second thread with a context of its own compiles, links and runs one work group, because drivers
+ * do most of their work at the first use. The drawing thread never waits for it. */
 #ifndef RENDERER_PROGRAM_H
 #define RENDERER_PROGRAM_H
 
@@ -49,7 +49,8 @@ const struct pass *program_light(const struct program *program);
 bool program_cache_wait(struct program_cache *cache, int wait_ms);
 uint64_t program_cache_compilations(struct program_cache *cache);
 
-/* Vectors from which the numbers no longer fit in a uniform block. */
-bool numbers_in_texture(const struct gl *gl, size_t number_count);
+/* Whether numbers come from a texture: where a uniform block is too small, and on llvmpipe, which
+ * makes two branches of each number out of a block, and compiles seven times as long. */
+bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count);
 
 #endif

@@ -101,7 +101,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
 const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
 {
     if (snapshot->numbers.buffer == 0) {
-        draw_numbers_init(&snapshot->numbers, &renderer->gl, snapshot->field->numbers,
+        draw_numbers_init(&snapshot->numbers, renderer->draw, snapshot->field->numbers,
                           snapshot->field->vec4_count, number_capacity(snapshot->field));
     }
     return &snapshot->numbers;

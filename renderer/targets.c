@@ -16,17 +16,15 @@ static GLuint make_texture(const struct gl *gl, GLenum format, int width, int he
     return texture;
 }
 
-static GLuint make_buffer(const struct gl *gl, const GLuint *textures, int count)
+static GLuint make_buffer(const struct gl *gl, GLuint texture)
 {
-    static const GLenum all[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    const GLenum attachment = GL_COLOR_ATTACHMENT0;
     GLuint buffer = 0;
 
     gl->GenFramebuffers(1, &buffer);
     gl->BindFramebuffer(GL_FRAMEBUFFER, buffer);
-    for (int i = 0; i < count; i++) {
-        gl->FramebufferTexture2D(GL_FRAMEBUFFER, all[i], GL_TEXTURE_2D, textures[i], 0);
-    }
-    gl->DrawBuffers(count, all);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
+    gl->DrawBuffers(1, &attachment);
     return buffer;
 }
 
@@ -41,19 +39,15 @@ bool targets_init(struct targets *out_targets, const struct gl *gl, int width, i
 {
     static const GLenum formats[OUT_KINDS] = {GL_RGBA8, GL_RGBA32F, GL_R32UI};
     struct targets targets = {.width = width, .height = height};
-    bool complete;
+    bool complete = true;
 
     targets.geometry = make_texture(gl, GL_RGBA32F, width, height);
     targets.matter = make_texture(gl, GL_RGBA32UI, width, height);
     targets.more = make_texture(gl, GL_RGBA32UI, width, height);
     targets.radiance = make_texture(gl, GL_RGBA32F, width, height);
-    targets.march_buffer =
-        make_buffer(gl, (GLuint[]){targets.geometry, targets.matter, targets.more}, 3);
-    targets.light_buffer = make_buffer(gl, &targets.radiance, 1);
-    complete = check_buffer(gl, targets.march_buffer) && check_buffer(gl, targets.light_buffer);
     for (int i = 0; i < OUT_KINDS; i++) {
         targets.out[i] = make_texture(gl, formats[i], width, height);
-        targets.out_buffers[i] = make_buffer(gl, &targets.out[i], 1);
+        targets.out_buffers[i] = make_buffer(gl, targets.out[i]);
         complete = complete && check_buffer(gl, targets.out_buffers[i]);
     }
     /* The same state in every context: drivers compile anew for another one. */
@@ -78,9 +72,7 @@ void targets_finish(struct targets *targets, const struct gl *gl)
 {
     const GLuint textures[] = {targets->geometry, targets->matter, targets->more,
                                targets->radiance};
-    const GLuint buffers[] = {targets->march_buffer, targets->light_buffer};
 
-    gl->DeleteFramebuffers(2, buffers);
     gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
     gl->DeleteTextures(4, textures);
     gl->DeleteTextures(OUT_KINDS, targets->out);
@@ -88,20 +80,24 @@ void targets_finish(struct targets *targets, const struct gl *gl)
     *targets = (struct targets){0};
 }
 
-void targets_bind_textures(const struct targets *targets, const struct gl *gl)
+void targets_bind(const struct targets *targets, const struct gl *gl)
 {
     const struct {
-        GLenum unit;
         GLuint texture;
+        GLenum unit;
+        GLuint image;
+        GLenum format;
     } rows[] = {
-        {UNIT_GEOMETRY, targets->geometry},
-        {UNIT_MATTER, targets->matter},
-        {UNIT_MORE, targets->more},
-        {UNIT_RADIANCE, targets->radiance},
+        {targets->geometry, UNIT_GEOMETRY, IMAGE_GEOMETRY, GL_RGBA32F},
+        {targets->matter, UNIT_MATTER, IMAGE_MATTER, GL_RGBA32UI},
+        {targets->more, UNIT_MORE, IMAGE_MORE, GL_RGBA32UI},
+        {targets->radiance, UNIT_RADIANCE, IMAGE_RADIANCE, GL_RGBA32F},
     };
 
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
         gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);
+        gl->BindImageTexture(rows[i].image, rows[i].texture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                             rows[i].format);
     }
 }

@@ -11,9 +11,9 @@
 enum out_kind { OUT_BYTES /* rgba8 */, OUT_FLOATS /* rgba32f */, OUT_UINTS /* r32ui */, OUT_KINDS };
 
 struct targets {
-    int width, height; /* in samples */
+    int width, height; /* in samples; multiples of GROUP_SIDE */
     GLuint geometry, matter, more, radiance, out[OUT_KINDS];
-    GLuint march_buffer, light_buffer, out_buffers[OUT_KINDS]; /* framebuffers */
+    GLuint out_buffers[OUT_KINDS]; /* framebuffers */
     GLuint vertices; /* the empty vertex array that core profiles want */
 };
 
@@ -21,7 +21,7 @@ struct targets {
 bool targets_init(struct targets *out_targets, const struct gl *gl, int width, int height,
                   struct error *err);
 void targets_finish(struct targets *targets, const struct gl *gl);
-/* Binds everything that passes read to its unit. */
-void targets_bind_textures(const struct targets *targets, const struct gl *gl);
+/* Binds everything that passes read or write to its unit, but the framebuffers. */
+void targets_bind(const struct targets *targets, const struct gl *gl);
 
 #endif

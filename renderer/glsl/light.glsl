@@ -8,7 +8,7 @@ layout(binding = 2) uniform usampler2D more;
 #define PI 3.14159265
 #define OCCLUSION_SAMPLES 5
 
-layout(location = 0) out vec4 out_color;
+layout(rgba32f, binding = 3) writeonly uniform image2D out_radiance;
 
 struct Incoming {
     vec3 direction; /* towards the light */
@@ -108,7 +108,7 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
 void main()
 {
     preload();
-    ivec2 here = ivec2(gl_FragCoord.xy);
+    ivec2 here = group_place();
     vec4 g = texelFetch(geometry, here, 0);
     Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
     Ray ray = camera_ray(tile.xy * size.z + here);
@@ -119,5 +119,5 @@ void main()
 
     /* What is far fades into the sky, so that endless ground has no edge. */
     color = mix(color, around, smoothstep(0.15, 1.0, t / bounds_max.w));
-    out_color = vec4(hit ? color : around, 1.0);
+    imageStore(out_radiance, here, vec4(hit ? color : around, 1.0));
 }

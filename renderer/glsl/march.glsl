@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* First pass: where each ray meets the field, its normal and its surface. */
 
-layout(location = 0) out vec4 out_geometry;
-layout(location = 1) out uvec4 out_matter;
-layout(location = 2) out uvec4 out_more;
+layout(rgba32f, binding = 0) writeonly uniform image2D out_geometry;
+layout(rgba32ui, binding = 1) writeonly uniform uimage2D out_matter;
+layout(rgba32ui, binding = 2) writeonly uniform uimage2D out_more;
 
 struct Hit {
     bool hit;
@@ -69,12 +69,16 @@ Hit march(Ray ray)
 void main()
 {
     preload();
-    Ray ray = camera_ray(tile.xy * size.z + ivec2(gl_FragCoord.xy));
+    ivec2 here = group_place();
+    Ray ray = camera_ray(tile.xy * size.z + here);
     Hit found = march(ray);
     Surface s;
+    uvec4 matter, more;
 
     surface(found.point, s);
     s.id = found.hit ? s.id : 0u;
-    out_geometry = vec4(found.hit ? found.normal : vec3(0.0), found.t);
-    surface_pack(s, out_matter, out_more);
+    surface_pack(s, matter, more);
+    imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), found.t));
+    imageStore(out_matter, here, matter);
+    imageStore(out_more, here, more);
 }

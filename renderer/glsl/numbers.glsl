@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The numbers of the field: N(i) is vec4 number i. NUMBERS_COUNT is set by the shape; what does not
- * fit in a uniform block comes from a texture.
+/* The numbers of the field: N(i) is vec4 number i, out of a uniform block or of a texture.
  *
  * NUMBERS_PRELOAD(X), where it is defined, lists those that map() reads. They are then copied to
- * variables before anything is marched: llvmpipe reads a uniform anew at each use, through a bounds
- * check, which took 70 % of a picture. GPUs have constants at hand and no registers to spare. */
+ * variables before anything is marched: llvmpipe would fetch a number anew at each use, which took
+ * 70 % of a picture. GPUs have constants at hand and no registers to spare. */
 
 #ifdef NUMBERS_IN_TEXTURE
 layout(binding = 3) uniform samplerBuffer numbers;
