@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Records: every type of value is read, checked, set, printed and described. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -96,6 +97,15 @@ static void test_reads_and_prints(void **state)
     assert_reads("{\"title\":\"\",\"material\":\"\"}", "{\"title\":\"\",\"material\":\"\"}");
     assert_reads("{\"scale\":2}", "{\"scale\":[2,2,2]}");
     assert_reads("{\"scale\":[1,-2,3]}", "{\"scale\":[1,-2,3]}");
+}
+
+/* -0 equals 0 but has other bytes, which hashes would see. */
+static void test_zero_has_one_form(void **state)
+{
+    (void)state;
+    assert_true(read_text("{\"place\":[1,-0.0,-0]}", NULL));
+    assert_false(signbit(record_vector(&record, "place")[1]));
+    assert_false(signbit(record_vector(&record, "place")[2]));
 }
 
 static void test_refuses_with_place_value_and_limit(void **state)
@@ -258,6 +268,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_reads_and_prints, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_zero_has_one_form, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_long_texts, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_null_restores_and_failure_keeps, set_up, tear_down),
