@@ -41,12 +41,22 @@ export function ActButton({ id, children }: Props) {
     );
 }
 
-export function ActItem({ id, danger, icon }: { id: string; danger?: boolean; icon?: ReactNode }) {
+interface ItemProps {
+    id: string;
+    danger?: boolean;
+    icon?: ReactNode;
+    /* Left out while it cannot run, as in a menu for what is under the pointer. */
+    onlyIfAble?: boolean;
+}
+
+export function ActItem({ id, danger, icon, onlyIfAble }: ItemProps) {
     const editor = useEditor();
     const command = commandById(id);
     const reason = useReason(id);
+    const shown = onlyIfAble !== true || reason === null;
     return (
-        command && (
+        command &&
+        shown && (
             <MenuItem
                 icon={icon}
                 danger={danger}

@@ -35,7 +35,7 @@ const MOST_NODES = 12;
 const MOST_TYPES = 8;
 
 function commandEntries(editor: Editor, query: string): Entry[] {
-    return searchCommands(query).map((command) => ({
+    const found = searchCommands(query).map((command) => ({
         id: `command-${command.id}`,
         group: t("commands.commands"),
         title: command.title,
@@ -50,6 +50,8 @@ function commandEntries(editor: Editor, query: string): Entry[] {
             }
         },
     }));
+    /* What can be done now comes first. */
+    return [...found.filter(({ whyNot }) => !whyNot), ...found.filter(({ whyNot }) => whyNot)];
 }
 
 function typeEntries(editor: Editor, schema: Schema, query: string): Entry[] {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The sheet of keys, made from the table of commands, with the gestures beside them. */
+import { useRef } from "react";
 import { COMMANDS, type Command } from "../../model/commands.ts";
 import { keyText } from "../frame/keys.ts";
 import { Dialog } from "../parts/Dialog.tsx";
@@ -45,17 +46,19 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
 export function Keys() {
     const { stores } = useEditor();
     const open = useView((view) => view.popup === "help");
+    const list = useRef<HTMLElement>(null);
     const groups = [...new Set(COMMANDS.map((command) => command.group))];
     return (
         <Dialog
             open={open}
             title={t("keys.title")}
             wide
+            first={list}
             closeLabel={t("close")}
             onClose={() => stores.view.setState({ popup: null })}
         >
             {/* biome-ignore lint/a11y/noNoninteractiveTabindex: it scrolls, so keys must reach it */}
-            <section className="keys" tabIndex={0} aria-label={t("keys.title")}>
+            <section ref={list} className="keys" tabIndex={0} aria-label={t("keys.title")}>
                 {gestures.map(({ title, rows }) => (
                     <section key={title}>
                         <h3>{t(title)}</h3>

@@ -36,12 +36,12 @@ export function NodeMenu({ at, onClose }: Props) {
                 parts.map((ids) => (
                     <div key={ids[0]}>
                         {ids.map((id) => (
-                            <ActItem key={id} id={id} />
+                            <ActItem key={id} id={id} onlyIfAble />
                         ))}
                         <MenuLine />
                     </div>
                 ))}
-            {at !== null && <ActItem id="node.delete" danger />}
+            {at !== null && <ActItem id="node.delete" danger onlyIfAble />}
         </PointMenu>
     );
 }

@@ -118,11 +118,11 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
             )();
         }
     };
-    const picture = `${rest.imageUrl(id, PICTURE.width, PICTURE.height)}&r=${scene.revision}`;
+    const picture = rest.imageUrl(id, PICTURE.width, PICTURE.height);
     return (
         <li className="card" data-scene={id}>
             <a className="card-open" href={addressOf(id)} aria-label={name}>
-                <Picture url={picture} name="" />
+                <Picture key={scene.revision} url={picture} name="" />
             </a>
             <div className="card-text">
                 {renaming ? (

@@ -190,10 +190,19 @@ function Head({ onNew }: { onNew: () => void }) {
                 >
                     <CircleHelp size={16} />
                 </IconButton>
-                <Button look="outline" icon={<Upload size={14} />} onClick={() => editor.upload()}>
+                <Button
+                    look="outline"
+                    icon={<Upload size={14} aria-hidden="true" />}
+                    onClick={() => editor.upload()}
+                >
                     {t("scenes.upload")}
                 </Button>
-                <Button look="primary" icon={<Plus size={15} />} onClick={onNew}>
+                <Button
+                    className="wide-only"
+                    look="primary"
+                    icon={<Plus size={15} aria-hidden="true" />}
+                    onClick={onNew}
+                >
                     {t("scenes.new")}
                 </Button>
             </div>
