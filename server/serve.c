@@ -220,6 +220,7 @@ static void block_signals(sigset_t *set)
     sigaddset(set, SIGALRM);
     pthread_sigmask(SIG_BLOCK, set, NULL);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a full quota is a failed commit */
     sigdelset(set, SIGALRM);
 }
 
