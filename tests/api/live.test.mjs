@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: MIT
+// The live connection: edits and who is told, undo, resuming, frames and their flow.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, beforeEach, describe, test } from 'node:test';
+import {
+    ask,
+    counter,
+    cpuSecondsOf,
+    makeDirectory,
+    memoryOf,
+    removeDirectory,
+    sleep,
+    startDaemon,
+    until,
+} from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+import { decodePng } from '../support/png.mjs';
+
+const DOCUMENT = {
+    format: 'fieldcast/1',
+    name: 'Test',
+    lights: [{ id: 'sun', type: 'directional' }],
+    root: {
+        id: 'root',
+        type: 'union',
+        children: [
+            { id: 'ball', type: 'sphere', params: { radius: 1 } },
+            { id: 'box', type: 'box', transform: { translation: [2, 0, 0] } },
+        ],
+    },
+};
+const RADIUS = '/nodes/ball/params/radius';
+
+let daemon;
+let scene;
+let made = 0;
+before(async () => {
+    daemon = await startDaemon();
+});
+after(() => daemon.stop());
+beforeEach(async () => {
+    made += 1;
+    scene = `s${made}`;
+    await ask(daemon, 'POST', `/v1/scenes?id=${scene}`, DOCUMENT);
+});
+
+const open = (options) => Live.open(daemon, scene, options);
+const read = async () => (await fetch(`${daemon.url}/v1/scenes/${scene}`)).text();
+const still = (live, from = 0) => live.nextFrame((frame) => frame.lossless, from);
+
+describe('edits', () => {
+    test('the author is told twice, others once', async () => {
+        const [a, b] = [await open(), await open()];
+        assert.equal((await a.next('document')).document.name, 'Test');
+        assert.equal(a.welcome.revision, 1);
+        const edit = a.set(RADIUS, 1.25);
+        assert.equal((await a.next('applied', { edit })).revision, 2);
+        assert.equal((await a.next('applied', { edit, durable: true })).undo, 1);
+        const changed = await b.next('changed');
+        assert.deepEqual([changed.revision, changed.author], [2, a.client]);
+        assert.deepEqual(changed.ops, [{ op: 'set', at: RADIUS, value: 1.25 }]);
+        assert.equal(changed.edit, undefined);
+        assert.equal(a.find('changed'), undefined);
+        await Promise.all([a.close(), b.close()]);
+    });
+
+    test('a bad one is rejected with place, value and limit, and changes nothing', async () => {
+        const live = await open();
+        const before = await read();
+        for (const [ops, place] of [
+            [[{ op: 'set', at: RADIUS, value: 2000000 }], RADIUS],
+            [[{ op: 'set', at: '/nodes/nobody/name', value: 'x' }], '/nodes/nobody'],
+            [[{ op: 'set', at: '/name', value: 'x' }, { op: 'remove', at: '/nodes/root' }], '/nodes/root'],
+            [[{ op: 'paint', at: '/name' }], '/0'],
+            ['no array', ''],
+        ]) {
+            const edit = live.change(ops);
+            const rejected = await live.next('rejected', { edit });
+            assert.ok(rejected.place.includes(place), `${rejected.place} names ${place}`);
+            assert.ok(rejected.message.length > 0);
+            assert.match(rejected.code, /^[a-z_]+$/);
+        }
+        assert.equal(await read(), before);
+        await live.close();
+    });
+
+    test('REST edits are told to everybody, and PUT brings a new document', async () => {
+        const live = await open();
+        await ask(daemon, 'PATCH', `/v1/scenes/${scene}`, [{ op: 'set', at: '/name', value: 'R' }]);
+        assert.equal((await live.next('changed')).author, 'rest');
+        const from = live.messages.length;
+        await ask(daemon, 'PUT', `/v1/scenes/${scene}`, { ...DOCUMENT, name: 'New' });
+        assert.equal((await live.next('document', {}, from)).document.name, 'New');
+        await live.close();
+    });
+
+    test('a thousand in a row arrive in order, all durable', async () => {
+        const [a, b] = [await open(), await open()];
+        for (let i = 1; i <= 1000; i += 1) {
+            a.set(RADIUS, 1 + i / 1000);
+        }
+        await a.next('applied', { edit: 1000, durable: true });
+        await until(() => b.messages.filter((m) => m.type === 'changed').length === 1000, 'changes');
+        const revisions = b.messages.filter((m) => m.type === 'changed').map((m) => m.revision);
+        assert.deepEqual(revisions, Array.from({ length: 1000 }, (_, i) => i + 2));
+        const durable = a.messages.filter((m) => m.type === 'applied' && m.durable).map((m) => m.edit);
+        assert.equal(new Set(durable).size, 1000);
+        await Promise.all([a.close(), b.close()]);
+    });
+});
+
+describe('undo', () => {
+    test('each author undoes what is their own, and the document comes back byte for byte', async () => {
+        const [a, b] = [await open(), await open()];
+        const before = await read();
+        await a.next('applied', { edit: a.set(RADIUS, 2) });
+        await b.next('applied', { edit: b.set('/nodes/box/visible', false) });
+        const undo = a.step('undo');
+        const changed = await a.next('changed', { edit: undo });
+        assert.deepEqual(changed.ops, [{ op: 'set', at: RADIUS, value: 1 }]);
+        const applied = await a.next('applied', { edit: undo });
+        assert.deepEqual([applied.undo, applied.redo], [0, 1]);
+        await b.next('applied', { edit: b.step('undo') });
+        assert.equal(await read(), before);
+        await a.next('applied', { edit: a.step('redo') });
+        assert.equal(JSON.parse(await read()).root.children[0].params.radius, 2);
+        const none = b.step('undo');
+        assert.equal((await b.next('rejected', { edit: none })).code, 'not_found');
+        await Promise.all([a.close(), b.close()]);
+    });
+
+    test('a gesture is one step', async () => {
+        const live = await open();
+        const before = await read();
+        for (let i = 1; i <= 30; i += 1) {
+            live.set(RADIUS, 1 + i / 100, { group: 'drag-1' });
+        }
+        const last = await live.next('applied', { edit: 30 });
+        assert.equal(last.undo, 1);
+        await live.next('applied', { edit: live.step('undo') });
+        assert.equal(await read(), before);
+        await live.close();
+    });
+});
+
+describe('coming back', () => {
+    test('brings what was missed, one’s own edits with their numbers', async () => {
+        const [a, b] = [await open(), await open()];
+        await a.next('applied', { edit: a.set(RADIUS, 1.5) });
+        const { epoch } = a.welcome;
+        await a.close();
+        await b.next('applied', { edit: b.set(RADIUS, 1.75) });
+        const again = await open({ client: a.client, resume: { revision: 1, epoch } });
+        await again.next('changed', { revision: 3 });
+        const kinds = again.messages.map((m) => [m.type, m.revision, m.edit]);
+        assert.deepEqual(kinds, [['welcome', 3, undefined], ['changed', 2, 1], ['changed', 3, undefined]]);
+        assert.equal(again.welcome.last_edit, 1);
+        await Promise.all([again.close(), b.close()]);
+    });
+
+    test('of another epoch brings the document', async () => {
+        const live = await open({ resume: { revision: 1, epoch: 'another' } });
+        assert.equal((await live.next('document')).revision, 1);
+        await live.close();
+    });
+
+    test('with an edit that is in already changes nothing', async () => {
+        const a = await open();
+        const edit = a.set(RADIUS, 1.5);
+        const first = await a.next('applied', { edit, durable: true });
+        await a.close();
+        const again = await open({ client: a.client });
+        again.say({ type: 'edit', edit, ops: [{ op: 'set', at: RADIUS, value: 1.5 }] });
+        const answer = await again.next('applied', { edit });
+        assert.deepEqual([answer.revision, answer.durable], [first.revision, true]);
+        assert.equal((await ask(daemon, 'GET', '/v1/scenes')).scenes.find((s) => s.id === scene).revision, 2);
+        await again.close();
+    });
+
+    test('as the same client ends the older connection', async () => {
+        const a = await open();
+        const b = await open({ client: a.client });
+        assert.equal((await a.next('bye')).reason, 'replaced');
+        assert.equal(a.find('bye').retry_ms, undefined);
+        await until(() => a.closed, 'the end');
+        assert.equal(a.closeCode, 1000);
+        await b.close();
+    });
+
+    test('after a scene was deleted ends', async () => {
+        const live = await open();
+        await ask(daemon, 'DELETE', `/v1/scenes/${scene}`);
+        assert.equal((await live.next('bye')).reason, 'deleted');
+        await until(() => live.closed, 'the end');
+    });
+});
+
+describe('form', () => {
+    test('the first message is hello', async () => {
+        const live = await open({ hello: false });
+        live.look();
+        assert.equal((await live.next('bye')).reason, 'protocol');
+        await until(() => live.closed, 'the end');
+        assert.equal(live.closeCode, 1008);
+    });
+
+    test('a client names itself well', async () => {
+        const live = await open({ hello: false });
+        live.say({ type: 'hello', client: 'short' });
+        assert.equal((await live.next('notice')).place, '/client');
+        await live.close();
+    });
+
+    test('what is not understood is told, and the connection goes on', async () => {
+        const live = await open();
+        for (const text of ['{', '[]', '{"type":"fly"}', '{"type":"view","seq":1,"width":0,"height":1}', '{"type":"ack"}']) {
+            const from = live.messages.length;
+            live.sayText(text);
+            assert.equal((await live.next('notice', {}, from)).level, 'error', text);
+        }
+        await live.next('applied', { edit: live.set(RADIUS, 2) });
+        await live.close();
+    });
+
+    test('a message has a limit', async () => {
+        const live = await open();
+        live.sayText(' '.repeat(1048577));
+        await until(() => live.closed, 'the end');
+        assert.equal(live.closeCode, 1009);
+    });
+
+    test('binary messages are for the other direction', async () => {
+        const live = await open();
+        live.sayBytes(Buffer.from('FCF1'));
+        await until(() => live.closed, 'the end');
+        assert.equal(live.closeCode, 1003);
+    });
+});
+
+describe('frames', () => {
+    test('move, rest, and end as the pixels of image.png', async () => {
+        const live = await open();
+        const seq = live.look({ width: 96, height: 64 });
+        const last = await still(live);
+        assert.deepEqual([last.codec, last.seq, last.width, last.height], ['png', seq, 96, 64]);
+        const kinds = live.frames.map((frame) => `${frame.codec} ${frame.still} ${frame.lossless}`);
+        assert.deepEqual(kinds, ['jpeg false false', 'jpeg true false', 'png true true']);
+        const image = await fetch(`${daemon.url}/v1/scenes/${scene}/image.png?width=96&height=64`);
+        assert.equal(Number(image.headers.get('fieldcast-revision')), last.revision);
+        const [shown, asked] = [decodePng(last.payload), decodePng(Buffer.from(await image.arrayBuffer()))];
+        assert.ok(new Set(shown.pixels).size > 10, 'the picture is not empty');
+        assert.ok(shown.pixels.equals(asked.pixels), 'the pixels are the same');
+        await live.close();
+    });
+
+    test('follow the camera of the view, which image.png can be given too', async () => {
+        const live = await open();
+        const camera = { position: [3, 2, 4], target: [1, 0, 0], fov: 30 };
+        live.look({ width: 80, height: 60, camera });
+        const last = await still(live);
+        const image = await fetch(
+            `${daemon.url}/v1/scenes/${scene}/image.png?width=80&height=60&position=3,2,4&target=1,0,0&fov=30`,
+        );
+        const asked = decodePng(Buffer.from(await image.arrayBuffer()));
+        assert.ok(decodePng(last.payload).pixels.equals(asked.pixels));
+        await live.close();
+    });
+
+    test('come after an edit, and not without a change', async () => {
+        const live = await open();
+        live.look();
+        await still(live);
+        const count = live.frames.length;
+        const cpu = cpuSecondsOf(daemon.pid);
+        await sleep(1500);
+        assert.equal(live.frames.length, count);
+        assert.ok(cpuSecondsOf(daemon.pid) - cpu < 0.3, 'resting costs processor time');
+        live.look(); // the same picture under a new number
+        live.edit += 1;
+        live.say({ type: 'edit', edit: live.edit, ops: [{ op: 'set', at: RADIUS, value: 1.5 }] });
+        const next = await live.nextFrame((frame) => frame.revision === 2 && frame.lossless);
+        assert.equal(next.seq, live.seq);
+        await live.close();
+    });
+
+    test('numbers change nothing that would have to be compiled', async () => {
+        const live = await open();
+        live.look();
+        await still(live);
+        await sleep(600); // the worker's counters come with its next pong
+        const compiled = await counter(daemon, 'shader_compilations_total');
+        assert.ok(compiled > 0);
+        for (let i = 1; i <= 100; i += 1) {
+            live.set(RADIUS, 1 + i / 1000);
+        }
+        await live.nextFrame((frame) => frame.revision === 101 && frame.lossless);
+        await sleep(600);
+        assert.equal(await counter(daemon, 'shader_compilations_total'), compiled);
+        await live.close();
+    });
+
+    test('wait for acknowledgements: no third one comes without', async () => {
+        const live = await open({ ack: false });
+        live.look();
+        await until(() => live.frames.length === 2, 'two frames');
+        for (let i = 0; i < 20; i += 1) {
+            live.set(RADIUS, 1 + i / 100);
+            await sleep(20);
+        }
+        await sleep(300);
+        assert.equal(live.frames.length, 2);
+        live.acknowledge(1);
+        await until(() => live.frames.length === 3, 'the third');
+        await sleep(300);
+        assert.equal(live.frames.length, 3);
+        assert.equal(live.frames[2].revision, 21, 'the newest state is shown, not what was missed');
+        await live.close();
+    });
+
+    test('stop for a page that is hidden', async () => {
+        const live = await open();
+        live.look();
+        await still(live);
+        live.look({ visible: false });
+        await live.next('applied', { edit: live.set(RADIUS, 2) });
+        const count = live.frames.length;
+        await sleep(600);
+        assert.equal(live.frames.length, count);
+        live.look({ visible: true });
+        await live.nextFrame((frame) => frame.revision === 2 && frame.lossless);
+        await live.close();
+    });
+
+    test('have the size of the newest view', async () => {
+        const live = await open();
+        live.look({ width: 64, height: 48 });
+        live.look({ width: 120, height: 40 });
+        const last = await still(live);
+        assert.deepEqual([last.width, last.height, last.viewWidth, last.viewHeight], [120, 40, 120, 40]);
+        await live.close();
+    });
+
+    test('of other outputs are exact too', async () => {
+        const live = await open();
+        for (const aov of ['normal', 'depth', 'id']) {
+            const from = live.frames.length;
+            live.look({ aov });
+            const last = await still(live, from);
+            const image = await fetch(`${daemon.url}/v1/scenes/${scene}/image.png?width=64&height=48&aov=${aov}`);
+            const asked = decodePng(Buffer.from(await image.arrayBuffer()));
+            assert.ok(decodePng(last.payload).pixels.equals(asked.pixels), aov);
+        }
+        await live.close();
+    });
+
+    test('a structural edit is shown soon, and a picture is there until then', async () => {
+        const live = await open();
+        live.look();
+        await still(live);
+        live.change([{ op: 'insert', into: '/nodes/root', before: null, value: { id: 'ring', type: 'torus' } }]);
+        live.look({ camera: { position: [0, 1, 7] } });
+        await live.nextFrame((frame) => frame.seq === live.seq);
+        const last = await live.nextFrame((frame) => frame.revision === 2 && frame.lossless);
+        assert.equal(last.stale, false);
+        await live.close();
+    });
+
+    test('what is under a pixel', async () => {
+        const live = await open();
+        live.look({ width: 100, height: 100, camera: { position: [0, 0, 6], target: [0, 0, 0] } });
+        live.say({ type: 'pick', pick: 7, x: 50, y: 50, seq: live.seq });
+        const hit = await live.next('picked', { pick: 7 });
+        assert.equal(hit.node, 'ball');
+        assert.ok(Math.abs(hit.distance - 5) < 1e-2);
+        live.say({ type: 'pick', pick: 8, x: 1, y: 1 });
+        assert.equal((await live.next('picked', { pick: 8 })).node, null);
+        await live.close();
+    });
+});
+
+test('a client that stops reading costs no memory and leaves others their frames', async () => {
+    const [slow, fast] = [await open(), await open()];
+    slow.look({ width: 640, height: 480 });
+    fast.look();
+    await still(fast);
+    slow.stopReading();
+    const churn = async (seconds) => {
+        const [start, from] = [Date.now(), fast.frames.length];
+        for (let i = 0; Date.now() - start < seconds * 1000; i += 1) {
+            fast.set(RADIUS, 1 + (i % 100) / 100);
+            fast.look({ camera: { position: [0, 1, 5 + (i % 50) / 50] } });
+            await sleep(10);
+        }
+        return (fast.frames.length - from) / seconds;
+    };
+    await churn(2);
+    const before = memoryOf(daemon.pid);
+    const rate = await churn(4);
+    const grown = memoryOf(daemon.pid) - before;
+    assert.ok(rate > 2, `${rate} frames a second`);
+    assert.ok(grown < 8 << 20, `the server grew by ${grown} bytes`);
+    slow.goOnReading();
+    await Promise.all([slow.close(), fast.close()]);
+});
+
+describe('who may', () => {
+    let guarded;
+    let scratch;
+    const token = 'a-token-that-only-tests-know';
+    before(async () => {
+        scratch = makeDirectory();
+        fs.writeFileSync(path.join(scratch, 'token'), token);
+        guarded = await startDaemon({
+            args: ['--token-file', path.join(scratch, 'token'), '--allow-origin', 'https://friend.example'],
+        });
+        await fetch(`${guarded.url}/v1/scenes?id=g`, {
+            method: 'POST',
+            headers: { authorization: `Bearer ${token}`, 'content-type': 'application/json' },
+            body: JSON.stringify(DOCUMENT),
+        });
+    });
+    after(async () => {
+        await guarded.stop();
+        removeDirectory(scratch);
+    });
+
+    const offered = (text) => ({ 'Sec-WebSocket-Protocol': text });
+    for (const [name, headers, status] of [
+        ['no token', {}, 401],
+        ['a token', offered(`fieldcast.v1, fieldcast.token.${token}`), 101],
+        ['a wrong token', offered(`fieldcast.v1, fieldcast.token.${token}x`), 401],
+        ['a token without the protocol', offered(`fieldcast.token.${token}`), 426],
+        ['a token as a header', { Authorization: `Bearer ${token}` }, 101],
+        ['a token from a friend’s page', { Authorization: `Bearer ${token}`, Origin: 'https://friend.example' }, 101],
+        ['a token from another page', { Authorization: `Bearer ${token}`, Origin: 'https://evil.example' }, 403],
+        ['a token under another host', { Authorization: `Bearer ${token}`, Host: 'evil.example' }, 403],
+    ]) {
+        test(name, async () => {
+            const live = new Live(guarded, 'g', { headers });
+            await until(() => live.status, 'an answer');
+            assert.match(live.status, new RegExp(` ${status} `));
+            if (status === 101) {
+                assert.match(live.head, /Sec-WebSocket-Protocol: fieldcast\.v1\r?$/im);
+                await live.close();
+            }
+            live.socket.destroy();
+        });
+    }
+});
+
+test('a public address without a token is refused, with the remedy', async () => {
+    await assert.rejects(startDaemon({ args: ['--host', '0.0.0.0'] }), /--token-file/);
+});

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// Raw sockets against the acceptor: heads in pieces, requests in a row, shapes that two parsers
+// could read differently, handshakes that must be refused, clients that are slow or leave.
+import assert from 'node:assert/strict';
+import net from 'node:net';
+import { after, before, describe, test } from 'node:test';
+import { ask, counter, cpuSecondsOf, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { handshake, Live } from '../support/live.mjs';
+
+let daemon;
+before(async () => {
+    daemon = await startDaemon();
+    await ask(daemon, 'POST', '/v1/scenes?id=s', { from: 'example:first-steps' });
+});
+after(() => daemon.stop());
+
+/** A connection that collects what comes. */
+function connect(to = daemon) {
+    const peer = { text: '', ended: false };
+    peer.socket = net.connect({ port: to.port, host: '127.0.0.1', allowHalfOpen: true });
+    peer.socket.on('data', (bytes) => (peer.text += bytes.toString('latin1')));
+    peer.socket.on('end', () => (peer.ended = true));
+    peer.socket.on('close', () => (peer.ended = true));
+    peer.socket.on('error', () => (peer.ended = true));
+    peer.statuses = () => [...peer.text.matchAll(/HTTP\/1\.[01] (\d+)/g)].map((m) => Number(m[1]));
+    peer.end = () => until(() => peer.ended, 'the server to close');
+    peer.close = () => peer.socket.destroy();
+    return peer;
+}
+
+/** Sends bytes, waits for `count` answers or the end; gives the statuses. */
+async function statuses(bytes, count = 1) {
+    const peer = connect();
+    peer.socket.write(Buffer.from(bytes, 'latin1'));
+    await until(() => peer.ended || peer.statuses().length >= count, 'an answer');
+    await sleep(20); // a second answer to one request would come at once
+    peer.close();
+    return peer.statuses();
+}
+
+const get = (more = '', at = '/healthz') => `GET ${at} HTTP/1.1\r\nHost: localhost\r\n${more}\r\n`;
+
+describe('heads', () => {
+    test('whole', async () => assert.deepEqual(await statuses(get()), [200]));
+
+    test('byte by byte', async () => {
+        const peer = connect();
+        peer.socket.setNoDelay(true);
+        for (const c of get('X-Long: abc\r\n')) {
+            peer.socket.write(c);
+            await sleep(1);
+        }
+        await until(() => peer.statuses().length === 1, 'an answer');
+        peer.close();
+        assert.deepEqual(peer.statuses(), [200]);
+    });
+
+    test('behind empty lines', async () =>
+        assert.deepEqual(await statuses(`\r\n\r\n${get()}`), [200]));
+
+    test('five in a row', async () =>
+        assert.deepEqual(await statuses(get().repeat(5), 5), [200, 200, 200, 200, 200]));
+
+    test('with bodies in a row', async () => {
+        const body = '{"from":"example:first-steps"}';
+        const post = `POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n${body}`;
+        assert.deepEqual(await statuses(post + post + get(), 3), [201, 201, 200]);
+    });
+
+    test('a body in chunks', async () =>
+        assert.deepEqual(
+            await statuses(
+                'POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n' +
+                    '10\r\n{"from":"example\r\ne\r\n:first-steps"}\r\n0\r\n\r\n',
+            ),
+            [201],
+        ));
+
+    test('long, below the limit', async () =>
+        assert.deepEqual(await statuses(get(`X-Long: ${'x'.repeat(12000)}\r\n`)), [200]));
+
+    test('too long', async () =>
+        assert.deepEqual(await statuses(get(`X-Long: ${'x'.repeat(20000)}\r\n`)), [431]));
+
+    test('HTTP/1.0 without Host', async () =>
+        assert.deepEqual(await statuses('GET /healthz HTTP/1.0\r\n\r\n'), [200]));
+
+    test('an expectation is met', async () => {
+        const peer = connect();
+        const body = '{"from":"example:first-steps"}';
+        peer.socket.write(
+            `POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nExpect: 100-continue\r\nContent-Length: ${body.length}\r\n\r\n`,
+        );
+        await until(() => peer.statuses()[0] === 100, '100 Continue');
+        peer.socket.write(body);
+        await until(() => peer.statuses().length === 2, 'an answer');
+        peer.close();
+        assert.deepEqual(peer.statuses(), [100, 201]);
+    });
+
+    test('an expectation that cannot be met is refused before the body', async () =>
+        assert.deepEqual(
+            await statuses(
+                'POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nExpect: 100-continue\r\nContent-Length: 99999999\r\n\r\n',
+            ),
+            [413],
+        ));
+
+    test('half-closed behind a whole request is served', async () => {
+        const peer = connect();
+        peer.socket.end(get('Connection: close\r\n'));
+        await peer.end();
+        assert.deepEqual(peer.statuses(), [200]);
+    });
+
+    test('half-closed in front of a whole request is closed', async () => {
+        const peer = connect();
+        peer.socket.end('GET /healthz HTTP/1.1\r\n');
+        await peer.end();
+        assert.deepEqual(peer.statuses(), []);
+    });
+});
+
+// Each is refused with one clean answer, after which the connection closes.
+const malformed = {
+    'Host twice': [400, get('Host: localhost\r\n')],
+    'no Host': [400, 'GET /healthz HTTP/1.1\r\n\r\n'],
+    'Host with a user': [400, 'GET / HTTP/1.1\r\nHost: a@localhost\r\n\r\n'],
+    'Host with a blank': [400, 'GET / HTTP/1.1\r\nHost: local host\r\n\r\n'],
+    'two lengths': [400, get('Content-Length: 3\r\nContent-Length: 3\r\n') + 'abc'],
+    'length and chunked': [400, get('Content-Length: 3\r\nTransfer-Encoding: chunked\r\n') + '0\r\n\r\n'],
+    'length with a sign': [400, get('Content-Length: +3\r\n') + 'abc'],
+    'length as a list': [400, get('Content-Length: 3, 3\r\n') + 'abc'],
+    'length in hexadecimal': [400, get('Content-Length: 0x3\r\n') + 'abc'],
+    'an empty length': [400, get('Content-Length:\r\n')],
+    'an endless length': [400, get(`Content-Length: ${'9'.repeat(30)}\r\n`)],
+    'unknown coding': [400, get('Transfer-Encoding: gzip\r\n')],
+    'chunked twice': [400, get('Transfer-Encoding: chunked, chunked\r\n')],
+    'chunked with a tail': [400, get('Transfer-Encoding: chunked;q=1\r\n')],
+    'chunked behind a tab': [400, get('Transfer-Encoding:\x0bchunked\r\n')],
+    'chunked in HTTP/1.0': [400, 'POST / HTTP/1.0\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n'],
+    'a blank before the colon': [400, get('Content-Length : 3\r\n')],
+    'a header without colon': [400, get('Nonsense\r\n')],
+    'a header without name': [400, get(': x\r\n')],
+    'a folded header': [400, get('X: a\r\n b\r\n')],
+    'a fold first': [400, 'GET / HTTP/1.1\r\n Host: localhost\r\n\r\n'],
+    'NUL in a header': [400, get('X: a\0b\r\n')],
+    'NUL in a name': [400, get('X\0: a\r\n')],
+    'CR alone': [400, get('X: a\rY: b\r\n')],
+    'LF alone': [400, 'GET / HTTP/1.1\nHost: localhost\n\n'],
+    'a control character': [400, get('X: a\x01b\r\n')],
+    'a control character in the target': [400, get('', '/a\x07b')],
+    'a fragment in the target': [400, get('', '/a#b')],
+    'a target that is no path': [400, get('', 'healthz')],
+    'two blanks': [400, 'GET  / HTTP/1.1\r\nHost: localhost\r\n\r\n'],
+    'no version': [400, 'GET /\r\nHost: localhost\r\n\r\n'],
+    'an odd version': [400, 'GET / HTTP/1.1x\r\nHost: localhost\r\n\r\n'],
+    'another version': [505, 'GET / HTTP/2.0\r\nHost: localhost\r\n\r\n'],
+    'HTTP/2 at once': [505, 'PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n'],
+    'a method with brackets': [400, '<GET> / HTTP/1.1\r\nHost: localhost\r\n\r\n'],
+    'TLS': [400, '\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\n\n'],
+};
+
+describe('malformed', () => {
+    for (const [name, [status, bytes]] of Object.entries(malformed)) {
+        test(name, async () => {
+            const peer = connect();
+            peer.socket.write(Buffer.from(bytes, 'latin1'));
+            await peer.end();
+            assert.deepEqual(peer.statuses(), [status]);
+            assert.match(peer.text, /application\/problem\+json/);
+            assert.match(peer.text, /\r\nConnection: close\r\n/i);
+            peer.close();
+        });
+    }
+
+    // The second request of a connection is parsed by libmicrohttpd; it must not get farther.
+    for (const name of ['Host twice', 'two lengths', 'length and chunked', 'unknown coding']) {
+        test(`${name}, as the second request`, async () => {
+            const peer = connect();
+            peer.socket.write(Buffer.from(get() + malformed[name][1], 'latin1'));
+            await peer.end();
+            assert.equal(peer.statuses()[0], 200);
+            assert.ok(peer.statuses().slice(1).every((s) => s === 400), peer.text);
+            peer.close();
+        });
+    }
+});
+
+// A handshake that is not what the server speaks is answered by HTTP, which says why.
+const refused = {
+    'another version': [426, { 'Sec-WebSocket-Version': '8' }],
+    'no version': [426, { 'Sec-WebSocket-Version': null }],
+    'a short key': [426, { 'Sec-WebSocket-Key': 'YWJj' }],
+    'no key': [426, { 'Sec-WebSocket-Key': null }],
+    'another subprotocol': [426, { 'Sec-WebSocket-Protocol': 'chat' }],
+    'no subprotocol': [426, { 'Sec-WebSocket-Protocol': null }],
+    'no upgrade': [426, { Upgrade: null }],
+    'another upgrade': [426, { Upgrade: 'h2c' }],
+    'no connection': [426, { Connection: 'keep-alive' }],
+    'another site': [403, { Origin: 'https://evil.example' }],
+    'another host': [403, { Host: 'evil.example' }],
+};
+
+describe('handshakes', () => {
+    for (const [name, [status, headers]] of Object.entries(refused)) {
+        test(name, async () =>
+            assert.deepEqual(await statuses(handshake(daemon.port, 's', headers)), [status]));
+    }
+
+    test('a scene that is not there', async () =>
+        assert.deepEqual(await statuses(handshake(daemon.port, 'nobody')), [404]));
+
+    test('a second request on a connection cannot become one', async () =>
+        assert.deepEqual(await statuses(get() + handshake(daemon.port, 's'), 2), [200, 426]));
+
+    test('in pieces', async () => {
+        const peer = connect();
+        for (const part of handshake(daemon.port, 's').match(/.{1,17}/gs)) {
+            peer.socket.write(part);
+            await sleep(1);
+        }
+        await until(() => peer.statuses().length === 1, 'an answer');
+        assert.deepEqual(peer.statuses(), [101]);
+        assert.match(peer.text, /Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK\+xOo=/i);
+        assert.match(peer.text, /Sec-WebSocket-Protocol: fieldcast\.v1/i);
+        assert.doesNotMatch(peer.text, /Sec-WebSocket-Extensions/i);
+        peer.close();
+    });
+
+    test('with odd headers beside, and extensions offered', async () => {
+        const live = await Live.open(daemon, 's', {
+            headers: { 'X-F': '1', A: 'b', 'Sec-WebSocket-Extensions': 'permessage-deflate', Cookie: 'x'.repeat(4000) },
+        });
+        assert.equal(live.welcome.scene, 's');
+        assert.doesNotMatch(live.head, /Extensions/i);
+        await live.close();
+    });
+
+    test('one that goes away at once leaves nothing', async () => {
+        for (let i = 0; i < 20; i += 1) {
+            const peer = connect();
+            peer.socket.write(handshake(daemon.port, 's'));
+            await sleep(i % 4);
+            peer.close();
+        }
+        await until(async () => (await counter(daemon, 'sessions')) === 0, 'sessions to end');
+    });
+});
+
+describe('slow clients', () => {
+    test('a head that does not end is answered 408, and costs nothing meanwhile', async () => {
+        const peers = Array.from({ length: 50 }, () => connect());
+        for (const peer of peers) {
+            peer.socket.write('GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Slow: ');
+        }
+        const cpu = cpuSecondsOf(daemon.pid);
+        const start = Date.now();
+        const trickle = setInterval(() => peers[0].socket.writable && peers[0].socket.write('x'), 300);
+        await Promise.all(peers.map((peer) => peer.end()));
+        clearInterval(trickle);
+        const seconds = (Date.now() - start) / 1000;
+        assert.ok(peers.every((peer) => peer.statuses()[0] === 408));
+        assert.ok(seconds > 4, `408 came after ${seconds} s`);
+        assert.ok(cpuSecondsOf(daemon.pid) - cpu < 0.5 * seconds, 'waiting costs processor time');
+    });
+
+    test('a client that leaves before its picture is there frees the renderer', async () => {
+        const peer = connect();
+        const at = '/v1/scenes/s/image.png?width=4096&height=4096&samples=4';
+        peer.socket.write(get('', at));
+        await until(async () => (await counter(daemon, 'render_queue')) === 1, 'the order');
+        peer.close();
+        await until(async () => (await counter(daemon, 'render_queue')) === 0, 'its end', 60000);
+    });
+});
+
+test('without free descriptors there is still an answer', async () => {
+    const tight = await startDaemon({ limits: 'ulimit -n 64' });
+    try {
+        const peers = Array.from({ length: 100 }, () => connect(tight));
+        peers.forEach((peer) => peer.socket.write('GET /healthz HTTP/1.1\r\n'));
+        await until(() => peers.some((peer) => peer.statuses()[0] === 503), 'a 503');
+        peers.forEach((peer) => peer.close());
+        await until(async () => {
+            const answer = await fetch(`${tight.url}/healthz`).catch(() => null);
+            return answer?.status === 200;
+        }, 'recovery');
+    } finally {
+        assert.equal((await tight.stop()).status, 0);
+    }
+});
