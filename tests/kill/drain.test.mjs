@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// SIGTERM: no edit that was applied is lost, everybody is told, and the end comes soon.
+import assert from 'node:assert/strict';
+import net from 'node:net';
+import { after, test } from 'node:test';
+import { ask, counter, makeDirectory, removeDirectory, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const data = makeDirectory();
+after(() => removeDirectory(data));
+const DOCUMENT = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
+
+test('SIGTERM in the middle of editing', async (t) => {
+    const daemon = await startDaemon({ data });
+    await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
+    const clients = await Promise.all(Array.from({ length: 8 }, () => Live.open(daemon, 's')));
+    const stuck = await Live.open(daemon, 's');
+    stuck.stopReading();
+    const idle = net.connect(daemon.port, '127.0.0.1');
+    idle.on('error', () => {});
+    const picture = fetch(`${daemon.url}/v1/scenes/s/image.png?width=4096&height=4096&samples=4`);
+    await until(async () => (await counter(daemon, 'render_queue')) > 0, 'the order');
+    const editing = clients.map(async (live) => {
+        for (let i = 0; !live.closed; i += 1) {
+            live.set('/nodes/ball/params/radius', 1 + (i % 100) / 100);
+            await sleep(2);
+        }
+    });
+    await sleep(300);
+    const start = Date.now();
+    const { status } = await daemon.kill('SIGTERM');
+    const took = Date.now() - start;
+    await Promise.all(editing);
+    assert.equal(status, 0, daemon.errors);
+    assert.equal((await picture).status, 503);
+    let applied = 0;
+    for (const live of clients) {
+        const bye = live.messages.at(-1);
+        assert.deepEqual([bye.type, bye.reason, bye.retry_ms], ['bye', 'shutting_down', 1000]);
+        assert.equal(live.closeCode, 1001);
+        const numbers = (durable) =>
+            new Set(live.messages.filter((m) => m.type === 'applied' && m.durable === durable).map((m) => m.edit));
+        assert.deepEqual([...numbers(true)], [...numbers(false)], 'what was applied was told durable');
+        applied += numbers(true).size;
+    }
+    assert.ok(applied > 100);
+    stuck.socket.destroy();
+    idle.destroy();
+    const again = await startDaemon({ data, ready: false });
+    assert.equal((await ask(again, 'GET', '/v1/scenes')).scenes[0].revision, 1 + applied);
+    assert.equal((await again.stop()).status, 0);
+    t.diagnostic(`ended after ${took} ms, ${applied} edits applied and kept`);
+});
+
+test('a second signal ends at once', async () => {
+    const daemon = await startDaemon({ data });
+    daemon.child.kill('SIGTERM');
+    daemon.child.kill('SIGTERM');
+    const { status, signal } = await daemon.exited;
+    assert.ok(status === 0 || status === 1, `${status} ${signal}`);
+});
+
+test('a data directory has one daemon', async () => {
+    const daemon = await startDaemon({ data, ready: false });
+    await assert.rejects(startDaemon({ data, ready: false }), /another fieldcast uses this directory/);
+    await daemon.stop();
+});
+
+test('a commit that fails ends the daemon, and nothing is told durable', async () => {
+    const daemon = await startDaemon({ data, ready: false, limits: 'ulimit -f 2000' });
+    const live = await Live.open(daemon, 's');
+    for (let i = 0; !live.closed && i < 200000; i += 1) {
+        live.set('/name', `${'x'.repeat(150)} ${i}`);
+        if (i % 50 === 0) {
+            await sleep(1);
+        }
+    }
+    const { status, signal } = await daemon.exited;
+    assert.equal(status, 74, `${signal} ${daemon.errors.slice(-500)}`);
+    assert.match(daemon.errors, /error store: /);
+    const durable = live.messages.filter((m) => m.type === 'applied' && m.durable).map((m) => m.edit);
+    const again = await startDaemon({ data, ready: false });
+    const back = await Live.open(again, 's', { client: live.client });
+    assert.ok(back.welcome.last_edit >= Math.max(...durable));
+    assert.ok(durable.length > 0);
+    await back.close();
+    await again.stop();
+});

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The render process is killed, stopped, and killed again by a scene, while clients drag.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { ask, counter, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const KILLS = 5;
+const RADIUS = '/nodes/ball/params/radius';
+const DOCUMENT = {
+    format: 'fieldcast/1',
+    lights: [{ id: 'sun', type: 'directional' }],
+    root: { id: 'ball', type: 'sphere', params: { radius: 1 } },
+};
+
+let daemon;
+before(async () => {
+    daemon = await startDaemon({ args: ['--worker-silence', '1500'] });
+    await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
+});
+after(() => daemon.stop());
+
+/** Moves the camera and a number until stop() is called. */
+function drag(live) {
+    let going = true;
+    const done = (async () => {
+        for (let i = 0; going; i += 1) {
+            live.look({ width: 160, height: 120, camera: { position: [Math.sin(i / 20), 1, 5] } });
+            live.set(RADIUS, 1 + (i % 50) / 100, { group: `g${Math.floor(i / 50)}` });
+            await sleep(25);
+        }
+    })();
+    return { stop: () => ((going = false), done) };
+}
+
+/** Milliseconds from the loss of the worker until a client gets a picture of the next one. */
+async function pictureAfter(live, lost) {
+    const from = live.frames.length;
+    const frame = await live.nextFrame(() => true, from);
+    return frame.at - lost;
+}
+
+async function interrupt(signal, t) {
+    const clients = [await Live.open(daemon, 's'), await Live.open(daemon, 's')];
+    const drags = clients.map(drag);
+    await Promise.all(clients.map((live) => live.nextFrame()));
+    const waits = [];
+    for (let i = 0; i < KILLS; i += 1) {
+        const pid = daemon.worker();
+        const lost = Date.now();
+        process.kill(pid, signal);
+        await until(() => daemon.worker() && daemon.worker() !== pid, 'another worker');
+        waits.push(...(await Promise.all(clients.map((live) => pictureAfter(live, lost)))));
+        await sleep(200);
+    }
+    await Promise.all(drags.map((one) => one.stop()));
+    for (const live of clients) {
+        await live.next('applied', { edit: live.edit, durable: true });
+        assert.equal(live.closed, false, 'nobody is disconnected');
+        const durable = live.messages.filter((m) => m.type === 'applied' && m.durable);
+        assert.equal(new Set(durable.map((m) => m.edit)).size, live.edit, 'no edit is lost');
+        assert.ok(live.find('notice', { code: 'worker_restarting' }), 'clients are told');
+        assert.ok(live.find('notice', { code: 'worker_ready' }));
+    }
+    const total = clients[0].edit + clients[1].edit;
+    await clients[0].nextFrame((frame) => frame.lossless && frame.revision > total);
+    await Promise.all(clients.map((live) => live.close()));
+    t.diagnostic(`${KILLS} × ${signal}: pictures again after ${Math.max(...waits)} ms at most, ${total} edits`);
+    return { waits, total };
+}
+
+test('kill -9 while two clients drag', async (t) => {
+    const before = (await ask(daemon, 'GET', '/v1/scenes')).scenes[0].revision;
+    const { waits, total } = await interrupt('SIGKILL', t);
+    assert.ok(Math.max(...waits) < 30000);
+    const { revision } = (await ask(daemon, 'GET', '/v1/scenes')).scenes[0];
+    assert.equal(revision - before, total, 'each edit is in once');
+    assert.ok((await counter(daemon, 'worker_restarts_total')) >= KILLS);
+});
+
+test('a worker that hangs is replaced', async (t) => {
+    await interrupt('SIGSTOP', t);
+});
+
+test('a picture that was asked for is drawn by the next worker', async () => {
+    const answer = fetch(`${daemon.url}/v1/scenes/s/image.png?width=2048&height=1536&samples=4`);
+    await until(async () => (await counter(daemon, 'render_queue')) === 1, 'the order');
+    process.kill(daemon.worker(), 'SIGKILL');
+    assert.equal((await answer).status, 200);
+});
+
+test('a scene that ends workers is left out until it is edited, others go on', async () => {
+    await ask(daemon, 'POST', '/v1/scenes?id=bad', DOCUMENT);
+    const bad = await Live.open(daemon, 'bad');
+    const good = await Live.open(daemon, 's');
+    good.look();
+    await good.nextFrame((frame) => frame.lossless);
+    // Large pictures of `bad` are under way whenever the worker is killed.
+    for (let i = 0; i < 2; i += 1) {
+        bad.look({ width: 4096, height: 2304 + i });
+        await until(async () => (await counter(daemon, 'render_queue')) > 0, 'the order');
+        const pid = daemon.worker();
+        process.kill(pid, 'SIGKILL');
+        await until(async () => daemon.worker() !== pid && (await fetch(`${daemon.url}/readyz`)).ok, 'another');
+    }
+    assert.equal((await bad.next('notice', { code: 'scene_left_out' })).level, 'error');
+    const refused = await fetch(`${daemon.url}/v1/scenes/bad/image.png?width=8&height=8`);
+    assert.equal(refused.status, 503);
+    const from = good.frames.length;
+    good.set(RADIUS, 1.01);
+    await good.nextFrame((frame) => frame.lossless, from);
+    bad.look({ width: 64, height: 48 });
+    bad.set(RADIUS, 1.5);
+    await bad.nextFrame((frame) => frame.revision === 2 && frame.lossless);
+    await Promise.all([bad.close(), good.close()]);
+});
