@@ -167,23 +167,39 @@ static bool check_field(const struct field *field, const cJSON *json, const char
     return param_read(&field->param, json, number, place, err);
 }
 
+static const struct field *find_field(const struct message_type *type, const char *name)
+{
+    for (const struct field *field = type->fields; field->param.name; field++) {
+        if (strcmp(field->param.name, name) == 0) {
+            return field;
+        }
+    }
+    return NULL;
+}
+
+static bool fail_member(const struct message_type *type, const char *name, const char *place,
+                        struct error *err)
+{
+    struct nearest nearest = {.text = name};
+    char hint[64];
+    for (const struct field *field = type->fields; field->param.name; field++) {
+        nearest_consider(&nearest, field->param.name);
+    }
+    return error_set(err, ERROR_SYNTAX, place, "\"%s\" has no member \"%.64s\"%s", type->name, name,
+                     nearest_hint(&nearest, hint, sizeof hint));
+}
+
 static bool check_members(const struct message_type *type, const cJSON *json, struct error *err)
 {
     for (const cJSON *member = json->child; member; member = member->next) {
-        const struct field *field = type->fields;
-        struct nearest nearest = {.text = member->string};
-        char place[ERROR_PLACE_BYTES], hint[64];
-        while (field->param.name && strcmp(field->param.name, member->string) != 0) {
-            nearest_consider(&nearest, field++->param.name);
-        }
+        const struct field *field = find_field(type, member->string);
+        char place[ERROR_PLACE_BYTES];
         error_place(place, "", member->string);
-        if (field->param.name) {
-            if (!check_field(field, member, place, err)) {
-                return false;
-            }
-        } else if (strcmp(member->string, "type") != 0) {
-            return error_set(err, ERROR_SYNTAX, place, "\"%s\" has no member \"%.64s\"%s",
-                             type->name, member->string, nearest_hint(&nearest, hint, sizeof hint));
+        if (!field && strcmp(member->string, "type") != 0) {
+            return fail_member(type, member->string, place, err);
+        }
+        if (field && !check_field(field, member, place, err)) {
+            return false;
         }
     }
     for (const struct field *field = type->fields; field->param.name; field++) {
@@ -208,6 +224,8 @@ static bool find_kind(const cJSON *json, enum message_kind *out, struct error *e
             *out = (enum message_kind)kind;
             return true;
         }
+    }
+    for (int kind = 0; kind < MESSAGE_COUNT; kind++) {
         nearest_consider(&nearest, client_messages[kind].name);
     }
     return error_set(err, ERROR_SYNTAX, "/type", "unknown message \"%.64s\"%s", name,

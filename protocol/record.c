@@ -151,37 +151,43 @@ static const char *part_name(const struct param *param, int part)
     return param->type == PARAM_COLOR ? colors[part] : axes[part];
 }
 
+/* NULL: nothing is wrong. `*out_limit` is the limit broken, NAN where there is none. */
+static const char *number_fault(const struct param *param, double number, double *out_limit)
+{
+    double min, max;
+    param_range(param, &min, &max);
+    *out_limit = NAN;
+    if (!isfinite(number)) {
+        return "is not a finite number";
+    }
+    if ((param->type == PARAM_INT || param->type == PARAM_IVEC3) && number != floor(number)) {
+        return "is not a whole number";
+    }
+    if (param->nonzero && number == 0) {
+        return "is not allowed here";
+    }
+    *out_limit = number > max ? max : min;
+    return number > max                        ? "is above the maximum "
+           : number < min                      ? "is below the minimum "
+           : param->above_min && number == min ? "is not above the minimum "
+                                               : NULL;
+}
+
 static bool check_number(const struct param *param, int part, double number, const char *place,
                          struct error *err)
 {
-    char shown[32], limit[32];
-    const char *of = part_name(param, part);
-    double min, max;
+    double limit;
+    const char *fault = number_fault(param, number, &limit);
+    if (!fault) {
+        return true;
+    }
+    char shown[32], limit_shown[32] = "";
     json_number(number, shown);
-    if (!isfinite(number)) {
-        return error_set(err, ERROR_INVALID, place, "%s%s is not a finite number", shown, of);
+    if (!isnan(limit)) {
+        json_number(limit, limit_shown);
     }
-    if ((param->type == PARAM_INT || param->type == PARAM_IVEC3) && number != floor(number)) {
-        return error_set(err, ERROR_INVALID, place, "%s%s is not a whole number", shown, of);
-    }
-    param_range(param, &min, &max);
-    json_number(number > max ? max : min, limit);
-    if (number > max) {
-        return error_set(err, ERROR_INVALID, place, "%s%s is above the maximum %s", shown, of,
-                         limit);
-    }
-    if (number < min) {
-        return error_set(err, ERROR_INVALID, place, "%s%s is below the minimum %s", shown, of,
-                         limit);
-    }
-    if (param->above_min && number == min) {
-        return error_set(err, ERROR_INVALID, place, "%s%s is not above the minimum %s", shown, of,
-                         limit);
-    }
-    if (param->nonzero && number == 0) {
-        return error_set(err, ERROR_INVALID, place, "0%s is not allowed here", of);
-    }
-    return true;
+    return error_set(err, ERROR_INVALID, place, "%s%s %s%s", shown, part_name(param, part), fault,
+                     limit_shown);
 }
 
 static bool read_part(const struct param *param, int part, const cJSON *json, double *out,
@@ -230,28 +236,33 @@ static bool read_vector(const struct param *param, const cJSON *json, double out
     return true;
 }
 
+static bool fail_choice(const struct param *param, const char *text, const char *place,
+                        struct error *err)
+{
+    struct nearest nearest = {.text = text};
+    char hint[64], list[160] = "";
+    for (int i = 0; param->choices[i]; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", param->choices[i]);
+        nearest_consider(&nearest, param->choices[i]);
+    }
+    return error_set(err, ERROR_INVALID, place, "\"%.64s\" is none of %s%s", text, list,
+                     nearest_hint(&nearest, hint, sizeof hint));
+}
+
 static bool read_choice(const struct param *param, const cJSON *json, double *out,
                         const char *place, struct error *err)
 {
     if (!cJSON_IsString(json)) {
         return error_set(err, ERROR_INVALID, place, "expected a text");
     }
-    struct nearest nearest = {.text = json->valuestring};
-    char hint[64];
     for (int i = 0; param->choices[i]; i++) {
         if (strcmp(param->choices[i], json->valuestring) == 0) {
             *out = i;
             return true;
         }
-        nearest_consider(&nearest, param->choices[i]);
     }
-    char list[160] = "";
-    for (int i = 0; param->choices[i]; i++) {
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", param->choices[i]);
-    }
-    return error_set(err, ERROR_INVALID, place, "\"%.64s\" is none of %s%s", json->valuestring,
-                     list, nearest_hint(&nearest, hint, sizeof hint));
+    return fail_choice(param, json->valuestring, place, err);
 }
 
 static bool check_text(const struct param *param, const cJSON *json, const char *place,

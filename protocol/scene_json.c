@@ -10,6 +10,19 @@
 #include "nearest.h"
 #include "scene_parts.h"
 
+static bool fail_member(const char *name, const char *const *names, const char *place,
+                        struct error *err)
+{
+    struct nearest nearest = {.text = name};
+    char path[ERROR_PLACE_BYTES], hint[64];
+    for (int i = 0; names[i]; i++) {
+        nearest_consider(&nearest, names[i]);
+    }
+    return error_set(err, ERROR_INVALID, error_place(path, place, name),
+                     "there is no member \"%.64s\" here%s", name,
+                     nearest_hint(&nearest, hint, sizeof hint));
+}
+
 /* Members of an object that is no record of its own: each name at most once, no other. The JSON
  * of name i goes to found[i], NULL where absent. */
 static bool sort_members(const cJSON *object, const char *const *names, const cJSON **found,
@@ -22,16 +35,12 @@ static bool sort_members(const cJSON *object, const char *const *names, const cJ
         found[i] = NULL;
     }
     for (const cJSON *member = object->child; member; member = member->next) {
-        struct nearest nearest = {.text = member->string};
         int i = 0;
         while (names[i] && strcmp(names[i], member->string) != 0) {
-            nearest_consider(&nearest, names[i++]);
+            i++;
         }
         if (!names[i]) {
-            char path[ERROR_PLACE_BYTES], hint[64];
-            error_place(path, place, member->string);
-            return error_set(err, ERROR_INVALID, path, "there is no member \"%.64s\" here%s",
-                             member->string, nearest_hint(&nearest, hint, sizeof hint));
+            return fail_member(member->string, names, place, err);
         }
         found[i] = member;
     }
