@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes around shapes and subtrees. Pure arithmetic; a box may be empty, and infinite on any side. */
+/* Boxes around shapes and subtrees. Pure arithmetic; boxes may be empty or infinite on any side. */
 #ifndef RENDERER_BOUNDS_H
 #define RENDERER_BOUNDS_H
 

@@ -4,7 +4,8 @@
  * precision) and the GLSL text of shader.h.
  *
  * The shape (instructions, hence GLSL) depends on the types of the visible nodes and on how they
- * are nested. All else is numbers: transforms, parameters, ids, materials and which node has which. Equal shape_hash: the same GLSL serves both.
+ * are nested. All else is numbers: transforms, parameters, ids, materials and which node has which.
+ * Equal shape_hash: the same GLSL serves both.
  *
  * Transforms are folded: a shape stands in the space of the domain modifier around it (or of the
  * scene), with its distance scaled to lengths of the scene by the least scale on every level.

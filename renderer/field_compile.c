@@ -4,19 +4,10 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "builder.h"
 #include "protocol/memory.h"
-
-struct builder {
-    struct field *field;
-    const struct scene *scene;
-    size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
-    uint32_t index;                  /* pre-order, of the next node */
-    uint64_t trips;                  /* loop iterations so far, in the current loop */
-    const struct node *out_of_range; /* the first node whose place no float can hold */
-};
 
 /* Where a node stands: its point slot, local = matrix * point, the factor from local lengths to
  * the scene's, and the material slot that it inherits. */
@@ -34,137 +25,6 @@ struct result {
 };
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-
-/* --- the buffers --- */
-
-static void reserve(void **block, size_t *capacity, size_t needed, size_t size)
-{
-    if (needed > *capacity) {
-        *capacity = needed * 2 + 64;
-        *block = memory_resize(*block, *capacity, size);
-    }
-}
-
-static uint32_t add_vec4s(struct builder *b, size_t count)
-{
-    struct field *field = b->field;
-    size_t first = field->vec4_count;
-    field->vec4_count += count;
-    reserve((void **)&field->numbers, &b->vec4_capacity, field->vec4_count + 1, 4 * sizeof(float));
-    memset(field->numbers + 4 * first, 0, count * 4 * sizeof(float));
-    return (uint32_t)first;
-}
-
-static uint32_t add_arguments(struct builder *b, size_t count)
-{
-    size_t first = b->argument_count;
-    b->argument_count += count;
-    reserve((void **)&b->field->arguments, &b->argument_capacity, b->argument_count + 1,
-            sizeof(double));
-    return (uint32_t)first;
-}
-
-static void max_slot(int *slots, int slot)
-{
-    assert(slot < FIELD_SLOTS_MAX);
-    *slots = slot + 1 > *slots ? slot + 1 : *slots;
-}
-
-static void add_instruction(struct builder *b, struct field_instruction instruction)
-{
-    struct field *field = b->field;
-    reserve((void **)&field->instructions, &b->instruction_capacity, field->instruction_count + 1,
-            sizeof instruction);
-    field->instructions[field->instruction_count++] = instruction;
-    max_slot(&field->distance_slots, instruction.a);
-    max_slot(&field->distance_slots, instruction.b);
-    max_slot(&field->point_slots, instruction.point);
-    max_slot(&field->point_slots, instruction.out);
-}
-
-/* What is taken back when something turns out to be empty space. */
-struct mark {
-    size_t instructions, vec4s, arguments, leaves;
-    uint64_t trips;
-};
-
-static struct mark mark(const struct builder *b)
-{
-    return (struct mark){b->field->instruction_count, b->field->vec4_count, b->argument_count,
-                         b->field->leaf_count, b->trips};
-}
-
-static void rewind_to(struct builder *b, struct mark mark)
-{
-    b->field->instruction_count = mark.instructions;
-    b->field->vec4_count = mark.vec4s;
-    b->argument_count = mark.arguments;
-    while (b->field->leaf_count > mark.leaves) {
-        free(b->field->leaves[--b->field->leaf_count].id);
-    }
-    b->trips = mark.trips;
-}
-
-/* --- numbers --- */
-
-int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX])
-{
-    int taken[SDF_NUMBERS_MAX + 1] = {used};
-    int vec4s = used > 0;
-    for (size_t i = 0; i < record_type_count(&type->record); i++) {
-        enum param_type kind = type->record.params[i].type;
-        int components = kind == PARAM_ENUM ? 0 : param_components(kind);
-        int at = 0;
-        while (taken[at] + components > 4) {
-            at++;
-        }
-        assert(i < SDF_NUMBERS_MAX && at < SDF_NUMBERS_MAX);
-        out[i] = components ? (struct field_place){at, taken[at]} : (struct field_place){-1, 0};
-        taken[at] += components;
-        vec4s = components && at + 1 > vec4s ? at + 1 : vec4s;
-    }
-    return vec4s;
-}
-
-/* Writes `count` numbers to the buffer and, as rounded there, to the arguments. */
-static void put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
-                const double *numbers)
-{
-    float *to = b->field->numbers + 4 * (size_t)vec4 + component;
-    for (int i = 0; i < count; i++) {
-        to[i] = (float)numbers[i];
-        b->field->arguments[argument + (uint32_t)i] = to[i];
-    }
-}
-
-/* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
- * are multiplied by `scale`. */
-static void put_params(struct builder *b, const struct node *node, const struct sdf *sdf,
-                       double scale, uint32_t vec4, int used, uint32_t argument)
-{
-    struct field_place places[SDF_NUMBERS_MAX];
-    field_layout(node->type, used, places);
-    double numbers[SDF_NUMBERS_MAX];
-    sdf_numbers(&node->params, numbers);
-    const struct param *params = node->type->record.params;
-    for (size_t i = 0, at = 0; params[i].name; i++) {
-        for (int c = 0; places[i].vec4 >= 0 && c < param_components(params[i].type); c++) {
-            numbers[at++] *= params[i].unit == UNIT_LENGTH ? scale : 1;
-        }
-    }
-    if (sdf->prepare) {
-        sdf->prepare(numbers);
-    }
-    const double *from = numbers;
-    for (size_t i = 0; params[i].name; i++) {
-        if (places[i].vec4 >= 0) {
-            int count = param_components(params[i].type);
-            put(b, vec4 + (uint32_t)places[i].vec4, places[i].component, argument, count, from);
-            from += count;
-            argument += (uint32_t)count;
-        }
-    }
-}
 
 /* --- places --- */
 
@@ -223,26 +83,23 @@ static struct result emit(struct builder *b, const struct node *node, const stru
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
                        const struct frame *frame, uint16_t slot, uint32_t number)
 {
-    struct field *field = b->field;
     struct field_place places[SDF_NUMBERS_MAX];
     int vec4s = field_layout(node->type, FIELD_HEAD_NUMBERS, places);
-    uint32_t block = add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
-    uint32_t arguments = add_arguments(b, 12 + FIELD_HEAD_NUMBERS + SDF_NUMBERS_MAX);
+    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + SDF_NUMBERS_MAX);
     double head[FIELD_HEAD_NUMBERS] = {frame->scale, number, (double)frame->material};
-    put(b, block, 0, arguments, 12, frame->matrix);
-    put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    put_params(b, node, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
-               arguments + 12 + FIELD_HEAD_NUMBERS);
-    reserve((void **)&field->leaves, &b->leaf_capacity, field->leaf_count + 1,
-            sizeof *field->leaves);
-    field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(node->id)};
-    add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
-                                                  .type = node->type,
-                                                  .sdf = sdf,
-                                                  .a = slot,
-                                                  .point = frame->point,
-                                                  .numbers = block,
-                                                  .arguments = arguments});
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    builder_put_params(b, node, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
+                       arguments + 12 + FIELD_HEAD_NUMBERS);
+    builder_add_leaf(b, number, node->id);
+    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                          .type = node->type,
+                                                          .sdf = sdf,
+                                                          .a = slot,
+                                                          .point = frame->point,
+                                                          .numbers = block,
+                                                          .arguments = arguments});
 }
 
 static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
@@ -260,9 +117,9 @@ static void add_block(struct builder *b, const struct node *node, const struct s
                       double scale, struct field_instruction *instruction)
 {
     struct field_place places[SDF_NUMBERS_MAX];
-    instruction->numbers = add_vec4s(b, (size_t)field_layout(node->type, 0, places));
-    instruction->arguments = add_arguments(b, SDF_NUMBERS_MAX);
-    put_params(b, node, sdf, scale, instruction->numbers, 0, instruction->arguments);
+    instruction->numbers = builder_add_vec4s(b, (size_t)field_layout(node->type, 0, places));
+    instruction->arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
+    builder_put_params(b, node, sdf, scale, instruction->numbers, 0, instruction->arguments);
 }
 
 /* Folds the children from the left into `slot`, starting from `whole` where that is solid. */
@@ -287,7 +144,7 @@ static struct result emit_children(struct builder *b, const struct node *node,
         }
         combine.a = slot;
         combine.b = slot + 1;
-        add_instruction(b, combine);
+        builder_add_instruction(b, combine);
         if (rule == SDF_ANY) {
             whole.box = bounds_union(whole.box, child.box);
         } else if (rule == SDF_ALL) {
@@ -336,7 +193,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
     add_block(b, node, sdf, frame->scale, &change);
     struct result whole = emit_union(b, node, frame, slot, (struct result){0});
     if (whole.solid) {
-        add_instruction(b, change);
+        builder_add_instruction(b, change);
         whole.box = bounds_grow(whole.box, lowered(node, sdf, 1));
     }
     return whole;
@@ -348,9 +205,9 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
 {
     const struct sdf_domain *domain = sdf->domain;
     size_t own_count = 4 * (size_t)domain->vec4s;
-    uint32_t block = add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
-    uint32_t arguments = add_arguments(b, 12 + own_count);
-    put(b, block, 0, arguments, 12, frame->matrix);
+    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + own_count);
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
     uint16_t own = frame->point + 1, inner = frame->point + 2;
     bool loops = domain->range != NULL;
     struct field_instruction next = {.type = node->type,
@@ -360,10 +217,10 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
                                      .numbers = block,
                                      .arguments = arguments};
     next.op = FIELD_PLACE, next.point = frame->point, next.out = own;
-    add_instruction(b, next);
+    builder_add_instruction(b, next);
     next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
     next.op = loops ? FIELD_LOOP : FIELD_MAP, next.point = own, next.out = inner;
-    add_instruction(b, next);
+    builder_add_instruction(b, next);
 
     struct frame inside = {.scale = frame->scale, .point = inner, .material = frame->material};
     memcpy(inside.matrix, identity, sizeof identity);
@@ -376,14 +233,14 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     double params[SDF_NUMBERS_MAX], own_numbers[4 * SDF_DOMAIN_VEC4S_MAX] = {0};
     sdf_numbers(&node->params, params);
     domain->prepare(params, &whole.box, frame->scale, own_numbers);
-    put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
     if (loops) {
         b->trips = (uint64_t)domain->cells(own_numbers) * (1 + b->trips);
         next.op = FIELD_LOOP_END, next.b = slot + 1;
-        add_instruction(b, next);
+        builder_add_instruction(b, next);
     } else if (domain->after) {
         next.op = FIELD_AFTER, next.out = own;
-        add_instruction(b, next);
+        builder_add_instruction(b, next);
     }
     b->trips += trips_before;
     whole.box = domain->box(params, &whole.box);
@@ -452,12 +309,12 @@ static struct result emit(struct builder *b, const struct node *node, const stru
     if (*material) {
         frame.material = material_slot(b->scene, material);
     }
-    struct mark before = mark(b);
+    struct builder_mark before = builder_mark(b);
     struct result result = emit_kind(b, node, &frame, slot, number);
     if (result.solid) {
         result.box = bounds_transform(&result.box, from, greatest / least);
     } else {
-        rewind_to(b, before);
+        builder_rewind(b, before);
     }
     return result;
 }
@@ -488,7 +345,7 @@ static void add_materials(struct builder *b)
 {
     struct field *field = b->field;
     size_t count = b->scene->materials.count;
-    field->material_base = add_vec4s(b, (count + 1) * FIELD_MATERIAL_VEC4S);
+    field->material_base = builder_add_vec4s(b, (count + 1) * FIELD_MATERIAL_VEC4S);
     float *to = field->numbers + 4 * field->material_base;
     struct record standard;
     record_init(&standard, record_type_in(shader_types, "phong"));
@@ -498,7 +355,7 @@ static void add_materials(struct builder *b)
         to += FIELD_MATERIAL_NUMBERS;
         put_material(to, &b->scene->materials.items[i]->record);
     }
-    add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
+    builder_add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
 }
 
 /* FNV-1a (Fowler, Noll, Vo), 64 bits. */
@@ -543,7 +400,7 @@ struct field *field_compile(const struct scene *scene, struct error *err)
         return NULL;
     }
     if (!whole.solid) {
-        add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
+        builder_add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
         whole.box = bounds_empty();
     }
     add_materials(&builder);
@@ -551,41 +408,4 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;
-}
-
-struct field *field_ref(struct field *field)
-{
-    field->references++;
-    return field;
-}
-
-void field_unref(struct field *field)
-{
-    if (!field || --field->references > 0) {
-        return;
-    }
-    for (size_t i = 0; i < field->leaf_count; i++) {
-        free(field->leaves[i].id);
-    }
-    free(field->leaves);
-    free(field->instructions);
-    free(field->numbers);
-    free(field->arguments);
-    free(field);
-}
-
-static int compare_leaf(const void *key, const void *item)
-{
-    uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
-    return (a > b) - (a < b);
-}
-
-const char *field_leaf_id(const struct field *field, uint32_t number)
-{
-    if (field->leaf_count == 0) {
-        return NULL;
-    }
-    const struct field_leaf *leaf =
-        bsearch(&number, field->leaves, field->leaf_count, sizeof *field->leaves, compare_leaf);
-    return leaf ? leaf->id : NULL;
 }

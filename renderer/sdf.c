@@ -253,10 +253,10 @@ static void mirror_map(const double p[3], const double *n, double out[3])
 /* repeat: n = spacing, limit, centre, reach, each a vec4.
  *
  * Copies sit at spacing * k, where k runs in steps of 1 from -limit to limit, so k is half a number
- * where their count is even. A part of the child at offset v of its box's centre is nearest in the
- * copy round(x - v / spacing), x = (p - centre) / spacing, clamped to the limit, on each axis by itself. As v
- * lies in the box, looking at round(x - reach) to round(x + reach) misses none, reach being half
- * the box by the spacing. */
+ * where their count is even. On each axis by itself, a part of the child at offset v of its box's
+ * centre is nearest in the copy round(x - v / spacing), clamped to the limit, where
+ * x = (p - centre) / spacing. As v lies in the box, looking at round(x - reach) to round(x + reach)
+ * misses none, reach being half the box by the spacing. */
 enum { SPACING = 0, REPEAT_LIMIT = 4, CENTRE = 8, CELL_REACH = 12 };
 
 #define REPEAT_ENDLESS 1048576.0 /* copies to each side; a float still holds k exactly */

@@ -11,8 +11,8 @@
  * before it, and a macro N(i), which gives the vec4 number i of field->numbers; i is a constant. */
 char *shader_map(const struct field *field);
 
-/* `void surface(vec3 p, out Surface s)`: leaf and material at a hit (Surface: glsl/surface.glsl). As
- * above, but some i are not constant. */
+/* `void surface(vec3 p, out Surface s)`: leaf and material at a hit (Surface: glsl/surface.glsl).
+ * As above, but some i are not constant. */
 char *shader_surface(const struct field *field);
 
 #endif

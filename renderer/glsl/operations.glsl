@@ -80,7 +80,7 @@ float op_smooth_difference_share(float a, float b, float k)
 const float FAR = 1e9;
 
 /* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
- * Mixture has the materials' numbers, as they lie in the table, and the weight of its first leaf. */
+ * Mixture has the materials' numbers, as they lie in the table, and the weight of its leaf. */
 struct Mixture {
     float d, leaf, weight;
     vec4 diffuse_shininess, specular, emission, ambient;

@@ -242,7 +242,8 @@ static void random_shape(struct random *random, const struct node_type *type, do
     scene_destroy(scene);
 }
 
-/* The sign is right, and the ball with the distance as its radius has no point of the other side. */
+/* The sign is right, and the ball with the distance as its radius holds no point of the other
+ * side. */
 static void shapes_never_overstate(void **state)
 {
     (void)state;
@@ -326,6 +327,7 @@ static void exact_shapes_are_exact(void **state)
                 continue; /* a tube wider than the ring meets itself: then only outside is exact */
             }
             double d = sdf_find(type)->shape(p, ready);
+            assert_true(d != 0); /* the chance to meet the surface is none */
             if (!other_side_at(&random, sdf_find(type), ready, p, d)) {
                 fail_msg("%s: %g understates at %g %g %g", type->record.name, d, p[0], p[1], p[2]);
             }

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* The growing parts of a field program while it is compiled: instructions, numbers, leaves. What is
+ * put together out of them is decided in field_compile.c. */
+#ifndef RENDERER_BUILDER_H
+#define RENDERER_BUILDER_H
+
+#include "field.h"
+
+struct builder {
+    struct field *field;
+    const struct scene *scene;
+    size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
+    uint32_t index;                  /* pre-order, of the next node */
+    uint64_t trips;                  /* loop iterations so far, in the current loop */
+    const struct node *out_of_range; /* the first node whose place no float can hold */
+};
+
+/* `count` new vec4s of zeros; returns the first. */
+uint32_t builder_add_vec4s(struct builder *b, size_t count);
+/* Room for as many numbers of the C evaluator; returns the first. */
+uint32_t builder_add_arguments(struct builder *b, size_t count);
+void builder_add_instruction(struct builder *b, struct field_instruction instruction);
+void builder_add_leaf(struct builder *b, uint32_t number, const char *id);
+
+/* Writes `count` numbers to the buffer and, as rounded there, to the arguments. */
+void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
+                 const double *numbers);
+/* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
+ * are multiplied by `scale`. */
+void builder_put_params(struct builder *b, const struct node *node, const struct sdf *sdf,
+                        double scale, uint32_t vec4, int used, uint32_t argument);
+
+/* What is taken back when something turns out to be empty space. */
+struct builder_mark {
+    size_t instructions, vec4s, arguments, leaves;
+    uint64_t trips;
+};
+struct builder_mark builder_mark(const struct builder *b);
+void builder_rewind(struct builder *b, struct builder_mark mark);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* What a field program is apart from making one (field_compile.c) and running it
+ * (field_evaluate.c). */
+#include "field.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX])
+{
+    int taken[SDF_NUMBERS_MAX + 1] = {used};
+    int vec4s = used > 0;
+    for (size_t i = 0; i < record_type_count(&type->record); i++) {
+        enum param_type kind = type->record.params[i].type;
+        int components = kind == PARAM_ENUM ? 0 : param_components(kind);
+        int at = 0;
+        while (taken[at] + components > 4) {
+            at++;
+        }
+        assert(i < SDF_NUMBERS_MAX && at < SDF_NUMBERS_MAX);
+        out[i] = components ? (struct field_place){at, taken[at]} : (struct field_place){-1, 0};
+        taken[at] += components;
+        vec4s = components && at + 1 > vec4s ? at + 1 : vec4s;
+    }
+    return vec4s;
+}
+
+struct field *field_ref(struct field *field)
+{
+    field->references++;
+    return field;
+}
+
+void field_unref(struct field *field)
+{
+    if (!field || --field->references > 0) {
+        return;
+    }
+    for (size_t i = 0; i < field->leaf_count; i++) {
+        free(field->leaves[i].id);
+    }
+    free(field->leaves);
+    free(field->instructions);
+    free(field->numbers);
+    free(field->arguments);
+    free(field);
+}
+
+static int compare_leaf(const void *key, const void *item)
+{
+    uint32_t a = *(const uint32_t *)key, b = ((const struct field_leaf *)item)->number;
+    return (a > b) - (a < b);
+}
+
+const char *field_leaf_id(const struct field *field, uint32_t number)
+{
+    if (field->leaf_count == 0) {
+        return NULL;
+    }
+    const struct field_leaf *leaf =
+        bsearch(&number, field->leaves, field->leaf_count, sizeof *field->leaves, compare_leaf);
+    return leaf ? leaf->id : NULL;
+}
