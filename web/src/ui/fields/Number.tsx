@@ -3,7 +3,6 @@
  * the unit that people think in; the document keeps its own. */
 import { memo, useRef, useState } from "react";
 import { checkValue, clampNumber, type Param } from "../../model/schema.ts";
-import { tidy } from "../../model/units.ts";
 import { t } from "../texts.ts";
 import { displayOf } from "./display.ts";
 import { type ScrubKeys, useScrub } from "./scrub.ts";
@@ -31,7 +30,7 @@ export const NumberField = memo(function NumberField(props: Props) {
     const latest = useRef(value);
 
     const put = (wanted: number, commit: boolean): void => {
-        const next = tidy(clampNumber(param, wanted));
+        const next = clampNumber(param, wanted);
         setStop(next > wanted + 1e-9 ? "min" : next < wanted - 1e-9 ? "max" : null);
         latest.current = next;
         (commit ? props.onCommit : props.onInput)(next);
@@ -84,7 +83,8 @@ export const NumberField = memo(function NumberField(props: Props) {
         if (direction) {
             event.preventDefault();
             setDraft(null);
-            put(value + direction * display.arrow(value, event.shiftKey, event.altKey), true);
+            const keys = { coarse: event.shiftKey, fine: event.altKey };
+            put(display.arrow(value, direction, keys), true);
             setStop(null);
         } else if (event.key === "Enter") {
             commit();

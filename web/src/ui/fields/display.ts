@@ -18,6 +18,12 @@ const DEGREES_PER_PIXEL = 0.5;
 const PIXELS_PER_WHOLE = 8;
 const FINE = 0.1;
 const SNAP_DEGREES = 15;
+const ANGLE_DIGITS = 8;
+
+export interface ArrowKeys {
+    coarse: boolean;
+    fine: boolean;
+}
 
 export interface Display {
     print(value: number): string;
@@ -25,14 +31,17 @@ export interface Display {
     parse(text: string, current: number): number | null;
     /* The value after a drag of so many pixels from `start`. */
     scrub(start: number, pixels: number, keys: ScrubKeys): number;
-    /* What one arrow key adds. */
-    arrow(value: number, coarse: boolean, fine: boolean): number;
+    /* The value after one arrow key: `direction` is 1 or -1. */
+    arrow(value: number, direction: number, keys: ArrowKeys): number;
 }
 
 export function displayOf(param: Param): Display {
     const { unit } = param;
     const whole = param.type === "int" || param.type === "ivec3";
-    const stored = (shown: number): number => tidy(fromShown(shown, unit));
+    /* Radians need two digits more than the degrees shown, or 90° would come back as 90.0002°. */
+    const round = (value: number): number =>
+        unit === "angle" ? Number(value.toPrecision(ANGLE_DIGITS)) : tidy(value);
+    const stored = (shown: number): number => round(fromShown(shown, unit));
     const stepPerPixel = (shown: number): number => {
         if (whole) {
             return 1 / PIXELS_PER_WHOLE;
@@ -49,7 +58,7 @@ export function displayOf(param: Param): Display {
         print: (value) => printInUnit(value, unit),
         parse: (text, current) => {
             const value = parseInUnit(text, unit, current);
-            return value === null ? null : tidy(value);
+            return value === null ? null : round(value);
         },
         scrub: (start, pixels, keys) => {
             const from = toShown(start, unit);
@@ -57,12 +66,12 @@ export function displayOf(param: Param): Display {
             const snapped = keys.snap ? snap(to, decade(from) * (keys.fine ? FINE : 1)) : to;
             return stored(whole ? Math.round(snapped) : snapped);
         },
-        arrow: (value, coarse, fine) => {
+        arrow: (value, direction, { coarse, fine }) => {
             const shown = toShown(value, unit);
             const plain = whole || isAngle(unit) ? 1 : 10 * scrubStep(shown);
             const step = param.step === null ? plain : toShown(param.step, unit);
             const scaled = step * (coarse ? 10 : 1) * (fine && !whole ? FINE : 1);
-            return fromShown(scaled, unit);
+            return stored(shown + scaled * direction);
         },
     };
 }

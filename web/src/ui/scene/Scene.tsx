@@ -126,6 +126,10 @@ function Tree({ document, query }: { document: SceneDocument; query: string }) {
             const next = typeof update === "function" ? update(old) : update;
             view.setState({ selection: next, subject: { kind: "nodes" } });
         },
+        hotkeys: {
+            focusNextItem: stepKey("ArrowDown", 1),
+            focusPreviousItem: stepKey("ArrowUp", -1),
+        },
         canDrag: (items) => items.every((item) => item.getId() !== document.root),
         canDrop: (items, target) => canDrop(editor, document, items, target),
         onDrop: (items, target) => drop(editor, document, items, target),
@@ -188,6 +192,27 @@ function Tree({ document, query }: { document: SceneDocument; query: string }) {
 }
 
 type Item = ItemInstance<SceneNode | null>;
+
+/* Up and down select what they reach; while a row is carried they move it instead. */
+function stepKey(hotkey: string, by: 1 | -1) {
+    return {
+        hotkey,
+        canRepeat: true,
+        preventDefault: true,
+        isEnabled: (tree: TreeInstance<SceneNode | null>) => !tree.getState().dnd,
+        handler: (_event: KeyboardEvent, tree: TreeInstance<SceneNode | null>) => step(tree, by),
+    };
+}
+
+function step(tree: TreeInstance<SceneNode | null>, by: 1 | -1): void {
+    if (by > 0) {
+        tree.focusNextItem();
+    } else {
+        tree.focusPreviousItem();
+    }
+    tree.updateDomFocus();
+    tree.setSelectedItems([tree.getFocusedItem().getId()]);
+}
 
 function labelOf(item: Item): string {
     const node = item.getItemData();

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Looking around and changing numbers: the picture follows, nothing is compiled, undo is exact.
+import assert from 'node:assert/strict';
+import { after, afterEach, before, describe, test } from 'node:test';
+import { counter } from '../support/daemon.mjs';
+import {
+    closePage,
+    documentWhen,
+    dragBy,
+    field,
+    nodeIn,
+    openStage,
+    picture,
+    pictureChanged,
+    pixels,
+    row,
+    waitForSaved,
+    waitForState,
+} from './stage.mjs';
+
+let stage;
+let pages = [];
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+afterEach(async () => {
+    const open = pages;
+    pages = [];
+    for (const page of open) {
+        await closePage(page);
+    }
+});
+
+async function open(scene) {
+    const page = await stage.page({ scene });
+    pages.push(page);
+    return page;
+}
+
+const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
+
+describe('looking around', () => {
+    test('a drag, the wheel and the arrow keys change the picture', async () => {
+        const page = await open(await stage.scene());
+        await waitForState(page, 'lossless');
+        let now = await pixels(page);
+        await dragBy(page, picture(page), 120, -30);
+        now = await pictureChanged(page, now, 'the picture to follow the drag');
+        await page.mouse.wheel(0, -240);
+        now = await pictureChanged(page, now, 'the picture to follow the wheel');
+        await picture(page).focus();
+        await page.keyboard.press('ArrowLeft');
+        await pictureChanged(page, now, 'the picture to follow the key');
+        await waitForState(page, 'lossless');
+    });
+
+    test('looking around changes no document', async () => {
+        const id = await stage.scene();
+        const before = await stage.document(id);
+        const page = await open(id);
+        await waitForState(page, 'lossless');
+        const now = await pixels(page);
+        await dragBy(page, picture(page), 90, 0);
+        await pictureChanged(page, now, 'the picture to follow the drag');
+        assert.equal(await stage.document(id), before);
+    });
+});
+
+describe('numbers', () => {
+    test('dragging one changes the picture during the drag; undo restores every byte', async () => {
+        const id = await stage.scene();
+        const page = await open(id);
+        const before = await stage.document(id);
+        await row(page, 'ball').click();
+        await waitForState(page, 'lossless');
+        const start = await pixels(page);
+        await dragBy(page, field(page, 'radius'), 60, 0, { steps: 20, leave: true });
+        await pictureChanged(page, start, 'the picture to follow the number');
+        await page.mouse.up();
+        const changed = await documentWhen(stage, id, (d) => radiusOf(d) > 1.2, 'the new radius');
+        await waitForSaved(page);
+        assert.equal(await field(page, 'radius').inputValue(), String(radiusOf(changed)));
+
+        await page.keyboard.press('Control+z');
+        await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
+        assert.equal(await stage.document(id), before, 'one undo takes back the whole drag');
+
+        await page.keyboard.press('Control+Shift+z');
+        await documentWhen(stage, id, (d) => radiusOf(d) === radiusOf(changed), 'the redone drag');
+    });
+
+    test('Escape during a drag restores the value', async () => {
+        const id = await stage.scene();
+        const page = await open(id);
+        await row(page, 'ball').click();
+        await dragBy(page, field(page, 'radius'), 50, 0, { leave: true });
+        await documentWhen(stage, id, (d) => radiusOf(d) !== 1, 'the drag');
+        await page.keyboard.press('Escape');
+        await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
+        await page.mouse.up();
+        assert.equal(await field(page, 'radius').inputValue(), '1');
+    });
+
+    test('expressions, arrows, ranges', async () => {
+        const id = await stage.scene();
+        const page = await open(id);
+        await row(page, 'ball').click();
+        const radius = field(page, 'radius');
+        await radius.fill('1/3');
+        await radius.press('Enter');
+        await documentWhen(stage, id, (d) => radiusOf(d) === 0.333333, 'a third');
+        await radius.fill('-2');
+        await radius.press('Enter');
+        await page.getByText(/-2 is /).waitFor();
+        assert.equal(radiusOf(JSON.parse(await stage.document(id))), 0.333333);
+        await radius.press('Escape');
+        await page.getByText(/-2 is /).waitFor({ state: 'detached' });
+        assert.equal(await radius.inputValue(), '0.333333');
+
+        const turn = field(page, 'rotation y');
+        await turn.fill('90');
+        await turn.press('Enter');
+        await documentWhen(
+            stage,
+            id,
+            (d) => Math.abs((nodeIn(d, 'ball').transform.rotation?.[1] ?? 0) - Math.PI / 2) < 1e-5,
+            'a quarter turn',
+        );
+        assert.equal(await turn.inputValue(), '90°');
+    });
+
+    test('a thousand numeric edits compile nothing', async () => {
+        const id = await stage.scene();
+        const page = await open(id);
+        await row(page, 'ball').click();
+        await waitForState(page, 'lossless');
+        const compiled = await counter(stage.daemon, 'shader_compilations_total');
+        const x = field(page, 'translation x');
+        await x.focus();
+        for (let i = 0; i < 1000; i += 1) {
+            await page.keyboard.press(i % 100 < 50 ? 'ArrowUp' : 'ArrowDown');
+        }
+        await waitForSaved(page);
+        const scene = await (await fetch(`${stage.daemon.url}/v1/scenes/${id}`)).headers.get('etag');
+        assert.ok(Number(scene.replaceAll('"', '')) >= 1001, `revision ${scene}`);
+        await waitForState(page, 'lossless');
+        assert.equal(await counter(stage.daemon, 'shader_compilations_total'), compiled);
+    });
+});
+
+describe('two pages', () => {
+    test('each sees the edits of the other and undoes only its own', async () => {
+        const id = await stage.scene();
+        const [a, b] = [await open(id), await open(id)];
+        await row(a, 'ball').click();
+        await row(b, 'ball').click();
+        await waitForState(b, 'lossless');
+        const before = await pixels(b);
+        await field(a, 'radius').fill('1.6');
+        await field(a, 'radius').press('Enter');
+        await b.waitForFunction(
+            () => document.querySelector('[data-param=radius] input')?.value === '1.6',
+        );
+        await pictureChanged(b, before, "the other page's edit in the picture");
+        await field(b, 'translation y').fill('0.5');
+        await field(b, 'translation y').press('Enter');
+        await documentWhen(
+            stage,
+            id,
+            (d) => nodeIn(d, 'ball').transform.translation[1] === 0.5,
+            "the second page's edit",
+        );
+        await row(a, 'ball').click();
+        await a.keyboard.press('Control+z');
+        const left = await documentWhen(stage, id, (d) => radiusOf(d) === 1, "the first's undo");
+        assert.equal(nodeIn(left, 'ball').transform.translation[1], 0.5);
+    });
+});

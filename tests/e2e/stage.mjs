@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// A daemon, a browser and pages for the tests of this folder; what a user sees and does, by names.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import { ask, startDaemon, until } from '../support/daemon.mjs';
+import { decodePng } from '../support/png.mjs';
+
+const require = createRequire(new URL('../../web/package.json', import.meta.url));
+const { chromium } = require('playwright-core');
+
+/** Only ends a wait that would never end; every wait is for a condition. */
+export const LIMIT = 180_000;
+
+const FLAGS = [
+    '--no-sandbox',
+    '--disable-gpu',
+    '--disable-quic',
+    '--no-first-run',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--disable-sync',
+    '--force-color-profile=srgb',
+];
+
+/** Small, quick to draw, with one of everything that the tests touch. */
+export const SCENE = {
+    format: 'fieldcast/1',
+    name: 'Table',
+    camera: { position: [0, 1.5, 7], target: [0, 0, 0] },
+    lights: [{ id: 'sun', type: 'directional', direction: [-0.5, -1, -0.5] }],
+    materials: {
+        clay: { shader: 'phong', properties: { diffuse: [0.8, 0.3, 0.2] } },
+        slate: { shader: 'phong', properties: { diffuse: [0.2, 0.25, 0.3] } },
+    },
+    render: { samples: 1 },
+    root: {
+        id: 'root',
+        type: 'union',
+        children: [
+            {
+                id: 'ball',
+                type: 'sphere',
+                material: 'clay',
+                params: { radius: 1 },
+                transform: { translation: [-1.5, 0, 0] },
+            },
+            {
+                id: 'crate',
+                type: 'box',
+                material: 'slate',
+                params: { size: [1.5, 1.5, 1.5] },
+                transform: { translation: [1.5, 0, 0] },
+            },
+            {
+                id: 'pair',
+                type: 'group',
+                children: [
+                    { id: 'ring', type: 'torus', transform: { translation: [0, 2, 0] } },
+                    { id: 'pole', type: 'cylinder', transform: { translation: [0, -2, 0] } },
+                ],
+            },
+        ],
+    },
+};
+
+export async function openStage() {
+    const web = process.env.FIELDCAST_WEB;
+    const daemon = await startDaemon({ args: web ? ['--web', web] : [] });
+    const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS });
+    let made = 0;
+    return {
+        daemon,
+        browser,
+        /** A new scene's id. */
+        async scene(document = SCENE) {
+            made += 1;
+            const id = `scene-${made}`;
+            await ask(daemon, 'POST', `/v1/scenes?id=${id}`, document);
+            return id;
+        },
+        page: (options) => openPage(browser, daemon, options),
+        /** The document's bytes as the server holds them. */
+        document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
+        async close() {
+            await browser.close();
+            await daemon.stop();
+        },
+    };
+}
+
+/** `scene` null: the start page. What the console says goes into `page.problems`. */
+async function openPage(browser, daemon, options = {}) {
+    const { scene = null, width = 1200, height = 800, theme = 'dark', hints = false } = options;
+    const context = await browser.newContext({
+        viewport: { width, height },
+        colorScheme: theme,
+        reducedMotion: 'reduce',
+        hasTouch: options.touch === true,
+        acceptDownloads: true,
+    });
+    await context.addInitScript((showHints) => {
+        const key = 'fieldcast.preferences';
+        if (!showHints && localStorage.getItem(key) === null) {
+            localStorage.setItem(key, JSON.stringify({ hintsDone: ['drag', 'click'] }));
+        }
+    }, hints);
+    const page = await context.newPage();
+    page.setDefaultTimeout(LIMIT);
+    page.problems = [];
+    page.on('pageerror', (error) => page.problems.push(String(error)));
+    page.on('console', (message) => {
+        if (message.type() === 'error' || message.type() === 'warning') {
+            page.problems.push(message.text());
+        }
+    });
+    await page.goto(`${daemon.url}/${scene === null ? '' : `#/scene/${scene}`}`);
+    if (scene !== null) {
+        await page.locator('[role=treeitem]').first().waitFor();
+    }
+    return page;
+}
+
+/** Ends a page and answers for its console. */
+export async function closePage(page) {
+    await page.context().close();
+    assert.deepEqual(page.problems, []);
+}
+
+export const row = (page, node) => page.locator(`[data-node="${node}"]`);
+export const picture = (page) => page.getByTestId('picture');
+export const field = (page, name) => page.getByRole('spinbutton', { name, exact: true });
+
+export const stateOf = (page) => page.getByTestId('state').getAttribute('data-state');
+export const waitForState = (page, state) =>
+    page.locator(`[data-testid=state][data-state=${state}]`).waitFor();
+export const waitForSaved = (page) =>
+    page.locator('[data-testid=saved][data-state=saved]').waitFor();
+
+/** Ids of the rows in sight, from top to bottom. */
+export async function rows(page) {
+    const found = await page.locator('[data-node]').evaluateAll((list) =>
+        list
+            .map((one) => ({ id: one.dataset.node, top: one.getBoundingClientRect().top }))
+            .sort((a, b) => a.top - b.top)
+            .map(({ id }) => id),
+    );
+    return found;
+}
+
+/** Pixels of the picture alone, without what lies over it. */
+export async function pixels(page) {
+    const style = await page.addStyleTag({
+        content: '.view > :not(.view-picture), .notices { visibility: hidden !important; }',
+    });
+    const box = await picture(page).boundingBox();
+    const image = decodePng(await page.screenshot({ clip: box }));
+    await style.evaluate((element) => element.remove());
+    return { ...image, box };
+}
+
+/** Greatest difference of a channel; the alpha of either is left aside. */
+export function difference(a, b) {
+    assert.deepEqual([a.width, a.height], [b.width, b.height]);
+    let most = 0;
+    for (let i = 0; i < a.width * a.height; i += 1) {
+        for (let c = 0; c < 3; c += 1) {
+            const x = a.pixels[i * a.channels + c];
+            const y = b.pixels[i * b.channels + c];
+            most = Math.max(most, Math.abs(x - y));
+        }
+    }
+    return most;
+}
+
+/** Waits until the picture differs from `before`; answers the new pixels. */
+export const pictureChanged = (page, before, what) =>
+    until(
+        async () => {
+            const now = await pixels(page);
+            return difference(now, before) > 8 && now;
+        },
+        what,
+        LIMIT,
+    );
+
+/** Waits until the server's document satisfies `holds`. */
+export const documentWhen = (stage, id, holds, what) =>
+    until(
+        async () => {
+            const document = JSON.parse(await stage.document(id));
+            return holds(document) && document;
+        },
+        what,
+        LIMIT,
+    );
+
+export function nodeIn(document, id, node = document.root) {
+    if (node.id === id) {
+        return node;
+    }
+    for (const child of node.children ?? []) {
+        const found = nodeIn(document, id, child);
+        if (found) {
+            return found;
+        }
+    }
+    return null;
+}
+
+/** Presses and drags from the middle of an element; `leave` keeps the button down. */
+export async function dragBy(page, locator, dx, dy, { steps = 12, leave = false } = {}) {
+    const box = await locator.boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + dx, y + dy, { steps });
+    if (!leave) {
+        await page.mouse.up();
+    }
+}
+
+export const readDownload = async (download) => fs.promises.readFile(await download.path(), 'utf8');
