@@ -401,3 +401,14 @@ cJSON *random_edit(struct random *random, const struct scene *scene)
     }
     return ops;
 }
+
+void random_damage(struct random *random, char *text, size_t length)
+{
+    static const char likely[] = "{}[],:\"/0123456789-+.eEtfnul\\ax_ ";
+    for (size_t i = 1 + random_below(random, 4); i > 0; i--) {
+        size_t from = random_below(random, length), to = random_below(random, length);
+        text[to] = chance(random, 0.4)   ? text[from]
+                   : chance(random, 0.9) ? likely[random_below(random, sizeof likely - 1)]
+                                         : (char)random_below(random, 256);
+    }
+}

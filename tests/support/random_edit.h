@@ -15,5 +15,7 @@ struct scene *random_document(struct random *random, size_t nodes);
 /* One to four operations. Most apply; some are refused: places that are gone, wrong values,
  * materials in use, cycles. Caller frees. */
 cJSON *random_edit(struct random *random, const struct scene *scene);
+/* Changes some bytes of a text of `length` bytes, mostly into others that JSON knows. */
+void random_damage(struct random *random, char *text, size_t length);
 
 #endif

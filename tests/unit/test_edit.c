@@ -375,6 +375,44 @@ static void test_random_edits_have_exact_inverses(void **state)
     assert_true(accepted > 1000 && refused > 1000);
 }
 
+/* Edits with damaged texts: refused without a trace, or applied and taken back. */
+static void test_damaged_edits(void **state)
+{
+    (void)state;
+    struct random random = {5};
+    struct scene *wild = random_document(&random, 30);
+    char *before = scene_print(wild, false);
+    int accepted = 0, refused = 0;
+    for (int i = 0; i < 20000; i++) {
+        cJSON *edit = random_edit(&random, wild), *inverse;
+        char *text = json_print(edit, false);
+        size_t length = strlen(text);
+        random_damage(&random, text, length);
+        cJSON *ops = json_parse(text, length, &err);
+        if (ops && edit_check(ops, &err) && edit_apply(wild, ops, NULL, &inverse, &err)) {
+            assert_true(edit_apply(wild, inverse, NULL, NULL, &err));
+            cJSON_Delete(inverse);
+            accepted++;
+        } else if (ops) {
+            refused++;
+        }
+        if (i % 100 == 0) {
+            char *after = scene_print(wild, false);
+            assert_string_equal(before, after);
+            free(after);
+        }
+        cJSON_Delete(ops);
+        cJSON_Delete(edit);
+        free(text);
+    }
+    assert_true(accepted > 200 && refused > 200);
+    char *after = scene_print(wild, false);
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+    scene_destroy(wild);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -389,6 +427,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_depth_holds_in_edits, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_counts_hold_in_edits, set_up, tear_down),
         cmocka_unit_test(test_random_edits_have_exact_inverses),
+        cmocka_unit_test(test_damaged_edits),
     };
     return cmocka_run_group_tests_name("edit", tests, NULL, NULL);
 }

@@ -264,6 +264,38 @@ static void test_random_documents_round_trip(void **state)
     }
 }
 
+/* What is accepted in spite of damage prints and reads back; the rest says why. */
+static void test_damaged_documents(void **state)
+{
+    (void)state;
+    struct random random = {9};
+    int accepted = 0;
+    for (int i = 0; i < 5000; i++) {
+        struct scene *scene = random_document(&random, 1 + random_below(&random, 6));
+        char *text = scene_print(scene, false);
+        size_t length = strlen(text);
+        scene_destroy(scene);
+        random_damage(&random, text, length);
+        err = (struct error){0};
+        scene = scene_parse(text, length, &err);
+        free(text);
+        if (scene) {
+            accepted++;
+            text = scene_print(scene, false);
+            struct scene *again = parse(text);
+            char *same = scene_print(again, false);
+            assert_string_equal(text, same);
+            free(text);
+            free(same);
+            scene_destroy(again);
+        } else {
+            assert_true(err.kind != ERROR_NONE && err.kind != ERROR_INTERNAL && *err.message);
+        }
+        scene_destroy(scene);
+    }
+    assert_true(accepted > 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -275,6 +307,7 @@ int main(void)
         cmocka_unit_test(test_tree_questions),
         cmocka_unit_test(test_empty_scene),
         cmocka_unit_test(test_random_documents_round_trip),
+        cmocka_unit_test(test_damaged_documents),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }
