@@ -158,12 +158,13 @@ export function createRest(base: string, token: string | null): Rest {
 
 const TOKEN_KEY = "fieldcast.token";
 
-/* The access token: taken once from `#token=…` in the address and kept for this tab. */
+/* The access token: taken once from `#token=…` in the address, which forgets it, and kept for this
+ * tab. */
 export function takeToken(location: Location, storage: Storage): string | null {
     const given = new URLSearchParams(location.hash.slice(1)).get("token");
     if (given !== null) {
         storage.setItem(TOKEN_KEY, given);
-        location.hash = "";
+        history.replaceState(null, "", location.pathname + location.search);
     }
     return storage.getItem(TOKEN_KEY);
 }
