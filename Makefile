@@ -39,10 +39,7 @@ all: web ## the program with the page in it (the default)
 LIBRARIES := $(shell awk '$$1 == "module" && $$4 == "run" { print $$2 ":" $$3 }' $(S)/deploy/packages)
 modules := $(foreach l,$(LIBRARIES),$(firstword $(subst :, ,$(l))))
 
-hardening := -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong \
-             -fstack-clash-protection -ftrivial-auto-var-init=zero -fPIE \
-             $(if $(filter x86_64% i686%,$(shell uname -m)),-fcf-protection=full)
-config_release := -O2 -g $(hardening)
+config_release = -O2 -g $(hardening)
 config_debug := -Og -g3
 config_asan := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
 config_tsan := -O1 -g -fsanitize=thread
@@ -54,7 +51,7 @@ endif
 
 warnings := -Wall -Wextra -Wshadow -Wvla -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith \
             -Wformat=2 -Werror=format-security -Werror=implicit $(WERROR)
-ours := -std=gnu17 -D_GNU_SOURCE -DFIELDCAST_VERSION='"$(VERSION)"' -I$(S) $(warnings) \
+ours = -std=gnu17 -D_GNU_SOURCE -DFIELDCAST_VERSION='"$(VERSION)"' -I$(S) $(warnings) \
         $(config_$(CONFIG)) -pthread
 compile = $(CC) $(ours) $(packages_cflags) $(CPPFLAGS) $(CFLAGS)
 link = $(CC) $(config_$(CONFIG)) $(link_$(CONFIG)) -pthread $(CFLAGS) $(LDFLAGS)
@@ -68,6 +65,11 @@ missing := $(foreach l,$(LIBRARIES),$(shell $(PKG_CONFIG) --exists $(firstword $
 ifneq ($(strip $(missing)),)
 $(error $(PKG_CONFIG) finds nothing of $(strip $(missing)): run deploy/install-deps.sh, which installs the Debian packages)
 endif
+# Compilers and processors differ in what they know of these.
+accepted = $(shell $(CC) -Werror $(1) -x c -fsyntax-only /dev/null 2>/dev/null && echo '$(1)')
+hardening := -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fPIE \
+    $(foreach flag,-fstack-protector-strong -fstack-clash-protection -fcf-protection=full \
+                   -ftrivial-auto-var-init=zero,$(call accepted,$(flag)))
 packages_cflags := $(shell $(PKG_CONFIG) --cflags $(modules))
 # Only the headers of GL are used: functions are loaded through EGL.
 packages_libs := $(shell $(PKG_CONFIG) --libs $(filter-out gl,$(modules))) -lm -ldl

@@ -26,7 +26,8 @@ const environment = {
     FIELDCAST: path.join(build, 'fieldcast'),
     FIELDCAST_BUILD: build,
     CMOCKA_MESSAGE_OUTPUT: 'TAP',
-    ASAN_OPTIONS: 'detect_leaks=1:detect_stack_use_after_return=1',
+    // Freed memory is held back a little only, so that tests may watch how a process grows.
+    ASAN_OPTIONS: 'detect_leaks=1:detect_stack_use_after_return=1:quarantine_size_mb=8',
     UBSAN_OPTIONS: 'print_stacktrace=1:halt_on_error=1',
     LSAN_OPTIONS: `suppressions=${path.join(root, 'tests/support/lsan.supp')}:print_suppressions=0`,
     // Nothing of the user's is read or written; compiled shaders are kept between runs.
