@@ -14,6 +14,7 @@ import {
     pictureChanged,
     pixels,
     row,
+    valueIs,
     waitForSaved,
     waitForState,
 } from './stage.mjs';
@@ -99,7 +100,7 @@ describe('numbers', () => {
         await page.keyboard.press('Escape');
         await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
         await page.mouse.up();
-        assert.equal(await field(page, 'radius').inputValue(), '1');
+        await valueIs(field(page, 'radius'), '1');
     });
 
     test('expressions, arrows, ranges', async () => {
@@ -127,7 +128,7 @@ describe('numbers', () => {
             (d) => Math.abs((nodeIn(d, 'ball').transform.rotation?.[1] ?? 0) - Math.PI / 2) < 1e-5,
             'a quarter turn',
         );
-        assert.equal(await turn.inputValue(), '90°');
+        await valueIs(turn, '90°');
     });
 
     test('a thousand numeric edits compile nothing', async () => {

@@ -131,6 +131,10 @@ export const row = (page, node) => page.locator(`[data-node="${node}"]`);
 export const picture = (page) => page.getByTestId('picture');
 export const field = (page, name) => page.getByRole('spinbutton', { name, exact: true });
 
+/** Waits until a field shows `value`. */
+export const valueIs = (locator, value) =>
+    until(async () => (await locator.inputValue()) === value, `the value ${value}`, LIMIT);
+
 export const stateOf = (page) => page.getByTestId('state').getAttribute('data-state');
 export const waitForState = (page, state) =>
     page.locator(`[data-testid=state][data-state=${state}]`).waitFor();
