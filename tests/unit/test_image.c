@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+/* Encoders: what comes out reads back as what went in. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <turbojpeg.h>
+
+#include "protocol/memory.h"
+#include "renderer/renderer.h"
+#include "tests/support/picture.h"
+
+enum { WIDTH = 37, HEIGHT = 21 };
+
+static struct image make_image(enum pixel_format format, int channels, size_t pixel_bytes)
+{
+    struct image image = {.width = WIDTH, .height = HEIGHT, .channels = channels, .format = format};
+
+    image.bytes = (size_t)WIDTH * HEIGHT * pixel_bytes;
+    image.pixels = memory_alloc(image.bytes, 1);
+    return image;
+}
+
+/* A smooth picture, opaque unless `alpha` says otherwise. */
+static struct image make_colors(uint8_t alpha)
+{
+    struct image image = make_image(PIXEL_RGBA8, 4, 4);
+    uint8_t *p = image.pixels;
+
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++, p += 4) {
+            p[0] = (uint8_t)(x * 6);
+            p[1] = (uint8_t)(y * 11);
+            p[2] = (uint8_t)(x + y);
+            p[3] = alpha;
+        }
+    }
+    return image;
+}
+
+static uint8_t *encode(const struct image *image, const struct encode_params *params,
+                       size_t *out_length)
+{
+    struct error err = {0};
+    uint8_t *bytes = NULL;
+
+    if (!image_encode(image, params, &bytes, out_length, &err)) {
+        fail_msg("%s: %s", err.place, err.message);
+    }
+    return bytes;
+}
+
+static void check_png(uint8_t alpha, bool fast, int color_type)
+{
+    struct image image = make_colors(alpha);
+    struct picture picture;
+    size_t length;
+    uint8_t *bytes =
+        encode(&image, &(struct encode_params){.format = IMAGE_PNG, .fast = fast}, &length);
+
+    assert_int_equal(bytes[25], color_type); /* in IHDR */
+    assert_true(picture_read_memory(&picture, bytes, length));
+    assert_int_equal(picture.width, WIDTH);
+    assert_int_equal(picture.height, HEIGHT);
+    assert_memory_equal(picture.pixels, image.pixels, image.bytes);
+    picture_finish(&picture);
+    free(bytes);
+    image_finish(&image);
+}
+
+static void test_png(void **state)
+{
+    (void)state;
+    check_png(255, false, 2);
+    check_png(255, true, 2);
+    check_png(77, false, 6);
+}
+
+static void test_png_gray(void **state)
+{
+    struct image image = make_image(PIXEL_GRAY16, 1, 2);
+    uint16_t *from = image.pixels;
+    struct picture picture;
+    size_t length;
+    uint8_t *bytes;
+
+    (void)state;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        from[i] = (uint16_t)(i * 83);
+    }
+    bytes = encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &length);
+    assert_int_equal(bytes[24], 16);
+    assert_int_equal(bytes[25], 0);
+    assert_true(picture_read_memory(&picture, bytes, length));
+    free(bytes);
+    picture_finish(&picture);
+    image_finish(&image);
+}
+
+static void test_jpeg(void **state)
+{
+    struct image image = make_colors(255);
+    uint8_t *pixels = memory_alloc(image.bytes, 1);
+    tjhandle jpeg = tjInitDecompress();
+    size_t length, small_length;
+    uint8_t *bytes, *small;
+    int width, height, sampling, space;
+
+    (void)state;
+    bytes = encode(&image, &(struct encode_params){.format = IMAGE_JPEG, .quality = 95}, &length);
+    small = encode(&image,
+                   &(struct encode_params){.format = IMAGE_JPEG, .quality = 40, .chroma_halved = true},
+                   &small_length);
+    assert_true(small_length < length);
+    assert_int_equal(tjDecompressHeader3(jpeg, bytes, length, &width, &height, &sampling, &space), 0);
+    assert_int_equal(width, WIDTH);
+    assert_int_equal(height, HEIGHT);
+    assert_int_equal(sampling, TJSAMP_444);
+    assert_int_equal(tjDecompress2(jpeg, bytes, length, pixels, WIDTH, 0, HEIGHT, TJPF_RGBA, 0), 0);
+    for (size_t i = 0; i < image.bytes; i++) {
+        assert_true(abs(pixels[i] - ((uint8_t *)image.pixels)[i]) < 12);
+    }
+    tjDestroy(jpeg);
+    free(bytes);
+    free(small);
+    free(pixels);
+    image_finish(&image);
+}
+
+static void check_npy(enum pixel_format format, int channels, const char *header)
+{
+    struct image image = make_image(format, channels, (size_t)channels * 4);
+    size_t length, head;
+    uint8_t *bytes;
+
+    memset(image.pixels, 0x3c, image.bytes);
+    bytes = encode(&image, &(struct encode_params){.format = IMAGE_NPY}, &length);
+    assert_memory_equal(bytes, "\x93NUMPY\x01\x00", 8);
+    head = 10 + bytes[8] + 256u * bytes[9];
+    assert_int_equal(head % 64, 0);
+    assert_int_equal(bytes[head - 1], '\n');
+    assert_memory_equal(bytes + 10, header, strlen(header));
+    assert_int_equal(length, head + image.bytes);
+    assert_memory_equal(bytes + head, image.pixels, image.bytes);
+    free(bytes);
+    image_finish(&image);
+}
+
+static void test_npy(void **state)
+{
+    (void)state;
+    check_npy(PIXEL_FLOAT, 4, "{'descr': '<f4', 'fortran_order': False, 'shape': (21, 37, 4), }");
+    check_npy(PIXEL_FLOAT, 1, "{'descr': '<f4', 'fortran_order': False, 'shape': (21, 37), }");
+    check_npy(PIXEL_UINT32, 1, "{'descr': '<u4', 'fortran_order': False, 'shape': (21, 37), }");
+}
+
+static void test_refusals(void **state)
+{
+    struct image floats = make_image(PIXEL_FLOAT, 4, 16);
+    struct image colors = make_colors(255);
+    struct error err = {0};
+    uint8_t *bytes;
+    size_t length;
+
+    (void)state;
+    assert_false(image_encode(&floats, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &length,
+                              &err));
+    assert_int_equal(err.kind, ERROR_INVALID);
+    assert_false(image_encode(&floats, &(struct encode_params){.format = IMAGE_JPEG}, &bytes,
+                              &length, &err));
+    assert_false(image_encode(&colors,
+                              &(struct encode_params){.format = IMAGE_JPEG, .quality = 101}, &bytes,
+                              &length, &err));
+    assert_string_equal(err.place, "quality");
+    image_finish(&floats);
+    image_finish(&colors);
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    assert_int_equal(image_format_find("png"), IMAGE_PNG);
+    assert_int_equal(image_format_find("jpg"), IMAGE_JPEG);
+    assert_int_equal(image_format_find("jpeg"), IMAGE_JPEG);
+    assert_int_equal(image_format_find("npy"), IMAGE_NPY);
+    assert_int_equal(image_format_find("gif"), -1);
+    assert_string_equal(image_format_mime(IMAGE_JPEG), "image/jpeg");
+    for (int i = 0; i < AOV_COUNT; i++) {
+        assert_int_equal(aov_find(aov_name((enum aov)i)), i);
+    }
+    assert_int_equal(aov_find("none"), -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_png),      cmocka_unit_test(test_png_gray),
+        cmocka_unit_test(test_jpeg),     cmocka_unit_test(test_npy),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
+    };
+
+    return cmocka_run_group_tests_name("image", tests, NULL, NULL);
+}
