@@ -8,8 +8,8 @@
 #include "protocol/edit.h"
 #include "protocol/memory.h"
 
-/* How many footprints of a pixel a picked point may be off the surface. */
-static const double PICK_TOLERANCE = 0.25;
+/* How far a picked point may be off the surface, for each unit of the greatest distance. */
+static const double PICK_TOLERANCE = 1e-6;
 
 /* Takes over what has become drawable; true when that is something newer. */
 static bool advance(struct resident *resident)
@@ -140,8 +140,7 @@ struct pick_result resident_pick(const struct resident *resident, const struct r
         return result;
     }
     camera_ray(&camera, width, height, x, y, origin, direction);
-    print = camera.pixel_radius * (camera.orthographic ? 1 : far * 1e-2);
-    t = field_march(snapshot->field, origin, direction, far, PICK_TOLERANCE * print);
+    t = field_march(snapshot->field, origin, direction, far, PICK_TOLERANCE * far);
     if (t < 0) {
         return result;
     }

@@ -7,6 +7,7 @@ layout(binding = 2) uniform usampler2D more;
 
 #define PI 3.14159265
 #define OCCLUSION_SAMPLES 5
+#define OCCLUSION_STRENGTH 0.9
 
 layout(rgba32f, binding = 3) writeonly uniform image2D out_radiance;
 
@@ -39,13 +40,19 @@ float occlusion_place(int i, float start)
     return start + ground.w * x * x;
 }
 
+/* Occlusion of a bright surface is lightened by what its surroundings throw back at it (Jimenez,
+ * Wu, Pesce, Jarabo: Practical real-time strategies for accurate indirect occlusion, 2016). */
+vec3 opened(float open, vec3 albedo)
+{
+    vec3 a = 2.0404 * albedo - 0.3324, b = 0.6417 - 4.7951 * albedo, c = 2.7552 * albedo + 0.6903;
+    return max(vec3(open), ((open * a + b) * open + c) * open);
+}
+
 /* Blinn-Phong for one light. */
 vec3 reflected(Surface s, vec3 n, vec3 view, vec3 towards)
 {
     vec3 halfway = normalize(towards + view);
-    float gloss = pow(max(dot(n, halfway), 0.0), s.shininess);
-    /* The factor keeps the light of a highlight the same however narrow it is. */
-    return s.diffuse / PI + s.specular * (gloss * (s.shininess + 8.0) / (8.0 * PI));
+    return (s.diffuse + 2.0 * s.specular * pow(max(dot(n, halfway), 0.0), s.shininess)) / PI;
 }
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
@@ -86,7 +93,8 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
             weights += weight;
             weight *= 0.75;
 
-            float back = d * d / (2.0 * before);
+            /* Where the sphere grows, the ray leads away and the nearest place is behind it. */
+            float back = d * d / (2.0 * before) * clamp((1.6 - d / before) / 0.6, 0.0, 1.0);
             float closest = sqrt(max(d * d - back * back, 0.0));
             shade = min(shade, light.color.w * closest / max(x - back, near));
             before = max(d, 1e-6);
@@ -99,7 +107,7 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
         shade = clamp(shade, 0.0, 1.0);
         shade = kind == SHADOW_HARD ? step(0.02, shade) : shade * shade * (3.0 - 2.0 * shade);
         vec3 direct = ray_in.color * reflected(s, n, -ray.direction, ray_in.direction);
-        sum += open ? ambient * (1.0 - dark / max(weights, 1.0))
+        sum += open ? ambient * opened(1.0 - OCCLUSION_STRENGTH * dark / max(weights, 1.0), s.diffuse)
                     : direct * (max(lambert, 0.0) * (kind == SHADOW_NONE ? 1.0 : shade));
     }
     return sum;

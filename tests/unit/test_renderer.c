@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures depend on document, camera, size and renderer, and on nothing else: not on tiles, not on
+ * what was drawn before, not on later edits. Numbers compile nothing. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "renderer/context.h"
+
+enum { WIDTH = 150, HEIGHT = 110, NUMERIC_EDITS = 1000 };
+
+static const char document[] =
+    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[1,1.2,4],\"target\":[0,0.3,0]},"
+    "\"lights\":[{\"id\":\"sun\",\"type\":\"directional\"},"
+    "{\"id\":\"lamp\",\"type\":\"point\",\"position\":[2,2,2],\"intensity\":5}],"
+    "\"materials\":{\"red\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.8,0.1,0.1]}}},"
+    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
+    "{\"id\":\"blend\",\"type\":\"smooth_union\",\"params\":{\"k\":0.2},\"children\":["
+    "{\"id\":\"ball\",\"type\":\"sphere\",\"material\":\"red\"},"
+    "{\"id\":\"cube\",\"type\":\"box\",\"transform\":{\"translation\":[0.7,0.2,0]}}]},"
+    "{\"id\":\"floor\",\"type\":\"plane\",\"params\":{\"offset\":-0.5}}]}}";
+
+static struct renderer *renderer;
+
+static struct resident *make_resident(const char *text)
+{
+    struct error err = {0};
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+
+    if (!scene) {
+        fail_msg("%s: %s", err.place, err.message);
+    }
+    return resident_create(renderer, scene, 1);
+}
+
+static struct image draw(struct resident *resident, const struct job_desc *desc)
+{
+    struct error err = {0};
+    struct image image = {0};
+
+    if (!renderer_render(resident, desc, &image, &err)) {
+        fail_msg("%s: %s", err.place, err.message);
+    }
+    return image;
+}
+
+static const struct job_desc usual = {
+    .width = WIDTH, .height = HEIGHT, .samples = 2, .exact = true};
+
+static void edit(struct resident *resident, const char *ops)
+{
+    struct error err = {0};
+    cJSON *json = cJSON_Parse(ops);
+
+    assert_non_null(json);
+    if (!resident_edit(resident, json, resident_revision(resident) + 1, &err)) {
+        fail_msg("%s: %s: %s", ops, err.place, err.message);
+    }
+    cJSON_Delete(json);
+}
+
+static void assert_same(const struct image *a, const struct image *b)
+{
+    assert_int_equal(a->bytes, b->bytes);
+    assert_memory_equal(a->pixels, b->pixels, a->bytes);
+}
+
+static bool is_same(const struct image *a, const struct image *b)
+{
+    return a->bytes == b->bytes && memcmp(a->pixels, b->pixels, a->bytes) == 0;
+}
+
+static void use_tiles(int samples)
+{
+    struct error err = {0};
+
+    draw_destroy(renderer->draw);
+    renderer->draw = draw_create(&renderer->gl, renderer->info.software, samples, &err);
+    assert_non_null(renderer->draw);
+}
+
+static void test_tiles_do_not_show(void **state)
+{
+    static const int sides[] = {16, 40, 128, 512};
+    struct image first;
+
+    (void)state;
+    for (int aov = 0; aov < AOV_COUNT; aov++) {
+        struct job_desc desc = usual;
+        struct resident *resident = make_resident(document);
+        desc.aov = (enum aov)aov;
+        first = draw(resident, &desc);
+        for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++) {
+            struct resident *again = make_resident(document);
+            struct image image;
+            use_tiles(sides[i]);
+            image = draw(again, &desc);
+            assert_same(&image, &first);
+            image_finish(&image);
+            resident_destroy(again);
+        }
+        use_tiles(0);
+        image_finish(&first);
+        resident_destroy(resident);
+    }
+}
+
+static void test_edits_and_back(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct image before = draw(resident, &usual), between, after;
+
+    (void)state;
+    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":0.8},"
+                   "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
+                   "\"value\":{\"id\":\"ring\",\"type\":\"torus\"}}]");
+    between = draw(resident, &usual);
+    assert_false(is_same(&before, &between));
+    edit(resident, "[{\"op\":\"remove\",\"at\":\"/nodes/ring\"},"
+                   "{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":null}]");
+    after = draw(resident, &usual);
+    assert_same(&before, &after);
+    image_finish(&before);
+    image_finish(&between);
+    image_finish(&after);
+    resident_destroy(resident);
+}
+
+static void test_numbers_compile_nothing(void **state)
+{
+    const struct job_desc small = {.width = 16, .height = 16, .samples = 1, .exact = true};
+    struct resident *resident = make_resident(document);
+    struct image image = draw(resident, &small);
+    const uint64_t compilations = renderer_counters(renderer).compilations;
+
+    (void)state;
+    for (int i = 0; i < NUMERIC_EDITS; i++) {
+        char ops[256];
+        snprintf(ops, sizeof ops,
+                 "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":%.4f},"
+                 "{\"op\":\"set\",\"at\":\"/nodes/cube/transform/rotation\",\"value\":[0,%.4f,0]},"
+                 "{\"op\":\"set\",\"at\":\"/camera/fov\",\"value\":%.4f}]",
+                 0.3 + 0.0005 * i, 0.001 * i, 40 + 0.01 * i);
+        edit(resident, ops);
+        assert_int_equal(resident_shown_revision(resident), resident_revision(resident));
+        if (i % 100 == 0) {
+            struct image next = draw(resident, &small);
+            assert_false(is_same(&image, &next));
+            image_finish(&image);
+            image = next;
+        }
+    }
+    assert_int_equal(renderer_counters(renderer).compilations, compilations);
+    image_finish(&image);
+    resident_destroy(resident);
+}
+
+static struct image finish_job(struct job *job)
+{
+    struct image image;
+    enum job_state state;
+
+    while ((state = job_step(job)) != JOB_DONE) {
+        if (state == JOB_FAILED) {
+            fail_msg("%s", job_error(job)->message);
+        }
+        renderer_poll(renderer, state == JOB_WAITING ? 100 : 0);
+    }
+    image = job_take_image(job);
+    job_destroy(job);
+    return image;
+}
+
+static void test_pictures_are_not_torn(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct image before, torn;
+    struct job *job;
+
+    (void)state;
+    use_tiles(32);
+    before = draw(resident, &usual);
+    job = job_create(resident, &usual, NULL);
+    for (int i = 0; i < 10; i++) {
+        assert_int_equal(job_step(job), JOB_RUNNING);
+    }
+    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":1.5},"
+                   "{\"op\":\"remove\",\"at\":\"/nodes/cube\"}]");
+    torn = finish_job(job);
+    assert_same(&before, &torn);
+    use_tiles(0);
+    image_finish(&before);
+    image_finish(&torn);
+    resident_destroy(resident);
+}
+
+static void test_old_picture_while_compiling(void **state)
+{
+    const struct job_desc newest = usual;
+    struct job_desc any = usual;
+    struct resident *resident = make_resident(document);
+    struct image before = draw(resident, &usual), old, new;
+    struct job *exact, *inexact;
+
+    (void)state;
+    any.exact = false;
+    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/blend\",\"before\":null,\"value\":"
+                   "{\"id\":\"bead\",\"type\":\"sphere\",\"transform\":{\"translation\":[0,0.8,0]}}}]");
+    assert_int_equal(resident_shown_revision(resident), 1);
+    exact = job_create(resident, &newest, NULL);
+    inexact = job_create(resident, &any, NULL);
+    assert_int_equal(job_revision(exact), 2);
+    assert_int_equal(job_revision(inexact), 1);
+    old = finish_job(inexact);
+    new = finish_job(exact);
+    assert_same(&before, &old);
+    assert_false(is_same(&before, &new));
+    assert_int_equal(resident_shown_revision(resident), 2);
+    image_finish(&before);
+    image_finish(&old);
+    image_finish(&new);
+    resident_destroy(resident);
+}
+
+static void test_cancel(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct image before = draw(resident, &usual), after;
+    struct job *job;
+
+    (void)state;
+    use_tiles(32);
+    for (int steps = 0; steps < 6; steps++) {
+        job = job_create(resident, &usual, NULL);
+        for (int i = 0; i < steps; i++) {
+            job_step(job);
+        }
+        job_destroy(job);
+    }
+    after = draw(resident, &usual);
+    assert_same(&before, &after);
+    use_tiles(0);
+    image_finish(&before);
+    image_finish(&after);
+    resident_destroy(resident);
+}
+
+static void test_sizes(void **state)
+{
+    static const int sizes[][2] = {{1, 1}, {1, 300}, {LIMIT_IMAGE_SIDE, 1}, {257, 3}};
+    static const struct {
+        struct job_desc desc;
+        const char *place;
+    } bad[] = {
+        {{.width = 0, .height = 5}, "width"},
+        {{.width = 5, .height = LIMIT_IMAGE_SIDE + 1}, "height"},
+        {{.width = LIMIT_IMAGE_SIDE, .height = LIMIT_IMAGE_SIDE}, "height"},
+        {{.width = 5, .height = 5, .samples = 5}, "samples"},
+    };
+    struct resident *resident = make_resident(document);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const struct job_desc desc = {
+            .width = sizes[i][0], .height = sizes[i][1], .samples = 1, .exact = true};
+        struct image image = draw(resident, &desc);
+        assert_int_equal(image.bytes, (size_t)desc.width * (size_t)desc.height * 4);
+        image_finish(&image);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        struct error err = {0};
+        assert_null(job_create(resident, &bad[i].desc, &err));
+        assert_int_equal(err.kind, ERROR_LIMIT);
+        assert_string_equal(err.place, bad[i].place);
+    }
+    resident_destroy(resident);
+}
+
+/* Raw depths and ids against the evaluator in C that picking uses. */
+static void test_picking_agrees(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct job_desc desc = {.width = 64, .height = 48, .exact = true, .as_floats = true};
+    struct image depth, id;
+    int different = 0;
+
+    (void)state;
+    desc.aov = AOV_DEPTH;
+    depth = draw(resident, &desc);
+    desc.aov = AOV_ID;
+    id = draw(resident, &desc);
+    assert_int_equal(depth.format, PIXEL_FLOAT);
+    assert_int_equal(id.format, PIXEL_UINT32);
+    for (int i = 0; i < 64 * 48; i += 7) {
+        const double x = i % 64 + 0.5, y = i / 64 + 0.5;
+        const struct pick_result pick = resident_pick(resident, NULL, 64, 48, x, y);
+        const float d = ((float *)depth.pixels)[i];
+        const uint32_t number = ((uint32_t *)id.pixels)[i];
+        const char *node =
+            number ? field_leaf_id(resident->drawable->field, number) : "";
+        different += pick.hit != (number > 0) || strcmp(node, pick.node) != 0 ||
+                     (pick.hit ? fabs(d - pick.distance) > 0.03 * d : d != INFINITY);
+    }
+    /* At silhouettes a hair's breadth decides. */
+    assert_in_range(different, 0, 8);
+    image_finish(&depth);
+    image_finish(&id);
+    resident_destroy(resident);
+}
+
+static void test_cache(void **state)
+{
+    struct resident *first = make_resident(document), *second;
+    struct image a = draw(first, &usual), b;
+    const struct renderer_counters before = renderer_counters(renderer);
+
+    (void)state;
+    second = make_resident(document);
+    assert_int_equal(resident_shown_revision(second), 1);
+    b = draw(second, &usual);
+    assert_int_equal(renderer_counters(renderer).compilations, before.compilations);
+    assert_int_equal(renderer_counters(renderer).cache_hits, before.cache_hits + 1);
+    assert_same(&a, &b);
+    image_finish(&a);
+    image_finish(&b);
+    resident_destroy(first);
+    resident_destroy(second);
+}
+
+/* Loops within loops, more steps than llvmpipe's budget: the picture is drawn with fewer steps, and
+ * the log says so. */
+static void test_loop_budget(void **state)
+{
+    static const char text[] =
+        "{\"format\":\"fieldcast/1\",\"render\":{\"max_steps\":1024},"
+        "\"root\":{\"id\":\"root\",\"type\":\"repeat\",\"params\":{\"spacing\":[1,1,1],"
+        "\"count\":[3,3,3]},\"children\":[{\"id\":\"inner\",\"type\":\"repeat\","
+        "\"params\":{\"spacing\":[0.3,0.3,0.3],\"count\":[3,3,3]},\"children\":["
+        "{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":0.2}}]}]}}";
+    struct resident *resident = make_resident(text);
+    const struct snapshot *newest = resident->newest;
+
+    (void)state;
+    assert_non_null(newest);
+    if (renderer->info.software) {
+        const long each = 1 + (long)newest->field->loop_trips;
+        assert_true((long)newest->frame.size[3] * each <= 65535);
+        assert_int_equal(newest->fewer_steps, newest->frame.size[3] < 1024);
+    } else {
+        assert_int_equal(newest->frame.size[3], 1024);
+    }
+    resident_destroy(resident);
+}
+
+static void test_gpu_asked_for(void **state)
+{
+    struct renderer_params params = {.device = DEVICE_GPU, .device_index = -1};
+    struct device_report rows[8];
+    struct error err = {0};
+    struct renderer *gpu = renderer_create(&params, &err);
+    const size_t count = renderer_devices(&params, rows, 8);
+
+    (void)state;
+    if (gpu) {
+        assert_false(renderer_info(gpu)->software);
+        renderer_destroy(gpu);
+    } else {
+        assert_int_equal(err.kind, ERROR_UNAVAILABLE);
+        assert_non_null(strstr(err.message, "a GPU was asked for"));
+        for (size_t i = 0; i < count; i++) {
+            assert_false(rows[i].chosen);
+        }
+    }
+    egl_bind(&renderer->egl, renderer->egl.draw, NULL);
+}
+
+static int set_up(void **state)
+{
+    const struct renderer_params params = {.device_index = -1};
+    struct error err = {0};
+
+    (void)state;
+    renderer = renderer_create(&params, &err);
+    if (!renderer) {
+        print_message("%s\n", err.message);
+        return -1;
+    }
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    renderer_destroy(renderer);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tiles_do_not_show),
+        cmocka_unit_test(test_edits_and_back),
+        cmocka_unit_test(test_numbers_compile_nothing),
+        cmocka_unit_test(test_pictures_are_not_torn),
+        cmocka_unit_test(test_old_picture_while_compiling),
+        cmocka_unit_test(test_cancel),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_picking_agrees),
+        cmocka_unit_test(test_cache),
+        cmocka_unit_test(test_loop_budget),
+        cmocka_unit_test(test_gpu_asked_for),
+    };
+
+    return cmocka_run_group_tests_name("renderer", tests, set_up, tear_down);
+}

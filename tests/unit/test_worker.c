@@ -1,0 +1,490 @@
+/* SPDX-License-Identifier: MIT */
+/* The render process over its socket: pictures, edits, order, cancelling, refusals, its end. Each
+ * test starts one by running this program again with --worker. */
+#include <poll.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "renderer/worker.h"
+#include "tests/support/picture.h"
+#include "tests/support/text_file.h"
+
+#define EXAMPLE "protocol/examples/first-steps.json"
+
+static int fd = -1;
+static pid_t child;
+static struct packet_reader reader;
+static struct packet packet; /* the last received */
+
+/* --- the other end --- */
+
+static int start(void **state)
+{
+    int ends[2];
+
+    (void)state;
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
+    child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        dup2(ends[1], WORKER_FD);
+        execl("/proc/self/exe", "test_worker", "--worker", (char *)NULL);
+        _exit(127);
+    }
+    close(ends[1]);
+    fd = ends[0];
+    return 0;
+}
+
+static int end(void)
+{
+    int status;
+
+    close(fd);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    packet_finish(&packet);
+    packet_reader_finish(&reader);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    return end() == 0 ? 0 : -1;
+}
+
+static void send_bytes(const void *bytes, size_t length)
+{
+    assert_int_equal(send(fd, bytes, length, MSG_NOSIGNAL), length);
+}
+
+static void send_json(cJSON *json)
+{
+    size_t length;
+    uint8_t *bytes = packet_pack(json, NULL, 0, &length);
+
+    send_bytes(bytes, length);
+    free(bytes);
+    cJSON_Delete(json);
+}
+
+static void send_text(const char *text)
+{
+    cJSON *json = cJSON_Parse(text);
+
+    assert_non_null(json);
+    send_json(json);
+}
+
+/* The next packet; its type. */
+static const char *receive(void)
+{
+    uint8_t bytes[65536];
+    int got;
+
+    packet_finish(&packet);
+    while ((got = packet_reader_next(&reader, &packet)) == 0) {
+        const ssize_t count = recv(fd, bytes, sizeof bytes, 0);
+        if (count <= 0) {
+            return "the end";
+        }
+        packet_reader_add(&reader, bytes, (size_t)count);
+    }
+    assert_int_equal(got, 1);
+    return json_member_text(packet.json, "type", "");
+}
+
+/* Skips packets until one of this type; fails at the end of the stream. */
+static void expect(const char *type)
+{
+    const char *got;
+
+    while (strcmp(got = receive(), type) != 0) {
+        if (strcmp(got, "the end") == 0) {
+            fail_msg("no %s came", type);
+        }
+    }
+}
+
+static double number(const char *name)
+{
+    return json_member_number(packet.json, name, -1);
+}
+
+static const char *text(const char *name)
+{
+    return json_member_text(packet.json, name, "");
+}
+
+static void send_scene(const char *name, int revision)
+{
+    size_t length;
+    char *document = text_file_read(EXAMPLE, &length);
+    cJSON *json = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(json, "type", "scene");
+    cJSON_AddStringToObject(json, "scene", name);
+    cJSON_AddNumberToObject(json, "revision", revision);
+    cJSON_AddItemToObject(json, "document", cJSON_Parse(document));
+    send_json(json);
+    free(document);
+}
+
+static void send_render(int job, int priority, int width, int height, const char *more)
+{
+    char line[512];
+
+    snprintf(line, sizeof line,
+             "{\"type\":\"render\",\"job\":%d,\"scene\":\"s\",\"priority\":%d,\"width\":%d,"
+             "\"height\":%d,\"samples\":1,\"format\":\"png\",\"fast\":true%s}",
+             job, priority, width, height, more);
+    send_text(line);
+}
+
+/* --- tests --- */
+
+static void test_ready(void **state)
+{
+    const cJSON *info;
+
+    (void)state;
+    expect("ready");
+    info = cJSON_GetObjectItemCaseSensitive(packet.json, "renderer");
+    assert_true(strlen(json_member_text(info, "name", "")) > 0);
+    assert_true(strlen(json_member_text(info, "device", "")) > 0);
+    assert_true(cJSON_IsBool(cJSON_GetObjectItemCaseSensitive(info, "software")));
+}
+
+/* The same document, drawn in this process. */
+static void draw_here(const char *ops, struct picture *out)
+{
+    const struct renderer_params params = {.device_index = -1};
+    struct renderer *renderer = renderer_create(&params, NULL);
+    const struct job_desc desc = {.width = 80, .height = 60, .samples = 1, .exact = true};
+    size_t length, bytes_length;
+    char *document = text_file_read(EXAMPLE, &length);
+    struct scene *scene = scene_parse(document, length, NULL);
+    struct resident *resident = resident_create(renderer, scene, 1);
+    cJSON *json = cJSON_Parse(ops);
+    struct image image;
+    uint8_t *bytes;
+
+    assert_true(resident_edit(resident, json, 2, NULL));
+    assert_true(renderer_render(resident, &desc, &image, NULL));
+    assert_true(image_encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &bytes,
+                             &bytes_length, NULL));
+    assert_true(picture_read_memory(out, bytes, bytes_length));
+    free(bytes);
+    image_finish(&image);
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+    cJSON_Delete(json);
+    free(document);
+}
+
+static void test_render_and_edit(void **state)
+{
+    static const char ops[] =
+        "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":0.9}]";
+    struct picture first, second, here;
+    char line[256];
+
+    (void)state;
+    send_scene("s", 1);
+    send_render(1, 0, 80, 60, ",\"exact\":true");
+    expect("frame");
+    assert_int_equal(number("job"), 1);
+    assert_int_equal(number("revision"), 1);
+    assert_true(json_member_bool(packet.json, "newest", false));
+    assert_int_equal(number("width"), 80);
+    assert_string_equal(text("mime"), "image/png");
+    assert_true(number("march_us") >= 0 && number("encode_us") >= 0 && number("queue_us") >= 0);
+    assert_true(picture_read_memory(&first, packet.payload, packet.payload_length));
+
+    snprintf(line, sizeof line, "{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":%s}", ops);
+    send_text(line);
+    send_render(2, 0, 80, 60, "");
+    expect("frame");
+    assert_int_equal(number("revision"), 2);
+    assert_true(picture_read_memory(&second, packet.payload, packet.payload_length));
+    assert_false(picture_compare(&first, &second, NULL).greatest == 0);
+
+    draw_here(ops, &here);
+    assert_int_equal(picture_compare(&second, &here, NULL).greatest, 0);
+    assert_true(picture_compare(&second, &here, NULL).same);
+    picture_finish(&first);
+    picture_finish(&second);
+    picture_finish(&here);
+}
+
+static void test_structural_edit(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    assert_int_equal(number("revision"), 1);
+    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":[{\"op\":\"insert\","
+              "\"into\":\"/nodes/root\",\"before\":null,\"value\":{\"type\":\"torus\"}}]}");
+    send_render(1, 0, 40, 30, "");
+    send_render(2, 0, 40, 30, ",\"exact\":true");
+    expect("frame");
+    if (number("revision") == 1) { /* else the compiler was faster */
+        assert_int_equal(number("job"), 1);
+        assert_false(json_member_bool(packet.json, "newest", true));
+    }
+    expect("shown");
+    assert_int_equal(number("revision"), 2);
+    do {
+        expect("frame");
+    } while (number("job") != 2);
+    assert_int_equal(number("revision"), 2);
+}
+
+static void test_priority(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    send_render(1, 3, 1600, 1200, "");
+    send_text("{\"type\":\"ping\",\"ping\":1}");
+    send_render(2, 0, 40, 30, "");
+    expect("pong"); /* answered in the middle of a picture */
+    assert_int_equal(number("pictures"), 0);
+    expect("frame");
+    assert_int_equal(number("job"), 2);
+    expect("frame");
+    assert_int_equal(number("job"), 1);
+}
+
+static void test_cancel(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    send_render(1, 0, 1600, 1200, "");
+    send_render(2, 0, 1600, 1200, "");
+    send_render(3, 1, 40, 30, "");
+    send_text("{\"type\":\"cancel\",\"job\":1}");
+    send_text("{\"type\":\"cancel\",\"job\":2}");
+    send_text("{\"type\":\"cancel\",\"job\":77}");
+    expect("frame");
+    assert_int_equal(number("job"), 3);
+    send_text("{\"type\":\"ping\",\"ping\":9}");
+    assert_string_equal(receive(), "pong");
+    assert_int_equal(number("ping"), 9);
+    assert_int_equal(number("pictures"), 1);
+    assert_true(number("resident_bytes") > 0);
+}
+
+static void test_dropped_scene(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    send_render(1, 0, 400, 300, "");
+    send_text("{\"type\":\"drop\",\"scene\":\"s\"}");
+    send_render(2, 0, 40, 30, "");
+    expect("failed");
+    assert_int_equal(number("job"), 2);
+    assert_string_equal(text("code"), "not_found");
+    expect("frame");
+    assert_int_equal(number("job"), 1);
+}
+
+static void test_outputs(void **state)
+{
+    (void)state;
+    send_scene("s", 1);
+    send_render(1, 0, 40, 30, ",\"format\":\"npy\",\"aov\":\"id\"");
+    send_text("{\"type\":\"render\",\"job\":2,\"scene\":\"s\",\"width\":40,\"height\":30,"
+              "\"format\":\"npy\",\"aov\":\"id\"}");
+    send_text("{\"type\":\"render\",\"job\":3,\"scene\":\"s\",\"width\":40,\"height\":30,"
+              "\"format\":\"jpg\",\"quality\":50,\"chroma_halved\":true,"
+              "\"camera\":{\"position\":[0,9,0.1],\"fov\":20}}");
+    do {
+        expect("frame");
+        if (number("job") == 2) {
+            assert_string_equal(text("mime"), "application/x-npy");
+            assert_int_equal(packet.payload_length, 128 + 40 * 30 * 4);
+        }
+        if (number("job") == 3) {
+            assert_string_equal(text("mime"), "image/jpeg");
+            assert_memory_equal(packet.payload, "\xff\xd8\xff", 3);
+        }
+    } while (number("job") != 3);
+}
+
+static void check_failed(const char *more, const char *code, const char *place)
+{
+    char line[512];
+
+    snprintf(line, sizeof line,
+             "{\"type\":\"render\",\"job\":5,\"width\":40,\"height\":30,\"scene\":\"s\"%s}", more);
+    send_text(line);
+    expect("failed");
+    assert_int_equal(number("job"), 5);
+    assert_string_equal(text("code"), code);
+    assert_string_equal(text("place"), place);
+    assert_true(strlen(text("message")) > 0);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    check_failed("", "not_found", "scene");
+    send_scene("s", 1);
+    expect("shown");
+    check_failed(",\"aov\":\"smell\"", "invalid", "aov");
+    check_failed(",\"format\":\"gif\"", "invalid", "format");
+    check_failed(",\"samples\":9", "limit", "samples");
+    check_failed(",\"samples\":-1", "limit", "samples");
+    check_failed(",\"format\":\"jpg\",\"quality\":400", "limit", "quality");
+    check_failed(",\"camera\":{\"fov\":500}", "invalid", "/camera/fov");
+    send_text("{\"type\":\"render\",\"job\":5,\"scene\":\"s\",\"width\":1e300,\"height\":2}");
+    expect("failed");
+    send_text("{\"type\":\"dance\"}");
+    expect("failed");
+    assert_string_equal(text("code"), "invalid");
+    send_text("{\"type\":\"scene\",\"scene\":\"t\",\"revision\":4,\"document\":{\"format\":\"x\"}}");
+    expect("broken");
+    assert_string_equal(text("scene"), "t");
+    assert_int_equal(number("revision"), 4);
+    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":[{\"op\":\"remove\","
+              "\"at\":\"/nodes/nobody\"}]}");
+    expect("broken");
+    assert_string_equal(text("code"), "not_found");
+    send_render(6, 0, 40, 30, "");
+    expect("frame");
+    assert_int_equal(number("revision"), 1);
+}
+
+static void test_pick(void **state)
+{
+    (void)state;
+    send_scene("s", 7);
+    expect("shown");
+    send_text("{\"type\":\"pick\",\"pick\":3,\"scene\":\"s\",\"width\":640,\"height\":360,"
+              "\"x\":320,\"y\":160}");
+    expect("picked");
+    assert_int_equal(number("pick"), 3);
+    assert_int_equal(number("revision"), 7);
+    assert_string_equal(text("node"), "ball");
+    assert_true(number("distance") > 3 && number("distance") < 6);
+    assert_int_equal(
+        cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(packet.json, "normal")), 3);
+    send_text("{\"type\":\"pick\",\"pick\":4,\"scene\":\"nowhere\",\"width\":640,\"height\":360,"
+              "\"x\":320,\"y\":160}");
+    expect("picked");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(packet.json, "node")));
+}
+
+static void test_stop(void **state)
+{
+    (void)state;
+    assert_int_equal(start(NULL), 0);
+    expect("ready");
+    send_scene("s", 1);
+    send_render(1, 0, 1600, 1200, "");
+    send_text("{\"type\":\"stop\"}");
+    while (strcmp(receive(), "the end") != 0) {
+    }
+    assert_int_equal(end(), 0);
+}
+
+/* The front is gone in the middle of a picture. */
+static void test_front_gone(void **state)
+{
+    (void)state;
+    assert_int_equal(start(NULL), 0);
+    expect("ready");
+    send_scene("s", 1);
+    send_render(1, 0, 1600, 1200, "");
+    assert_int_equal(end(), 0);
+}
+
+static void check_broken_stream(const void *bytes, size_t length)
+{
+    assert_int_equal(start(NULL), 0);
+    expect("ready");
+    send_bytes(bytes, length);
+    expect("failed");
+    assert_string_equal(text("code"), "syntax");
+    assert_string_equal(receive(), "the end");
+    assert_int_equal(end(), 1);
+}
+
+static void test_malformed_packets(void **state)
+{
+    static const uint32_t huge[2] = {UINT32_MAX, 0};
+    static const char garbage[] = "\x05\0\0\0\0\0\0\0{\"a\":";
+    static const char list[] = "\x02\0\0\0\0\0\0\0[]";
+
+    (void)state;
+    check_broken_stream(huge, sizeof huge);
+    check_broken_stream(garbage, sizeof garbage - 1);
+    check_broken_stream(list, sizeof list - 1);
+}
+
+/* Packets come whole out of any pieces. */
+static void test_packets(void **state)
+{
+    static const char payload[] = "some bytes";
+    struct packet_reader pieces = {0};
+    struct packet out;
+    cJSON *json = cJSON_Parse("{\"a\":1}");
+    size_t length;
+    uint8_t *bytes = packet_pack(json, payload, sizeof payload, &length);
+
+    (void)state;
+    for (int round = 0; round < 3; round++) {
+        for (size_t i = 0; i < length; i++) {
+            assert_int_equal(packet_reader_next(&pieces, &out), 0);
+            packet_reader_add(&pieces, bytes + i, 1);
+        }
+        assert_int_equal(packet_reader_next(&pieces, &out), 1);
+        assert_int_equal(json_member_number(out.json, "a", 0), 1);
+        assert_int_equal(out.payload_length, sizeof payload);
+        assert_memory_equal(out.payload, payload, sizeof payload);
+        packet_finish(&out);
+    }
+    packet_reader_finish(&pieces);
+    free(bytes);
+    cJSON_Delete(json);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_packets),
+        cmocka_unit_test_setup_teardown(test_ready, start, stop),
+        cmocka_unit_test_setup_teardown(test_render_and_edit, start, stop),
+        cmocka_unit_test_setup_teardown(test_structural_edit, start, stop),
+        cmocka_unit_test_setup_teardown(test_priority, start, stop),
+        cmocka_unit_test_setup_teardown(test_cancel, start, stop),
+        cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
+        cmocka_unit_test_setup_teardown(test_outputs, start, stop),
+        cmocka_unit_test_setup_teardown(test_refusals, start, stop),
+        cmocka_unit_test_setup_teardown(test_pick, start, stop),
+        cmocka_unit_test(test_stop),
+        cmocka_unit_test(test_front_gone),
+        cmocka_unit_test(test_malformed_packets),
+    };
+
+    if (argc > 1 && strcmp(argv[1], "--worker") == 0) {
+        return worker_run(WORKER_FD, &(struct worker_params){.renderer = {.device_index = -1}});
+    }
+    return cmocka_run_group_tests_name("worker", tests, NULL, NULL);
+}
