@@ -101,7 +101,8 @@ test('a scene that ends workers is left out until it is edited, others go on', a
         await until(async () => (await counter(daemon, 'render_queue')) > 0, 'the order');
         const pid = daemon.worker();
         process.kill(pid, 'SIGKILL');
-        await until(async () => daemon.worker() !== pid && (await fetch(`${daemon.url}/readyz`)).ok, 'another');
+        await until(() => daemon.worker() && daemon.worker() !== pid, 'another worker');
+        await until(async () => (await fetch(`${daemon.url}/readyz`)).ok, 'it to be ready');
     }
     assert.equal((await bad.next('notice', { code: 'scene_left_out' })).level, 'error');
     const refused = await fetch(`${daemon.url}/v1/scenes/bad/image.png?width=8&height=8`);
