@@ -110,7 +110,7 @@ static bool draw(struct scene *scene, const struct options *options, enum image_
 int command_render(const struct options *options)
 {
     struct error err = {0};
-    enum image_format format;
+    enum image_format format = IMAGE_PNG;
     int status = EXIT_USAGE;
     if (choose_format(options, &format, &err)) {
         status = EXIT_FAILED;
