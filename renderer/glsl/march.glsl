@@ -48,7 +48,7 @@ Hit march(Ray ray)
             t = back ? t : t + ahead;
             radius = back ? radius : d;
             float print = footprint(t);
-            hit = radius < 0.5 * print;
+            hit = radius < 0.3 * print;
             if (hit || t > end) {
                 break;
             }
@@ -67,6 +67,8 @@ Hit march(Ray ray)
     }
     float size = length(gradient);
     vec3 normal = size > 0.0 ? gradient / size : -ray.direction;
+    /* Behind an edge that the ray only brushed, the field leads away from the eye. */
+    normal = normalize(normal - ray.direction * max(dot(normal, ray.direction) + 0.02, 0.0));
     /* The last piece, to the tangent plane. */
     t += rest * 4.0 * e / max(size, 0.4 * e) / max(-dot(normal, ray.direction), 0.02);
     return Hit(hit, hit ? t : INFINITY, base, normal);

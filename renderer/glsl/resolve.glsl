@@ -39,7 +39,7 @@ vec3 tone_map(vec3 c)
     if (modes.z == TONE_REINHARD) {
         return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
     }
-    return clamp(aces(c / 0.75), 0.0, 1.0);
+    return clamp(aces(c / 0.85), 0.0, 1.0);
 }
 
 /* IEC 61966-2-1 */
