@@ -105,11 +105,11 @@ static void send_refusal(int fd, int status, const char *message)
 {
     char body[512], reply[1024];
 
-    int body_length = snprintf(body, sizeof(body),
-                               "{\"type\":\"about:blank\",\"title\":\"%s\",\"status\":%d,"
-                               "\"detail\":\"%s\",\"code\":\"%s\",\"place\":\"\"}\n",
-                               status_title(status), status, message,
-                               status == 503 ? "unavailable" : "syntax");
+    int body_length =
+        snprintf(body, sizeof(body),
+                 "{\"type\":\"about:blank\",\"title\":\"%s\",\"status\":%d,"
+                 "\"detail\":\"%s\",\"code\":\"%s\",\"place\":\"\"}\n",
+                 status_title(status), status, message, status == 503 ? "unavailable" : "syntax");
     int length = snprintf(reply, sizeof(reply),
                           "HTTP/1.1 %d %s\r\nContent-Type: application/problem+json\r\n"
                           "Content-Length: %d\r\n%sConnection: close\r\n\r\n%s",
@@ -195,8 +195,7 @@ static bool skip_empty_lines(struct acceptor *acceptor, struct client *client, s
 
 static void look(struct acceptor *acceptor, struct client *client, bool ended)
 {
-    ssize_t length =
-        recv(client->fd, acceptor->bytes, LIMIT_HEAD_BYTES, MSG_PEEK | MSG_DONTWAIT);
+    ssize_t length = recv(client->fd, acceptor->bytes, LIMIT_HEAD_BYTES, MSG_PEEK | MSG_DONTWAIT);
 
     if (length > 0 && !skip_empty_lines(acceptor, client, &length)) {
         length = -1;
@@ -358,8 +357,7 @@ static bool listen_on(struct acceptor *acceptor, const char *address, int port, 
     if (getaddrinfo(address, service, &hints, &info) != 0) {
         return error_set(err, ERROR_INVALID, address, "not an IPv4 or IPv6 address");
     }
-    acceptor->listener =
-        socket(info->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    acceptor->listener = socket(info->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     bool ok = acceptor->listener >= 0 &&
               setsockopt(acceptor->listener, SOL_SOCKET, SO_REUSEADDR, &one, sizeof(one)) == 0 &&
               bind(acceptor->listener, info->ai_addr, info->ai_addrlen) == 0 &&
@@ -367,12 +365,11 @@ static bool listen_on(struct acceptor *acceptor, const char *address, int port, 
               getsockname(acceptor->listener, (struct sockaddr *)&bound, &length) == 0;
     freeaddrinfo(info);
     if (!ok) {
-        return error_set(err, ERROR_UNAVAILABLE, address, "port %d cannot be listened on: %s",
-                         port, strerror(errno));
+        return error_set(err, ERROR_UNAVAILABLE, address, "port %d cannot be listened on: %s", port,
+                         strerror(errno));
     }
-    acceptor->port = ntohs(bound.ss_family == AF_INET6
-                               ? ((struct sockaddr_in6 *)&bound)->sin6_port
-                               : ((struct sockaddr_in *)&bound)->sin_port);
+    acceptor->port = ntohs(bound.ss_family == AF_INET6 ? ((struct sockaddr_in6 *)&bound)->sin6_port
+                                                       : ((struct sockaddr_in *)&bound)->sin_port);
     return true;
 }
 

@@ -44,7 +44,7 @@ struct catalog_entry *catalog_find(const struct catalog *catalog, const char *id
     size_t at = position(catalog, id);
 
     return at < catalog->count && strcmp(catalog->entries[at]->id, id) == 0 ? catalog->entries[at]
-                                                                           : NULL;
+                                                                            : NULL;
 }
 
 static struct catalog_entry *insert(struct catalog *catalog, const char *id)

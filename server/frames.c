@@ -222,9 +222,8 @@ static void choose_step(struct frames *frames, const struct frames_view *view)
         int step = 0;
 
         /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
-        while (step < rule->last_step &&
-               predicted_ms(frames, view, step) >
-                   rule->target_ms * (step < frames->step ? 0.8 : 1.1)) {
+        while (step < rule->last_step && predicted_ms(frames, view, step) >
+                                             rule->target_ms * (step < frames->step ? 0.8 : 1.1)) {
             step++;
         }
         frames->step = step;
@@ -238,9 +237,9 @@ static void learn(struct frames *frames)
 {
     double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
 
-    frames->ns_per_pixel =
-        frames->ns_per_pixel > 0 ? frames->ns_per_pixel + 0.3 * (took - frames->ns_per_pixel)
-                                 : took;
+    frames->ns_per_pixel = frames->ns_per_pixel > 0
+                               ? frames->ns_per_pixel + 0.3 * (took - frames->ns_per_pixel)
+                               : took;
 }
 
 /* --- asking and receiving --- */
@@ -251,8 +250,8 @@ static void send_frame(struct session *session, const struct packet *answer)
     const cJSON *json = answer->json;
     bool newest = json_member_bool(json, "newest", true);
     struct frame_header header = {
-        .codec = strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG
-                                                                              : FRAME_JPEG,
+        .codec =
+            strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG : FRAME_JPEG,
         .flags = level_rules[frames->job_level].flags | (newest ? 0 : FRAME_STALE),
         .number = ++frames->last_number,
         .payload_bytes = (uint32_t)answer->payload_length,

@@ -43,11 +43,11 @@ struct frames {
     int newest;
     bool has_view;
 
-    int64_t changed_at;        /* clock_ms of the last change that shows */
-    enum frames_level done;    /* best picture asked for since then */
-    bool stale;                /* the newest picture is older than the document */
+    int64_t changed_at;     /* clock_ms of the last change that shows */
+    enum frames_level done; /* best picture asked for since then */
+    bool stale;             /* the newest picture is older than the document */
 
-    uint32_t job;              /* asked of the worker; 0: none */
+    uint32_t job; /* asked of the worker; 0: none */
     enum frames_level job_level;
     int64_t job_asked_us;
     uint32_t job_seq;
@@ -60,8 +60,8 @@ struct frames {
         int64_t sent_ms;
     } flight[LIMIT_FRAMES_IN_FLIGHT];
 
-    int step;                  /* index into the scales */
-    double ns_per_pixel;       /* running mean over moving pictures; 0: none yet */
+    int step;            /* index into the scales */
+    double ns_per_pixel; /* running mean over moving pictures; 0: none yet */
 };
 
 void frames_init(struct frames *frames);

@@ -95,8 +95,7 @@ static bool read_request_line(const char *line, size_t length, struct head *head
     const char *first = memchr(line, ' ', length);
     const char *last = memrchr(line, ' ', length);
 
-    if (!first || first == last || !is_token(line, (size_t)(first - line)) ||
-        first - line > 32) {
+    if (!first || first == last || !is_token(line, (size_t)(first - line)) || first - line > 32) {
         return refuse(fault, 400, "the request line is not METHOD TARGET VERSION");
     }
     for (const char *c = first + 1; c < last; c++) {
@@ -161,8 +160,7 @@ static bool store_field(struct head *head, const char *name, size_t name_length,
     return true;
 }
 
-static bool read_field(const char *line, size_t length, struct head *head,
-                       struct head_fault *fault)
+static bool read_field(const char *line, size_t length, struct head *head, struct head_fault *fault)
 {
     const char *colon = memchr(line, ':', length);
 
@@ -191,8 +189,8 @@ static bool is_authority(const char *host)
                                  "-._~%!$&'()*+;=:[]") == strlen(host);
 }
 
-bool head_framing_check(const char *host, const char *content_length,
-                        const char *transfer_encoding, int minor, struct head_fault *fault)
+bool head_framing_check(const char *host, const char *content_length, const char *transfer_encoding,
+                        int minor, struct head_fault *fault)
 {
     if (!host && minor >= 1) {
         return refuse(fault, 400, "the Host header is missing");

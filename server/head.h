@@ -49,8 +49,8 @@ bool head_read(const char *bytes, size_t length, struct head *out, struct head_f
 bool head_field_check(const char *name, size_t name_length, const char *value, size_t value_length,
                       struct head_fault *fault);
 /* Rules between fields: one length at most, a transfer coding that is known, a Host. */
-bool head_framing_check(const char *host, const char *content_length,
-                        const char *transfer_encoding, int minor, struct head_fault *fault);
+bool head_framing_check(const char *host, const char *content_length, const char *transfer_encoding,
+                        int minor, struct head_fault *fault);
 
 /* True when the comma-separated `list` (may be NULL) holds `token`, case ignored. */
 bool head_list_has(const char *list, const char *token);

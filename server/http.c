@@ -38,7 +38,7 @@ struct exchange {
     struct MHD_Connection *connection;
     const struct route *route;
     char *target;
-    bool begun, counted; /* admitted; among http->pending */
+    bool begun, counted;              /* admitted; among http->pending */
     size_t body_capacity, body_bytes; /* bytes seen, kept or not */
     int64_t deadline;
     struct MHD_Response *response; /* under http->lock until REPLIED */
@@ -115,8 +115,8 @@ static struct MHD_Response *build_response(const struct exchange *exchange,
 static void unwatch(struct exchange *exchange)
 {
     if (exchange->gone) {
-        const union MHD_ConnectionInfo *info = MHD_get_connection_info(
-            exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+        const union MHD_ConnectionInfo *info =
+            MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
 
         epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_DEL, info->connect_fd, NULL);
         exchange->gone = NULL;
@@ -201,8 +201,8 @@ static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const ch
     struct field_check *check = data;
 
     (void)kind;
-    check->ok = head_field_check(name, name_length, value ? value : "", value_length,
-                                 &check->fault);
+    check->ok =
+        head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
     for (int i = 0; i < 3 && check->ok; i++) {
         if (strcasecmp(name, single[i]) != 0) {
             continue;
@@ -288,7 +288,8 @@ static bool check_body(const struct exchange *exchange, struct response *out)
         *out = response_problem(413, "too_large", "", detail);
     } else if (exchange->route->body == BODY_JSON &&
                !is_json(request_header(&exchange->request, "Content-Type"))) {
-        *out = response_problem(415, "invalid", "Content-Type", "the body must be application/json");
+        *out =
+            response_problem(415, "invalid", "Content-Type", "the body must be application/json");
     } else {
         return true;
     }
@@ -319,9 +320,8 @@ static bool admit(struct exchange *exchange, struct response *out)
         return false;
     }
     exchange->route = routes_find(request, out);
-    bool is_preflight =
-        strcmp(method, "OPTIONS") == 0 && request_header(request, "Origin") &&
-        request_header(request, "Access-Control-Request-Method");
+    bool is_preflight = strcmp(method, "OPTIONS") == 0 && request_header(request, "Origin") &&
+                        request_header(request, "Access-Control-Request-Method");
     bool found = exchange->route != NULL;
     struct response refusal;
     if (!check_access(exchange, is_preflight || (found && exchange->route->open), &refusal)) {
@@ -527,7 +527,8 @@ static void on_connection(void *data, struct MHD_Connection *connection, void **
     }
 }
 
-static void on_log(void *data, const char *format, va_list arguments)
+__attribute__((format(printf, 2, 0))) static void on_log(void *data, const char *format,
+                                                         va_list arguments)
 {
     char line[400];
 
@@ -551,8 +552,8 @@ struct http *http_create(struct hub *hub, struct error *err)
         0, NULL, NULL, on_access, http, MHD_OPTION_EXTERNAL_LOGGER, on_log, NULL,
         MHD_OPTION_URI_LOG_CALLBACK, on_target, http, MHD_OPTION_NOTIFY_COMPLETED, on_completed,
         http, MHD_OPTION_NOTIFY_CONNECTION, on_connection, http, MHD_OPTION_CONNECTION_LIMIT,
-        (unsigned)HTTP_CONNECTIONS + 64, MHD_OPTION_CONNECTION_TIMEOUT,
-        (unsigned)HTTP_IDLE_SECONDS, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+        (unsigned)HTTP_CONNECTIONS + 64, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)HTTP_IDLE_SECONDS,
+        MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
     if (!http->daemon || http->gone_epoll < 0) {
         error_set(err, ERROR_INTERNAL, "http", "libmicrohttpd cannot be started");
         http_destroy(http);

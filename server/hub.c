@@ -143,8 +143,8 @@ struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
 /* An id that people can say: "amber-fox-482". */
 static void invent_id(const struct hub *hub, char out[LIMIT_ID_BYTES + 1])
 {
-    static const char *const colours[] = {"amber", "azure", "coral", "ivory", "jade",  "lilac",
-                                          "mint",  "ochre", "olive", "pearl", "ruby",  "sable",
+    static const char *const colours[] = {"amber", "azure", "coral", "ivory", "jade", "lilac",
+                                          "mint",  "ochre", "olive", "pearl", "ruby", "sable",
                                           "sand",  "slate", "teal",  "umber"};
     static const char *const things[] = {"arch",  "bell",  "bridge", "cloud",  "cove",  "dune",
                                          "fern",  "fox",   "harbor", "island", "maple", "meadow",

@@ -32,7 +32,7 @@ static const struct whole {
 } wholes[] = {
     {"width", offsetof(struct wish, width), 1, LIMIT_IMAGE_SIDE, DEFAULT_WIDTH},
     {"height", offsetof(struct wish, height), 1, LIMIT_IMAGE_SIDE, DEFAULT_HEIGHT},
-    {"samples", offsetof(struct wish, samples), 1, 4, 0}, /* 0: the scene's */
+    {"samples", offsetof(struct wish, samples), 1, 4, 0},   /* 0: the scene's */
     {"quality", offsetof(struct wish, quality), 1, 100, 0}, /* 0: the encoder's */
 };
 enum { WHOLE_COUNT = sizeof(wholes) / sizeof(*wholes) };
@@ -53,8 +53,8 @@ static void wish_finish(struct wish *wish)
     wish->camera = NULL;
 }
 
-static bool set_whole(struct wish *wish, const struct whole *whole, double value,
-                      const char *place, struct error *err)
+static bool set_whole(struct wish *wish, const struct whole *whole, double value, const char *place,
+                      struct error *err)
 {
     if (value != floor(value)) {
         return error_set(err, ERROR_INVALID, place, "%g is not a whole number", value);
@@ -427,8 +427,8 @@ static void order_of_room(struct request *request, const struct wish *wish, cons
 }
 
 /* Takes `scene`, which may be NULL with `err` saying why. */
-static void order_of_document(struct request *request, const struct wish *wish,
-                              struct scene *scene, bool whole_camera, struct error *err)
+static void order_of_document(struct request *request, const struct wish *wish, struct scene *scene,
+                              bool whole_camera, struct error *err)
 {
     cJSON *camera = NULL;
 

@@ -147,8 +147,8 @@ void pages_examples(struct request *request)
     cJSON *list = cJSON_AddArrayToObject(json, "examples");
 
     for (size_t i = 0; i < examples_count; i++) {
-        struct scene *scene = scene_parse((const char *)examples_table[i].bytes,
-                                          examples_table[i].length, NULL);
+        struct scene *scene =
+            scene_parse((const char *)examples_table[i].bytes, examples_table[i].length, NULL);
         char description[120];
 
         if (!scene) {
@@ -218,9 +218,9 @@ void pages_ready(struct request *request)
     info = hub->renderer;
     hub_unlock(hub);
     if (!ready || atomic_load(&hub->draining)) {
-        struct response response = response_problem(
-            503, "unavailable", "",
-            ready ? "the server is shutting down" : "the render process is not ready");
+        struct response response = response_problem(503, "unavailable", "",
+                                                    ready ? "the server is shutting down"
+                                                          : "the render process is not ready");
 
         request_reply(request, &response);
         return;

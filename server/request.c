@@ -115,8 +115,7 @@ const char *request_query(const struct request *request, const char *name)
     return NULL;
 }
 
-bool request_check_query(const struct request *request, const char *const *names,
-                         struct error *err)
+bool request_check_query(const struct request *request, const char *const *names, struct error *err)
 {
     for (size_t i = 0; i < request->query_count; i++) {
         const char *const *name = names;
@@ -175,13 +174,20 @@ const char *response_title(int status)
     static const struct {
         int status;
         const char *title;
-    } titles[] = {{400, "Bad Request"},         {401, "Unauthorized"},
-                  {403, "Forbidden"},           {404, "Not Found"},
-                  {405, "Method Not Allowed"},  {408, "Request Timeout"},
-                  {409, "Conflict"},            {412, "Precondition Failed"},
-                  {413, "Content Too Large"},   {415, "Unsupported Media Type"},
-                  {422, "Unprocessable Content"}, {426, "Upgrade Required"},
-                  {500, "Internal Server Error"}, {503, "Service Unavailable"}};
+    } titles[] = {{400, "Bad Request"},
+                  {401, "Unauthorized"},
+                  {403, "Forbidden"},
+                  {404, "Not Found"},
+                  {405, "Method Not Allowed"},
+                  {408, "Request Timeout"},
+                  {409, "Conflict"},
+                  {412, "Precondition Failed"},
+                  {413, "Content Too Large"},
+                  {415, "Unsupported Media Type"},
+                  {422, "Unprocessable Content"},
+                  {426, "Upgrade Required"},
+                  {500, "Internal Server Error"},
+                  {503, "Service Unavailable"}};
 
     for (size_t i = 0; i < sizeof(titles) / sizeof(*titles); i++) {
         if (titles[i].status == status) {
@@ -193,8 +199,7 @@ const char *response_title(int status)
 
 struct response response_text(int status, const char *type, char *text)
 {
-    return (struct response){
-        .status = status, .type = type, .body = text, .length = strlen(text)};
+    return (struct response){.status = status, .type = type, .body = text, .length = strlen(text)};
 }
 
 struct response response_json(int status, cJSON *json)

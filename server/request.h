@@ -21,11 +21,11 @@ struct request_pair {
 struct request {
     struct hub *hub;
     const char *method;
-    char *path;                           /* percent-decoded, starts with '/' */
+    char *path;                                 /* percent-decoded, starts with '/' */
     struct request_pair query[REQUEST_QUERIES]; /* percent-decoded */
     size_t query_count;
     char capture[REQUEST_CAPTURES][LIMIT_ID_BYTES + 1]; /* what {} of the route matched */
-    char *body;                           /* ends with NUL besides */
+    char *body;                                         /* ends with NUL besides */
     size_t body_length;
     const char *(*header)(const struct request *request, const char *name);
 };
@@ -71,7 +71,7 @@ void response_add(struct response *response, const char *name, const char *forma
 struct response response_problem(int status, const char *code, const char *place,
                                  const char *detail);
 struct response response_error(const struct error *err);
-struct response response_json(int status, cJSON *json); /* takes `json` */
+struct response response_json(int status, cJSON *json);                  /* takes `json` */
 struct response response_text(int status, const char *type, char *text); /* takes `text` */
 const char *response_title(int status);
 

@@ -163,9 +163,8 @@ static void log_add(struct room *room, const struct room_change *change, const c
 {
     size_t length = strlen(ops);
 
-    while (room->log_from + 1 < room->revision &&
-           (room->revision - room->log_from > ROOM_LOG ||
-            room->log_bytes + length > ROOM_LOG_BYTES)) {
+    while (room->log_from + 1 < room->revision && (room->revision - room->log_from > ROOM_LOG ||
+                                                   room->log_bytes + length > ROOM_LOG_BYTES)) {
         log_forget_oldest(room);
     }
     struct room_entry *entry = log_entry(room, room->revision);
@@ -280,16 +279,15 @@ static void push_write(struct room *room, enum store_kind kind, const struct roo
 
 void room_store_new(struct room *room, void (*then)(void *data), void *data)
 {
-    push_write(room, STORE_CREATE,
-               &(struct room_change){.author = "", .then = then, .data = data},
+    push_write(room, STORE_CREATE, &(struct room_change){.author = "", .then = then, .data = data},
                scene_print(room->scene, false));
 }
 
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
 {
     room->deleted = true;
-    push_write(room, STORE_DELETE,
-               &(struct room_change){.author = "", .then = then, .data = data}, NULL);
+    push_write(room, STORE_DELETE, &(struct room_change){.author = "", .then = then, .data = data},
+               NULL);
 }
 
 void room_snapshot(struct room *room)

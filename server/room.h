@@ -16,10 +16,10 @@ struct session;
 struct store_loaded;
 
 enum {
-    ROOM_LOG = 2048,            /* edits kept in memory for those who resume */
+    ROOM_LOG = 2048, /* edits kept in memory for those who resume */
     ROOM_LOG_BYTES = 4194304,
     ROOM_SNAPSHOT_EDITS = 256,
-    ROOM_IDLE_MS = 60000,       /* closed when nobody looked at it for so long */
+    ROOM_IDLE_MS = 60000, /* closed when nobody looked at it for so long */
 };
 
 /* An edit as it was applied. */
@@ -44,7 +44,7 @@ struct room {
     struct scene *scene;
     struct history *history;
     uint64_t revision, durable;
-    char epoch[17]; /* differs whenever revisions may have been given twice */
+    char epoch[17];                  /* differs whenever revisions may have been given twice */
     struct room_entry log[ROOM_LOG]; /* ring: entry of revision r at r % ROOM_LOG */
     uint64_t log_from;               /* the log holds every revision above this one */
     size_t log_bytes;
@@ -78,7 +78,7 @@ struct room_change {
     const char *author; /* client id, or "rest" */
     int64_t edit;       /* 0: none */
     const char *group;
-    struct session *session; /* of the author; NULL: none */
+    struct session *session;  /* of the author; NULL: none */
     void (*then)(void *data); /* after the commit, on the store's thread; may be NULL */
     void *data;
 };

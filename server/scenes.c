@@ -152,8 +152,7 @@ static void create(struct request *request, const char *id, struct scene *scene)
 {
     struct error err = {0};
     struct waiting *waiting = wait_for(request, 201, id);
-    struct room *room =
-        hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
+    struct room *room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
 
     if (!room) {
         free(waiting);
@@ -317,9 +316,10 @@ void scenes_live(struct request *request)
     } else if (ws_count(hub->ws) >= LIMIT_SESSIONS) {
         response = response_problem(503, "unavailable", "", "too many live connections are open");
     } else {
-        response = response_problem(426, "invalid", "Upgrade",
-                                    "this address speaks WebSocket, version 13, subprotocol "
-                                    WS_SUBPROTOCOL ", on a connection of its own");
+        response = response_problem(
+            426, "invalid", "Upgrade",
+            "this address speaks WebSocket, version 13, subprotocol " WS_SUBPROTOCOL
+            ", on a connection of its own");
         response_add(&response, "Upgrade", "websocket");
         response_add(&response, "Sec-WebSocket-Version", "13");
     }

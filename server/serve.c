@@ -159,8 +159,7 @@ static bool start(struct server *server, const struct serve_params *params, cons
         .watch_fd = http_gone_fd(server->http),
         .watch = check_gone,
     };
-    server->acceptor =
-        acceptor_create(address, params->port, &events, &server->hub->metrics, err);
+    server->acceptor = acceptor_create(address, params->port, &events, &server->hub->metrics, err);
     return server->acceptor != NULL;
 }
 

@@ -16,8 +16,8 @@ struct serve_params {
     const char *data_dir; /* made when missing; required */
     const char *web_dir;  /* page from this directory; NULL: the embedded one */
     enum device_kind device;
-    const char *const *worker_args; /* further arguments of `fieldcast worker` */
-    const char *token;              /* NULL: none; required unless bound to loopback */
+    const char *const *worker_args;     /* further arguments of `fieldcast worker` */
+    const char *token;                  /* NULL: none; required unless bound to loopback */
     const char *const *allowed_origins; /* besides the server's own: "https://example.org" */
     const char *const *allowed_hosts;   /* besides localhost, when bound to loopback */
     int worker_silence_ms;              /* a worker silent for longer is killed; 0: 5000 */

@@ -112,8 +112,7 @@ void session_close(struct session *session, int code, const char *reason, int re
 
 static void say_error(struct session *session, const struct error *err)
 {
-    session_say(session,
-                say_notice("error", error_kind_name(err->kind), err->place, err->message));
+    session_say(session, say_notice("error", error_kind_name(err->kind), err->place, err->message));
 }
 
 static void say_edit_state(struct session *session, int64_t edit, uint64_t revision)
@@ -121,8 +120,8 @@ static void say_edit_state(struct session *session, int64_t edit, uint64_t revis
     size_t undo = 0, redo = 0;
 
     history_depth(session->room->history, session->client, &undo, &redo);
-    session_say(session, say_applied(edit, revision, revision <= session->room->durable, undo,
-                                     redo));
+    session_say(session,
+                say_applied(edit, revision, revision <= session->room->durable, undo, redo));
 }
 
 void session_tell_durable(struct session *session, int64_t edit, uint64_t revision)
@@ -233,8 +232,9 @@ static void hello(struct session *session, const char *scene, const cJSON *messa
     say_welcome(session);
     bring_up_to_date(session, message);
     if (room->left_out) {
-        error_set(&err, ERROR_UNAVAILABLE, "", "this scene ended the render process repeatedly; "
-                                               "it is not drawn again before it is edited");
+        error_set(&err, ERROR_UNAVAILABLE, "",
+                  "this scene ended the render process repeatedly; "
+                  "it is not drawn again before it is edited");
         session_say(session, say_notice("error", "scene_left_out", "", err.message));
     }
     log_debug("session", "%s entered %s as %s", session->id, room->id, session->client);
@@ -255,9 +255,9 @@ static void edit(struct session *session, const struct message *message)
     enum room_outcome outcome;
 
     if (message->kind == MESSAGE_EDIT) {
-        outcome = room_edit(session->room, &change,
-                            cJSON_GetObjectItemCaseSensitive(message->json, "ops"), &revision,
-                            &err);
+        outcome =
+            room_edit(session->room, &change,
+                      cJSON_GetObjectItemCaseSensitive(message->json, "ops"), &revision, &err);
     } else {
         outcome = room_undo(session->room, &change, message->kind == MESSAGE_REDO, &revision, &err);
         if (outcome == ROOM_APPLIED) {
@@ -295,8 +295,8 @@ static void on_picked(void *data, const struct packet *answer, const struct erro
 
 static void pick(struct session *session, const cJSON *message)
 {
-    const struct frames_view *view = frames_find_view(
-        &session->frames, (uint32_t)json_member_number(message, "seq", 0));
+    const struct frames_view *view =
+        frames_find_view(&session->frames, (uint32_t)json_member_number(message, "seq", 0));
     struct error err = {0};
 
     if (!view) {
@@ -381,8 +381,7 @@ static void refuse(struct session *session, const char *text, size_t length,
     const char *type = json_member_text(json, "type", "");
     double number = json_member_number(json, "edit", 0);
 
-    if (number >= 1 &&
-        (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
+    if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
         metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
         session_say(session, say_rejected((int64_t)number, err));
     } else {

@@ -51,7 +51,7 @@ void session_receive(struct session *session, const char *scene, const char *tex
 /* `frame` was handed to the socket completely. */
 void session_frame_written(struct session *session, uint32_t frame, size_t bytes);
 
-void session_say(struct session *session, struct blob *message); /* takes the reference */
+void session_say(struct session *session, struct blob *message);  /* takes the reference */
 void session_send(struct session *session, struct blob *message); /* borrows it */
 void session_close(struct session *session, int code, const char *reason, int retry_ms);
 /* The scene goes away; the connection closes by itself. */

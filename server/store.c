@@ -53,8 +53,8 @@ static void commit_batch(struct store *store, const struct store_write *batch)
     int64_t start = clock_us(), edits = 0;
 
     if (!store_sqlite_commit(store->db, batch, &err)) {
-        log_error("store", "%s: %s; ending, so that nothing is told durable that is not",
-                  err.place, err.message);
+        log_error("store", "%s: %s; ending, so that nothing is told durable that is not", err.place,
+                  err.message);
         _exit(STORE_EXIT_STATUS);
     }
     for (; batch; batch = batch->next) {
@@ -188,8 +188,7 @@ bool store_list(struct store *store, void (*each)(void *data, const struct store
     return store_sqlite_list(store->db, each, data, err);
 }
 
-bool store_load(struct store *store, const char *scene, struct store_loaded *out,
-                struct error *err)
+bool store_load(struct store *store, const char *scene, struct store_loaded *out, struct error *err)
 {
     return store_sqlite_load(store->db, scene, out, err);
 }

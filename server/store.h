@@ -14,8 +14,8 @@
 #include "protocol/limits.h"
 
 enum {
-    STORE_EXIT_STATUS = 74,  /* EX_IOERR */
-    STORE_LOG_KEPT = 10000,  /* edits kept before the newest snapshot, for reading by people */
+    STORE_EXIT_STATUS = 74, /* EX_IOERR */
+    STORE_LOG_KEPT = 10000, /* edits kept before the newest snapshot, for reading by people */
 };
 
 struct store;

@@ -297,8 +297,7 @@ static void edit_row(void *data, sqlite3_stmt *statement)
 {
     struct store_loaded *loaded = data;
 
-    loaded->edits =
-        memory_resize(loaded->edits, loaded->edit_count + 1, sizeof(*loaded->edits));
+    loaded->edits = memory_resize(loaded->edits, loaded->edit_count + 1, sizeof(*loaded->edits));
     struct store_edit *edit = &loaded->edits[loaded->edit_count++];
     edit->revision = (uint64_t)sqlite3_column_int64(statement, 0);
     column_id(statement, 1, edit->author);

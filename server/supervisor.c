@@ -4,8 +4,8 @@
 #include "supervisor.h"
 
 #include <errno.h>
-#include <pthread.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdatomic.h>
@@ -75,8 +75,8 @@ static void chunks_write(struct supervisor *supervisor)
     struct chunk *chunk;
 
     while ((chunk = supervisor->first) != NULL) {
-        ssize_t sent = send(supervisor->fd, chunk->bytes + chunk->sent,
-                            chunk->length - chunk->sent, MSG_DONTWAIT | MSG_NOSIGNAL);
+        ssize_t sent = send(supervisor->fd, chunk->bytes + chunk->sent, chunk->length - chunk->sent,
+                            MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent < 0) {
             return; /* full, or dead: then the reading side notices */
         }
@@ -196,8 +196,7 @@ static void plan_restart(struct supervisor *supervisor)
         supervisor->next_start = now;
         return;
     }
-    supervisor->backoff_ms =
-        supervisor->backoff_ms ? supervisor->backoff_ms * 2 : BACKOFF_FIRST_MS;
+    supervisor->backoff_ms = supervisor->backoff_ms ? supervisor->backoff_ms * 2 : BACKOFF_FIRST_MS;
     if (supervisor->backoff_ms > BACKOFF_MAX_MS) {
         supervisor->backoff_ms = BACKOFF_MAX_MS;
     }
@@ -331,7 +330,7 @@ static void watch_over(struct supervisor *supervisor, int64_t now)
 
 static int wait_ms(const struct supervisor *supervisor, int64_t wish)
 {
-    int64_t next = clock_earlier(wish, supervisor->fd < 0       ? supervisor->next_start
+    int64_t next = clock_earlier(wish, supervisor->fd < 0  ? supervisor->next_start
                                        : supervisor->ready ? supervisor->next_ping
                                                            : clock_ms() + PING_MS);
     int64_t left = next - clock_ms();

@@ -256,7 +256,7 @@ static int write_piece(struct link *link)
         return code ? close_with(link->wsi, code) : 0;
     }
     return lws_write(link->wsi, ws->scratch + LWS_PRE, piece.length, write_mode(&piece)) < 0 ? -1
-                                                                                           : 1;
+                                                                                             : 1;
 }
 
 static int on_writeable(struct link *link)
@@ -297,9 +297,8 @@ static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *use
                     size_t length)
 {
     struct ws *ws = lws_context_user(lws_get_context(wsi));
-    struct link *link = reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED
-                            ? NULL
-                            : lws_get_opaque_user_data(wsi);
+    struct link *link =
+        reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED ? NULL : lws_get_opaque_user_data(wsi);
 
     (void)user;
     switch (reason) {
