@@ -7,10 +7,13 @@
 
 #include "drawing.h"
 
-/* The median of `count` numbers, which are sorted. */
+/* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);
 /* Adds a number with three decimals; more would be noise. */
 void bench_add(cJSON *object, const char *name, double value);
+
+/* Name and version of what draws. */
+cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
 
 /* One row for each example, or for that called `only`: compiling, drawing by pass and size,
  * encoding. NULL and `err` when something cannot be drawn. */

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* How long drawing takes: from a scene never seen to its first picture, then by size and pass, and
  * what the encoders make of it. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "assets.h"
 #include "bench.h"
 #include "clock.h"
 #include "files.h"
+#include "protocol/json.h"
 #include "protocol/memory.h"
 
 enum { PATIENCE_MS = 50, FIRST_SIDE = 64 };
@@ -26,6 +29,13 @@ static const struct {
     {"png live", {.format = IMAGE_PNG, .fast = true}},
     {"png file", {.format = IMAGE_PNG}},
 };
+
+enum { SIZE_COUNT = sizeof sizes / sizeof *sizes };
+
+static double number_in(const cJSON *object, const char *name)
+{
+    return cJSON_GetNumberValue(cJSON_GetObjectItem(object, name));
+}
 
 static double ms_since(int64_t start_us)
 {
@@ -54,44 +64,131 @@ static bool draw(struct renderer *renderer, struct resident *resident, const str
     return state == JOB_DONE;
 }
 
-/* From the document to its first small picture, in a renderer of its own that has drawn another
- * scene before: so its own programs are there and only the scene's is measured. */
-static bool first_picture(const struct renderer_params *params, const struct scene *scene,
-                          double *out_ms, struct error *err)
+/* --- a process of its own for each measurement --- */
+
+/* Drivers keep compiled shaders in their process, and a renderer's end does not empty them. */
+struct task {
+    const struct renderer_params *params;
+    const struct asset *example;
+    int rounds;
+};
+
+typedef cJSON *measurement(const struct task *task, struct error *err);
+
+static void answer(FILE *out, measurement *measure, const struct task *task)
+{
+    struct error err = {0};
+    cJSON *result = measure(task, &err);
+    if (!result) {
+        result = cJSON_CreateObject();
+        cJSON_AddStringToObject(result, "place", err.place);
+        cJSON_AddStringToObject(result, "failed", err.message);
+    }
+    char *text = json_print(result, false);
+    fputs(text, out);
+    fclose(out);
+}
+
+static cJSON *read_answer(FILE *in, struct error *err)
+{
+    char *text = NULL;
+    size_t size = 0;
+    ssize_t length = getdelim(&text, &size, '\0', in);
+    cJSON *result = length > 0 ? json_parse(text, (size_t)length, err) : NULL;
+    free(text);
+    if (length <= 0) {
+        error_set(err, ERROR_INTERNAL, "", "the process that measures died");
+    }
+    const cJSON *failed = cJSON_GetObjectItem(result, "failed");
+    if (failed) {
+        error_set(err, ERROR_INTERNAL, cJSON_GetObjectItem(result, "place")->valuestring, "%s",
+                  failed->valuestring);
+        cJSON_Delete(result);
+        return NULL;
+    }
+    return result;
+}
+
+static cJSON *in_child(measurement *measure, const struct task *task, struct error *err)
+{
+    int ends[2];
+    fflush(NULL);
+    pid_t child = pipe(ends) == 0 ? fork() : -1;
+    if (child < 0) {
+        error_set(err, ERROR_INTERNAL, "", "no process: %s", strerror(errno));
+        return NULL;
+    }
+    if (child == 0) {
+        close(ends[0]);
+        answer(fdopen(ends[1], "w"), measure, task);
+        _exit(0);
+    }
+    close(ends[1]);
+    FILE *in = fdopen(ends[0], "r");
+    cJSON *result = read_answer(in, err);
+    fclose(in);
+    waitpid(child, NULL, 0);
+    return result;
+}
+
+/* --- the first picture --- */
+
+static cJSON *describe(const struct task *task, struct error *err)
+{
+    struct renderer *renderer = renderer_create(task->params, err);
+    if (!renderer) {
+        return NULL;
+    }
+    const struct renderer_info *info = renderer_info(renderer);
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddStringToObject(row, "name", info->name);
+    cJSON_AddStringToObject(row, "version", info->version);
+    cJSON_AddBoolToObject(row, "software", info->software);
+    renderer_destroy(renderer);
+    return row;
+}
+
+static struct resident *open_example(struct renderer *renderer, const struct asset *example,
+                                     struct error *err)
+{
+    struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
+    return scene ? resident_create(renderer, scene, 1) : NULL;
+}
+
+/* From the document to its first small picture, in a renderer that has drawn another scene before:
+ * so its own programs are there and only the scene's is measured. */
+static cJSON *measure_first(const struct task *task, struct error *err)
 {
     struct job_desc desc = {.width = FIRST_SIDE, .height = FIRST_SIDE, .samples = 1, .exact = true};
     struct job_times times;
     struct image image = {0};
     struct resident *other = NULL, *resident = NULL;
-    struct renderer *renderer = renderer_create(params, err);
-    bool ok = renderer;
-    if (ok) {
+    cJSON *row = NULL;
+    struct renderer *renderer = renderer_create(task->params, err);
+    if (renderer) {
         other = resident_create(renderer, scene_create_empty(), 1);
-        ok = draw(renderer, other, &desc, &image, &times, err);
-        image_finish(&image);
     }
-    if (ok) {
+    if (other && draw(renderer, other, &desc, &image, &times, err)) {
+        image_finish(&image);
         int64_t start = clock_us();
-        resident = resident_create(renderer, scene_copy(scene), 1);
-        ok = draw(renderer, resident, &desc, &image, &times, err);
-        *out_ms = ms_since(start);
-    }
-    if (ok) {
-        image_finish(&image);
+        resident = open_example(renderer, task->example, err);
+        if (resident && draw(renderer, resident, &desc, &image, &times, err)) {
+            row = cJSON_CreateObject();
+            bench_add(row, "ms", ms_since(start));
+            image_finish(&image);
+        }
     }
     resident_destroy(resident);
     resident_destroy(other);
     renderer_destroy(renderer);
-    return ok;
+    return row;
 }
 
 /* With an empty shader cache, then with what that left in it. */
-static cJSON *measure_compiling(const struct renderer_params *params, const struct scene *scene,
-                                struct error *err)
+static cJSON *measure_compiling(const struct task *task, struct error *err)
 {
     const char *directory = getenv("TMPDIR");
     char *cache = NULL;
-    double cold, warm;
     if (asprintf(&cache, "%s/fieldcast-bench-XXXXXX", directory ? directory : "/tmp") < 0) {
         abort();
     }
@@ -100,19 +197,25 @@ static cJSON *measure_compiling(const struct renderer_params *params, const stru
         free(cache);
         return NULL;
     }
-    struct renderer_params fresh = *params;
+    struct renderer_params fresh = *task->params;
+    struct task in_fresh = {&fresh, task->example, 1};
     fresh.cache_dir = cache;
-    bool ok = first_picture(&fresh, scene, &cold, err) && first_picture(&fresh, scene, &warm, err);
+    cJSON *cold = in_child(measure_first, &in_fresh, err);
+    cJSON *warm = cold ? in_child(measure_first, &in_fresh, err) : NULL;
+    cJSON *row = NULL;
+    if (warm) {
+        row = cJSON_CreateObject();
+        bench_add(row, "cold_ms", number_in(cold, "ms"));
+        bench_add(row, "warm_ms", number_in(warm, "ms"));
+    }
+    cJSON_Delete(cold);
+    cJSON_Delete(warm);
     directory_remove(cache);
     free(cache);
-    if (!ok) {
-        return NULL;
-    }
-    cJSON *row = cJSON_CreateObject();
-    bench_add(row, "cold_ms", cold);
-    bench_add(row, "warm_ms", warm);
     return row;
 }
+
+/* --- pictures --- */
 
 /* The picture of the last round is left in `out_image`. */
 static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
@@ -179,14 +282,13 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
     return rows;
 }
 
-/* Adds `pictures` and `encoders` to the row. */
-static bool measure_pictures(struct renderer *renderer, struct resident *resident, int rounds,
-                             cJSON *row, struct error *err)
+static bool add_pictures(struct renderer *renderer, struct resident *resident, int rounds,
+                         cJSON *row, struct error *err)
 {
     struct image image = {0};
     cJSON *pictures = cJSON_AddArrayToObject(row, "pictures");
     cJSON *item = NULL;
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    for (size_t i = 0; i < SIZE_COUNT; i++) {
         struct job_desc desc = {
             .width = sizes[i].width, .height = sizes[i].height, .samples = 1, .exact = true};
         item = measure_size(renderer, resident, &desc, rounds, &image, err);
@@ -203,35 +305,23 @@ static bool measure_pictures(struct renderer *renderer, struct resident *residen
     return encoders;
 }
 
-/* One renderer at a time: they share EGL's display. */
-static cJSON *measure_example(const struct renderer_params *params, const struct asset *example,
-                              int rounds, struct error *err)
+static cJSON *measure_pictures(const struct task *task, struct error *err)
 {
-    struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
-    cJSON *row = NULL;
-    if (!scene) {
+    cJSON *row = cJSON_CreateObject();
+    struct renderer *renderer = renderer_create(task->params, err);
+    struct resident *resident = renderer ? open_example(renderer, task->example, err) : NULL;
+    bool ok = resident;
+    if (ok) {
+        cJSON_AddStringToObject(row, "example", task->example->path);
+        cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
+        ok = add_pictures(renderer, resident, task->rounds, row, err);
+    }
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+    if (!ok) {
+        cJSON_Delete(row);
         return NULL;
     }
-    size_t nodes = scene->node_count;
-    cJSON *compiling = measure_compiling(params, scene, err);
-    struct renderer *renderer = compiling ? renderer_create(params, err) : NULL;
-    if (renderer) {
-        struct resident *resident = resident_create(renderer, scene, 1);
-        scene = NULL;
-        row = cJSON_CreateObject();
-        cJSON_AddStringToObject(row, "example", example->path);
-        cJSON_AddNumberToObject(row, "nodes", (double)nodes);
-        cJSON_AddItemToObject(row, "first_picture", compiling);
-        compiling = NULL;
-        if (!measure_pictures(renderer, resident, rounds, row, err)) {
-            cJSON_Delete(row);
-            row = NULL;
-        }
-        resident_destroy(resident);
-    }
-    renderer_destroy(renderer);
-    cJSON_Delete(compiling);
-    scene_destroy(scene);
     return row;
 }
 
@@ -239,22 +329,26 @@ static cJSON *measure_example(const struct renderer_params *params, const struct
  * same on every machine. */
 static void add_ratios(cJSON *rows)
 {
-    for (int size = 0; size < (int)(sizeof sizes / sizeof *sizes); size++) {
+    for (int size = 0; size < SIZE_COUNT; size++) {
         double quickest = 0;
         cJSON *row;
         cJSON_ArrayForEach(row, rows)
         {
             cJSON *picture = cJSON_GetArrayItem(cJSON_GetObjectItem(row, "pictures"), size);
-            double ms = cJSON_GetNumberValue(cJSON_GetObjectItem(picture, "ms"));
+            double ms = number_in(picture, "ms");
             quickest = quickest == 0 || ms < quickest ? ms : quickest;
         }
         cJSON_ArrayForEach(row, rows)
         {
             cJSON *picture = cJSON_GetArrayItem(cJSON_GetObjectItem(row, "pictures"), size);
-            bench_add(picture, "relative",
-                      cJSON_GetNumberValue(cJSON_GetObjectItem(picture, "ms")) / quickest);
+            bench_add(picture, "relative", number_in(picture, "ms") / quickest);
         }
     }
+}
+
+cJSON *bench_renderer(const struct renderer_params *params, struct error *err)
+{
+    return in_child(describe, &(struct task){.params = params}, err);
 }
 
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
@@ -262,16 +356,19 @@ cJSON *bench_drawing(const struct renderer_params *params, const char *only, int
 {
     cJSON *rows = cJSON_CreateArray();
     for (size_t i = 0; i < examples_count; i++) {
-        const struct asset *example = &examples_table[i];
-        if (only && strcmp(only, example->path) != 0) {
+        struct task task = {params, &examples_table[i], rounds};
+        if (only && strcmp(only, task.example->path) != 0) {
             continue;
         }
-        fprintf(stderr, "fieldcast: drawing %s\n", example->path);
-        cJSON *row = measure_example(params, example, rounds, err);
-        if (!row) {
+        fprintf(stderr, "fieldcast: drawing %s\n", task.example->path);
+        cJSON *row = in_child(measure_pictures, &task, err);
+        cJSON *first = row ? measure_compiling(&task, err) : NULL;
+        if (!first) {
+            cJSON_Delete(row);
             cJSON_Delete(rows);
             return NULL;
         }
+        cJSON_AddItemToObject(row, "first_picture", first);
         cJSON_AddItemToArray(rows, row);
     }
     add_ratios(rows);

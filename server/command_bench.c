@@ -25,21 +25,6 @@ void bench_add(cJSON *object, const char *name, double value)
     cJSON_AddNumberToObject(object, name, round(value * 1000) / 1000);
 }
 
-static cJSON *describe(const struct renderer_params *params, struct error *err)
-{
-    struct renderer *renderer = renderer_create(params, err);
-    if (!renderer) {
-        return NULL;
-    }
-    const struct renderer_info *info = renderer_info(renderer);
-    cJSON *row = cJSON_CreateObject();
-    cJSON_AddStringToObject(row, "name", info->name);
-    cJSON_AddStringToObject(row, "version", info->version);
-    cJSON_AddBoolToObject(row, "software", info->software);
-    renderer_destroy(renderer);
-    return row;
-}
-
 /* Takes `item`; false where the measurement failed. */
 static bool add(cJSON *result, const char *name, cJSON *item)
 {
@@ -63,7 +48,7 @@ int command_bench(const struct options *options)
     cJSON *result = cJSON_CreateObject();
     cJSON_AddStringToObject(result, "fieldcast", FIELDCAST_VERSION);
     cJSON_AddNumberToObject(result, "rounds", rounds);
-    bool ok = add(result, "renderer", describe(&params, &err)) &&
+    bool ok = add(result, "renderer", bench_renderer(&params, &err)) &&
               add(result, "drawing", bench_drawing(&params, only, rounds, &err)) &&
               add(result, "edits", bench_store(option_text(options, OPTION_DATA), &err));
     if (ok) {

@@ -207,6 +207,30 @@ test('doctor says what fails', async () => {
     assert.match(blocked.out, /^FAIL {2}data /m);
 });
 
+test('bench prints JSON of drawing, compiling, encoding and storing', () => {
+    const args = ['bench', '--only', 'first-steps', '--rounds', '1', '--data', 'bench'];
+    const { renderer, drawing, edits } = JSON.parse(succeed(args).out);
+    assert.ok(renderer.name);
+    assert.equal(drawing.length, 1);
+    const [row] = drawing;
+    assert.equal(row.example, 'first-steps');
+    assert.deepEqual(
+        row.pictures.map(({ width, height }) => [width, height]),
+        [
+            [640, 360],
+            [1280, 720],
+        ],
+    );
+    for (const { ms, march_ms, light_ms, read_ms } of row.pictures) {
+        assert.ok(ms > 0 && march_ms > 0 && light_ms > 0 && read_ms >= 0);
+    }
+    assert.ok(row.first_picture.cold_ms > 0 && row.first_picture.warm_ms > 0);
+    assert.ok(row.encoders.length >= 3 && row.encoders.every(({ bytes }) => bytes > 0));
+    assert.ok(edits.stream_per_second > 0 && edits.alone_p95_ms >= edits.alone_p50_ms);
+    assert.deepEqual(fs.readdirSync(path.join(folder, 'bench')), [], 'nothing is left');
+    assert.equal(run(['bench', '--only', 'nothing']).status, 2);
+});
+
 test('a signal from the terminal, which reaches the worker too, drains', async () => {
     const args = ['serve', '--port', '0', '--data', path.join(folder, 'made/for/it')];
     const daemon = spawn(program, args, { detached: true, stdio: ['ignore', 'pipe', 'pipe'] });
