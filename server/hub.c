@@ -409,6 +409,7 @@ void hub_destroy(struct hub *hub)
         room_destroy(room);
     }
     renders_finish(&hub->renders);
+    pictures_finish(&hub->pictures);
     catalog_finish(&hub->catalog);
     free(hub->schema);
     pthread_mutex_destroy(&hub->load_lock);

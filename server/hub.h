@@ -14,6 +14,7 @@
 #include "access.h"
 #include "catalog.h"
 #include "metrics.h"
+#include "pictures.h"
 #include "protocol/scene.h"
 #include "renders.h"
 #include "store.h"
@@ -36,6 +37,7 @@ struct hub {
     struct catalog catalog;
     struct room *rooms;
     struct renders renders;
+    struct pictures pictures;
     struct renderer_info renderer; /* of the newest worker; name "" before the first */
     bool worker_was_lost;
     int64_t next_cleaning; /* clock_ms */

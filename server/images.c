@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures over HTTP: of a scene, of an example, of a document sent along. All become the same
  * order to the worker. */
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -43,9 +42,15 @@ struct waiting {
     struct hub *hub;
     uint32_t job;
     int width, height;
-    char tag[80]; /* ETag without quotes and revision */
-    char epoch[17];
+    char *key;         /* all that the picture depends on */
+    uint64_t revision; /* that was wanted */
 };
+
+static void waiting_destroy(struct waiting *waiting)
+{
+    free(waiting->key);
+    free(waiting);
+}
 
 static void wish_finish(struct wish *wish)
 {
@@ -303,55 +308,68 @@ static cJSON *wish_fields(const struct wish *wish, cJSON *camera)
     return fields;
 }
 
-/* FNV-1a (Fowler, Noll, Vo), 64 bits; for cache tags only. */
-static uint64_t hash_text(uint64_t hash, const char *text)
+/* The scene's state and the fields of the order, as text. */
+static char *make_key(const cJSON *fields, const struct room *room, const char *document)
 {
-    for (; *text; text++) {
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3;
+    char *text = json_print(fields, false), *key = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&key, &length);
+
+    fputs(text, out);
+    if (room) {
+        fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
+    } else {
+        fputs(document, out);
     }
-    return hash;
+    fclose(out);
+    free(text);
+    return key;
 }
 
-static void make_tag(struct waiting *waiting, const cJSON *fields, const char *document,
-                     uint64_t revision, char out[80])
+/* FNV-1a (Fowler, Noll, Vo), 64 bits: only a client compares these, with its own. */
+static void make_tag(const struct waiting *waiting, uint64_t revision, char out[48])
 {
-    char *text = json_print(fields, false);
-    uint64_t hash = hash_text(0xcbf29ce484222325, text);
+    uint64_t hash = 0xcbf29ce484222325;
 
-    free(text);
-    hash = hash_text(hash, waiting->epoch);
-    hash = hash_text(hash, waiting->hub->renderer.name);
-    if (document) {
-        hash = hash_text(hash, document);
+    for (const char *c = waiting->key; *c; c++) {
+        hash = (hash ^ (unsigned char)*c) * 0x100000001b3;
     }
-    snprintf(waiting->tag, sizeof(waiting->tag), "%016" PRIx64, hash);
-    snprintf(out, 80, "\"%" PRIu64 "-%.40s\"", revision, waiting->tag);
+    snprintf(out, 48, "\"%" PRIu64 "-%016" PRIx64 "\"", revision, hash);
+}
+
+static void reply_picture(const struct waiting *waiting, uint64_t revision, const char *mime,
+                          const void *bytes, size_t length)
+{
+    struct response response = {.status = 200, .type = mime, .length = length};
+    char tag[48];
+
+    make_tag(waiting, revision, tag);
+    response.body = memory_alloc(length, 1);
+    memcpy(response.body, bytes, length);
+    response_add(&response, "ETag", "%s", tag);
+    response_add(&response, "Fieldcast-Revision", "%" PRIu64, revision);
+    response_add(&response, "Fieldcast-Size", "%dx%d", waiting->width, waiting->height);
+    response_add(&response, "Fieldcast-Renderer", "%s", waiting->hub->renderer.name);
+    request_reply(waiting->request, &response);
 }
 
 static void on_picture(void *data, const struct packet *answer, const struct error *err)
 {
     struct waiting *waiting = data;
 
-    if (!answer) {
-        request_reply_error(waiting->request, err);
-        free(waiting);
-        return;
-    }
-    const cJSON *json = answer->json;
-    struct response response = {.status = 200, .length = answer->payload_length};
-    char type[64];
-    uint64_t revision = (uint64_t)json_member_number(json, "revision", 0);
+    if (answer) {
+        const char *mime = json_member_text(answer->json, "mime", "application/octet-stream");
+        uint64_t revision = (uint64_t)json_member_number(answer->json, "revision", 0);
 
-    snprintf(type, sizeof(type), "%s", json_member_text(json, "mime", "application/octet-stream"));
-    response.type = type;
-    response.body = memory_alloc(answer->payload_length, 1);
-    memcpy(response.body, answer->payload, answer->payload_length);
-    response_add(&response, "ETag", "\"%" PRIu64 "-%s\"", revision, waiting->tag);
-    response_add(&response, "Fieldcast-Revision", "%" PRIu64, revision);
-    response_add(&response, "Fieldcast-Size", "%dx%d", waiting->width, waiting->height);
-    response_add(&response, "Fieldcast-Renderer", "%s", waiting->hub->renderer.name);
-    request_reply(waiting->request, &response);
-    free(waiting);
+        if (revision == waiting->revision) {
+            pictures_add(&waiting->hub->pictures, waiting->key, mime, revision, answer->payload,
+                         answer->payload_length);
+        }
+        reply_picture(waiting, revision, mime, answer->payload, answer->payload_length);
+    } else {
+        request_reply_error(waiting->request, err);
+    }
+    waiting_destroy(waiting);
 }
 
 /* Under the hub's lock. */
@@ -363,7 +381,29 @@ static void on_gone(void *data)
     renders_cancel(waiting->hub, waiting->job);
     error_set(&err, ERROR_UNAVAILABLE, "", "the client left");
     request_reply_error(waiting->request, &err);
-    free(waiting);
+    waiting_destroy(waiting);
+}
+
+/* The client has it, or it was drawn before. */
+static bool reply_at_once(const struct waiting *waiting)
+{
+    const struct picture *picture;
+    char tag[48];
+
+    make_tag(waiting, waiting->revision, tag);
+    if (request_tag_listed(request_header(waiting->request, "If-None-Match"), tag)) {
+        struct response response = {.status = 304, .body = "", .borrowed = true};
+
+        response_add(&response, "ETag", "%s", tag);
+        request_reply(waiting->request, &response);
+        return true;
+    }
+    picture = pictures_find(&waiting->hub->pictures, waiting->key);
+    if (picture) {
+        metric_add(&waiting->hub->metrics, METRIC_PICTURES_REUSED, 1);
+        reply_picture(waiting, picture->revision, picture->mime, picture->bytes, picture->length);
+    }
+    return picture != NULL;
 }
 
 /* Under the hub's lock. One of `room` and `document` is given. */
@@ -372,36 +412,30 @@ static void order(struct request *request, const struct wish *wish, cJSON *camer
 {
     struct error err = {0};
     struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
-    cJSON *fields = wish_fields(wish, camera);
-    char tag[80];
+    struct render_order render = {.type = "render",
+                                  .room = room,
+                                  .document = document,
+                                  .fields = wish_fields(wish, camera),
+                                  .priority = RENDER_IMAGE,
+                                  .again = true,
+                                  .on_done = on_picture,
+                                  .data = waiting};
 
     waiting->request = request;
     waiting->hub = request->hub;
     waiting->width = wish->width;
     waiting->height = wish->height;
-    snprintf(waiting->epoch, sizeof(waiting->epoch), "%s", room ? room->epoch : "");
-    make_tag(waiting, fields, document, room ? room->revision : 1, tag);
-    if (request_tag_listed(request_header(request, "If-None-Match"), tag)) {
-        struct response response = {.status = 304, .body = "", .borrowed = true};
-
-        response_add(&response, "ETag", "%s", tag);
-        request_reply(request, &response);
-        cJSON_Delete(fields);
-        free(waiting);
+    waiting->revision = room ? room->revision : 1;
+    waiting->key = make_key(render.fields, room, document);
+    if (reply_at_once(waiting)) {
+        cJSON_Delete(render.fields);
+        waiting_destroy(waiting);
         return;
     }
-    struct render_order render = {.type = "render",
-                                  .room = room,
-                                  .document = document,
-                                  .fields = fields,
-                                  .priority = RENDER_IMAGE,
-                                  .again = true,
-                                  .on_done = on_picture,
-                                  .data = waiting};
     waiting->job = renders_submit(request->hub, &render, &err);
     if (!waiting->job) {
         request_reply_error(request, &err);
-        free(waiting);
+        waiting_destroy(waiting);
         return;
     }
     request_on_gone(request, on_gone, waiting);

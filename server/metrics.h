@@ -23,6 +23,7 @@
     X(RENDERS, "renders_total", "counter", "Pictures asked of the worker")                         \
     X(RENDERS_FAILED, "renders_failed_total", "counter", "Pictures that the worker refused")       \
     X(RENDER_QUEUE, "render_queue", "gauge", "Pictures asked and not yet there")                   \
+    X(PICTURES_REUSED, "pictures_reused_total", "counter", "Pictures answered from memory")        \
     X(RENDER_US, "render_microseconds_total", "counter", "Worker's time in march, light, read")    \
     X(ENCODE_US, "encode_microseconds_total", "counter", "Worker's time in encoders")              \
     X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
