@@ -39,6 +39,7 @@ struct level_rule {
 
 static const struct level_rule level_rules[] = {
     [FRAMES_MOVING] = {"jpg", RENDER_MOVING, 60, 1, true, true, false, 0, FRAME_KEY},
+    [FRAMES_LARGER] = {"jpg", RENDER_STILL, 80, 1, true, true, false, FRAMES_STILL_MS, FRAME_KEY},
     [FRAMES_STILL] = {"jpg", RENDER_STILL, 88, 1, false, true, false, FRAMES_STILL_MS,
                       FRAME_KEY | FRAME_STILL},
     [FRAMES_LOSSLESS] = {"png", RENDER_LOSSLESS, 0, 0, false, true, true, FRAMES_LOSSLESS_MS,
@@ -233,6 +234,25 @@ static void choose_step(struct frames *frames, const struct frames_view *view)
     }
 }
 
+/* The step of the picture between moving and still ones; the current one: none is worth while. */
+static int larger_step(const struct frames *frames, const struct frames_view *view)
+{
+    int step = 0;
+
+    while (step < frames->step && predicted_ms(frames, view, step) > FRAMES_LARGER_MS) {
+        step++;
+    }
+    return step ? step : frames->step; /* 0: the still picture itself comes as soon */
+}
+
+static double scale_of(const struct frames *frames, const struct frames_view *view,
+                       enum frames_level level)
+{
+    return level >= FRAMES_STILL    ? 1
+           : level == FRAMES_MOVING ? scales[frames->step]
+                                    : scales[larger_step(frames, view)];
+}
+
 static void learn(struct frames *frames)
 {
     double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
@@ -322,7 +342,7 @@ static cJSON *picture_fields(struct frames *frames, const struct frames_view *vi
                              enum frames_level level)
 {
     const struct level_rule *rule = &level_rules[level];
-    double scale = level == FRAMES_MOVING ? scales[frames->step] : 1;
+    double scale = scale_of(frames, view, level);
     int width = (int)fmax(1, lround(view->width * scale));
     int height = (int)fmax(1, lround(view->height * scale));
     cJSON *fields = cJSON_CreateObject();
@@ -378,10 +398,14 @@ int64_t frames_pump(struct session *session, int64_t now_ms)
         frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
         return 0;
     }
-    int64_t due = frames->changed_at + level_rules[frames->done + 1].after_ms;
+    enum frames_level level = frames->done + 1;
+    if (level == FRAMES_LARGER && larger_step(frames, view) == frames->step) {
+        level = FRAMES_STILL;
+    }
+    int64_t due = frames->changed_at + level_rules[level].after_ms;
     if (now_ms < due) {
         return due;
     }
-    ask(session, frames->done + 1);
+    ask(session, level);
     return 0;
 }

@@ -4,7 +4,8 @@
  * without an acknowledgement.
  *
  *   changed --> moving pictures, scaled so that each takes about 50 ms
- *           --100 ms rest--> one still picture, full size --300 ms rest--> one lossless --> nothing
+ *           --100 ms rest--> one larger, where full size takes long, then one still in full size
+ *           --300 ms rest--> one lossless --> nothing
  *
  * Every function is called under the hub's lock. */
 #ifndef SERVER_FRAMES_H
@@ -19,12 +20,13 @@
 
 struct session;
 
-enum frames_level { FRAMES_NOTHING, FRAMES_MOVING, FRAMES_STILL, FRAMES_LOSSLESS };
+enum frames_level { FRAMES_NOTHING, FRAMES_MOVING, FRAMES_LARGER, FRAMES_STILL, FRAMES_LOSSLESS };
 enum frames_quality { QUALITY_AUTO, QUALITY_SMOOTH, QUALITY_SHARP };
 
 enum {
     FRAMES_STILL_MS = 100,
     FRAMES_LOSSLESS_MS = 300,
+    FRAMES_LARGER_MS = 300, /* what the larger picture in between may take */
     FRAMES_STALL_MS = 2000, /* without an acknowledgement for so long nothing is rendered */
     FRAMES_VIEWS = 8,       /* older views that a pick may mean */
 };
