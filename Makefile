@@ -185,7 +185,8 @@ check: ## lint and test
 	$(again) lint
 	$(again) test
 
-golden-accept: ## take the picture just drawn as the reference of CASE=name
+golden-accept: ## draw CASE=name (or all) and take the picture as its reference
+	$(if $(CASE),,$(error golden-accept wants CASE=name, or CASE=all))
 	$(again) CONFIG=release programs
 	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
 

@@ -22,7 +22,7 @@ static const struct command table[COMMAND_COUNT] = {
     [COMMAND_SCHEMA] = {"schema", .run = command_schema,
         .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
     [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,
-        .doc = "Say what this machine can draw with, what was chosen and why, and what is missing."},
+        .doc = "Say what this machine draws with and why, and what is missing."},
     [COMMAND_BENCH] = {"bench", .run = command_bench,
         .doc = "Measure drawing, compiling, encoding and storing; prints JSON."},
     [COMMAND_WORKER] = {"worker", .hidden = true, .run = command_worker,
