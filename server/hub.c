@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "hub.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
+#include <unistd.h>
 
 #include "clock.h"
 #include "log.h"
@@ -245,6 +247,14 @@ static void on_down(void *data, const char *reason)
     hub_unlock(hub);
 }
 
+static void on_hopeless(void *data)
+{
+    struct hub *hub = data;
+
+    atomic_store(&hub->hopeless, true);
+    kill(getpid(), SIGTERM); /* the main thread waits for it */
+}
+
 /* The newest shape of a scene can be drawn, or cannot. */
 static void compiled(struct hub *hub, const cJSON *packet, bool broken)
 {
@@ -367,6 +377,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
         .on_ready = on_ready,
         .on_packet = on_packet,
         .on_down = on_down,
+        .on_hopeless = on_hopeless,
         .on_tick = on_tick,
     });
     hub_unlock(hub);

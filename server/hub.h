@@ -42,6 +42,7 @@ struct hub {
     bool worker_was_lost;
     int64_t next_cleaning; /* clock_ms */
     atomic_bool draining;
+    atomic_bool hopeless; /* no device draws: the program ends */
 };
 
 struct hub_params {

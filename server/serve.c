@@ -269,8 +269,9 @@ int serve(const struct serve_params *params)
     announce(address, acceptor_port(server.acceptor));
     sigwait(&signals, &signal_number);
     log_info("serve", "%s: draining", strsignal(signal_number));
+    bool failed = atomic_load(&server.hub->hopeless);
     drain(&server);
     stop(&server);
     log_info("serve", "ended");
-    return 0;
+    return failed ? 1 : 0;
 }

@@ -52,6 +52,7 @@ struct supervisor {
     struct packet_reader reader;
     int64_t started, heard, next_ping, next_start;
     int backoff_ms;
+    bool ever_ready;
     int64_t counted[4]; /* the last pong's counters */
 };
 
@@ -229,6 +230,12 @@ static void take_down(struct supervisor *supervisor, const char *reason)
     if (atomic_load(&supervisor->stopping)) {
         return;
     }
+    if (!supervisor->ever_ready && !reason && WIFEXITED(status) && WEXITSTATUS(status) != 0) {
+        log_error("worker", "%s before it could draw anything", text);
+        supervisor->next_start = INT64_MAX;
+        supervisor->params.on_hopeless(supervisor->params.data);
+        return;
+    }
     metric_add(supervisor->params.metrics, METRIC_WORKER_RESTARTS, 1);
     log_warning("worker", "%s; another one is started", text);
     plan_restart(supervisor);
@@ -267,7 +274,7 @@ static void receive_packet(struct supervisor *supervisor, const struct packet *p
         count_pong(supervisor, packet->json);
     } else if (strcmp(type, "ready") == 0) {
         pthread_mutex_lock(&supervisor->lock);
-        supervisor->ready = true;
+        supervisor->ready = supervisor->ever_ready = true;
         pthread_mutex_unlock(&supervisor->lock);
         metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 1);
         supervisor->params.on_ready(supervisor->params.data, packet->json);

@@ -20,6 +20,9 @@ struct supervisor_params {
     void (*on_ready)(void *data, const cJSON *ready);
     void (*on_packet)(void *data, const char *type, const struct packet *packet);
     void (*on_down)(void *data, const char *reason);
+    /* The first worker ended by itself before it was ready: here nothing can be drawn. No other is
+     * started. */
+    void (*on_hopeless)(void *data);
     /* Called after everything that happens; returns when to be called again at the latest
      * (clock_ms; 0: no wish). */
     int64_t (*on_tick)(void *data, int64_t now_ms);

@@ -115,3 +115,11 @@ test('a scene that ends workers is left out until it is edited, others go on', a
     await bad.nextFrame((frame) => frame.revision === 2 && frame.lossless);
     await Promise.all([bad.close(), good.close()]);
 });
+
+test('where nothing can be drawn the daemon ends and says why', async () => {
+    const daemon = await startDaemon({ args: ['--device-index', '200'], ready: false });
+    const { status } = await daemon.exited;
+    assert.equal(status, 1);
+    assert.match(daemon.errors, /device/i);
+    await daemon.stop();
+});
