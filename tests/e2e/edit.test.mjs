@@ -16,7 +16,7 @@ import {
     row,
     valueIs,
     waitForSaved,
-    waitForState,
+    settled,
 } from './stage.mjs';
 
 let stage;
@@ -44,7 +44,7 @@ const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
 describe('looking around', () => {
     test('a drag, the wheel and the arrow keys change the picture', async () => {
         const page = await open(await stage.scene());
-        await waitForState(page, 'lossless');
+        await settled(page);
         let now = await pixels(page);
         await dragBy(page, picture(page), 120, -30);
         now = await pictureChanged(page, now, 'the picture to follow the drag');
@@ -53,14 +53,14 @@ describe('looking around', () => {
         await picture(page).focus();
         await page.keyboard.press('ArrowLeft');
         await pictureChanged(page, now, 'the picture to follow the key');
-        await waitForState(page, 'lossless');
+        await settled(page);
     });
 
     test('looking around changes no document', async () => {
         const id = await stage.scene();
         const before = await stage.document(id);
         const page = await open(id);
-        await waitForState(page, 'lossless');
+        await settled(page);
         const now = await pixels(page);
         await dragBy(page, picture(page), 90, 0);
         await pictureChanged(page, now, 'the picture to follow the drag');
@@ -74,7 +74,7 @@ describe('numbers', () => {
         const page = await open(id);
         const before = await stage.document(id);
         await row(page, 'ball').click();
-        await waitForState(page, 'lossless');
+        await settled(page);
         const start = await pixels(page);
         await dragBy(page, field(page, 'radius'), 60, 0, { steps: 20, leave: true });
         await pictureChanged(page, start, 'the picture to follow the number');
@@ -135,7 +135,7 @@ describe('numbers', () => {
         const id = await stage.scene();
         const page = await open(id);
         await row(page, 'ball').click();
-        await waitForState(page, 'lossless');
+        await settled(page);
         const compiled = await counter(stage.daemon, 'shader_compilations_total');
         const x = field(page, 'translation x');
         await x.focus();
@@ -145,7 +145,7 @@ describe('numbers', () => {
         await waitForSaved(page);
         const scene = await (await fetch(`${stage.daemon.url}/v1/scenes/${id}`)).headers.get('etag');
         assert.ok(Number(scene.replaceAll('"', '')) >= 1001, `revision ${scene}`);
-        await waitForState(page, 'lossless');
+        await settled(page);
         assert.equal(await counter(stage.daemon, 'shader_compilations_total'), compiled);
     });
 });
@@ -156,7 +156,7 @@ describe('two pages', () => {
         const [a, b] = [await open(id), await open(id)];
         await row(a, 'ball').click();
         await row(b, 'ball').click();
-        await waitForState(b, 'lossless');
+        await settled(b);
         const before = await pixels(b);
         await field(a, 'radius').fill('1.6');
         await field(a, 'radius').press('Enter');

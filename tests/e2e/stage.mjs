@@ -64,14 +64,17 @@ export const SCENE = {
     },
 };
 
-export async function openStage() {
+/** FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. */
+export async function openStage({ data } = {}) {
     const web = process.env.FIELDCAST_WEB;
-    const daemon = await startDaemon({ args: web ? ['--web', web] : [] });
+    const args = web ? ['--web', web] : [];
+    const daemon = await startDaemon({ data, args });
     const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS });
     let made = 0;
     return {
         daemon,
         browser,
+        args,
         /** A new scene's id. */
         async scene(document = SCENE) {
             made += 1;
@@ -135,9 +138,17 @@ export const field = (page, name) => page.getByRole('spinbutton', { name, exact:
 export const valueIs = (locator, value) =>
     until(async () => (await locator.inputValue()) === value, `the value ${value}`, LIMIT);
 
-export const stateOf = (page) => page.getByTestId('state').getAttribute('data-state');
-export const waitForState = (page, state) =>
-    page.locator(`[data-testid=state][data-state=${state}]`).waitFor();
+/** Waits until everything is saved and the lossless picture of that revision is shown. */
+export const settled = (page) =>
+    page.waitForFunction(() => {
+        const saved = document.querySelector('[data-testid=saved]')?.dataset;
+        const shown = document.querySelector('[data-testid=state]')?.dataset;
+        return (
+            saved?.state === 'saved' &&
+            shown?.state === 'lossless' &&
+            shown.revision === saved.revision
+        );
+    });
 export const waitForSaved = (page) =>
     page.locator('[data-testid=saved][data-state=saved]').waitFor();
 

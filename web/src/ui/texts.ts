@@ -6,6 +6,7 @@ const texts = {
     "app.failed": "The page met an error and stopped.",
     "app.reload": "Reload",
 
+    "region.editor": "Editor",
     "region.bar": "Tools",
     "region.scene": "Scene",
     "region.view": "Picture",

@@ -8,7 +8,7 @@ import { Inspector } from "../inspector/Inspector.tsx";
 import { Add } from "../palettes/Add.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
-import { useView } from "../state.ts";
+import { useDocument, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
 import { View } from "../view/View.tsx";
@@ -30,11 +30,20 @@ export function EditorPage() {
     return (
         <div className="editor">
             {hidden ? <span /> : <Bar narrow={narrow} />}
-            <Middle hidden={hidden} layout={narrow ? "sheet" : wide ? "columns" : "stack"} />
+            <main className="middle" aria-label={t("region.editor")}>
+                <Heading />
+                <Middle hidden={hidden} layout={narrow ? "sheet" : wide ? "columns" : "stack"} />
+            </main>
             {hidden || narrow ? <span /> : <Status />}
             <Add />
         </div>
     );
+}
+
+/* The page's own heading, which the bar shows as a menu. */
+function Heading() {
+    const name = useDocument((state) => state.document?.info.name);
+    return <h1 className="unseen">{typeof name === "string" ? name : t("bar.untitled")}</h1>;
 }
 
 function Middle({ hidden, layout }: { hidden: boolean; layout: "columns" | "stack" | "sheet" }) {
@@ -49,7 +58,7 @@ function Middle({ hidden, layout }: { hidden: boolean; layout: "columns" | "stac
 
 function Picture() {
     return (
-        <Region as="main" name={t("region.view")} context="view">
+        <Region name={t("region.view")} context="view">
             <View />
         </Region>
     );
@@ -101,7 +110,7 @@ function SceneTabs() {
 
 function InspectorRegion() {
     return (
-        <Region as="aside" name={t("region.inspector")}>
+        <Region name={t("region.inspector")}>
             <Inspector />
         </Region>
     );

@@ -5,7 +5,7 @@ import type { Context } from "../../model/commands.ts";
 import "./layout.css";
 
 interface Props {
-    as?: "section" | "main" | "aside" | "header" | "footer";
+    as?: "section" | "header" | "footer";
     name: string;
     /* Which keys work while the focus is inside. */
     context?: Context;

@@ -23,6 +23,7 @@ export function Saved({ compact }: { compact?: boolean }) {
             className="saved"
             data-testid="saved"
             data-state={saved ? "saved" : "saving"}
+            data-revision={revision}
             title={words}
         >
             {saved ? (

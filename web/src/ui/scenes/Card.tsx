@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Cards of the start page: a picture, a name, and for own scenes what can be done with them. */
-import { Copy, Download, Ellipsis, ImageOff, Pencil, Trash2 } from "lucide-react";
+import { Copy, Download, Ellipsis, Pencil, Trash2 } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
 import { download, type ExampleEntry, type SceneEntry } from "../../link/rest.ts";
 import { report } from "../files.ts";
@@ -10,65 +10,12 @@ import { addressOf } from "../route.ts";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { age } from "./age.ts";
+import { PICTURE_HEIGHT, PICTURE_WIDTH, Picture } from "./Picture.tsx";
 import { timeOf } from "./Scenes.tsx";
 import "./scenes.css";
 
-const PICTURE = { width: 480, height: 300 };
 /* How long a deleted scene can be taken back. */
 const UNDO_MS = 10_000;
-
-/* A picture behind a token is fetched, any other is left to the browser. */
-function Picture({ url, name }: { url: string; name: string }) {
-    const { rest } = useEditor();
-    const [source, setSource] = useState(rest.token === null ? url : null);
-    const [missing, setMissing] = useState(false);
-    useEffect(() => {
-        if (rest.token === null) {
-            setSource(url);
-            return;
-        }
-        let made: string | null = null;
-        let gone = false;
-        rest.fetchImage(url).then(
-            (address) => {
-                made = address;
-                if (gone) {
-                    URL.revokeObjectURL(address);
-                } else {
-                    setSource(address);
-                }
-            },
-            () => setMissing(true),
-        );
-        return () => {
-            gone = true;
-            if (made !== null) {
-                URL.revokeObjectURL(made);
-            }
-        };
-    }, [rest, url]);
-    return (
-        <span className="card-picture">
-            {missing ? (
-                <span className="card-missing">
-                    <ImageOff size={22} aria-hidden="true" />
-                </span>
-            ) : (
-                source !== null && (
-                    <img
-                        src={source}
-                        alt={name}
-                        loading="lazy"
-                        decoding="async"
-                        width={PICTURE.width}
-                        height={PICTURE.height}
-                        onError={() => setMissing(true)}
-                    />
-                )
-            )}
-        </span>
-    );
-}
 
 interface ExampleProps {
     example: ExampleEntry;
@@ -80,7 +27,7 @@ export function ExampleCard({ example, onOpen }: ExampleProps) {
     return (
         <li className="card" data-example={example.id}>
             <button type="button" className="card-open" onClick={onOpen}>
-                <Picture url={rest.exampleImageUrl(example.id)} name="" />
+                <Picture url={rest.exampleImageUrl(example.id)} />
                 <span className="card-text">
                     <span className="card-name ellipsis">{example.name || example.id}</span>
                 </span>
@@ -118,11 +65,11 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
             )();
         }
     };
-    const picture = rest.imageUrl(id, PICTURE.width, PICTURE.height);
+    const picture = rest.imageUrl(id, PICTURE_WIDTH, PICTURE_HEIGHT);
     return (
         <li className="card" data-scene={id}>
             <a className="card-open" href={addressOf(id)} aria-label={name}>
-                <Picture key={scene.revision} url={picture} name="" />
+                <Picture key={scene.revision} url={picture} />
             </a>
             <div className="card-text">
                 {renaming ? (

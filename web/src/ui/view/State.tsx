@@ -12,8 +12,15 @@ export function StatePill() {
         frame.stale || (compiling && frame.state !== "lossless") ? "compiling" : frame.state,
     );
     const percent = useLink(({ frame }) => Math.round(frame.scale * 100));
+    const revision = useLink(({ frame }) => frame.revision);
     return (
-        <span className="glass pill" data-testid="state" data-state={state} role="status">
+        <span
+            className="glass pill"
+            data-testid="state"
+            data-state={state}
+            data-revision={revision}
+            role="status"
+        >
             <span className="pill-dot" />
             {t(`state.${state}`, { percent })}
         </span>

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// For everybody: axe finds nothing, narrow windows hold everything, keys reach every region.
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { after, before, describe, test } from 'node:test';
+import { closePage, openStage, row, settled } from './stage.mjs';
+
+const require = createRequire(new URL('../../web/package.json', import.meta.url));
+const { AxeBuilder } = require('@axe-core/playwright');
+
+const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+let stage;
+let scene;
+before(async () => {
+    stage = await openStage();
+    scene = await stage.scene();
+});
+after(() => stage.close());
+
+async function check(page, what) {
+    const { violations } = await new AxeBuilder({ page }).withTags(RULES).analyze();
+    const found = violations.map(
+        ({ id, nodes }) => `${id}: ${nodes.map(({ target, any }) => `${target} ${any[0]?.message ?? ''}`).join(' | ')}`,
+    );
+    assert.deepEqual(found, [], what);
+}
+
+for (const theme of ['dark', 'light']) {
+    describe(`axe, ${theme}`, () => {
+        test('start page', async () => {
+            const page = await stage.page({ theme });
+            await page.locator('[data-example]').first().waitFor();
+            await page.locator('[data-scene]').first().waitFor();
+            await check(page, 'start page');
+            await closePage(page);
+        });
+
+        test('editor with a node, a material, a light, the camera', async () => {
+            const page = await stage.page({ scene, theme });
+            await settled(page);
+            await check(page, 'nothing selected');
+            await row(page, 'ball').click();
+            await page.getByTestId('inspector').waitFor();
+            await check(page, 'a node');
+            await page.locator('[data-resource=clay] .resource-pick').click();
+            await check(page, 'a material');
+            await page.locator('[data-resource=sun] .resource-pick').click();
+            await check(page, 'a light');
+            await page.getByRole('button', { name: 'Camera', exact: true }).click();
+            await check(page, 'the camera');
+            await closePage(page);
+        });
+
+        test('palettes, keys, statistics, menus', async () => {
+            const page = await stage.page({ scene, theme });
+            await settled(page);
+            for (const keys of ['Shift+A', 'Control+k', '?']) {
+                await page.keyboard.press(keys);
+                await page.getByRole('dialog').waitFor();
+                await check(page, keys);
+                await page.keyboard.press('Escape');
+                await page.getByRole('dialog').waitFor({ state: 'detached' });
+            }
+            await page.getByTestId('statistics').click();
+            await page.getByText('read back').waitFor();
+            await check(page, 'statistics');
+            await page.keyboard.press('Escape');
+            await row(page, 'crate').click({ button: 'right' });
+            await page.getByRole('menu').waitFor();
+            await check(page, 'menu of a node');
+            await page.keyboard.press('Escape');
+            await closePage(page);
+        });
+    });
+}
+
+describe('sizes', () => {
+    for (const [width, height] of [
+        [1200, 800],
+        [900, 700],
+        [400, 800],
+        [320, 640],
+    ]) {
+        test(`${width} × ${height}`, async () => {
+            for (const open of [null, scene]) {
+                const page = await stage.page({ scene: open, width, height });
+                await page.locator(open ? '[role=treeitem]' : '[data-example]').first().waitFor();
+                const spill = await page.evaluate(() => {
+                    const outside = [...document.querySelectorAll('button, input, a, [role=treeitem]')]
+                        .filter((one) => one.checkVisibility())
+                        .map((one) => ({ one, box: one.getBoundingClientRect() }))
+                        .filter(({ box }) => box.width > 0)
+                        .filter(({ box }) => box.right > innerWidth + 0.5 || box.left < -0.5)
+                        .map(({ one }) => one.outerHTML.slice(0, 120));
+                    const { scrollWidth, clientWidth } = document.documentElement;
+                    return { outside, scrolls: scrollWidth > clientWidth };
+                });
+                assert.deepEqual(spill, { outside: [], scrolls: false });
+                await closePage(page);
+            }
+        });
+    }
+
+    test('a phone shows tree, forms and looks in one sheet', async () => {
+        const page = await stage.page({ scene, width: 400, height: 800 });
+        await row(page, 'ball').click();
+        await page.getByRole('tab', { name: 'Edit' }).click();
+        await page.getByRole('spinbutton', { name: 'radius', exact: true }).waitFor();
+        await page.getByRole('tab', { name: 'Looks' }).click();
+        await page.locator('[data-resource=clay]').waitFor();
+        await check(page, 'sheet');
+        await closePage(page);
+    });
+});
+
+test('F6 goes round the regions and back', async () => {
+    const page = await stage.page({ scene });
+    const region = () =>
+        page.evaluate(
+            () => document.activeElement.closest('[data-region]')?.dataset.region ?? null,
+        );
+    const seen = [];
+    for (let i = 0; i < 5; i += 1) {
+        await page.keyboard.press('F6');
+        seen.push(await region());
+    }
+    assert.deepEqual(seen, ['Tools', 'Scene', 'Picture', 'Inspector', 'Status']);
+    await page.keyboard.press('Shift+F6');
+    assert.equal(await region(), 'Inspector');
+    await closePage(page);
+});
+
+test('the theme can be chosen and is kept', async () => {
+    const page = await stage.page({ scene, theme: 'light' });
+    const background = () =>
+        page.evaluate(() => getComputedStyle(document.querySelector('.bar')).backgroundColor);
+    const light = await background();
+    const button = page.getByRole('button', { name: /^Theme/ });
+    await button.click();
+    await button.click();
+    const dark = await background();
+    assert.notEqual(dark, light);
+    await page.reload();
+    await page.locator('[role=treeitem]').first().waitFor();
+    assert.equal(await background(), dark);
+    await closePage(page);
+});

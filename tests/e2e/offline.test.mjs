@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The daemon dies while somebody edits: the picture stays, edits wait, nothing is lost.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { makeDirectory, removeDirectory, startDaemon } from '../support/daemon.mjs';
+import {
+    closePage,
+    difference,
+    documentWhen,
+    field,
+    nodeIn,
+    openStage,
+    pictureChanged,
+    pixels,
+    row,
+    settled,
+    valueIs,
+    waitForSaved,
+} from './stage.mjs';
+
+const data = makeDirectory();
+let stage;
+let again = null;
+before(async () => {
+    stage = await openStage({ data });
+});
+after(async () => {
+    await stage.close();
+    await again?.stop();
+    removeDirectory(data);
+});
+
+test('edits made while the daemon is away arrive when it is back', async () => {
+    const id = await stage.scene();
+    const page = await stage.page({ scene: id });
+    await row(page, 'ball').click();
+    await field(page, 'radius').fill('1.1');
+    await field(page, 'radius').press('Enter');
+    await settled(page);
+    const last = await pixels(page);
+
+    const { port } = stage.daemon;
+    await stage.daemon.kill('SIGKILL');
+    await page.getByTestId('strip').getByText('Offline').waitFor();
+    assert.equal(difference(await pixels(page), last), 0, 'the last frame stays');
+
+    for (const [name, value] of [
+        ['radius', '1.25'],
+        ['translation x', '-2'],
+        ['translation y', '0.5'],
+    ]) {
+        await field(page, name).fill(value);
+        await field(page, name).press('Enter');
+    }
+    await page.getByText('Offline, 3 edits waiting').waitFor();
+    await valueIs(field(page, 'radius'), '1.25');
+
+    again = await startDaemon({ data, args: ['--port', String(port), ...stage.args] });
+    stage.daemon.url = again.url;
+    const back = await documentWhen(
+        stage,
+        id,
+        (document) => nodeIn(document, 'ball').transform.translation[1] === 0.5,
+        'the edits',
+    );
+    assert.equal(nodeIn(back, 'ball').params.radius, 1.25);
+    assert.deepEqual(nodeIn(back, 'ball').transform.translation, [-2, 0.5, 0]);
+    await page.getByTestId('strip').waitFor({ state: 'detached' });
+    await waitForSaved(page);
+    await pictureChanged(page, last, 'the picture to follow');
+    const answer = await fetch(`${stage.daemon.url}/v1/scenes/${id}`);
+    assert.equal(answer.headers.get('etag'), '"5"', 'each edit once');
+    /* The browser itself reports sockets that it could not open. */
+    page.problems = page.problems.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text));
+    await closePage(page);
+});

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The start page: examples, files up and down, names, deleting with a way back.
+import assert from 'node:assert/strict';
+import { after, afterEach, before, test } from 'node:test';
+import { ask, until } from '../support/daemon.mjs';
+import { closePage, openStage, readDownload, SCENE, settled } from './stage.mjs';
+
+let stage;
+let page;
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+afterEach(async () => {
+    const last = page;
+    page = null;
+    if (last) {
+        await closePage(last);
+    }
+});
+
+const scenes = async () => (await ask(stage.daemon, 'GET', '/v1/scenes')).scenes;
+const card = (id) => page.locator(`[data-scene="${id}"]`);
+const act = async (id, name, what) => {
+    await card(id).getByRole('button', { name: `Actions for ${name}` }).click();
+    await page.getByRole('menuitem', { name: what, exact: true }).click();
+};
+
+test('an example opens as a copy and shows a picture', async () => {
+    page = await stage.page();
+    await page.locator('[data-example=first-steps] button').click();
+    await page.locator('[role=treeitem]').first().waitFor();
+    await settled(page);
+    const [scene] = await scenes();
+    assert.match(page.url(), new RegExp(`#/scene/${scene.id}$`));
+    assert.deepEqual(
+        JSON.parse(await stage.document(scene.id)),
+        await ask(stage.daemon, 'GET', '/v1/examples/first-steps'),
+    );
+    await page.getByRole('link', { name: 'All scenes' }).click();
+    await card(scene.id).waitFor();
+});
+
+test('every example has a card; those in sight get a picture', async () => {
+    page = await stage.page();
+    const { examples } = await ask(stage.daemon, 'GET', '/v1/examples');
+    assert.ok(examples.length >= 8);
+    await page.locator('[data-example]').nth(examples.length - 1).waitFor();
+    for (const { id, name } of examples) {
+        assert.ok((await page.locator(`[data-example="${id}"]`).textContent()).includes(name));
+    }
+    await page.waitForFunction(() => {
+        const image = document.querySelector('[data-example] img');
+        return image.complete && image.naturalWidth > 0;
+    });
+});
+
+test('a new scene is empty and says what to do', async () => {
+    page = await stage.page();
+    await page.getByRole('button', { name: 'New scene' }).first().click();
+    await page.getByRole('button', { name: 'Add a shape' }).click();
+    await page.getByRole('combobox').fill('ball');
+    await page.keyboard.press('Enter');
+    await page.locator('[data-node=sphere-1]').waitFor();
+    await page.getByText('This scene is empty.').waitFor({ state: 'detached' });
+});
+
+test('a document that goes down and up again is the same document', async () => {
+    const id = await stage.scene();
+    page = await stage.page({ scene: id });
+    await page.getByRole('button', { name: 'Table', exact: true }).click();
+    const [file] = await Promise.all([
+        page.waitForEvent('download'),
+        page.getByRole('menuitem', { name: 'Download JSON' }).click(),
+    ]);
+    assert.equal(file.suggestedFilename(), 'Table.json');
+    const text = await readDownload(file);
+    await page.getByRole('link', { name: 'All scenes' }).click();
+    const [chooser] = await Promise.all([
+        page.waitForEvent('filechooser'),
+        page.getByRole('button', { name: 'Upload' }).click(),
+    ]);
+    await chooser.setFiles({ name: 'up.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+    await page.waitForURL((url) => /#\/scene\/.+/.test(url.hash) && !url.hash.endsWith(id));
+    const copy = page.url().split('/').at(-1);
+    assert.equal(await stage.document(copy), await stage.document(id));
+});
+
+test('a dropped file opens; a bad one is refused with its place', async () => {
+    page = await stage.page();
+    const drop = (text) =>
+        page.evaluate((content) => {
+            const data = new DataTransfer();
+            data.items.add(new File([content], 'dropped.json', { type: 'application/json' }));
+            const target = document.querySelector('main');
+            for (const type of ['dragover', 'drop']) {
+                const init = { bubbles: true, cancelable: true, dataTransfer: data };
+                target.dispatchEvent(new DragEvent(type, init));
+            }
+        }, text);
+    const bad = structuredClone(SCENE);
+    bad.root.children[0].params.radius = -1;
+    await drop(JSON.stringify(bad));
+    await page.getByText('/nodes/ball/params/radius').waitFor();
+    /* The browser itself reports the status of the refused request. */
+    page.problems = page.problems.filter((text) => !text.includes('422'));
+    await drop(JSON.stringify(SCENE));
+    await page.locator('[data-node=ball]').waitFor();
+});
+
+test('rename, duplicate, delete and take it back', async () => {
+    const id = await stage.scene();
+    page = await stage.page();
+    await act(id, 'Table', 'Rename');
+    await page.getByLabel('New name of Table').fill('Desk');
+    await page.keyboard.press('Enter');
+    await card(id).getByText('Desk').waitFor();
+    assert.equal(JSON.parse(await stage.document(id)).name, 'Desk');
+    const many = (await scenes()).length;
+    await act(id, 'Desk', 'Duplicate');
+    await until(async () => (await scenes()).length === many + 1, 'the copy');
+    await act(id, 'Desk', 'Delete');
+    await card(id).waitFor({ state: 'detached' });
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await card(id).waitFor();
+    assert.ok((await scenes()).some((scene) => scene.id === id));
+    await act(id, 'Desk', 'Delete');
+    await until(async () => !(await scenes()).some((scene) => scene.id === id), 'the deletion');
+});
