@@ -56,8 +56,9 @@ struct draw_picture {
     struct draw_slot slots[DRAW_SLOTS];
 };
 
-/* `tile_samples`: how many samples a tile has at most; 0: a good number for the device. */
-struct draw *draw_create(const struct gl *gl, bool software, int tile_samples, struct error *err);
+/* `tile_side`: how many samples a tile is wide and high, a multiple of 32; 0: what is good for the
+ * device. */
+struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err);
 void draw_destroy(struct draw *draw);
 /* Largest tile in pixels. */
 void draw_tile_size(const struct draw *draw, int samples, int *out_width, int *out_height);

@@ -186,25 +186,39 @@ void pass_finish(struct pass *pass, const struct gl *gl)
     *pass = (struct pass){0};
 }
 
-static void use(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
+static void use(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int mode)
 {
     gl->UseProgram(pass->program);
     if (pass->tile >= 0) {
-        gl->Uniform4i(pass->tile, tile_x, tile_y, 0, 0);
+        gl->Uniform4i(pass->tile, tile_x, tile_y, 0, mode);
     }
+}
+
+static GLuint parts(int length, int part)
+{
+    return (GLuint)((length + part - 1) / part);
 }
 
 void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
 {
-    use(pass, gl, tile_x, tile_y);
+    use(pass, gl, tile_x, tile_y, 0);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
                   int height)
 {
-    use(pass, gl, tile_x, tile_y);
-    gl->DispatchCompute((GLuint)(width + GROUP_SIDE - 1) / GROUP_SIDE,
-                        (GLuint)(height + GROUP_SIDE - 1) / GROUP_SIDE, 1);
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    use(pass, gl, tile_x, tile_y, 0);
+    gl->DispatchCompute(parts(width, GROUP_SIDE), parts(height, GROUP_SIDE), 1);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void pass_compute_coarse(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y,
+                         int width, int height)
+{
+    const int side = GROUP_SIDE * BLOCK_SIDE;
+
+    use(pass, gl, tile_x, tile_y, 1);
+    gl->DispatchCompute(parts(width, side), parts(height, side), 1);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -21,9 +21,12 @@ enum {
 };
 
 /* Units of the images that are written. */
-enum { IMAGE_GEOMETRY = 0, IMAGE_MATTER = 1, IMAGE_MORE = 2, IMAGE_RADIANCE = 3 };
+enum { IMAGE_GEOMETRY = 0, IMAGE_MATTER = 1, IMAGE_MORE = 2, IMAGE_RADIANCE = 3, IMAGE_STARTS = 4 };
 
-enum { GROUP_SIDE = 8 }; /* samples that one work group covers: glsl/group.glsl */
+enum {
+    GROUP_SIDE = 8, /* samples that one work group covers: glsl/group.glsl */
+    BLOCK_SIDE = 8, /* samples that share a start: glsl/march.glsl */
+};
 
 struct pass {
     GLuint program;
@@ -46,5 +49,8 @@ void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int til
 /* Runs a compute shader for at least width x height samples. */
 void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
                   int height);
+/* The coarse run of march.glsl, before the fine one. */
+void pass_compute_coarse(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y,
+                         int width, int height);
 
 #endif

@@ -34,6 +34,14 @@ static bool check_buffer(const struct gl *gl, GLuint buffer)
     return gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
+/* A whole number of work groups. */
+static int starts_side(int samples)
+{
+    const int side = GROUP_SIDE * BLOCK_SIDE;
+
+    return (samples + side - 1) / side * GROUP_SIDE;
+}
+
 bool targets_init(struct targets *out_targets, const struct gl *gl, int width, int height,
                   struct error *err)
 {
@@ -45,6 +53,7 @@ bool targets_init(struct targets *out_targets, const struct gl *gl, int width, i
     targets.matter = make_texture(gl, GL_RGBA32UI, width, height);
     targets.more = make_texture(gl, GL_RGBA32UI, width, height);
     targets.radiance = make_texture(gl, GL_RGBA32F, width, height);
+    targets.starts = make_texture(gl, GL_R32F, starts_side(width), starts_side(height));
     for (int i = 0; i < OUT_KINDS; i++) {
         targets.out[i] = make_texture(gl, formats[i], width, height);
         targets.out_buffers[i] = make_buffer(gl, targets.out[i]);
@@ -71,10 +80,10 @@ fail:
 void targets_finish(struct targets *targets, const struct gl *gl)
 {
     const GLuint textures[] = {targets->geometry, targets->matter, targets->more,
-                               targets->radiance};
+                               targets->radiance, targets->starts};
 
     gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
-    gl->DeleteTextures(4, textures);
+    gl->DeleteTextures(5, textures);
     gl->DeleteTextures(OUT_KINDS, targets->out);
     gl->DeleteVertexArrays(1, &targets->vertices);
     *targets = (struct targets){0};
@@ -100,4 +109,5 @@ void targets_bind(const struct targets *targets, const struct gl *gl)
         gl->BindImageTexture(rows[i].image, rows[i].texture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
                              rows[i].format);
     }
+    gl->BindImageTexture(IMAGE_STARTS, targets->starts, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
 }

@@ -29,7 +29,8 @@ layout(std140, binding = 0) uniform Frame {
     Light lights[LIGHTS_MAX];
 };
 
-/* xy: first pixel of the tile; z: always 0, so that loops starting there are not unrolled. */
+/* xy: first pixel of the tile; z: always 0, so that loops starting there are not unrolled; w: 1 for
+ * the coarse run of march.glsl. */
 uniform ivec4 tile;
 #define zero tile.z
 

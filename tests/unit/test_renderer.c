@@ -89,7 +89,7 @@ static void use_tiles(int samples)
 
 static void test_tiles_do_not_show(void **state)
 {
-    static const int sides[] = {16, 40, 128, 512};
+    static const int sides[] = {32, 96, 128, 512};
     struct image first;
 
     (void)state;
