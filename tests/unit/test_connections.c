@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT */
+/* Request heads, access, and what waits to be written. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+#include "server/access.h"
+#include "server/head.h"
+#include "server/outbox.h"
+
+/* --- heads --- */
+
+static int status_of(const char *text)
+{
+    struct head *head = memory_alloc(1, sizeof(*head));
+    struct head_fault fault = {0};
+    int status = head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
+
+    free(head);
+    return status;
+}
+
+static void finds_the_end(void **state)
+{
+    const char text[] = "GET / HTTP/1.1\r\nHost: x\r\n\r\nbody";
+    long end = (long)strlen(text) - 4;
+
+    (void)state;
+    for (size_t seen = 0; seen <= (size_t)end - 1; seen++) {
+        assert_int_equal(head_end(text, seen, 0), 0);
+        assert_int_equal(head_end(text, sizeof(text) - 1, seen), end);
+    }
+    assert_int_equal(head_end("GET /\n", 6, 0), -1);
+    assert_int_equal(head_end("GET /\r", 6, 0), 0);
+    assert_int_equal(head_end("GET /\rx", 7, 6), -1);
+    assert_int_equal(head_end("G\0T", 3, 0), -1);
+}
+
+static void refuses_what_two_could_read_differently(void **state)
+{
+    (void)state;
+    assert_int_equal(status_of("GET / HTTP/1.1\r\nHost: x\r\n\r\n"), 200);
+    assert_int_equal(status_of("GET / HTTP/1.1\r\nHost: x\r\nHost: x\r\n\r\n"), 400);
+    assert_int_equal(status_of("GET / HTTP/1.1\r\nHost : x\r\n\r\n"), 400);
+    assert_int_equal(status_of("GET / HTTP/1.1\r\nHost: x\r\n y\r\n\r\n"), 400);
+    assert_int_equal(
+        status_of("GET / HTTP/1.1\r\nHost: x\r\nContent-Length: 1\r\nTransfer-Encoding: "
+                  "chunked\r\n\r\n"),
+        400);
+    assert_int_equal(status_of("GET / HTTP/3.0\r\nHost: x\r\n\r\n"), 505);
+}
+
+/* Values of one list header are joined; so many that they would not fit are refused. */
+static void joins_lists_within_bounds(void **state)
+{
+    struct head *head = memory_alloc(1, sizeof(*head));
+    struct head_fault fault = {0};
+    char text[LIMIT_HEAD_BYTES];
+    size_t used = (size_t)sprintf(text, "GET / HTTP/1.1\r\nHost: x\r\nConnection: a\r\n"
+                                        "Connection: Upgrade\r\n\r\n");
+
+    (void)state;
+    assert_true(head_read(text, used, head, &fault));
+    assert_string_equal(head->field[HEAD_CONNECTION], "a, Upgrade");
+    assert_true(head_list_has(head->field[HEAD_CONNECTION], "upgrade"));
+    assert_false(head_list_has(head->field[HEAD_CONNECTION], "up"));
+    used -= 2;
+    while (used + 40 < sizeof(text)) {
+        used += (size_t)sprintf(text + used, "Upgrade: websocket\r\n");
+    }
+    used += (size_t)sprintf(text + used, "\r\n");
+    assert_false(head_read(text, used, head, &fault));
+    assert_int_equal(fault.status, 431);
+    free(head);
+}
+
+/* --- access --- */
+
+static int verdict(const struct access *access, const char *host, const char *origin,
+                   const char *authorization, const char *protocols)
+{
+    struct access_request request = {host, origin, authorization, protocols};
+
+    return access_check(access, &request, false, NULL);
+}
+
+static void keeps_strangers_out(void **state)
+{
+    const char *const friends[] = {"https://friend.example", NULL};
+    struct access open = {.loopback = true, .allowed_origins = friends};
+    struct access guarded = {.token = "secret", .allowed_origins = friends};
+
+    (void)state;
+    assert_int_equal(verdict(&open, "localhost:80", NULL, NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "127.0.0.2", NULL, NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "127.evil.example", NULL, NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "evil.example", NULL, NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "localhost", "http://localhost", NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "localhost", "http://localhost:1", NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "localhost", "https://friend.example", NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "localhost", "null", NULL, NULL), 403);
+    assert_int_equal(verdict(&guarded, "any", NULL, NULL, NULL), 401);
+    assert_int_equal(verdict(&guarded, "any", NULL, "Bearer secret", NULL), 0);
+    assert_int_equal(verdict(&guarded, "any", NULL, "Bearer secretsecret", NULL), 401);
+    assert_int_equal(verdict(&guarded, "any", NULL, "Bearer ", NULL), 401);
+    assert_int_equal(verdict(&guarded, "any", NULL, NULL, "v1, fieldcast.token.secret"), 0);
+    assert_int_equal(verdict(&guarded, "any", NULL, NULL, "fieldcast.token.sec"), 401);
+    assert_int_equal(verdict(&guarded, "any", "https://evil.example", "Bearer secret", NULL), 403);
+}
+
+/* --- outbox --- */
+
+static struct blob *letters(char letter, size_t length)
+{
+    char *bytes = memory_alloc(length, 1);
+    struct blob *blob;
+
+    memset(bytes, letter, length);
+    blob = blob_create(bytes, length);
+    free(bytes);
+    return blob;
+}
+
+static void add_text(struct outbox *outbox, char letter, size_t length, bool fits)
+{
+    struct blob *blob = letters(letter, length);
+
+    assert_int_equal(outbox_text(outbox, blob), fits);
+    blob_unref(blob);
+}
+
+static uint32_t add_frame(struct outbox *outbox, uint32_t number, uint8_t flags, size_t length)
+{
+    struct blob *blob = letters('f', length);
+    struct frame_header header = {
+        .number = number, .flags = flags, .payload_bytes = (uint32_t)length};
+    uint32_t given_up = outbox_frame(outbox, &header, blob);
+
+    blob_unref(blob);
+    return given_up;
+}
+
+static uint8_t scratch[FRAME_HEADER_BYTES + OUTBOX_PART_BYTES];
+
+static void texts_go_between_the_parts_of_a_frame(void **state)
+{
+    struct outbox outbox;
+    struct outbox_piece piece;
+
+    (void)state;
+    outbox_init(&outbox);
+    add_frame(&outbox, 1, FRAME_KEY, 2 * OUTBOX_PART_BYTES + 10);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_memory_equal(scratch, "FCF1", 4);
+    assert_int_equal(piece.frame_done, 0);
+    add_text(&outbox, 't', OUTBOX_PART_BYTES + 1, true);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_true(piece.kind == OUTBOX_TEXT && piece.first && !piece.last);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_true(piece.kind == OUTBOX_TEXT && !piece.first && piece.last && piece.length == 1);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_memory_equal(scratch, "FCFP", 4);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(piece.frame_done, 1);
+    assert_int_equal(piece.length, FRAME_PART_HEADER_BYTES + 10);
+    assert_true(outbox_is_empty(&outbox));
+    outbox_finish(&outbox);
+}
+
+static void the_newest_frame_wins(void **state)
+{
+    struct outbox outbox;
+    struct outbox_piece piece;
+
+    (void)state;
+    outbox_init(&outbox);
+    assert_int_equal(add_frame(&outbox, 1, FRAME_KEY, 10), 0);
+    assert_int_equal(add_frame(&outbox, 2, FRAME_KEY, 2 * OUTBOX_PART_BYTES), 1);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    /* A moving one that is begun is finished, and only the one behind it can be replaced. */
+    assert_int_equal(add_frame(&outbox, 3, FRAME_KEY, 10), 0);
+    assert_int_equal(add_frame(&outbox, 4, FRAME_KEY, 10), 3);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(piece.frame_done, 2);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(piece.frame_done, 4);
+    /* A still one is given up even when it is begun. */
+    add_frame(&outbox, 5, FRAME_KEY | FRAME_STILL, 3 * OUTBOX_PART_BYTES);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(add_frame(&outbox, 6, FRAME_KEY, 10), 5);
+    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(piece.frame_done, 6);
+    assert_true(outbox_is_empty(&outbox));
+    outbox_finish(&outbox);
+}
+
+static void what_waits_is_bounded(void **state)
+{
+    struct outbox outbox;
+
+    (void)state;
+    outbox_init(&outbox);
+    add_text(&outbox, 'd', 10 * OUTBOX_TEXT_BYTES, true); /* a first message may be large */
+    add_text(&outbox, 'c', OUTBOX_TEXT_BYTES, true);
+    add_text(&outbox, 'c', 1, true);
+    add_text(&outbox, 'c', 1, false);
+    outbox_finish(&outbox);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_the_end),
+        cmocka_unit_test(refuses_what_two_could_read_differently),
+        cmocka_unit_test(joins_lists_within_bounds),
+        cmocka_unit_test(keeps_strangers_out),
+        cmocka_unit_test(texts_go_between_the_parts_of_a_frame),
+        cmocka_unit_test(the_newest_frame_wins),
+        cmocka_unit_test(what_waits_is_bounded),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

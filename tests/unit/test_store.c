@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+/* What the store keeps, and that a commit is all or nothing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "protocol/memory.h"
+#include "server/store.h"
+#include "server/store_sqlite.h"
+
+static char directory[] = "/tmp/fieldcast-store-XXXXXX";
+static struct metrics metrics;
+
+static struct store_write write_of(enum store_kind kind, const char *scene, uint64_t revision,
+                                   const char *author, int64_t edit, const char *text)
+{
+    struct store_write write = {.kind = kind,
+                                .revision = revision,
+                                .edit = edit,
+                                .text = (char *)text,
+                                .name = "name",
+                                .nodes = 3};
+
+    snprintf(write.scene, sizeof(write.scene), "%s", scene);
+    snprintf(write.author, sizeof(write.author), "%s", author);
+    return write;
+}
+
+static struct store_sqlite *open_database(const char *name)
+{
+    char path[200];
+    struct error err = {0};
+
+    snprintf(path, sizeof(path), "%s/%s", directory, name);
+    struct store_sqlite *db = store_sqlite_open(path, &err);
+    assert_non_null(db);
+    return db;
+}
+
+static bool commit_one(struct store_sqlite *db, struct store_write write)
+{
+    return store_sqlite_commit(db, &write, NULL);
+}
+
+static void gives_back_document_edits_and_authors(void **state)
+{
+    struct store_sqlite *db = open_database("a.sqlite");
+    struct store_loaded loaded;
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", 2, "ann", 1, "[1]")));
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", 3, "rest", 0, "[2]")));
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", 4, "ann", 2, "[3]")));
+    store_sqlite_close(db);
+    db = open_database("a.sqlite");
+    assert_true(store_sqlite_load(db, "s", &loaded, NULL));
+    assert_string_equal(loaded.document, "first");
+    assert_int_equal(loaded.edit_count, 3);
+    assert_int_equal(loaded.edits[2].revision, 4);
+    assert_string_equal(loaded.edits[2].ops, "[3]");
+    assert_int_equal(loaded.author_count, 1);
+    assert_string_equal(loaded.authors[0].author, "ann");
+    assert_int_equal(loaded.authors[0].edit, 2);
+    store_loaded_finish(&loaded);
+
+    assert_true(commit_one(db, write_of(STORE_SNAPSHOT, "s", 3, "", 0, "third")));
+    assert_true(store_sqlite_load(db, "s", &loaded, NULL));
+    assert_string_equal(loaded.document, "third");
+    assert_int_equal(loaded.revision, 3);
+    assert_int_equal(loaded.edit_count, 1);
+    store_loaded_finish(&loaded);
+
+    assert_true(commit_one(db, write_of(STORE_DELETE, "s", 4, "", 0, NULL)));
+    struct error err = {0};
+    assert_false(store_sqlite_load(db, "s", &loaded, &err));
+    assert_int_equal(err.kind, ERROR_NOT_FOUND);
+    store_sqlite_close(db);
+}
+
+/* An author's number twice, or a revision twice, is a fault of ours: nothing of the batch stays. */
+static void a_commit_is_all_or_nothing(void **state)
+{
+    struct store_sqlite *db = open_database("b.sqlite");
+    struct store_loaded loaded;
+    struct error err = {0};
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
+    struct store_write again = write_of(STORE_EDIT, "s", 3, "ann", 1, "[2]");
+    struct store_write once = write_of(STORE_EDIT, "s", 2, "ann", 1, "[1]");
+    once.next = &again;
+    assert_false(store_sqlite_commit(db, &once, &err));
+    assert_true(strstr(err.message, "UNIQUE") != NULL);
+    assert_true(store_sqlite_load(db, "s", &loaded, NULL));
+    assert_int_equal(loaded.edit_count, 0);
+    assert_int_equal(loaded.author_count, 0);
+    store_loaded_finish(&loaded);
+    snprintf(again.author, sizeof(again.author), "bob");
+    assert_true(store_sqlite_commit(db, &once, &err));
+    store_sqlite_close(db);
+}
+
+static void count(void *data)
+{
+    atomic_fetch_add((atomic_int *)data, 1);
+}
+
+static void flush_waits_until_all_is_told(void **state)
+{
+    struct error err = {0};
+    struct store *store = store_open(directory, &metrics, &err);
+    atomic_int told = 0;
+
+    (void)state;
+    assert_non_null(store);
+    for (uint64_t revision = 1; revision <= 500; revision++) {
+        struct store_write *write = memory_alloc(1, sizeof(*write));
+
+        *write = write_of(revision == 1 ? STORE_CREATE : STORE_EDIT, "s", revision, "ann",
+                          (int64_t)revision, NULL);
+        write->text = memory_text("[]");
+        write->name = memory_text("name");
+        write->on_durable = count;
+        write->data = &told;
+        store_push(store, write);
+    }
+    store_flush(store);
+    assert_int_equal(atomic_load(&told), 500);
+    assert_null(store_open(directory, &metrics, &err));
+    assert_int_equal(err.kind, ERROR_CONFLICT);
+    store_close(store);
+}
+
+static int make_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) ? 0 : -1;
+}
+
+static int remove_directory(void **state)
+{
+    char command[100];
+
+    (void)state;
+    snprintf(command, sizeof(command), "rm -r %s", directory);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gives_back_document_edits_and_authors),
+        cmocka_unit_test(a_commit_is_all_or_nothing),
+        cmocka_unit_test(flush_waits_until_all_is_told),
+    };
+
+    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+}
