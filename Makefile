@@ -23,7 +23,7 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept clean install \
+.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept cards clean install \
         uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -81,7 +81,7 @@ sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
-examples := $(sort $(wildcard $(S)/protocol/examples/*.json))
+examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 # What is embedded: C made by deploy/embed.sh, for the headers renderer/glsl.h and server/assets.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
@@ -189,6 +189,10 @@ golden-accept: ## draw CASE=name (or all) and take the picture as its reference
 	$(if $(CASE),,$(error golden-accept wants CASE=name, or CASE=all))
 	$(again) CONFIG=release programs
 	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
+
+cards: fieldcast ## draw the pictures of the examples that the start page shows
+	$(Q)for f in $(S)/protocol/examples/*.json; do $(OUT)/fieldcast render $$f --width 480 --height 270 \
+	  --samples 4 --quality 85 -o $${f%.json}.jpg || exit 1; done
 
 docs: fieldcast ## write the table of options into README.md
 	$(Q)$(S)/deploy/update-readme.sh $(OUT)/fieldcast $(S)/README.md

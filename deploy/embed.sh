@@ -4,7 +4,7 @@
 # taken in by the assembler, which is much faster than arrays in C.
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
-#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist) and examples_table[]
+#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and cards_table[]
 #                                  (SOURCE/protocol/examples) of server/assets.h; WORK takes the
 #                                  compressed files. Without web/dist the page's table is empty
 set -eu
@@ -61,7 +61,7 @@ table() {
         n=$((n + 1))
         bytes "$2$n" "$file"
         type=$(mime "$path")
-        [ "$1" = examples ] && path=${path%.json}
+        [ "$1" = assets ] || path=${path%.*}
         rows="$rows    {\"$path\", \"$type\", $2$n, $(($(wc -c <"$file"))), $gzip},
 "
     done
@@ -84,8 +84,9 @@ page() {
     done
 }
 
+# examples SOURCE ENDING
 examples() {
-    for file in "$1"/protocol/examples/*.json; do
+    for file in "$1"/protocol/examples/*."$2"; do
         [ -e "$file" ] && echo "$(basename "$file") $file false"
     done
 }
@@ -93,7 +94,8 @@ examples() {
 assets() {
     echo '#include "server/assets.h"'
     page "$1" "$2" | table assets asset_
-    examples "$1" | LC_ALL=C sort | table examples example_
+    examples "$1" json | LC_ALL=C sort | table examples example_
+    examples "$1" jpg | LC_ALL=C sort | table cards card_
 }
 
 "$@"

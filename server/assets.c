@@ -22,3 +22,8 @@ const struct asset *examples_find(const char *id)
 {
     return find(examples_table, examples_count, id);
 }
+
+const struct asset *cards_find(const char *id)
+{
+    return find(cards_table, cards_count, id);
+}

@@ -22,8 +22,13 @@ extern const size_t assets_count;
 extern const struct asset examples_table[];
 extern const size_t examples_count;
 
+/* Their pictures, the .jpg files there: path is the file name without ".jpg". */
+extern const struct asset cards_table[];
+extern const size_t cards_count;
+
 /* NULL: none. */
 const struct asset *assets_find(const char *path);
 const struct asset *examples_find(const char *id);
+const struct asset *cards_find(const char *id);
 
 #endif

@@ -181,6 +181,23 @@ void pages_example(struct request *request)
     request_reply(request, &response);
 }
 
+void pages_card(struct request *request)
+{
+    const struct asset *card = cards_find(request->capture[0]);
+
+    if (!card) {
+        reply_not_found(request);
+        return;
+    }
+    struct response response = {.status = 200,
+                                .type = card->mime,
+                                .body = (void *)card->bytes,
+                                .length = card->length,
+                                .borrowed = true};
+    response_add(&response, "Cache-Control", "max-age=3600");
+    request_reply(request, &response);
+}
+
 /* --- about the server --- */
 
 void pages_schema(struct request *request)

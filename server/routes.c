@@ -15,6 +15,7 @@ static const struct route table[] = {
     {"POST", "/v1/render", images_render, BODY_JSON, false},
     {"GET", "/v1/examples", pages_examples, BODY_NONE, false},
     {"GET", "/v1/examples/{}", pages_example, BODY_NONE, false},
+    {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, false},
     {"GET", "/v1/examples/{}/image.{}", images_of_example, BODY_NONE, false},
     {"GET", "/v1/schema.json", pages_schema, BODY_NONE, false},
     {"GET", "/metrics", pages_metrics, BODY_NONE, false},

@@ -148,7 +148,7 @@ export function createRest(base: string, token: string | null): Rest {
         readSchema: async () => readSchema(await get("/v1/schema.json")),
         imageUrl: (id, width, height, format = "jpg") =>
             `${base}/v1/scenes/${segment(id)}/image.${format}?width=${width}&height=${height}`,
-        exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/image.jpg`,
+        exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
         fetchImage: async (url) => {
             const path = url.startsWith(base) ? url.slice(base.length) : url;
             return URL.createObjectURL(await (await request(path)).blob());

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* The pictures on the start page are those of the examples as they are now: each card is drawn anew
+ * and compared. JPEG and fewer samples cost some steps, so the bounds are wider than those of golden
+ * pictures: 3 of 255 on average, which another camera or colour exceeds at once (test below). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <turbojpeg.h>
+
+#include "renderer/renderer.h"
+#include "server/assets.h"
+
+#define CARD_MEAN 3.0
+
+static struct renderer *renderer;
+
+static uint8_t *unpack(const struct asset *card, int *out_width, int *out_height)
+{
+    tjhandle jpeg = tjInitDecompress();
+    int sampling = 0, space = 0;
+
+    assert_int_equal(tjDecompressHeader3(jpeg, card->bytes, card->length, out_width, out_height,
+                                         &sampling, &space),
+                     0);
+    uint8_t *pixels = malloc((size_t)*out_width * (size_t)*out_height * 4);
+    assert_int_equal(tjDecompress2(jpeg, card->bytes, card->length, pixels, *out_width, 0,
+                                   *out_height, TJPF_RGBA, 0),
+                     0);
+    tjDestroy(jpeg);
+    return pixels;
+}
+
+/* Mean difference of a channel between the card and the scene drawn now. */
+static double difference(const struct asset *example, const struct asset *card, double exposure)
+{
+    struct error err = {0};
+    struct image image;
+    int width, height;
+    uint8_t *pixels = unpack(card, &width, &height);
+    struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
+    cJSON *ops = cJSON_Parse("[{\"op\":\"set\",\"at\":\"/render/exposure\",\"value\":0}]");
+
+    assert_non_null(scene);
+    struct resident *resident = resident_create(renderer, scene, 1);
+    if (exposure != 0) {
+        cJSON_SetNumberValue(cJSON_GetObjectItem(ops->child, "value"), exposure);
+        assert_true(resident_edit(resident, ops, 2, &err));
+    }
+    const struct job_desc desc = {.width = width, .height = height, .samples = 1, .exact = true};
+    assert_true(renderer_render(resident, &desc, &image, &err));
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)width * (size_t)height * 4; i++) {
+        sum += abs(((const uint8_t *)image.pixels)[i] - pixels[i]);
+    }
+    image_finish(&image);
+    resident_destroy(resident);
+    cJSON_Delete(ops);
+    free(pixels);
+    return sum / ((double)width * height * 3);
+}
+
+static void every_example_has_its_card(void **state)
+{
+    (void)state;
+    assert_int_equal(cards_count, examples_count);
+    for (size_t i = 0; i < examples_count; i++) {
+        const struct asset *card = cards_find(examples_table[i].path);
+
+        assert_non_null(card);
+        double mean = difference(&examples_table[i], card, 0);
+        if (mean > CARD_MEAN) {
+            fail_msg("the card of %s differs by %.2f on average: make cards draws it anew",
+                     examples_table[i].path, mean);
+        }
+    }
+}
+
+static void another_picture_is_noticed(void **state)
+{
+    (void)state;
+    assert_true(difference(&examples_table[0], cards_find(examples_table[0].path), -0.5) >
+                CARD_MEAN);
+}
+
+static int start(void **state)
+{
+    struct error err = {0};
+    const struct renderer_params params = {
+        .device = DEVICE_AUTO, .device_index = -1, .cache_dir = getenv("FIELDCAST_CACHE")};
+
+    (void)state;
+    renderer = renderer_create(&params, &err);
+    if (!renderer) {
+        error_print(&err, stderr);
+    }
+    return renderer ? 0 : -1;
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    renderer_destroy(renderer);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_example_has_its_card),
+        cmocka_unit_test(another_picture_is_noticed),
+    };
+    return cmocka_run_group_tests_name("cards", tests, start, stop);
+}
