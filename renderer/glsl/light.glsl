@@ -63,7 +63,7 @@ vec3 reflected(Surface s, vec3 n, vec3 view, vec3 towards)
  *
  * Shadow: the penumbra of a light of angular size 1/k follows from the least ratio of distance to
  * length along the ray, taken between steps, where the spheres of two steps meet (Aaltonen: GPU-based
- * clay simulation and ray-tracing tech in Claybook, GDC 2018). */
+ * clay simulation and ray-tracing tech in Claybook, GDC 2018; here for strides of any length). */
 vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
 {
     float print = footprint(t);
@@ -81,10 +81,10 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
         vec3 along = open ? n : ray_in.direction;
         vec3 base = open ? p : from;
         float far = min(ray_in.reach - light.extent.x, bounds_span(from, along).y);
-        float near = 2.0 * print;
+        float near = 2.0 * print, k = light.color.w;
         int steps = kind == SHADOW_NONE || lambert <= 0.0 ? 0 : modes.w;
         float x = open ? occlusion_place(0, near) : near;
-        float shade = 1.0, before = INFINITY, dark = 0.0, weight = 1.0, weights = 0.0;
+        float shade = 1.0, before = FAR, stride = 1e-6, dark = 0.0, weight = 1.0, weights = 0.0;
 
         steps = hit ? (open ? OCCLUSION_SAMPLES : steps) : 0;
         for (int i = zero; i < steps; i++) {
@@ -93,16 +93,20 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
             weights += weight;
             weight *= 0.75;
 
-            /* Where the sphere grows, the ray leads away and the nearest place is behind it. */
-            float back = d * d / (2.0 * before) * clamp((1.6 - d / before) / 0.6, 0.0, 1.0);
-            float closest = sqrt(max(d * d - back * back, 0.0));
-            shade = min(shade, light.color.w * closest / max(x - back, near));
-            before = max(d, 1e-6);
+            /* Least ratio since the last place: at most that of its ends, at least that of a corner
+             * which both spheres touch, y from the last place. The mean shows no bands. */
+            float y = (before * before - d * d + stride * stride) / (2.0 * stride);
+            float nearest = y <= 0.0 ? before : y < stride ? sqrt(before * before - y * y) : d;
+            float last = max(x - stride, 0.5 * near);
+            float ratio = min(before / last, d / x) + nearest / (last + clamp(y, 0.0, stride));
+            shade = min(shade, 0.5 * k * ratio);
+            before = d;
             if (!open && (d < 0.05 * print || shade < 0.004 || x > far)) {
                 shade = x > far ? shade : 0.0;
                 break;
             }
-            x = open ? occlusion_place(i + 1, near) : x + max(d, 0.5 * print);
+            stride = max(k * d < x ? 0.7 * d : d, 0.5 * print);
+            x = open ? occlusion_place(i + 1, near) : x + stride;
         }
         shade = clamp(shade, 0.0, 1.0);
         shade = kind == SHADOW_HARD ? step(0.02, shade) : shade * shade * (3.0 - 2.0 * shade);
