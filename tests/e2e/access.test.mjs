@@ -18,8 +18,13 @@ before(async () => {
 });
 after(() => stage.close());
 
-async function check(page, what) {
-    const { violations } = await new AxeBuilder({ page }).withTags(RULES).analyze();
+/** Focus guards of Base UI are left aside: they pass the focus on in the moment they get it. */
+async function check(page, what, without = []) {
+    const { violations } = await new AxeBuilder({ page })
+        .withTags(RULES)
+        .disableRules(without)
+        .exclude('[data-base-ui-focus-guard]')
+        .analyze();
     const found = violations.map(
         ({ id, nodes }) => `${id}: ${nodes.map(({ target, any }) => `${target} ${any[0]?.message ?? ''}`).join(' | ')}`,
     );
@@ -68,7 +73,8 @@ for (const theme of ['dark', 'light']) {
             await page.keyboard.press('Escape');
             await row(page, 'crate').click({ button: 'right' });
             await page.getByRole('menu').waitFor();
-            await check(page, 'menu of a node');
+            /* A menu floats over all regions. */
+            await check(page, 'menu of a node', ['region']);
             await page.keyboard.press('Escape');
             await closePage(page);
         });

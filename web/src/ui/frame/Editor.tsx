@@ -69,11 +69,11 @@ function SceneRegion() {
     return (
         <Region name={t("region.scene")} context="tree">
             <Group id="scene-split" orientation="vertical" className="split" {...saved}>
-                <Panel id="tree" minSize={110} defaultSize="58%">
+                <Panel id="panel-tree" minSize={110} defaultSize="58%">
                     <Scene />
                 </Panel>
                 <Separator className="separator" aria-label={t("region.resizeTree")} />
-                <Panel id="resources" minSize={64}>
+                <Panel id="panel-resources" minSize={64}>
                     <Resources />
                 </Panel>
             </Group>
@@ -121,7 +121,7 @@ function Columns() {
     return (
         <Group id="columns" orientation="horizontal" {...saved}>
             <Panel
-                id="scene"
+                id="panel-scene"
                 defaultSize={264}
                 minSize={200}
                 maxSize={480}
@@ -130,12 +130,12 @@ function Columns() {
                 <SceneRegion />
             </Panel>
             <Separator className="separator" aria-label={t("region.resizeScene")} />
-            <Panel id="view" minSize={320}>
+            <Panel id="panel-view" minSize={320}>
                 <Picture />
             </Panel>
             <Separator className="separator" aria-label={t("region.resizeInspector")} />
             <Panel
-                id="inspector"
+                id="panel-inspector"
                 defaultSize={312}
                 minSize={260}
                 maxSize={520}
@@ -152,23 +152,23 @@ function Stack() {
     const inner = useDefaultLayout({ id: "stack-inner", storage: localStorage });
     return (
         <Group id="stack" orientation="horizontal" {...saved}>
-            <Panel id="view" minSize={280}>
+            <Panel id="panel-view" minSize={280}>
                 <Picture />
             </Panel>
             <Separator className="separator" aria-label={t("region.resizeInspector")} />
             <Panel
-                id="side"
+                id="panel-side"
                 defaultSize={300}
                 minSize={260}
                 maxSize={440}
                 groupResizeBehavior="preserve-pixel-size"
             >
                 <Group id="stack-inner" orientation="vertical" {...inner}>
-                    <Panel id="scene" minSize={140} defaultSize="50%">
+                    <Panel id="panel-scene" minSize={140} defaultSize="50%">
                         <SceneTabs />
                     </Panel>
                     <Separator className="separator" aria-label={t("region.resizeStack")} />
-                    <Panel id="inspector" minSize={140}>
+                    <Panel id="panel-inspector" minSize={140}>
                         <InspectorRegion />
                     </Panel>
                 </Group>

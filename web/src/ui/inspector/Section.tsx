@@ -17,7 +17,7 @@ export function Section({ title, count, action, children }: Props) {
     return (
         <section className="section">
             <div className="section-top">
-                <h3>
+                <h2>
                     <button
                         type="button"
                         className="section-head"
@@ -29,7 +29,7 @@ export function Section({ title, count, action, children }: Props) {
                         {title}
                         {count !== undefined && <span className="section-count">{count}</span>}
                     </button>
-                </h3>
+                </h2>
                 {action}
             </div>
             <div id={id} hidden={!open}>
