@@ -144,7 +144,9 @@ test('the theme can be chosen and is kept', async () => {
     const light = await background();
     const button = page.getByRole('button', { name: /^Theme/ });
     await button.click();
+    await page.locator('html[data-theme=light]').waitFor();
     await button.click();
+    await page.locator('html[data-theme=dark]').waitFor();
     const dark = await background();
     assert.notEqual(dark, light);
     await page.reload();

@@ -178,3 +178,32 @@ describe('two pages', () => {
         assert.equal(nodeIn(left, 'ball').transform.translation[1], 0.5);
     });
 });
+
+test('a dragged number changes its own field and nothing else of the page', async () => {
+    const page = await open(await stage.scene());
+    await row(page, 'ball').click();
+    await settled(page);
+    await page.evaluate(() => {
+        window.touched = new Set();
+        const outside = ['[data-testid=tree]', '.resources', '.crumbs'];
+        for (const place of outside) {
+            const options = { subtree: true, childList: true, attributes: true, characterData: true };
+            new MutationObserver(() => window.touched.add(place)).observe(
+                document.querySelector(place),
+                options,
+            );
+        }
+        for (const one of document.querySelectorAll('[data-param]:not([data-param=radius])')) {
+            new MutationObserver(() => window.touched.add(one.dataset.param)).observe(one, {
+                subtree: true,
+                childList: true,
+                attributes: true,
+                characterData: true,
+            });
+        }
+    });
+    const before = await field(page, 'radius').inputValue();
+    await dragBy(page, field(page, 'radius'), 40, 0, { steps: 30 });
+    assert.notEqual(await field(page, 'radius').inputValue(), before);
+    assert.deepEqual(await page.evaluate(() => [...window.touched]), []);
+});

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: MIT */
+/* The tree of nodes: rows that can be picked, folded, dragged, renamed, by pointer and by keys. */
+import {
+    type DragTarget,
+    dragAndDropFeature,
+    hotkeysCoreFeature,
+    type ItemInstance,
+    keyboardDragAndDropFeature,
+    selectionFeature,
+    syncDataLoaderFeature,
+    type TreeInstance,
+} from "@headless-tree/core";
+import { AssistiveTreeDescription, useTree } from "@headless-tree/react";
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { useEffect, useMemo, useRef, useState } from "react";
+import { perform } from "../../model/commands.ts";
+import {
+    isInside,
+    nodeLabel,
+    pathTo,
+    type SceneDocument,
+    type SceneNode,
+} from "../../model/document.ts";
+import { moveNodes } from "../../model/edits.ts";
+import { nodeType } from "../../model/schema.ts";
+import { useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import { useMedia } from "../theme.ts";
+import { filterNodes } from "./filter.ts";
+import { NodeMenu } from "./NodeMenu.tsx";
+import { Row } from "./Row.tsx";
+import "./scene.css";
+
+/* The tree's own root is not shown; the scene's root node is its only child. */
+const TOP = "/";
+const INDENT = 14;
+const ROW = 26;
+const TOUCH_ROW = 36;
+
+export function Tree({ document, query }: { document: SceneDocument; query: string }) {
+    const editor = useEditor();
+    const { view } = editor.stores;
+    const selection = useView((state) => state.selection);
+    const collapsed = useView((state) => state.collapsed);
+    const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
+    const kept = useMemo(() => filterNodes(document, query), [document, query]);
+    const childrenOf = (id: string): string[] => {
+        const ids = id === TOP ? [document.root] : (document.nodes.get(id)?.children ?? []);
+        return kept === null ? [...ids] : ids.filter((child) => kept.has(child));
+    };
+    const expanded = useMemo(() => {
+        const open = [...document.nodes.values()].filter(
+            (node) => node.children.length > 0 && (kept !== null || !collapsed.has(node.id)),
+        );
+        return [TOP, ...open.map((node) => node.id)];
+    }, [document, collapsed, kept]);
+
+    const tree = useTree<SceneNode | null>({
+        rootItemId: TOP,
+        features: [
+            syncDataLoaderFeature,
+            selectionFeature,
+            hotkeysCoreFeature,
+            dragAndDropFeature,
+            keyboardDragAndDropFeature,
+        ],
+        indent: INDENT,
+        canReorder: kept === null,
+        dataLoader: { getItem: (id) => document.nodes.get(id) ?? null, getChildren: childrenOf },
+        getItemName: (item) => labelOf(item),
+        isItemFolder: (item) => childrenOf(item.getId()).length > 0 || mayHold(editor, item),
+        state: { expandedItems: expanded, selectedItems: [...selection] },
+        setExpandedItems: (update) => {
+            const next = new Set(typeof update === "function" ? update(expanded) : update);
+            const folded = expanded.filter((id) => !next.has(id));
+            view.setState((old) => ({
+                collapsed: new Set(
+                    [...old.collapsed, ...folded].filter((id) => !next.has(id) && id !== TOP),
+                ),
+            }));
+        },
+        setSelectedItems: (update) => {
+            const old = [...view.getState().selection];
+            const next = typeof update === "function" ? update(old) : update;
+            view.setState({ selection: next, subject: { kind: "nodes" } });
+        },
+        hotkeys: {
+            focusNextItem: stepKey("ArrowDown", 1),
+            focusPreviousItem: stepKey("ArrowUp", -1),
+        },
+        canDrag: (items) => items.every((item) => item.getId() !== document.root),
+        canDrop: (items, target) => canDrop(editor, document, items, target),
+        onDrop: (items, target) => drop(editor, items, target),
+    });
+    /* The data loader's answers are cached until the tree is told. */
+    // biome-ignore lint/correctness/useExhaustiveDependencies: rebuilt when what it shows changes
+    useEffect(() => {
+        tree.rebuildTree();
+    }, [document, kept, collapsed]);
+    const bounds = useRef<HTMLDivElement>(null);
+    const height = useMedia("(pointer: coarse)") ? TOUCH_ROW : ROW;
+    const items = tree.getItems().filter((item) => document.nodes.has(item.getId()));
+    const rows = useVirtualizer({
+        count: items.length,
+        getScrollElement: () => bounds.current,
+        estimateSize: () => height,
+        getItemKey: (index) => items[index]?.getId() ?? index,
+        overscan: 8,
+    });
+    useReveal(tree, document, selection.at(-1) ?? null, (id) => {
+        const index = items.findIndex((item) => item.getId() === id);
+        if (index >= 0) {
+            rows.scrollToIndex(index, { align: "auto" });
+        }
+    });
+
+    return (
+        <div className="panel-scroll" ref={bounds}>
+            <AssistiveTreeDescription tree={tree} className="unseen" />
+            <div
+                {...tree.getContainerProps(t("scene.tree"))}
+                className="tree"
+                data-testid="tree"
+                style={{ blockSize: rows.getTotalSize() + 28 }}
+            >
+                {rows.getVirtualItems().map((row) => {
+                    const item = items[row.index];
+                    return (
+                        item && (
+                            <Row
+                                key={row.key}
+                                item={item}
+                                node={document.nodes.get(item.getId())}
+                                top={row.start + 2}
+                                height={height}
+                                indent={INDENT}
+                                onMenu={setMenu}
+                            />
+                        )
+                    );
+                })}
+                <div className="tree-line" style={tree.getDragLineStyle()} />
+            </div>
+            {kept !== null && items.length === 0 && (
+                <p className="empty-note">{t("scene.nothing")}</p>
+            )}
+            <NodeMenu at={menu} onClose={() => setMenu(null)} />
+        </div>
+    );
+}
+
+type Item = ItemInstance<SceneNode | null>;
+
+/* Up and down select what they reach; while a row is carried they move it instead. */
+function stepKey(hotkey: string, by: 1 | -1) {
+    return {
+        hotkey,
+        canRepeat: true,
+        preventDefault: true,
+        isEnabled: (tree: TreeInstance<SceneNode | null>) => !tree.getState().dnd,
+        handler: (_event: KeyboardEvent, tree: TreeInstance<SceneNode | null>) => step(tree, by),
+    };
+}
+
+function step(tree: TreeInstance<SceneNode | null>, by: 1 | -1): void {
+    if (by > 0) {
+        tree.focusNextItem();
+    } else {
+        tree.focusPreviousItem();
+    }
+    tree.updateDomFocus();
+    tree.setSelectedItems([tree.getFocusedItem().getId()]);
+}
+
+function labelOf(item: Item): string {
+    const node = item.getItemData();
+    return node ? nodeLabel(node) : "";
+}
+
+function mayHold(editor: ReturnType<typeof useEditor>, item: Item): boolean {
+    const { schema } = editor.stores.document.getState();
+    const row = nodeType(schema, item.getItemData()?.type ?? "");
+    return row !== null && row.group !== "primitive";
+}
+
+function canDrop(
+    editor: ReturnType<typeof useEditor>,
+    document: SceneDocument,
+    items: Item[],
+    target: DragTarget<SceneNode | null>,
+): boolean {
+    const into = target.item.getId();
+    const { schema } = editor.stores.document.getState();
+    const node = document.nodes.get(into);
+    const holds = node && nodeType(schema, node.type)?.children !== "none";
+    return holds === true && !items.some((item) => isInside(document, into, item.getId()));
+}
+
+function drop(
+    editor: ReturnType<typeof useEditor>,
+    items: Item[],
+    target: DragTarget<SceneNode | null>,
+): void {
+    const { document } = editor.stores.document.getState();
+    if (document === null) {
+        return;
+    }
+    const into = target.item.getId();
+    const ids = items.map((item) => item.getId());
+    const others = (document.nodes.get(into)?.children ?? []).filter((id) => !ids.includes(id));
+    const before = "insertionIndex" in target ? (others[target.insertionIndex] ?? null) : null;
+    perform(editor, moveNodes(document, ids, { into, before }));
+}
+
+/* Unfolds the way to a node that was selected elsewhere, focuses its row and brings it in sight. */
+function useReveal(
+    tree: TreeInstance<SceneNode | null>,
+    document: SceneDocument,
+    id: string | null,
+    scroll: (id: string) => void,
+): void {
+    const { view } = useEditor().stores;
+    const revealed = useRef<string | null>(null);
+    useEffect(() => {
+        if (id === null || id === revealed.current || !document.nodes.has(id)) {
+            revealed.current = id;
+            return;
+        }
+        const { collapsed } = view.getState();
+        const above = pathTo(document, id).slice(0, -1);
+        if (above.some((node) => collapsed.has(node.id))) {
+            const open = new Set(above.map((node) => node.id));
+            view.setState({ collapsed: new Set([...collapsed].filter((one) => !open.has(one))) });
+            return;
+        }
+        revealed.current = id;
+        tree.getItemInstance(id)?.setFocused();
+        scroll(id);
+    });
+}
