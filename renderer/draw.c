@@ -133,8 +133,7 @@ uint64_t draw_compilations(const struct draw *draw)
 }
 
 /* The resolve pass of a form. */
-static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form,
-                                 struct error *err)
+static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form, struct error *err)
 {
     static const char *const files[] = {"frame.glsl", "resolve.glsl", NULL};
     struct pass *pass = &draw->resolve[form - forms];
@@ -142,7 +141,8 @@ static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form
 
     if (pass->program == 0) {
         snprintf(defines, sizeof defines, "#define %s\n", form->define);
-        if (!pass_init(pass, draw->gl, &(struct pass_source){.defines = defines, .files = files}, err)) {
+        if (!pass_init(pass, draw->gl, &(struct pass_source){.defines = defines, .files = files},
+                       err)) {
             return NULL;
         }
         draw->compilations++;

@@ -24,11 +24,11 @@ const char *egl_error_name(EGLint error)
         EGLint code;
         const char *name;
     } names[] = {
-        {EGL_SUCCESS, "EGL_SUCCESS"},         {EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
-        {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},   {EGL_BAD_ALLOC, "EGL_BAD_ALLOC"},
-        {EGL_BAD_MATCH, "EGL_BAD_MATCH"},     {EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE"},
-        {EGL_BAD_CONFIG, "EGL_BAD_CONFIG"},   {EGL_BAD_CONTEXT, "EGL_BAD_CONTEXT"},
-        {EGL_BAD_DISPLAY, "EGL_BAD_DISPLAY"}, {EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER"},
+        {EGL_SUCCESS, "EGL_SUCCESS"},           {EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
+        {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},     {EGL_BAD_ALLOC, "EGL_BAD_ALLOC"},
+        {EGL_BAD_MATCH, "EGL_BAD_MATCH"},       {EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE"},
+        {EGL_BAD_CONFIG, "EGL_BAD_CONFIG"},     {EGL_BAD_CONTEXT, "EGL_BAD_CONTEXT"},
+        {EGL_BAD_DISPLAY, "EGL_BAD_DISPLAY"},   {EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER"},
         {EGL_CONTEXT_LOST, "EGL_CONTEXT_LOST"},
     };
 
@@ -244,8 +244,8 @@ static void prepare_environment(const struct renderer_params *params)
 }
 
 /* GPUs first, in the driver's order; the best stays open in `*out`. Rows may be NULL. */
-static bool choose(struct egl *out, const struct renderer_params *params, struct device_report *rows,
-                   size_t max_rows, size_t *out_count)
+static bool choose(struct egl *out, const struct renderer_params *params,
+                   struct device_report *rows, size_t max_rows, size_t *out_count)
 {
     struct candidate candidates[EGL_DEVICES_MAX + 1];
     const size_t count = list_candidates(candidates);

@@ -9,8 +9,8 @@
 /* Each takes the kinds of pixels that its format knows, else ERROR_INVALID. */
 bool png_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
                 size_t *out_length, struct error *err);
-bool jpeg_encode(const struct image *image, const struct encode_params *params,
-                 uint8_t **out_bytes, size_t *out_length, struct error *err);
+bool jpeg_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
+                 size_t *out_length, struct error *err);
 bool npy_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
                 size_t *out_length, struct error *err);
 

@@ -77,8 +77,8 @@ static double target_distance(const struct record *camera)
 
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err)
 {
-    struct snapshot *snapshot = desc->exact || !resident->drawable ? resident->newest
-                                                                   : resident->drawable;
+    struct snapshot *snapshot =
+        desc->exact || !resident->drawable ? resident->newest : resident->drawable;
     const struct record *camera;
     struct job *job;
 
@@ -133,16 +133,15 @@ static enum job_state begin(struct job *job)
         return fail(job);
     }
     job->begun = true;
-    job->raw = memory_alloc((size_t)job->width * (size_t)job->height,
-                            (size_t)job->form->read_bytes);
+    job->raw =
+        memory_alloc((size_t)job->width * (size_t)job->height, (size_t)job->form->read_bytes);
     return job->state = JOB_RUNNING;
 }
 
 static struct tile tile_at(const struct job *job, int index)
 {
     struct tile tile = {index % job->columns * job->tile_width,
-                        index / job->columns * job->tile_height, job->tile_width,
-                        job->tile_height};
+                        index / job->columns * job->tile_height, job->tile_width, job->tile_height};
 
     if (tile.x + tile.width > job->width) {
         tile.width = job->width - tile.x;

@@ -21,14 +21,12 @@ static uint8_t *gray_bytes(const struct image *image)
     return to;
 }
 
-bool jpeg_encode(const struct image *image, const struct encode_params *params,
-                 uint8_t **out_bytes, size_t *out_length, struct error *err)
+bool jpeg_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
+                 size_t *out_length, struct error *err)
 {
     const bool gray = image->format == PIXEL_GRAY16;
     const int quality = params->quality ? params->quality : QUALITY_DEFAULT;
-    const int sampling = gray                    ? TJSAMP_GRAY
-                         : params->chroma_halved ? TJSAMP_420
-                                                 : TJSAMP_444;
+    const int sampling = gray ? TJSAMP_GRAY : params->chroma_halved ? TJSAMP_420 : TJSAMP_444;
     uint8_t *grays = NULL, *bytes = NULL;
     unsigned long length = 0;
     tjhandle jpeg;

@@ -3,8 +3,8 @@
  * back into file and line.
  *
  * March and light are compute shaders: some GPUs give the fragment stage a small part of the chip,
- * and llvmpipe, which may find lane 0 unused in a fragment shader, fetches even what is the same for
- * all lanes lane by lane there, which made programs four times as large. */
+ * and llvmpipe, which may find lane 0 unused in a fragment shader, fetches even what is the same
+ * for all lanes lane by lane there, which made programs four times as large. */
 #ifndef RENDERER_PASS_H
 #define RENDERER_PASS_H
 
@@ -34,9 +34,9 @@ struct pass {
 };
 
 struct pass_source {
-    bool compute;             /* else a fragment shader over the whole target */
-    const char *defines;      /* lines for above everything else; may be "" */
-    const char *const *files; /* names in glsl/, NULL at the end */
+    bool compute;              /* else a fragment shader over the whole target */
+    const char *defines;       /* lines for above everything else; may be "" */
+    const char *const *files;  /* names in glsl/, NULL at the end */
     const char *map, *surface; /* the texts that `files` calls "map" and "surface" */
 };
 

@@ -80,15 +80,21 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
 static bool link_passes(const struct gl *gl, const struct program *program, bool software,
                         struct pass *march, struct pass *light, struct error *err)
 {
-    static const char *const march_files[] = {
-        "group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",
-        "modifiers.glsl", "operations.glsl", "map", "numbers_any.glsl", "surface", "camera.glsl", "gbuffer.glsl", "march.glsl", NULL};
+    static const char *const march_files[] = {"group.glsl",       "numbers.glsl",
+                                              "frame.glsl",       "surface.glsl",
+                                              "shapes.glsl",      "modifiers.glsl",
+                                              "operations.glsl",  "map",
+                                              "numbers_any.glsl", "surface",
+                                              "camera.glsl",      "gbuffer.glsl",
+                                              "march.glsl",       NULL};
     static const char *const light_files[] = {
-        "group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", "shapes.glsl",
-        "modifiers.glsl", "operations.glsl", "map", "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL};
+        "group.glsl",     "numbers.glsl",    "frame.glsl", "surface.glsl", "shapes.glsl",
+        "modifiers.glsl", "operations.glsl", "map",        "camera.glsl",  "gbuffer.glsl",
+        "sky.glsl",       "light.glsl",      NULL};
     char *defines =
         make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
-    struct pass_source source = {true, defines, march_files, program->map_text, program->surface_text};
+    struct pass_source source = {true, defines, march_files, program->map_text,
+                                 program->surface_text};
     bool ok = pass_init(march, gl, &source, err);
 
     source.files = light_files;
@@ -104,8 +110,7 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
 {
     const struct gl *gl = cache->gl;
     const size_t bytes = 16 * program->number_count;
-    const bool texture =
-        numbers_in_texture(gl, cache->egl->software, program->number_count);
+    const bool texture = numbers_in_texture(gl, cache->egl->software, program->number_count);
     float *zeros = memory_alloc(1, bytes);
     const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
     GLuint buffers[2], view = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Linked GL programs, one pair (march, light) for each shape of a field, kept by shape hash.
  *
- * A second thread with a context of its own compiles, links and runs one work group, because drivers
- * do most of their work at the first use. The drawing thread never waits for it. */
+ * A second thread with a context of its own compiles, links and runs one work group, because
+ * drivers do most of their work at the first use. The drawing thread never waits for it. */
 #ifndef RENDERER_PROGRAM_H
 #define RENDERER_PROGRAM_H
 
@@ -21,8 +21,8 @@ struct program_cache;
 struct program_source {
     uint64_t shape_hash;
     const char *map_text, *surface_text; /* of shader.h; copied */
-    size_t number_count; /* vec4s in the buffer; at least 1 */
-    size_t map_count;    /* the first so many are those that the map reads */
+    size_t number_count;                 /* vec4s in the buffer; at least 1 */
+    size_t map_count;                    /* the first so many are those that the map reads */
 };
 
 /* The compile context of `egl` belongs to the cache until program_cache_destroy. */

@@ -53,8 +53,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!renderer->draw) {
         goto fail;
     }
-    renderer->programs =
-        program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, err);
+    renderer->programs = program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, err);
     if (!renderer->programs) {
         goto fail;
     }

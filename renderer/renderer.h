@@ -58,8 +58,7 @@ struct renderer_counters renderer_counters(const struct renderer *renderer);
 /* --- scenes --- */
 
 /* Takes `scene`. Compiling starts in the background. */
-struct resident *resident_create(struct renderer *renderer, struct scene *scene,
-                                 uint64_t revision);
+struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision);
 void resident_destroy(struct resident *resident);
 /* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
@@ -83,9 +82,9 @@ struct job_desc {
     int width, height;
     const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
     enum aov aov;
-    int samples;     /* per axis, 1..4; 0: the scene's render settings. Only AOV_COLOR uses it */
-    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
-    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
+    int samples;    /* per axis, 1..4; 0: the scene's render settings. Only AOV_COLOR uses it */
+    bool exact;     /* wait for the newest revision's shader; else draw the newest drawable */
+    bool as_floats; /* give raw values (NPY), not 8/16-bit pixels */
 };
 
 enum job_state { JOB_WAITING /* for a compilation */, JOB_RUNNING, JOB_DONE, JOB_FAILED };
@@ -98,7 +97,9 @@ enum job_state job_step(struct job *job);
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
-struct job_times { uint32_t march_us, light_us, read_us; };
+struct job_times {
+    uint32_t march_us, light_us, read_us;
+};
 struct job_times job_times(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 
@@ -123,9 +124,9 @@ int image_format_find(const char *name); /* "png" "jpg" "jpeg" "npy"; -1: none *
 const char *image_format_mime(enum image_format format);
 struct encode_params {
     enum image_format format;
-    int quality;         /* JPEG 1..100; 0: 90 */
-    bool chroma_halved;  /* JPEG 4:2:0 */
-    bool fast;           /* PNG level 1, filter SUB: for streaming; the pixels are the same */
+    int quality;        /* JPEG 1..100; 0: 90 */
+    bool chroma_halved; /* JPEG 4:2:0 */
+    bool fast;          /* PNG level 1, filter SUB: for streaming; the pixels are the same */
 };
 /* `*out_bytes` is malloc'ed. */
 bool image_encode(const struct image *image, const struct encode_params *params,

@@ -46,8 +46,9 @@ static void renew(struct resident *resident)
     snapshot_unref(renderer, resident->newest);
     resident->newest = snapshot;
     if (snapshot && snapshot->fewer_steps) {
-        renderer_log(renderer, "revision %llu: fewer steps than asked for, since the driver bounds "
-                               "the loops of a shader",
+        renderer_log(renderer,
+                     "revision %llu: fewer steps than asked for, since the driver bounds "
+                     "the loops of a shader",
                      (unsigned long long)resident->revision);
     }
     advance(resident);
@@ -151,8 +152,8 @@ struct pick_result resident_pick(const struct resident *resident, const struct r
     field_normal(snapshot->field, result.position, 0.5 * print + 1e-6, result.normal);
     result.distance = t;
     result.hit = true;
-    const char *id = field_leaf_id(snapshot->field,
-                                   field_surface(snapshot->field, result.position).number);
+    const char *id =
+        field_leaf_id(snapshot->field, field_surface(snapshot->field, result.position).number);
     snprintf(result.node, sizeof result.node, "%s", id ? id : "");
     return result;
 }

@@ -35,9 +35,9 @@ static struct program *get_program(struct renderer *renderer, const struct field
     }
     map = shader_map(field);
     surface = shader_surface(field);
-    program = program_cache_add(renderer->programs,
-                                &(struct program_source){key, map, surface, capacity,
-                                                         field->material_base});
+    program =
+        program_cache_add(renderer->programs, &(struct program_source){key, map, surface, capacity,
+                                                                       field->material_base});
     free(map);
     free(surface);
     return program;

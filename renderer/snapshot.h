@@ -12,9 +12,9 @@ struct snapshot {
     uint64_t revision;
     struct field *field;
     struct program *program;
-    struct record camera;      /* the document's */
-    struct frame_block frame;  /* without a camera */
-    int samples;               /* the document's */
+    struct record camera;     /* the document's */
+    struct frame_block frame; /* without a camera */
+    int samples;              /* the document's */
     struct draw_numbers numbers;
     bool fewer_steps; /* than the scene asks for: the driver's bound on loops */
 };

@@ -79,8 +79,8 @@ fail:
 
 void targets_finish(struct targets *targets, const struct gl *gl)
 {
-    const GLuint textures[] = {targets->geometry, targets->matter, targets->more,
-                               targets->radiance, targets->starts};
+    const GLuint textures[] = {targets->geometry, targets->matter, targets->more, targets->radiance,
+                               targets->starts};
 
     gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
     gl->DeleteTextures(5, textures);

@@ -13,9 +13,9 @@ enum out_kind { OUT_BYTES /* rgba8 */, OUT_FLOATS /* rgba32f */, OUT_UINTS /* r3
 struct targets {
     int width, height; /* in samples; multiples of GROUP_SIDE */
     GLuint geometry, matter, more, radiance, out[OUT_KINDS];
-    GLuint starts; /* one texel for each block of march.glsl */
+    GLuint starts;                 /* one texel for each block of march.glsl */
     GLuint out_buffers[OUT_KINDS]; /* framebuffers */
-    GLuint vertices; /* the empty vertex array that core profiles want */
+    GLuint vertices;               /* the empty vertex array that core profiles want */
 };
 
 /* For the current context: framebuffers are not shared. */

@@ -24,7 +24,7 @@ enum {
     READ_BYTES = 65536,
     OUT_FULL = 64 << 20, /* nothing is drawn while the front has so much to read */
     COMPILE_POLL_MS = 4,
-    OLDEST_EVERY = 8, /* tiles */
+    OLDEST_EVERY = 8,     /* tiles */
     EXIT_DEVICE_LOST = 3, /* the front starts another */
 };
 
@@ -326,8 +326,7 @@ static bool read_format(const cJSON *packet, struct encode_params *out, struct e
     return true;
 }
 
-static bool read_camera(const cJSON *packet, struct record *out, bool *out_given,
-                        struct error *err)
+static bool read_camera(const cJSON *packet, struct record *out, bool *out_given, struct error *err)
 {
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(packet, "camera");
 
@@ -520,9 +519,9 @@ static void on_pick(struct worker *w, const cJSON *packet)
 
     record_init(&camera, &camera_type);
     if (held && width > 0 && height > 0 && read_camera(packet, &camera, &given, NULL)) {
-        result = resident_pick(held->resident, given ? &camera : NULL, width, height,
-                               json_member_number(packet, "x", 0),
-                               json_member_number(packet, "y", 0));
+        result =
+            resident_pick(held->resident, given ? &camera : NULL, width, height,
+                          json_member_number(packet, "x", 0), json_member_number(packet, "y", 0));
     }
     record_finish(&camera);
     cJSON_AddNumberToObject(json, "pick", json_member_number(packet, "pick", 0));
@@ -647,9 +646,8 @@ static void run(struct worker *w)
 static void limit_memory(const struct worker *w, size_t bytes)
 {
     unsigned long pages = 0;
-    FILE *statm = bytes > 0 && renderer_info(w->renderer)->software
-                      ? fopen("/proc/self/statm", "r")
-                      : NULL;
+    FILE *statm =
+        bytes > 0 && renderer_info(w->renderer)->software ? fopen("/proc/self/statm", "r") : NULL;
 
     if (!statm) {
         return;

@@ -10,11 +10,13 @@
  *   scene  {scene, revision, document}                  ready    {renderer{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, code, message}
- *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width, height,
- *           camera?, aov, samples, format, quality,               mime, march_us, light_us, read_us,
- *           chroma_halved, fast, exact}                           encode_us, queue_us} + payload
+ *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width,
+ *           camera?, aov, samples, format, quality,               height, mime, march_us, light_us,
+ *           chroma_halved, fast, exact}                           read_us, encode_us, queue_us}
+ *                                                                 + payload
  *   cancel {job}                                        failed   {job, code, place, message}
- *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position, normal, distance}
+ *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position,
+ *                                                                 normal, distance}
  *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
  *   stop   {}                                                     tiles, pictures, resident_bytes}
  *

@@ -9,7 +9,7 @@ struct Ray {
 
 /* Where in its pixel a sample lies, in 0..1. With n x n samples: one in each cell of an n x n grid
  * and one in each of the n^2 columns and rows (Chiu, Shirley, Wang: Multi-jittered sampling,
- * Graphics Gems IV, 1994, the canonical arrangement), so that edges near the axes get n^2 shades. */
+ * Graphics Gems IV, 1994, the canonical arrangement): edges near the axes get n^2 shades. */
 vec2 sample_place(ivec2 cell, int n)
 {
     vec2 fine = (vec2(cell.y, n - 1 - cell.x) + 0.5) / float(n);

@@ -62,8 +62,9 @@ vec3 reflected(Surface s, vec3 n, vec3 view, vec3 towards)
  * Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006).
  *
  * Shadow: the penumbra of a light of angular size 1/k follows from the least ratio of distance to
- * length along the ray, taken between steps, where the spheres of two steps meet (Aaltonen: GPU-based
- * clay simulation and ray-tracing tech in Claybook, GDC 2018; here for strides of any length). */
+ * length along the ray, taken between steps, where the spheres of two steps meet (Aaltonen:
+ * GPU-based clay simulation and ray-tracing tech in Claybook, GDC 2018; here for strides of any
+ * length). */
 vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
 {
     float print = footprint(t);
@@ -111,7 +112,8 @@ vec3 lit(Ray ray, float t, vec3 n, Surface s, bool hit)
         shade = clamp(shade, 0.0, 1.0);
         shade = kind == SHADOW_HARD ? step(0.02, shade) : shade * shade * (3.0 - 2.0 * shade);
         vec3 direct = ray_in.color * reflected(s, n, -ray.direction, ray_in.direction);
-        sum += open ? ambient * opened(1.0 - OCCLUSION_STRENGTH * dark / max(weights, 1.0), s.diffuse)
+        float sky = 1.0 - OCCLUSION_STRENGTH * dark / max(weights, 1.0);
+        sum += open ? ambient * opened(sky, s.diffuse)
                     : direct * (max(lambert, 0.0) * (kind == SHADOW_NONE ? 1.0 : shade));
     }
     return sum;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* First pass: where each ray meets the field, its normal and its surface. It runs twice: first
- * coarsely, with one cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
+/* First pass: where each ray meets the field, its normal and its surface. It runs twice: coarsely
+ * at first, with a cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
 
 layout(rgba32f, binding = 0) writeonly uniform image2D out_geometry;
 layout(rgba32ui, binding = 1) writeonly uniform uimage2D out_matter;
@@ -29,8 +29,8 @@ struct Hit {
  * footprint. A ray that runs out of steps has hit when it is within some footprints, as grazing
  * rays are. A cone instead goes as far as the sphere holds it, and ends where that is little.
  *
- * Then: the normal, the gradient by four points of a tetrahedron (Quilez: normals for an SDF); their
- * sum is 4 e times as long as the gradient. */
+ * Then: the normal, the gradient by four points of a tetrahedron (Quilez: normals for an SDF);
+ * their sum is 4 e times as long as the gradient. */
 Hit march(Ray ray, float start, float cone)
 {
     vec2 span = bounds_span(ray.origin, ray.direction);

@@ -75,8 +75,7 @@ static void add_group(const char *group)
             struct golden *golden = &cases[case_count++];
             snprintf(golden->group, sizeof golden->group, "%s", group);
             snprintf(golden->name, sizeof golden->name, "%s", names[i]->d_name);
-            snprintf(golden->title, sizeof golden->title, "%.200s/%.200s", group,
-                     names[i]->d_name);
+            snprintf(golden->title, sizeof golden->title, "%.200s/%.200s", group, names[i]->d_name);
         }
         free(names[i]);
     }
@@ -121,7 +120,7 @@ static void draw(const struct golden *golden, struct picture *out)
 {
     const struct job_desc desc = read_desc(golden);
     struct error err = {0};
-    size_t bytes_length, length;
+    size_t bytes_length = 0, length;
     char *text = text_file_read(case_path(golden, "scene.json"), &length);
     struct scene *scene = scene_parse(text, length, &err);
     struct resident *resident;

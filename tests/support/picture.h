@@ -19,9 +19,9 @@ bool picture_read_memory(struct picture *out, const void *bytes, size_t length);
 bool picture_write(const struct picture *picture, const char *path);
 
 /* Two pictures are the same when at most one pixel in `PICTURE_PIXELS` differs by more than
- * PICTURE_STEPS of 255 in a channel, and the channels by less than PICTURE_MEAN on average. That lets
- * pass what another version of a driver rounds otherwise, at edges above all, and nothing that an
- * eye finds. */
+ * PICTURE_STEPS of 255 in a channel, and the channels by less than PICTURE_MEAN on average. That
+ * lets pass what another version of a driver rounds otherwise, at edges above all, and nothing that
+ * an eye finds. */
 enum { PICTURE_STEPS = 8, PICTURE_PIXELS = 200 };
 #define PICTURE_MEAN 0.5
 

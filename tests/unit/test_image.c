@@ -112,11 +112,12 @@ static void test_jpeg(void **state)
 
     (void)state;
     bytes = encode(&image, &(struct encode_params){.format = IMAGE_JPEG, .quality = 95}, &length);
-    small = encode(&image,
-                   &(struct encode_params){.format = IMAGE_JPEG, .quality = 40, .chroma_halved = true},
-                   &small_length);
+    small = encode(
+        &image, &(struct encode_params){.format = IMAGE_JPEG, .quality = 40, .chroma_halved = true},
+        &small_length);
     assert_true(small_length < length);
-    assert_int_equal(tjDecompressHeader3(jpeg, bytes, length, &width, &height, &sampling, &space), 0);
+    assert_int_equal(tjDecompressHeader3(jpeg, bytes, length, &width, &height, &sampling, &space),
+                     0);
     assert_int_equal(width, WIDTH);
     assert_int_equal(height, HEIGHT);
     assert_int_equal(sampling, TJSAMP_444);
@@ -167,8 +168,8 @@ static void test_refusals(void **state)
     size_t length;
 
     (void)state;
-    assert_false(image_encode(&floats, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &length,
-                              &err));
+    assert_false(
+        image_encode(&floats, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &length, &err));
     assert_int_equal(err.kind, ERROR_INVALID);
     assert_false(image_encode(&floats, &(struct encode_params){.format = IMAGE_JPEG}, &bytes,
                               &length, &err));
@@ -198,9 +199,8 @@ static void test_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),      cmocka_unit_test(test_png_gray),
-        cmocka_unit_test(test_jpeg),     cmocka_unit_test(test_npy),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_png), cmocka_unit_test(test_png_gray), cmocka_unit_test(test_jpeg),
+        cmocka_unit_test(test_npy), cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
     };
 
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);

@@ -212,8 +212,9 @@ static void test_old_picture_while_compiling(void **state)
 
     (void)state;
     any.exact = false;
-    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/blend\",\"before\":null,\"value\":"
-                   "{\"id\":\"bead\",\"type\":\"sphere\",\"transform\":{\"translation\":[0,0.8,0]}}}]");
+    edit(resident,
+         "[{\"op\":\"insert\",\"into\":\"/nodes/blend\",\"before\":null,\"value\":"
+         "{\"id\":\"bead\",\"type\":\"sphere\",\"transform\":{\"translation\":[0,0.8,0]}}}]");
     assert_int_equal(resident_shown_revision(resident), 1);
     exact = job_create(resident, &newest, NULL);
     inexact = job_create(resident, &any, NULL);
@@ -304,8 +305,7 @@ static void test_picking_agrees(void **state)
         const struct pick_result pick = resident_pick(resident, NULL, 64, 48, x, y);
         const float d = ((float *)depth.pixels)[i];
         const uint32_t number = ((uint32_t *)id.pixels)[i];
-        const char *node =
-            number ? field_leaf_id(resident->drawable->field, number) : "";
+        const char *node = number ? field_leaf_id(resident->drawable->field, number) : "";
         different += pick.hit != (number > 0) || strcmp(node, pick.node) != 0 ||
                      (pick.hit ? fabs(d - pick.distance) > 0.03 * d : d != INFINITY);
     }

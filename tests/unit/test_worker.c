@@ -214,7 +214,8 @@ static void test_render_and_edit(void **state)
     assert_true(number("march_us") >= 0 && number("encode_us") >= 0 && number("queue_us") >= 0);
     assert_true(picture_read_memory(&first, packet.payload, packet.payload_length));
 
-    snprintf(line, sizeof line, "{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":%s}", ops);
+    snprintf(line, sizeof line, "{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":%s}",
+             ops);
     send_text(line);
     send_render(2, 0, 80, 60, "");
     expect("frame");
@@ -358,7 +359,8 @@ static void test_refusals(void **state)
     send_text("{\"type\":\"dance\"}");
     expect("failed");
     assert_string_equal(text("code"), "invalid");
-    send_text("{\"type\":\"scene\",\"scene\":\"t\",\"revision\":4,\"document\":{\"format\":\"x\"}}");
+    send_text(
+        "{\"type\":\"scene\",\"scene\":\"t\",\"revision\":4,\"document\":{\"format\":\"x\"}}");
     expect("broken");
     assert_string_equal(text("scene"), "t");
     assert_int_equal(number("revision"), 4);
@@ -383,8 +385,8 @@ static void test_pick(void **state)
     assert_int_equal(number("revision"), 7);
     assert_string_equal(text("node"), "ball");
     assert_true(number("distance") > 3 && number("distance") < 6);
-    assert_int_equal(
-        cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(packet.json, "normal")), 3);
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(packet.json, "normal")),
+                     3);
     send_text("{\"type\":\"pick\",\"pick\":4,\"scene\":\"nowhere\",\"width\":640,\"height\":360,"
               "\"x\":320,\"y\":160}");
     expect("picked");
