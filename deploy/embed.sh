@@ -4,9 +4,10 @@
 # taken in by the assembler, which is much faster than arrays in C.
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
-#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and cards_table[]
-#                                  (SOURCE/protocol/examples) of server/assets.h; WORK takes the
-#                                  compressed files. Without web/dist the page's table is empty
+#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and
+#                                  cards_table[] (SOURCE/protocol/examples) of server/assets.h; WORK
+#                                  takes the compressed files. Without web/dist the page's table is
+#                                  empty
 set -eu
 
 # bytes LABEL FILE: the file under a name, and one NUL behind it, so that text is a C string.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The pictures on the start page are those of the examples as they are now: each card is drawn anew
- * and compared. JPEG and fewer samples cost some steps, so the bounds are wider than those of golden
- * pictures: 3 of 255 on average, which another camera or colour exceeds at once (test below). */
+/* The pictures on the start page are those of the examples as they are now: each card is drawn
+ * anew and compared. JPEG and fewer samples cost some steps, so the bounds are wider than those of
+ * golden pictures: 3 of 255 on average, which another exposure exceeds at once (test below). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
