@@ -80,14 +80,13 @@ struct picture_difference picture_compare(const struct picture *a, const struct 
     }
     shown.pixels = memory_alloc(count, 4);
     for (size_t i = 0; i < count; i++) {
-        const int d = pixel_difference(a->pixels + 4 * i, b->pixels + 4 * i,
-                                       shown.pixels + 4 * i, &sum);
+        const int d =
+            pixel_difference(a->pixels + 4 * i, b->pixels + 4 * i, shown.pixels + 4 * i, &sum);
         result.greatest = d > result.greatest ? d : result.greatest;
         result.pixels += d > PICTURE_STEPS;
     }
     result.mean = (double)sum / (double)(4 * count);
-    result.same = (long)result.pixels * PICTURE_PIXELS <= (long)count &&
-                  result.mean < PICTURE_MEAN;
+    result.same = (long)result.pixels * PICTURE_PIXELS <= (long)count && result.mean < PICTURE_MEAN;
     if (out_shown) {
         *out_shown = shown;
     } else {
