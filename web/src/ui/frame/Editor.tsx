@@ -158,9 +158,9 @@ function Stack() {
             <Separator className="separator" aria-label={t("region.resizeInspector")} />
             <Panel
                 id="panel-side"
-                defaultSize={300}
+                defaultSize={320}
                 minSize={260}
-                maxSize={440}
+                maxSize={460}
                 groupResizeBehavior="preserve-pixel-size"
             >
                 <Group id="stack-inner" orientation="vertical" {...inner}>

@@ -69,7 +69,7 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
     return (
         <li className="card" data-scene={id}>
             <a className="card-open" href={addressOf(id)} aria-label={name}>
-                <Picture key={scene.revision} url={picture} />
+                <Picture key={scene.revision} url={picture} slow />
             </a>
             <div className="card-text">
                 {renaming ? (

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The picture of a card. It is asked for when it is in sight and its turn has come: the server
- * draws it first, and a browser has only six connections to one server. */
+/* The picture of a card, asked for when it is in sight. One that the server has to draw first waits
+ * for its turn besides: a browser has only six connections to one server. */
 import { ImageOff } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
 import { useEditor } from "../state.ts";
-import { takeTurn } from "./turns.ts";
+import { startNow, takeTurn } from "./turns.ts";
 import "./scenes.css";
 
 export const PICTURE_WIDTH = 480;
@@ -12,7 +12,13 @@ export const PICTURE_HEIGHT = 300;
 
 type Loading = "waiting" | "shown" | "missing";
 
-export function Picture({ url }: { url: string }) {
+interface Props {
+    url: string;
+    /* The server has to draw it. */
+    slow?: boolean;
+}
+
+export function Picture({ url, slow = false }: Props) {
     const { rest } = useEditor();
     const frame = useRef<HTMLSpanElement>(null);
     const image = useRef<HTMLImageElement>(null);
@@ -26,7 +32,8 @@ export function Picture({ url }: { url: string }) {
         const seen = new IntersectionObserver((entries) => {
             if (entries.some((entry) => entry.isIntersecting)) {
                 seen.disconnect();
-                stop = takeTurn(async (signal) => {
+                const start = slow ? takeTurn : startNow;
+                stop = start(async (signal) => {
                     const found = await load(img, url, rest.token, signal);
                     setLoading(found ? "shown" : "missing");
                 });
@@ -37,7 +44,7 @@ export function Picture({ url }: { url: string }) {
             seen.disconnect();
             stop?.();
         };
-    }, [rest, url]);
+    }, [rest, url, slow]);
     return (
         <span
             ref={frame}

@@ -28,6 +28,13 @@ function next(): void {
     next();
 }
 
+/* The same for what needs no turn. */
+export function startNow(task: Task): () => void {
+    const stopped = new AbortController();
+    task(stopped.signal).catch(() => undefined);
+    return () => stopped.abort();
+}
+
 /* Runs `task` when its turn comes; the function answered takes it out or stops it. */
 export function takeTurn(task: Task): () => void {
     const entry = { task, stopped: new AbortController() };

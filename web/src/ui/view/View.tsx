@@ -20,7 +20,6 @@ export function View() {
         <div className="view">
             <Picture />
             <Empty />
-            <Hint />
             <Strip />
             <div className="view-top">
                 <Crumbs />
@@ -28,9 +27,12 @@ export function View() {
                 <Outputs />
             </div>
             <div className="view-bottom">
-                <StatePill />
-                <StatisticsPill />
-                <SoftwareChip />
+                <Hint />
+                <div className="view-pills">
+                    <StatePill />
+                    <StatisticsPill />
+                    <SoftwareChip />
+                </div>
             </div>
         </div>
     );
