@@ -19,7 +19,7 @@
 #include "session.h"
 
 enum {
-    HELLO_SECONDS = 10,
+    HELLO_SECONDS = 7, /* not the ping's time: both at once garble the close code */
     PING_SECONDS = 10,
     HANGUP_SECONDS = 25, /* without a pong or anything else */
     PIECES_PER_TURN = 16,
@@ -215,14 +215,15 @@ static int on_receive(struct link *link, const char *bytes, size_t length)
     return 0;
 }
 
-static int on_timer(struct link *link)
+static void on_timer(struct link *link)
 {
     struct hub *hub = link->ws->hub;
 
     hub_lock(hub);
-    bool greeted = link->session && link->session->client[0];
+    if (link->session && !link->session->client[0]) {
+        session_close(link->session, CLOSE_POLICY, "protocol", -1);
+    }
     hub_unlock(hub);
-    return greeted ? 0 : close_with(link->wsi, CLOSE_POLICY);
 }
 
 /* --- writing --- */
@@ -332,7 +333,8 @@ static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *use
     case LWS_CALLBACK_SERVER_WRITEABLE:
         return on_writeable(link);
     case LWS_CALLBACK_TIMER:
-        return on_timer(link);
+        on_timer(link);
+        return 0;
     default:
         return 0;
     }
