@@ -275,6 +275,35 @@ describe('slow clients', () => {
     });
 });
 
+describe('too many', () => {
+    test('HTTP connections: the last ones are answered 503, and there is room again when some leave', async () => {
+        const peers = Array.from({ length: 560 }, () => connect());
+        peers.forEach((peer) => peer.socket.write(get()));
+        await until(() => peers.every((peer) => peer.statuses().length === 1), 'answers');
+        const counts = { 200: 0, 503: 0 };
+        peers.forEach((peer) => (counts[peer.statuses()[0]] += 1));
+        assert.ok(counts[200] > 256 && counts[200] <= 512 && counts[503] === 560 - counts[200], JSON.stringify(counts));
+        peers.forEach((peer) => peer.close());
+        await until(async () => (await statuses(get()))[0] === 200, 'room');
+    });
+
+    test('live connections: the next is answered 503', async () => {
+        const lives = await Promise.all(
+            Array.from({ length: 256 }, () => Live.open(daemon, 's', { hello: false })),
+        );
+        assert.ok(lives.every((live) => live.status.includes(' 101 ')));
+        assert.deepEqual(await statuses(handshake(daemon.port, 's')), [503]);
+        await Promise.all(lives.map((live) => live.close()));
+        await until(async () => (await counter(daemon, 'sessions')) === 0, 'sessions to end');
+    });
+
+    test('a live connection that says nothing is closed', async () => {
+        const live = await Live.open(daemon, 's', { hello: false });
+        await until(() => live.closed, 'the end');
+        assert.equal(live.closeCode, 1008);
+    });
+});
+
 test('without free descriptors there is still an answer', async () => {
     const tight = await startDaemon({ limits: 'ulimit -n 64' });
     try {
