@@ -77,15 +77,15 @@ endif
 
 # --- the program ---
 
-sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c))
+sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
 examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
-# What is embedded: C made by deploy/embed.sh, for the headers renderer/glsl.h and server/assets.h.
+# What is embedded: C by deploy/embed.sh, for renderer/glsl.h and server/rest/assets.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
-            $(if $(wildcard $(S)/server/assets.h),$(OUT)/generated/assets.o)
+            $(if $(wildcard $(S)/server/rest/assets.h),$(OUT)/generated/assets.o)
 objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
 library := $(OUT)/libfieldcast.a
 

@@ -5,7 +5,7 @@
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
 #   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and
-#                                  cards_table[] (SOURCE/protocol/examples) of server/assets.h; WORK
+#                                  cards_table[] (SOURCE/protocol/examples) of assets.h; WORK
 #                                  takes the compressed files. Without web/dist the page's table is
 #                                  empty
 set -eu
@@ -93,7 +93,7 @@ examples() {
 }
 
 assets() {
-    echo '#include "server/assets.h"'
+    echo '#include "server/rest/assets.h"'
     page "$1" "$2" | table assets asset_
     examples "$1" json | LC_ALL=C sort | table examples example_
     examples "$1" jpg | LC_ALL=C sort | table cards card_

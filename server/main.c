@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The program's entry; apart from the rest so that tests can link everything else. */
-#include "command.h"
+#include "server/cli/command.h"
 
 int main(int argc, char **argv)
 {

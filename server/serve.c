@@ -11,12 +11,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "acceptor.h"
-#include "http.h"
-#include "hub.h"
 #include "log.h"
 #include "protocol/memory.h"
-#include "ws.h"
+#include "server/live/hub.h"
+#include "server/net/acceptor.h"
+#include "server/net/http.h"
+#include "server/net/ws.h"
 
 enum {
     DRAIN_SECONDS = 5,

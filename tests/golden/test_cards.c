@@ -14,7 +14,7 @@
 #include <turbojpeg.h>
 
 #include "renderer/renderer.h"
-#include "server/assets.h"
+#include "server/rest/assets.h"
 
 #define CARD_MEAN 3.0
 

@@ -43,8 +43,8 @@ function search(files, pattern, see) {
 
 // --- the arrows of the house ---
 
-// protocol <- renderer <- server. What a layer may include besides its own headers ("name.h") and,
-// where nothing is said of the system's headers, <any>.
+// protocol <- renderer <- server. What a layer may include besides its own headers ("name.h" in the
+// same folder, "server/live/room.h" in another) and, where nothing is said of the system's, <any>.
 const LAYERS = {
     protocol: {
         others: [],
@@ -61,7 +61,9 @@ function checkIncludes(files) {
             const allowed =
                 quote === '<'
                     ? !may.system || may.system.test(name)
-                    : !name.includes('/') || may.others.some((pattern) => pattern.test(name));
+                    : !name.includes('/') ||
+                      name.startsWith(`${layer}/`) ||
+                      may.others.some((pattern) => pattern.test(name));
             if (!allowed) {
                 report(file, line, 'arrow', `${layer}/ may not include ${name}`);
             }

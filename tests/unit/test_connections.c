@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "protocol/memory.h"
-#include "server/access.h"
-#include "server/head.h"
-#include "server/outbox.h"
+#include "server/net/access.h"
+#include "server/net/head.h"
+#include "server/net/outbox.h"
 
 /* --- heads --- */
 

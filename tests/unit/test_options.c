@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "server/command.h"
-#include "server/options.h"
+#include "server/cli/command.h"
+#include "server/cli/options.h"
 
 static char *const no_arguments[] = {NULL};
 static struct options options;

@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "protocol/memory.h"
-#include "server/store.h"
-#include "server/store_sqlite.h"
+#include "server/store/store.h"
+#include "server/store/store_sqlite.h"
 
 static char directory[] = "/tmp/fieldcast-store-XXXXXX";
 static struct metrics metrics;

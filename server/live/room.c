@@ -6,12 +6,12 @@
 #include <string.h>
 #include <sys/random.h>
 
-#include "clock.h"
 #include "hub.h"
-#include "log.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "say.h"
+#include "server/clock.h"
+#include "server/log.h"
 #include "session.h"
 
 /* A commit under way. */

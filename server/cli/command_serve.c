@@ -7,7 +7,7 @@
 #include "command.h"
 #include "files.h"
 #include "protocol/memory.h"
-#include "serve.h"
+#include "server/serve.h"
 
 enum { TOKEN_MIN = 16, TOKEN_MAX = 200, TOKEN_FILE_MAX = 4096 };
 

@@ -6,8 +6,8 @@
 
 #include <cjson/cJSON.h>
 
-#include "outbox.h"
 #include "protocol/error.h"
+#include "server/net/outbox.h"
 
 /* Takes `message`. */
 struct blob *say(cJSON *message);

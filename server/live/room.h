@@ -6,10 +6,10 @@
 
 #include <stdint.h>
 
-#include "outbox.h"
 #include "protocol/edit.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
+#include "server/net/outbox.h"
 
 struct hub;
 struct session;

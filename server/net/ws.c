@@ -11,12 +11,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "hub.h"
-#include "log.h"
 #include "outbox.h"
 #include "protocol/memory.h"
-#include "session.h"
+#include "server/clock.h"
+#include "server/live/hub.h"
+#include "server/live/session.h"
+#include "server/log.h"
 
 enum {
     HELLO_SECONDS = 7, /* not the ping's time: both at once garble the close code */

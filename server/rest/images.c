@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "assets.h"
-#include "hub.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
-#include "room.h"
 #include "routes.h"
+#include "server/live/hub.h"
+#include "server/live/room.h"
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720 };
 

@@ -15,9 +15,9 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "log.h"
 #include "protocol/memory.h"
+#include "server/clock.h"
+#include "server/log.h"
 
 enum {
     HEAD_MS = 5000,

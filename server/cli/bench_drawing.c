@@ -7,12 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "assets.h"
 #include "bench.h"
-#include "clock.h"
 #include "files.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "server/clock.h"
+#include "server/rest/assets.h"
 
 enum { PATIENCE_MS = 50, FIRST_SIDE = 64 };
 

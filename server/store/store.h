@@ -9,9 +9,9 @@
 
 #include <stdint.h>
 
-#include "metrics.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
+#include "server/metrics.h"
 
 enum {
     STORE_EXIT_STATUS = 74, /* EX_IOERR */

@@ -7,12 +7,12 @@
 #include <time.h>
 
 #include "assets.h"
-#include "hub.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "room.h"
 #include "routes.h"
-#include "ws.h"
+#include "server/live/hub.h"
+#include "server/live/room.h"
+#include "server/net/ws.h"
 
 /* A change on its way to the disk. */
 struct waiting {

@@ -6,13 +6,13 @@
 #include <string.h>
 #include <sys/random.h>
 
-#include "clock.h"
 #include "hub.h"
-#include "log.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "room.h"
 #include "say.h"
+#include "server/clock.h"
+#include "server/log.h"
 
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
 {

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "assets.h"
 #include "files.h"
 #include "protocol/nearest.h"
+#include "server/rest/assets.h"
 
 static void print_line(void *data, const char *line)
 {

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "assets.h"
 #include "bench.h"
 #include "command.h"
 #include "protocol/json.h"
+#include "server/rest/assets.h"
 
 static int by_value(const void *a, const void *b)
 {

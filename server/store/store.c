@@ -11,9 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "log.h"
 #include "protocol/memory.h"
+#include "server/clock.h"
+#include "server/log.h"
 #include "store_sqlite.h"
 
 struct store {

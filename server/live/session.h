@@ -5,7 +5,7 @@
 #define SERVER_SESSION_H
 
 #include "frames.h"
-#include "outbox.h"
+#include "server/net/outbox.h"
 
 struct hub;
 struct room;

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "bench.h"
-#include "clock.h"
 #include "files.h"
 #include "protocol/edit.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "store.h"
+#include "server/clock.h"
+#include "server/store/store.h"
 
 enum { ALONE = 200, STREAM = 5000 };
 

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
 #include "hub.h"
-#include "log.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "room.h"
 #include "say.h"
+#include "server/clock.h"
+#include "server/log.h"
 
 struct render {
     struct render *next;

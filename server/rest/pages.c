@@ -9,11 +9,11 @@
 #include <unistd.h>
 
 #include "assets.h"
-#include "hub.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "routes.h"
+#include "server/live/hub.h"
 
 enum { WEB_FILE_BYTES = 67108864 };
 

@@ -11,8 +11,8 @@
 #include <sys/socket.h>
 
 #include "head.h"
-#include "metrics.h"
 #include "protocol/error.h"
+#include "server/metrics.h"
 
 struct acceptor;
 

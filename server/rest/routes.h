@@ -3,7 +3,7 @@
 #ifndef SERVER_ROUTES_H
 #define SERVER_ROUTES_H
 
-#include "request.h"
+#include "server/net/request.h"
 
 enum route_body { BODY_NONE, BODY_JSON };
 

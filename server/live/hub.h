@@ -11,13 +11,13 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "access.h"
 #include "catalog.h"
-#include "metrics.h"
-#include "pictures.h"
 #include "protocol/scene.h"
 #include "renders.h"
-#include "store.h"
+#include "server/metrics.h"
+#include "server/net/access.h"
+#include "server/rest/pictures.h"
+#include "server/store/store.h"
 #include "supervisor.h"
 
 struct room;

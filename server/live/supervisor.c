@@ -17,10 +17,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "log.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
+#include "server/clock.h"
+#include "server/log.h"
 
 enum {
     PING_MS = 250,

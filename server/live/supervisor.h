@@ -6,8 +6,8 @@
 
 #include <stdint.h>
 
-#include "metrics.h"
 #include "renderer/worker.h"
+#include "server/metrics.h"
 
 struct supervisor;
 

@@ -14,13 +14,13 @@
 #include <unistd.h>
 
 #include "access.h"
-#include "clock.h"
 #include "head.h"
-#include "hub.h"
-#include "log.h"
 #include "protocol/memory.h"
 #include "request.h"
-#include "routes.h"
+#include "server/clock.h"
+#include "server/live/hub.h"
+#include "server/log.h"
+#include "server/rest/routes.h"
 
 enum { BODY_PATIENCE = 4 }; /* times the limit that are read before the connection is cut */
 

@@ -12,10 +12,10 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "assets.h"
 #include "command.h"
 #include "drawing.h"
 #include "protocol/memory.h"
+#include "server/rest/assets.h"
 
 enum { DEVICES_MAX = 16 };
 #define DISK_WANTED (1ULL << 30)

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
 #include "hub.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/nodes.h"
 #include "room.h"
+#include "server/clock.h"
 #include "session.h"
 
 /* Side lengths of moving pictures, relative to the view. */

@@ -7,13 +7,13 @@
 #include <sys/random.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "log.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "protocol/schema.h"
 #include "room.h"
+#include "server/clock.h"
+#include "server/log.h"
 #include "session.h"
 
 void hub_lock(struct hub *hub)
