@@ -101,7 +101,9 @@ test('check reads stdin', () => {
 });
 
 test('every example is right', () => {
-    const examples = fs.readdirSync(path.join(root, 'protocol/examples')).filter((name) => name.endsWith('.json'));
+    const examples = fs
+        .readdirSync(path.join(root, 'protocol/examples'))
+        .filter((name) => name.endsWith('.json'));
     assert.ok(examples.length >= 8);
     succeed(['check', ...examples.map((name) => `example:${path.basename(name, '.json')}`)]);
 });
