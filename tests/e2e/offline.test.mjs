@@ -14,6 +14,7 @@ import {
     pixels,
     row,
     settled,
+    stillPixels,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
@@ -37,7 +38,7 @@ test('edits made while the daemon is away arrive when it is back', async () => {
     await field(page, 'radius').fill('1.1');
     await field(page, 'radius').press('Enter');
     await settled(page);
-    const last = await pixels(page);
+    const last = await stillPixels(page);
 
     const { port } = stage.daemon;
     await stage.daemon.kill('SIGKILL');

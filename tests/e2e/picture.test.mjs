@@ -2,16 +2,19 @@
 // The picture: picking, the honest state, and that the last frame is the picture of REST.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
+import { until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
 import {
     closePage,
     difference,
     dragBy,
+    LIMIT,
     openStage,
     picture,
     pixels,
     row,
     SCENE,
+    stillPixels,
     settled,
 } from './stage.mjs';
 
@@ -108,12 +111,17 @@ test('the lossless frame is image.png, pixel for pixel', async () => {
     const id = await stage.scene({ ...SCENE, render: { samples: 2 } });
     page = await stage.page({ scene: id });
     await settled(page);
-    const shown = await pixels(page);
+    const shown = await stillPixels(page);
     const at = `/v1/scenes/${id}/image.png?width=${shown.width}&height=${shown.height}`;
     const answer = await fetch(stage.daemon.url + at);
     assert.equal(answer.status, 200);
     const image = decodePng(Buffer.from(await answer.arrayBuffer()));
-    assert.equal(difference(shown, image), 0);
+    /* The worker tells of a frame a moment before the browser has put it on the screen. */
+    await until(
+        async () => difference(await pixels(page), image) === 0,
+        'the pixels of image.png on the screen',
+        LIMIT,
+    );
 });
 
 test('every output can be shown', async () => {

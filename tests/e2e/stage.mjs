@@ -188,6 +188,20 @@ export function difference(a, b) {
     return most;
 }
 
+/** The pixels once the browser has put the newest frame on the screen: two looks are the same. */
+export async function stillPixels(page) {
+    let last = await pixels(page);
+    return until(
+        async () => {
+            const before = last;
+            last = await pixels(page);
+            return difference(last, before) === 0 && last;
+        },
+        'a still picture',
+        LIMIT,
+    );
+}
+
 /** Waits until the picture differs from `before`; answers the new pixels. */
 export const pictureChanged = (page, before, what) =>
     until(
