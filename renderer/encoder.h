@@ -3,7 +3,7 @@
 #ifndef RENDERER_ENCODER_H
 #define RENDERER_ENCODER_H
 
-#include "renderer.h"
+#include "renderer/renderer.h"
 
 struct encoding {
     uint64_t job;

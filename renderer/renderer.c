@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A renderer's life, its counters, and the whole way of one picture. */
-#include "context.h"
+#include "renderer/draw/context.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "protocol/json.h"
-#include "renderer/field.h"
-#include "renderer/shader.h"
+#include "renderer/field/field.h"
+#include "renderer/field/shader.h"
 #include "tests/support/random_scene.h"
 
 /* A scene and its program. */

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "protocol/json.h"
-#include "renderer/field.h"
+#include "renderer/field/field.h"
 #include "tests/support/random_scene.h"
 
 #define SIZE 3.0 /* points lie in a cube of this half side */

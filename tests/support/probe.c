@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "protocol/memory.h"
+#include "renderer/field/shader.h"
 #include "renderer/glsl.h"
-#include "renderer/shader.h"
 
 enum { UNIT_POINTS = 0, UNIT_NUMBERS = 1, LOG_BYTES = 4096 };
 

@@ -4,9 +4,9 @@
 #ifndef TESTS_SUPPORT_PROBE_H
 #define TESTS_SUPPORT_PROBE_H
 
-#include "renderer/egl.h"
-#include "renderer/field.h"
-#include "renderer/gl.h"
+#include "renderer/field/field.h"
+#include "renderer/gl/egl.h"
+#include "renderer/gl/gl.h"
 
 enum { PROBE_SIDE = 128, PROBE_POINTS_MAX = PROBE_SIDE * PROBE_SIDE };
 

@@ -13,7 +13,7 @@
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "renderer/context.h"
+#include "renderer/draw/context.h"
 
 enum { WIDTH = 150, HEIGHT = 110, NUMERIC_EDITS = 1000 };
 

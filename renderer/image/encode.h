@@ -4,7 +4,7 @@
 #ifndef RENDERER_ENCODE_H
 #define RENDERER_ENCODE_H
 
-#include "renderer.h"
+#include "renderer/renderer.h"
 
 /* Each takes the kinds of pixels that its format knows, else ERROR_INVALID. */
 bool png_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,

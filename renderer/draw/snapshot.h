@@ -5,7 +5,7 @@
 #define RENDERER_SNAPSHOT_H
 
 #include "draw.h"
-#include "field.h"
+#include "renderer/field/field.h"
 
 struct snapshot {
     int references;

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glsl.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
+#include "renderer/glsl.h"
 
 enum { SOURCES_MAX = 32, LOG_BYTES = 4096 };
 

@@ -5,7 +5,7 @@
 
 #include <EGL/egl.h>
 
-#include "renderer.h"
+#include "renderer/renderer.h"
 
 enum { EGL_DEVICES_MAX = 32 };
 

@@ -5,7 +5,7 @@
 #define RENDERER_CONTEXT_H
 
 #include "draw.h"
-#include "egl.h"
+#include "renderer/gl/egl.h"
 #include "snapshot.h"
 
 struct renderer {

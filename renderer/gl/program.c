@@ -8,8 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "frame.h"
 #include "protocol/memory.h"
+#include "renderer/draw/frame.h"
 #include "targets.h"
 
 enum { PRELOAD_MAX = 4096 }; /* vec4s */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "protocol/memory.h"
-#include "shader.h"
+#include "renderer/field/shader.h"
 
 enum { NUMBERS_LEAST = 64 };
 

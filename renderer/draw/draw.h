@@ -6,8 +6,8 @@
 #define RENDERER_DRAW_H
 
 #include "frame.h"
-#include "program.h"
-#include "targets.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/targets.h"
 
 enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
 
