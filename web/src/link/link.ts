@@ -81,13 +81,6 @@ function randomId(): string {
     return [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/* Notices that are states of the connection, shown there and not in the list. */
-const COMPILING: Readonly<Record<string, boolean>> = {
-    compiling: true,
-    compiled: false,
-    compile_failed: false,
-};
-
 class SceneLink implements Link {
     readonly #stores: Stores;
     readonly #options: LinkOptions;
@@ -324,19 +317,10 @@ class SceneLink implements Link {
     }
 
     #serverNotice({ level, code, message, place = "" }: NoticeMessage): void {
-        const compiling = COMPILING[code];
-        if (compiling !== undefined) {
-            this.#stores.link.setState({ compiling });
-        }
-        if (code === "compiled") {
-            this.#stores.document.setState({ problems: new Map() });
-        }
         if (level === "error") {
             this.#problemAt({ code, place, message });
         }
-        if (compiling === undefined || code === "compile_failed") {
-            this.#notice(level, code, message, place);
-        }
+        this.#notice(level, code, message, place);
     }
 
     #notice(level: "info" | "warning" | "error", code: string, message: string, place = ""): void {

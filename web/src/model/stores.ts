@@ -101,8 +101,6 @@ export interface LinkState {
     readonly renderer: RendererInfo | null;
     readonly frame: FrameInfo;
     readonly statistics: Statistics | null;
-    /* A shader of this scene is being compiled. */
-    readonly compiling: boolean;
 }
 
 export const NO_FRAME: FrameInfo = {
@@ -122,7 +120,6 @@ export const IDLE_LINK: LinkState = {
     renderer: null,
     frame: NO_FRAME,
     statistics: null,
-    compiling: false,
 };
 
 /* --- notices --- */

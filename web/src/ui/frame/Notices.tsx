@@ -13,14 +13,11 @@ import "../view/view.css";
 const MOST_SHOWN = 3;
 const STAY_MS = 6000;
 
-/* What the pills and the fields show already. */
-const elsewhere = new Set(["compiling", "compiled"]);
-
 const icons = { info: Info, warning: TriangleAlert, error: CircleAlert };
 
 export function Notices() {
     const notices = useNotices((state) => state.notices);
-    const shown = notices.filter(({ code }) => !elsewhere.has(code)).slice(-MOST_SHOWN);
+    const shown = notices.slice(-MOST_SHOWN);
     return (
         <section className="notices" aria-label={t("notices.title")} aria-live="polite">
             {shown.map((notice) => (

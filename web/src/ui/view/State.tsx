@@ -8,9 +8,7 @@ import { t } from "../texts.ts";
 import "./view.css";
 
 export function StatePill() {
-    const state = useLink(({ frame, compiling }) =>
-        frame.stale || (compiling && frame.state !== "lossless") ? "compiling" : frame.state,
-    );
+    const state = useLink(({ frame }) => (frame.stale ? "compiling" : frame.state));
     const percent = useLink(({ frame }) => Math.round(frame.scale * 100));
     const revision = useLink(({ frame }) => frame.revision);
     return (
