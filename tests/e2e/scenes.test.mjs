@@ -32,7 +32,7 @@ test('an example opens as a copy and shows a picture', async () => {
     await page.locator('[role=treeitem]').first().waitFor();
     await settled(page);
     const [scene] = await scenes();
-    assert.match(page.url(), new RegExp(`#/scene/${scene.id}$`));
+    assert.match(page.url(), new RegExp(`/s/${scene.id}$`));
     assert.deepEqual(
         JSON.parse(await stage.document(scene.id)),
         await ask(stage.daemon, 'GET', '/v1/examples/first-steps'),
@@ -81,7 +81,7 @@ test('a document that goes down and up again is the same document', async () => 
         page.getByRole('button', { name: 'Upload' }).click(),
     ]);
     await chooser.setFiles({ name: 'up.json', mimeType: 'application/json', buffer: Buffer.from(text) });
-    await page.waitForURL((url) => /#\/scene\/.+/.test(url.hash) && !url.hash.endsWith(id));
+    await page.waitForURL((url) => url.pathname.startsWith('/s/') && !url.pathname.endsWith(id));
     const copy = page.url().split('/').at(-1);
     assert.equal(await stage.document(copy), await stage.document(id));
 });

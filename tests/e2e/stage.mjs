@@ -117,7 +117,7 @@ async function openPage(browser, daemon, options = {}) {
             page.problems.push(message.text());
         }
     });
-    await page.goto(`${daemon.url}/${scene === null ? '' : `#/scene/${scene}`}`);
+    await page.goto(`${daemon.url}/${scene === null ? '' : `s/${scene}`}`);
     if (scene !== null) {
         await page.locator('[role=treeitem]').first().waitFor();
     }

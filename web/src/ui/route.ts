@@ -1,24 +1,35 @@
 /* SPDX-License-Identifier: MIT */
-/* Which scene the address names: `#/scene/ID`, or none: the start page. */
-import { useSyncExternalStore } from "react";
+/* Which scene the address names: `/s/ID`, or `/`: the start page. The server answers both with the
+ * same page. */
+import { type MouseEvent, useSyncExternalStore } from "react";
 
-const PATTERN = /^#\/scene\/([A-Za-z0-9_.-]{1,64})$/;
+const PATTERN = /^\/s\/([A-Za-z0-9_.-]{1,64})$/;
 
 export function sceneOfAddress(): string | null {
-    return PATTERN.exec(window.location.hash)?.[1] ?? null;
+    return PATTERN.exec(window.location.pathname)?.[1] ?? null;
 }
 
 export function addressOf(scene: string | null): string {
-    return scene === null ? "#/" : `#/scene/${scene}`;
+    return scene === null ? "/" : `/s/${scene}`;
 }
 
 export function goTo(scene: string | null): void {
-    window.location.hash = addressOf(scene);
+    window.history.pushState(null, "", addressOf(scene));
+    window.dispatchEvent(new PopStateEvent("popstate"));
 }
 
+/* What a click on a link to `scene` does: plain ones change the page in place, others (a new tab)
+ * are the browser's. */
+export const follow = (scene: string | null) => (event: MouseEvent) => {
+    if (event.button === 0 && !event.metaKey && !event.ctrlKey && !event.shiftKey) {
+        event.preventDefault();
+        goTo(scene);
+    }
+};
+
 function subscribe(onChange: () => void): () => void {
-    window.addEventListener("hashchange", onChange);
-    return () => window.removeEventListener("hashchange", onChange);
+    window.addEventListener("popstate", onChange);
+    return () => window.removeEventListener("popstate", onChange);
 }
 
 export function useRoute(): string | null {

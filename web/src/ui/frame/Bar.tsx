@@ -24,7 +24,7 @@ import { Button, IconButton } from "../parts/Button.tsx";
 import { Logo } from "../parts/Logo.tsx";
 import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
 import { Tip } from "../parts/Tip.tsx";
-import { addressOf, goTo } from "../route.ts";
+import { addressOf, follow, goTo } from "../route.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { ActItem } from "./Act.tsx";
@@ -37,7 +37,12 @@ export function Bar({ narrow }: { narrow: boolean }) {
     return (
         <Region as="header" name={t("region.bar")} className="bar">
             <Tip text={t("bar.scenes")} keys={keyText("Ctrl+O")}>
-                <a className="bar-logo" href={addressOf(null)} aria-label={t("bar.scenes")}>
+                <a
+                    className="bar-logo"
+                    href={addressOf(null)}
+                    onClick={follow(null)}
+                    aria-label={t("bar.scenes")}
+                >
                     <Logo size={20} />
                 </a>
             </Tip>

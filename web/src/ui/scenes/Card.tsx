@@ -6,7 +6,7 @@ import { download, type ExampleEntry, type SceneEntry } from "../../link/rest.ts
 import { report } from "../files.ts";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
-import { addressOf } from "../route.ts";
+import { addressOf, follow } from "../route.ts";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { age } from "./age.ts";
@@ -68,7 +68,7 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
     const picture = rest.imageUrl(id, PICTURE_WIDTH, PICTURE_HEIGHT);
     return (
         <li className="card" data-scene={id}>
-            <a className="card-open" href={addressOf(id)} aria-label={name}>
+            <a className="card-open" href={addressOf(id)} onClick={follow(id)} aria-label={name}>
                 <Picture key={scene.revision} url={picture} slow />
             </a>
             <div className="card-text">
