@@ -13,6 +13,7 @@
 #include "protocol/json.h"
 #include "renderer/field/field.h"
 #include "renderer/field/shader.h"
+#include "tests/support/compiled.h"
 #include "tests/support/random_scene.h"
 
 /* A scene and its program. */
@@ -399,14 +400,6 @@ static void transforms_that_overflow_are_refused(void **state)
 }
 
 /* --- shape --- */
-
-static struct field *compile_field(const struct scene *scene)
-{
-    struct error err = {0};
-    struct field *field = field_compile(scene, &err);
-    assert_non_null(field);
-    return field;
-}
 
 static struct node *random_below_node(struct random *random, struct node *node)
 {

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "protocol/json.h"
+#include "tests/support/compiled.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
 
@@ -82,26 +83,6 @@ static size_t count_bad_surfaces(const struct field *field, const struct batch *
         bad += !surface_agrees(field, batch->points[i], &batch->answers[i]);
     }
     return bad;
-}
-
-/* For messages of failure. */
-static char *root_text(const struct scene *scene)
-{
-    cJSON *json = node_to_json(scene->root);
-    char *text = json_print(json, false);
-    cJSON_Delete(json);
-    return text;
-}
-
-static struct field *compile_field(const struct scene *scene)
-{
-    struct error err = {0};
-    struct field *field = field_compile(scene, &err);
-    if (!field) {
-        error_print(&err, stderr);
-    }
-    assert_non_null(field);
-    return field;
 }
 
 /* One program; `rounds` times other numbers in the same shape. */

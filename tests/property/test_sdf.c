@@ -12,6 +12,7 @@
 
 #include "protocol/json.h"
 #include "renderer/field/field.h"
+#include "tests/support/compiled.h"
 #include "tests/support/random_scene.h"
 
 #define SIZE 3.0 /* points lie in a cube of this half side */
@@ -28,26 +29,6 @@ static void along(const double p[3], const double direction[3], double t, double
     for (int i = 0; i < 3; i++) {
         out[i] = p[i] + t * direction[i];
     }
-}
-
-/* For messages of failure. */
-static char *root_text(const struct scene *scene)
-{
-    cJSON *json = node_to_json(scene->root);
-    char *text = json_print(json, false);
-    cJSON_Delete(json);
-    return text;
-}
-
-static struct field *compile_field(const struct scene *scene)
-{
-    struct error err = {0};
-    struct field *field = field_compile(scene, &err);
-    if (!field) {
-        error_print(&err, stderr);
-    }
-    assert_non_null(field);
-    return field;
 }
 
 static void both_tables_have_the_same_rows(void **state)
