@@ -16,6 +16,7 @@
     X(JSON_NUMBER_BYTES, "json_number_bytes", 32, "characters", "one JSON number")                 \
     X(JSON_VALUES, "json_values", 2000000, "values", "JSON values in one text")                    \
     X(NODES, "nodes", 100000, "nodes", "nodes of a scene")                                         \
+    X(DRAWN_SHAPES, "drawn_shapes", 512, "shapes", "visible shapes of a scene")                    \
     X(NODE_DEPTH, "node_depth", 64, "levels", "nesting of nodes")                                  \
     X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \

@@ -53,10 +53,29 @@ static double scene_scale(const struct record *camera)
     return scale > 1e-6 ? scale : 1;
 }
 
+/* A field of which a program can be made. Compilers need about the square of the shapes: half a
+ * minute for as many as are allowed, on a CPU. */
+static struct field *make_field(const struct scene *scene, struct error *err)
+{
+    struct field *field = field_compile(scene, err);
+
+    if (field && field->leaf_count > LIMIT_DRAWN_SHAPES) {
+        char place[32 + LIMIT_ID_BYTES];
+
+        snprintf(place, sizeof place, "/nodes/%s", scene->root->id);
+        error_set(err, ERROR_LIMIT, place,
+                  "%zu visible shapes are above the maximum %d that can be drawn",
+                  field->leaf_count, LIMIT_DRAWN_SHAPES);
+        field_unref(field);
+        return NULL;
+    }
+    return field;
+}
+
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, struct error *err)
 {
-    struct field *field = field_compile(scene, err);
+    struct field *field = make_field(scene, err);
     struct snapshot *snapshot;
     struct frame_extent extent = {.scale = scene_scale(&scene->camera),
                                   .limit_loops = renderer->info.software};

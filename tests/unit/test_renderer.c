@@ -360,6 +360,54 @@ static void test_loop_budget(void **state)
     resident_destroy(resident);
 }
 
+/* One insert of so many spheres; caller frees. */
+static char *spheres_text(int count)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    assert_non_null(out);
+    fprintf(out, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":"
+                 "{\"id\":\"many\",\"type\":\"union\",\"children\":[");
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s{\"type\":\"sphere\"}", i ? "," : "");
+    }
+    fprintf(out, "]}}]");
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* The document has three shapes; its picture stays while there are too many. */
+static void test_too_many_shapes(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct image before = draw(resident, &usual), again;
+    char *text = spheres_text(LIMIT_DRAWN_SHAPES - 3);
+    struct error err = {0};
+
+    (void)state;
+    edit(resident, text);
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
+    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
+                   "\"value\":{\"id\":\"last\",\"type\":\"sphere\"}}]");
+    assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
+    assert_string_equal(resident_error(resident)->place, "/nodes/root");
+    assert_string_equal(resident_error(resident)->message,
+                        "513 visible shapes are above the maximum 512 that can be drawn");
+    assert_null(job_create(resident, &usual, &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    edit(resident, "[{\"op\":\"remove\",\"at\":\"/nodes/last\"},"
+                   "{\"op\":\"remove\",\"at\":\"/nodes/many\"}]");
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
+    again = draw(resident, &usual);
+    assert_same(&before, &again);
+    image_finish(&before);
+    image_finish(&again);
+    free(text);
+    resident_destroy(resident);
+}
+
 static void test_gpu_asked_for(void **state)
 {
     struct renderer_params params = {.device = DEVICE_GPU, .device_index = -1};
@@ -416,6 +464,7 @@ int main(void)
         cmocka_unit_test(test_picking_agrees),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_loop_budget),
+        cmocka_unit_test(test_too_many_shapes),
         cmocka_unit_test(test_gpu_asked_for),
     };
 
