@@ -63,6 +63,8 @@ test('a new scene is empty and says what to do', async () => {
     await page.keyboard.press('Enter');
     await page.locator('[data-node=sphere-1]').waitFor();
     await page.getByText('This scene is empty.').waitFor({ state: 'detached' });
+    const { lights } = JSON.parse(await stage.document(page.url().split('/').at(-1)));
+    assert.equal(lights.length, 1, 'and the first shape stands in the light');
 });
 
 test('a document that goes down and up again is the same document', async () => {

@@ -15,9 +15,12 @@ import { useDrop } from "./drop.ts";
 import "./scenes.css";
 
 /* What a new scene starts with: nothing but a root. */
+/* No shapes yet, but the first one will stand in the light. */
 const EMPTY_SCENE = {
     format: "fieldcast/1",
     name: t("bar.untitled"),
+    camera: { position: [1.8, 1.3, 3], fov: 35 },
+    lights: [{ id: "sun", type: "directional", intensity: 3 }],
     root: { id: "root", type: "union", children: [] },
 };
 
