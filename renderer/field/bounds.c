@@ -54,8 +54,8 @@ struct bounds bounds_intersection(struct bounds a, struct bounds b)
         a.low[i] = fmin(low, high);
         a.high[i] = fmax(low, high);
     }
-    /* What both grow by delta may share reaches delta along each of these axes, thus the square root
-     * of 3 times as far towards a corner, which may become an axis when the box is turned. */
+    /* What both share after growing by delta reaches delta along each of these axes, thus the
+     * square root of 3 times as far towards a corner, which is an axis once the box is turned. */
     a.stretch = fmax(a.stretch, b.stretch) * sqrt(3);
     return a;
 }
