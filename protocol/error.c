@@ -21,16 +21,11 @@ static void replace_malformed(char *text)
     }
 }
 
-bool error_set(struct error *err, enum error_kind kind, const char *place, const char *format, ...)
+static bool fill(struct error *err, enum error_kind kind, const char *place, const char *format,
+                 va_list args)
 {
-    if (!err) {
-        return false;
-    }
     char text[sizeof err->message]; /* the arguments may point into err itself */
-    va_list args;
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
     replace_malformed(text);
     err->kind = kind;
     if (place != err->place) {
@@ -38,6 +33,32 @@ bool error_set(struct error *err, enum error_kind kind, const char *place, const
         replace_malformed(err->place);
     }
     memcpy(err->message, text, sizeof text);
+    err->line = err->column = 0;
+    return false;
+}
+
+bool error_set(struct error *err, enum error_kind kind, const char *place, const char *format, ...)
+{
+    if (err) {
+        va_list args;
+        va_start(args, format);
+        fill(err, kind, place, format, args);
+        va_end(args);
+    }
+    return false;
+}
+
+bool error_set_at(struct error *err, enum error_kind kind, const char *place, int line, int column,
+                  const char *format, ...)
+{
+    if (err) {
+        va_list args;
+        va_start(args, format);
+        fill(err, kind, place, format, args);
+        va_end(args);
+        err->line = line;
+        err->column = column;
+    }
     return false;
 }
 
@@ -59,7 +80,11 @@ const char *error_place(char *out, const char *place, const char *member)
 
 void error_print(const struct error *err, FILE *out)
 {
-    fprintf(out, "%s%s%s\n", err->place, *err->place ? ": " : "", err->message);
+    char at[40] = "";
+    if (err->line > 0) {
+        snprintf(at, sizeof at, ":%d:%d", err->line, err->column);
+    }
+    fprintf(out, "%s%s%s%s\n", err->place, at, *err->place || *at ? ": " : "", err->message);
 }
 
 const char *error_kind_name(enum error_kind kind)

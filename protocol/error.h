@@ -35,6 +35,7 @@ struct error {
     enum error_kind kind;
     char place[ERROR_PLACE_BYTES];
     char message[320];
+    int line, column; /* in the text at `place`, from 1; 0: not in a text */
 };
 
 /* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well.
@@ -42,10 +43,14 @@ struct error {
 bool error_set(struct error *err, enum error_kind kind, const char *place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* The same, in a text. */
+bool error_set_at(struct error *err, enum error_kind kind, const char *place, int line, int column,
+                  const char *format, ...) __attribute__((format(printf, 6, 7)));
+
 /* "PLACE/MEMBER" in `out` of ERROR_PLACE_BYTES; where too long it keeps the end. Returns `out`. */
 const char *error_place(char *out, const char *place, const char *member);
 
-/* "place: message", or the message alone where the place is empty. */
+/* "place: message", "place:line:column: message", or the message alone. */
 void error_print(const struct error *err, FILE *out);
 
 const char *error_kind_name(enum error_kind kind);

@@ -21,6 +21,16 @@
     X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
+    X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
+    X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \
+    X(MODELS, "models", 1024, "models", "models of a scene")                                       \
+    X(DECLARED, "declared", 16, "parameters", "parameters that a primitive or shader declares")    \
+    X(POINTS, "points", 64, "points", "points of a polygon")                                       \
+    X(CODE_BYTES, "code_bytes", 16384, "bytes", "code of a primitive, shader or node")             \
+    X(CODE_DEPTH, "code_depth", 64, "levels", "nesting of code, and of its calls")                 \
+    X(CODE_SIZE, "code_size", 4096, "operations", "code, with every call written out")             \
+    X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
+    X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
     X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
     X(NAME_BYTES, "name_bytes", 200, "bytes", "a display name")                                    \
     X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \

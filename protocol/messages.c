@@ -146,7 +146,7 @@ static bool check_client(const cJSON *json, const char *place, struct error *err
 static bool check_field(const struct field *field, const cJSON *json, const char *place,
                         struct error *err)
 {
-    double number[3];
+    double number[4];
     struct record camera;
     bool ok;
     switch (field->kind) {

@@ -9,15 +9,24 @@
 
 #include "record.h"
 
-enum node_group { GROUP_PRIMITIVE, GROUP_OPERATION, GROUP_MODIFIER, GROUP_STRUCTURE };
+enum node_group {
+    GROUP_PRIMITIVE,
+    GROUP_SHAPE, /* two-dimensional, made for extrude and revolve */
+    GROUP_OPERATION,
+    GROUP_MODIFIER,
+    GROUP_STRUCTURE,
+};
 
 /* What the renderer does with a row; the renderer has one case per kind, never one per type. */
 enum node_kind {
     KIND_SHAPE,    /* distance from a point and parameters: GLSL float NAME(vec3 p, ...) */
+    KIND_FLAT,     /* the same in two dimensions, endless along Z: float NAME(vec2 p, ...) */
     KIND_COMBINE,  /* folds the distances of its children */
     KIND_DISTANCE, /* changes the distance of its (united) children: round, shell */
     KIND_DOMAIN,   /* changes the point its children see: mirror, repeat, twist */
     KIND_GROUP,    /* union, nothing of its own */
+    KIND_MODEL,    /* an instance of a model of the scene */
+    KIND_CODE,     /* a distance function written by a user */
 };
 
 enum node_exactness { EXACT, BOUND };
@@ -29,7 +38,7 @@ struct node_type {
     enum node_kind kind;
     enum node_exactness exactness;
     /* Largest gradient length of the raw function; the renderer divides by it. 0 means that a rule
-     * computed from parameters and bounds gives it (twist). */
+     * computed from parameters and bounds gives it (twist, terrain). */
     double lipschitz;
     const char *glsl;   /* name of the GLSL function */
     const char *words;  /* search synonyms for the palette: "donut ring" */
@@ -50,6 +59,9 @@ extern const struct record_type environment_type;
 extern const struct record_type render_type;
 extern const struct record_type light_types[];
 extern const struct record_type shader_types[];
+extern const struct record_type primitive_type; /* of a document's `primitives` */
+extern const struct record_type shader_type;    /* of its `shaders` */
+extern const struct record_type model_type;     /* of its `models`: nothing beside the tree */
 const struct record_type *record_type_in(const struct record_type *table, const char *name);
 
 #endif

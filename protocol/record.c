@@ -19,7 +19,9 @@ static const struct {
     [PARAM_FLOAT] = {"float", 1},       [PARAM_INT] = {"int", 1},     [PARAM_BOOL] = {"bool", 1},
     [PARAM_VEC3] = {"vec3", 3},         [PARAM_BVEC3] = {"bvec3", 3}, [PARAM_IVEC3] = {"ivec3", 3},
     [PARAM_COLOR] = {"color", 3},       [PARAM_ENUM] = {"enum", 1},   [PARAM_TEXT] = {"text", 0},
-    [PARAM_MATERIAL] = {"material", 0},
+    [PARAM_MATERIAL] = {"material", 0}, [PARAM_VEC2] = {"vec2", 2},   [PARAM_VEC4] = {"vec4", 4},
+    [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
+    [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},
 };
 
 int param_components(enum param_type type)
@@ -143,7 +145,7 @@ void record_copy(struct record *to, const struct record *from)
 /* " (x)" for a part of a vector, nothing for a number alone. */
 static const char *part_name(const struct param *param, int part)
 {
-    static const char *const axes[] = {" (x)", " (y)", " (z)"};
+    static const char *const axes[] = {" (x)", " (y)", " (z)", " (w)"};
     static const char *const colors[] = {" (red)", " (green)", " (blue)"};
     if (param_components(param->type) == 1) {
         return "";
@@ -206,7 +208,7 @@ static bool read_part(const struct param *param, int part, const cJSON *json, do
     return check_number(param, part, *out, place, err);
 }
 
-static bool read_vector(const struct param *param, const cJSON *json, double out[3],
+static bool read_vector(const struct param *param, const cJSON *json, double out[4],
                         const char *place, struct error *err)
 {
     if (param->uniform && cJSON_IsNumber(json)) {
@@ -216,11 +218,13 @@ static bool read_vector(const struct param *param, const cJSON *json, double out
         out[1] = out[2] = out[0];
         return true;
     }
+    static const char *const counts[] = {"no", "one", "two", "three", "four"};
     const char *what = param->type == PARAM_BVEC3 ? "true or false" : "numbers";
     const cJSON *part = cJSON_IsArray(json) ? json->child : NULL;
-    for (int i = 0; i < 3; i++, part = part->next) {
+    int count = param_components(param->type);
+    for (int i = 0; i < count; i++, part = part->next) {
         if (!part) {
-            return error_set(err, ERROR_INVALID, place, "expected three %s%s", what,
+            return error_set(err, ERROR_INVALID, place, "expected %s %s%s", counts[count], what,
                              param->uniform ? " or one" : "");
         }
         if (!read_part(param, i, part, &out[i], place, err)) {
@@ -228,7 +232,8 @@ static bool read_vector(const struct param *param, const cJSON *json, double out
         }
     }
     if (part) {
-        return error_set(err, ERROR_INVALID, place, "expected three %s, not more", what);
+        return error_set(err, ERROR_INVALID, place, "expected %s %s, not more", counts[count],
+                         what);
     }
     if (param->direction && out[0] == 0 && out[1] == 0 && out[2] == 0) {
         return error_set(err, ERROR_INVALID, place, "0, 0, 0 has no direction");
@@ -292,7 +297,7 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
     return true;
 }
 
-bool param_read(const struct param *param, const cJSON *json, double out[3], const char *place,
+bool param_read(const struct param *param, const cJSON *json, double out[4], const char *place,
                 struct error *err)
 {
     if (is_text(param)) {
@@ -310,7 +315,7 @@ bool record_set(struct record *record, int index, const cJSON *json, const char 
 {
     const struct param *param = &record->type->params[index];
     struct value *value = &record->values[index];
-    double number[3] = {0};
+    double number[4] = {0};
     if (cJSON_IsNull(json)) {
         restore_default(value, param);
         return true;
@@ -364,7 +369,7 @@ static cJSON *number_to_json(const struct param *param, double number)
     return is_bool ? cJSON_CreateBool(number != 0) : cJSON_CreateNumber(number);
 }
 
-cJSON *param_value_json(const struct param *param, const double number[3], const char *text)
+cJSON *param_value_json(const struct param *param, const double number[4], const char *text)
 {
     if (is_text(param)) {
         return cJSON_CreateString(text);
@@ -376,7 +381,7 @@ cJSON *param_value_json(const struct param *param, const double number[3], const
         return number_to_json(param, number[0]);
     }
     cJSON *array = cJSON_CreateArray();
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < param_components(param->type); i++) {
         cJSON_AddItemToArray(array, number_to_json(param, number[i]));
     }
     return array;

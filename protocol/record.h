@@ -15,13 +15,21 @@ enum param_type {
     PARAM_FLOAT,
     PARAM_INT,
     PARAM_BOOL,
+    PARAM_VEC2,
     PARAM_VEC3,
+    PARAM_VEC4,
     PARAM_BVEC3,    /* three booleans */
     PARAM_IVEC3,    /* three integers */
     PARAM_COLOR,    /* linear RGB, three numbers >= 0; a zero pair bounds it by LIMIT_COORDINATE */
     PARAM_ENUM,     /* one of `choices`; number[0] is its index */
     PARAM_TEXT,     /* free text, at most LIMIT_NAME_BYTES */
     PARAM_MATERIAL, /* name of a material of the scene, or "" for the parent's */
+    PARAM_POINTS,   /* a list of points of the plane, [[x, y], ...]; `min` to `max` of them */
+    PARAM_CODE,     /* GLSL text of several lines, at most LIMIT_CODE_BYTES */
+    PARAM_MODEL,    /* name of a model of the scene, or "" */
+    PARAM_FUNCTION, /* name of a distance function among `primitives`, or "" */
+    PARAM_ROWS, /* parameters that a document declares: [{name, type, default, range, doc}, ...];
+                     * `text` is their canonical JSON */
 };
 
 enum param_unit { UNIT_NONE, UNIT_LENGTH, UNIT_ANGLE /* radians */, UNIT_DEGREES };
@@ -31,7 +39,8 @@ struct param {
     const char *name;
     enum param_type type;
     enum param_unit unit;
-    double def[3];
+    double def[4];
+    const double *def_points; /* PARAM_POINTS: the default's coordinates, `def[0]` points */
     double min, max;
     bool above_min;             /* the minimum itself is excluded (radius > 0) */
     bool nonzero;               /* every component differs from 0 (scale) */
@@ -51,8 +60,9 @@ struct record_type {
 };
 
 struct value {
-    double number[3]; /* PARAM_TEXT and PARAM_MATERIAL use `text` */
+    double number[4]; /* names, texts and code use `text` */
     char *text;       /* owned; never NULL for text types */
+    double *points;   /* owned; PARAM_POINTS: x, y of `number[0]` points */
     bool set;         /* false: holds the default and is not printed */
 };
 
@@ -71,16 +81,16 @@ int record_type_find(const struct record_type *type, const char *name); /* -1: n
 /* Fills `err` for a name that record_type_find does not know, with the nearest one; false. */
 bool record_type_unknown(const struct record_type *type, const char *name, const char *place,
                          struct error *err);
-int param_components(enum param_type type);        /* 1, 3, or 0 for text */
+int param_components(enum param_type type);        /* 1 to 4, or 0 for texts and points */
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
 /* The range that holds, also where the row names none. */
 void param_range(const struct param *param, double *out_min, double *out_max);
 /* Checks JSON against the row; its numbers go to `out` (a text stays in the JSON). */
-bool param_read(const struct param *param, const cJSON *json, double out[3], const char *place,
+bool param_read(const struct param *param, const cJSON *json, double out[4], const char *place,
                 struct error *err);
 /* JSON of a value of this row; `text` is for the text types. Caller frees. */
-cJSON *param_value_json(const struct param *param, const double number[3], const char *text);
+cJSON *param_value_json(const struct param *param, const double number[4], const char *text);
 
 void record_init(struct record *record, const struct record_type *type);
 void record_finish(struct record *record);

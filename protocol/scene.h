@@ -20,11 +20,25 @@ struct node {
     size_t child_count;
 };
 
-/* A light or a material: a record with a name of its own. */
+/* Parameters that a document declares. Records point at `type`, so it is counted. */
+struct definition {
+    /* Of a primitive: the rows of the node type `field`, then the declared ones. Of a shader: the
+     * declared ones. Owned, with all texts in it. */
+    struct record_type type;
+    size_t first_declared; /* index of the first declared row */
+    size_t references;
+};
+
+/* Something with a name of its own beside the tree. */
 struct resource {
-    char *name; /* a light's id, a material's name */
+    char *name; /* a light's id */
+    /* Of a light: its type's row in light_types. Of a material: its shader's row in shader_types,
+     * or what a shader of the document declares. Else primitive_type, shader_type, model_type. */
     struct record record;
-    size_t users; /* nodes that name this material */
+    size_t users;                  /* nodes or materials that name it */
+    const struct resource *shader; /* a material's, where it is one of the document's; else NULL */
+    struct definition *definition; /* of a primitive or shader; else NULL */
+    struct node *root;             /* of a model; else NULL */
 };
 
 struct resource_list {
@@ -37,8 +51,8 @@ struct node_index; /* id -> node, private to scene.c */
 
 struct scene {
     struct record info, camera, environment, render;
-    struct resource_list lights, materials;
-    struct node *root;
+    struct resource_list lights, materials, primitives, shaders, models;
+    struct node *root; /* the roots of models stand in `models`; all nodes share one index */
     size_t node_count;
     struct node_index *index;
 };
@@ -60,6 +74,9 @@ cJSON *node_to_json(const struct node *node);
 
 struct node *scene_find(const struct scene *scene, const char *id);
 struct resource *resource_find(const struct resource_list *list, const char *name);
+/* What a node of type `model` or `field` names; NULL: nothing. */
+const struct resource *node_model(const struct scene *scene, const struct node *node);
+const struct resource *node_primitive(const struct scene *scene, const struct node *node);
 /* Index among the parent's children; 0 for the root. */
 size_t node_position(const struct node *node);
 /* The material that applies: own or inherited; NULL where none is named up to the root. */

@@ -59,18 +59,18 @@ static cJSON *number_schema(const struct param *param)
     return schema;
 }
 
-static cJSON *vector_schema(cJSON *part)
+static cJSON *vector_schema(cJSON *part, int count)
 {
     cJSON *schema = typed("array");
     cJSON_AddItemToObject(schema, "items", part);
-    cJSON_AddNumberToObject(schema, "minItems", 3);
-    cJSON_AddNumberToObject(schema, "maxItems", 3);
+    cJSON_AddNumberToObject(schema, "minItems", count);
+    cJSON_AddNumberToObject(schema, "maxItems", count);
     return schema;
 }
 
 static cJSON *numbers_schema(const struct param *param)
 {
-    cJSON *schema = vector_schema(number_schema(param));
+    cJSON *schema = vector_schema(number_schema(param), param_components(param->type));
     if (param->direction) {
         cJSON *not = cJSON_AddObjectToObject(schema, "not");
         cJSON_AddItemToObject(not, "const", cJSON_CreateIntArray((const int[]){0, 0, 0}, 3));
@@ -115,7 +115,9 @@ static cJSON *param_schema(const struct param *param)
     case PARAM_INT:
         schema = number_schema(param);
         break;
+    case PARAM_VEC2:
     case PARAM_VEC3:
+    case PARAM_VEC4:
     case PARAM_IVEC3:
     case PARAM_COLOR:
         schema = numbers_schema(param);
@@ -124,13 +126,18 @@ static cJSON *param_schema(const struct param *param)
         schema = typed("boolean");
         break;
     case PARAM_BVEC3:
-        schema = vector_schema(typed("boolean"));
+        schema = vector_schema(typed("boolean"), 3);
         break;
     case PARAM_ENUM:
         schema = choices_schema(param);
         break;
     case PARAM_TEXT:
     case PARAM_MATERIAL:
+    case PARAM_POINTS:
+    case PARAM_CODE:
+    case PARAM_MODEL:
+    case PARAM_FUNCTION:
+    case PARAM_ROWS:
         schema = text_schema(param);
         break;
     }

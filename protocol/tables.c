@@ -11,6 +11,7 @@
 static const char *const camera_kinds[] = {"perspective", "orthographic", NULL};
 static const char *const sky_kinds[] = {"sky", "solid", NULL};
 static const char *const shadow_kinds[] = {"none", "hard", "soft", NULL};
+static const char *const lighting_kinds[] = {"lit", "unlit", NULL};
 static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
 
 /* clang-format off */
@@ -111,6 +112,27 @@ const struct record_type shader_types[] = {
         {"emission", PARAM_COLOR, .step = 0.05, .doc = "Light that the surface gives by itself."})},
     {.name = NULL},
 };
+
+const struct record_type primitive_type = {"primitive", "A distance function of the document.", PARAMS(
+    {"params", PARAM_ROWS, .doc = "Parameters that nodes give it."},
+    {"code", PARAM_CODE, .main = true,
+     .doc = "GLSL with a function float sdf(vec3 p): the distance, negative inside."},
+    {"lipschitz", PARAM_FLOAT, .def = {1}, .min = 0, .max = LIMIT_COORDINATE, .above_min = true,
+     .step = 0.1, .doc = "How much the function changes at most for each unit of length."},
+    {"size", PARAM_VEC3, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+     .doc = "Full lengths of a box around the origin that cuts the shape; 0: no end there."},
+    {"doc", PARAM_TEXT, .doc = "What it is."})};
+
+const struct record_type shader_type = {"shader", "A class of materials.", PARAMS(
+    {"properties", PARAM_ROWS, .doc = "What its materials set."},
+    {"code", PARAM_CODE, .main = true,
+     .doc = "GLSL with a function vec3 shade(FragmentProperties properties): the colour."},
+    {"lighting", PARAM_ENUM, .choices = lighting_kinds,
+     .doc = "Whether lights fall on the colour, or it is what is seen."},
+    {"doc", PARAM_TEXT, .doc = "What it is."})};
+
+const struct record_type model_type = {"model", "A tree of nodes to be instanced.",
+                                       PARAMS({.name = NULL})};
 /* clang-format on */
 
 const struct record_type *record_type_in(const struct record_type *table, const char *name)

@@ -58,8 +58,9 @@ void builder_add_instruction(struct builder *b, struct field_instruction instruc
 
 struct builder_mark builder_mark(const struct builder *b)
 {
-    return (struct builder_mark){b->field->instruction_count, b->field->vec4_count,
-                                 b->argument_count, b->field->leaf_count, b->trips};
+    return (struct builder_mark){
+        b->field->instruction_count, b->field->vec4_count, b->argument_count,
+        b->field->leaf_count,        b->points_count,      b->trips};
 }
 
 void builder_rewind(struct builder *b, struct builder_mark mark)
@@ -70,6 +71,7 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
     while (b->field->leaf_count > mark.leaves) {
         free(b->field->leaves[--b->field->leaf_count].id);
     }
+    b->points_count = mark.points;
     b->trips = mark.trips;
 }
 
@@ -83,31 +85,78 @@ void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argum
     }
 }
 
-void builder_put_params(struct builder *b, const struct node *node, const struct sdf *sdf,
-                        double scale, uint32_t vec4, int used, uint32_t argument)
+/* Multiplies lengths. */
+static void scale_numbers(const struct param *params, double scale, double *numbers)
 {
-    struct field_place places[SDF_NUMBERS_MAX];
-    field_layout(node->type, used, places);
-    double numbers[SDF_NUMBERS_MAX];
-    sdf_numbers(&node->params, numbers);
-    const struct param *params = node->type->record.params;
     for (size_t i = 0, at = 0; params[i].name; i++) {
-        for (int c = 0; places[i].vec4 >= 0 && c < param_components(params[i].type); c++) {
+        int components = param_components(params[i].type);
+        for (int c = 0; c < components; c++) {
             numbers[at++] *= params[i].unit == UNIT_LENGTH ? scale : 1;
         }
+        if (params[i].type == PARAM_POINTS) {
+            for (int rest = 2 * (int)numbers[at++]; rest > 0; rest--) {
+                numbers[at++] *= scale;
+            }
+        }
     }
+}
+
+/* A list of points goes behind everything else, once that is known. */
+static void defer_points(struct builder *b, uint32_t vec4, int component, const double *numbers)
+{
+    b->points = reserve(b->points, &b->points_capacity, b->points_count + 1, sizeof *b->points);
+    b->points[b->points_count++] =
+        (struct builder_points){.vec4 = vec4,
+                                .component = component,
+                                .argument = (uint32_t)(numbers - b->field->arguments)};
+}
+
+void builder_place_points(struct builder *b)
+{
+    for (size_t i = 0; i < b->points_count; i++) {
+        const struct builder_points *points = &b->points[i];
+        size_t count = (size_t)b->field->arguments[points->argument];
+        uint32_t first = builder_add_vec4s(b, (count + 1) / 2);
+        float *place = b->field->numbers + 4 * (size_t)points->vec4 + points->component;
+        float *to = b->field->numbers + 4 * (size_t)first;
+        place[0] = (float)first;
+        place[1] = (float)count;
+        for (size_t k = 0; k < 2 * count; k++) {
+            to[k] = (float)b->field->arguments[points->argument + 1 + k];
+        }
+    }
+    free(b->points);
+    b->points = NULL;
+}
+
+void builder_put_params(struct builder *b, const struct record *params, const struct sdf *sdf,
+                        double scale, uint32_t vec4, int used, uint32_t argument)
+{
+    struct field_place places[SDF_PARAMS_MAX];
+    double numbers[SDF_NUMBERS_MAX], *from = numbers;
+    field_layout(params->type, used, places);
+    int count = sdf_numbers(params, numbers);
+    scale_numbers(params->type->params, scale, numbers);
     if (sdf->prepare) {
         sdf->prepare(numbers);
     }
-    const double *from = numbers;
-    for (size_t i = 0; params[i].name; i++) {
-        if (places[i].vec4 >= 0) {
-            int count = param_components(params[i].type);
-            builder_put(b, vec4 + (uint32_t)places[i].vec4, places[i].component, argument, count,
-                        from);
-            from += count;
-            argument += (uint32_t)count;
+    double *arguments = b->field->arguments + argument;
+    for (int i = 0; i < count; i++) {
+        arguments[i] = (float)numbers[i];
+    }
+    for (size_t i = 0; params->type->params[i].name; i++) {
+        enum param_type type = params->type->params[i].type;
+        uint32_t at = vec4 + (uint32_t)places[i].vec4;
+        if (type == PARAM_POINTS) {
+            defer_points(b, at, places[i].component, arguments + (from - numbers));
+            from += 1 + 2 * (int)*from;
+            continue;
         }
+        float *to = b->field->numbers + 4 * (size_t)at + places[i].component;
+        for (int c = 0; c < places[i].count; c++) {
+            to[c] = (float)from[c];
+        }
+        from += param_components(type);
     }
 }
 

@@ -6,10 +6,19 @@
 
 #include "field.h"
 
+/* A list of points that has no place in the buffer yet. */
+struct builder_points {
+    uint32_t vec4;     /* where its place and count are written, */
+    int component;     /* from this component on */
+    uint32_t argument; /* where the C evaluator has it: the count, then x, y of each */
+};
+
 struct builder {
     struct field *field;
     const struct scene *scene;
     size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
+    struct builder_points *points;
+    size_t points_count, points_capacity;
     uint32_t index;                  /* pre-order, of the next node */
     uint64_t trips;                  /* loop iterations so far, in the current loop */
     const struct node *out_of_range; /* the first node whose place no float can hold */
@@ -27,12 +36,14 @@ void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argum
                  const double *numbers);
 /* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
  * are multiplied by `scale`. */
-void builder_put_params(struct builder *b, const struct node *node, const struct sdf *sdf,
+void builder_put_params(struct builder *b, const struct record *params, const struct sdf *sdf,
                         double scale, uint32_t vec4, int used, uint32_t argument);
+/* Gives the lists of points their places, behind all that the program reads by constant index. */
+void builder_place_points(struct builder *b);
 
 /* What is taken back when something turns out to be empty space. */
 struct builder_mark {
-    size_t instructions, vec4s, arguments, leaves;
+    size_t instructions, vec4s, arguments, leaves, points;
     uint64_t trips;
 };
 struct builder_mark builder_mark(const struct builder *b);

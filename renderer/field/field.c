@@ -6,19 +6,26 @@
 #include <assert.h>
 #include <stdlib.h>
 
-int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX])
+/* Components that a parameter has in the buffer. A choice is part of the program; of a list of
+ * points the place and the count are here. */
+static int stored_components(enum param_type type)
 {
-    int taken[SDF_NUMBERS_MAX + 1] = {used};
+    return type == PARAM_ENUM ? 0 : type == PARAM_POINTS ? 2 : param_components(type);
+}
+
+int field_layout(const struct record_type *type, int used, struct field_place out[SDF_PARAMS_MAX])
+{
+    int taken[SDF_PARAMS_MAX + 1] = {used};
     int vec4s = used > 0;
-    for (size_t i = 0; i < record_type_count(&type->record); i++) {
-        enum param_type kind = type->record.params[i].type;
-        int components = kind == PARAM_ENUM ? 0 : param_components(kind);
+    for (size_t i = 0; type->params[i].name; i++) {
+        int components = stored_components(type->params[i].type);
         int at = 0;
         while (taken[at] + components > 4) {
             at++;
         }
-        assert(i < SDF_NUMBERS_MAX && at < SDF_NUMBERS_MAX);
-        out[i] = components ? (struct field_place){at, taken[at]} : (struct field_place){-1, 0};
+        assert(i < SDF_PARAMS_MAX && at < SDF_PARAMS_MAX);
+        out[i] = components ? (struct field_place){at, taken[at], components}
+                            : (struct field_place){-1, 0, 0};
         taken[at] += components;
         vec4s = components && at + 1 > vec4s ? at + 1 : vec4s;
     }

@@ -18,10 +18,10 @@
 
 #include <stdint.h>
 
-#include "bounds.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
-#include "sdf.h"
+#include "renderer/sdf/bounds.h"
+#include "renderer/sdf/sdf.h"
 
 enum field_op {
     FIELD_EMPTY,    /* d[a] = far away */
@@ -41,6 +41,7 @@ struct field_instruction {
     const struct sdf *sdf;
     uint16_t a, b;       /* distance slots */
     uint16_t point, out; /* point slots; 0 is the point asked for */
+    uint32_t choices;    /* what enumerated parameters hold, eight bits each, the last lowest */
     uint32_t numbers;    /* first vec4 of what it reads */
     uint32_t arguments;  /* the same for the C evaluator: index into field.arguments */
 };
@@ -87,13 +88,13 @@ void field_unref(struct field *field); /* NULL: nothing */
 /* The id of the leaf with this number; NULL: none has it. */
 const char *field_leaf_id(const struct field *field, uint32_t number);
 
-/* Where the parameters of a type lie behind the head of its block: vec4 and component of each, in
- * registry order (choices have none: vec4 is -1). `used` components of the first vec4 are taken.
- * Returns how many vec4s the block has from there. */
+/* Where the parameters of a type lie behind the head of its block, in registry order; vec4 is -1
+ * where one is not there (choices, texts). `used` components of the first vec4 are taken. Returns
+ * how many vec4s the block has from there. */
 struct field_place {
-    int vec4, component;
+    int vec4, component, count;
 };
-int field_layout(const struct node_type *type, int used, struct field_place out[SDF_NUMBERS_MAX]);
+int field_layout(const struct record_type *type, int used, struct field_place out[SDF_PARAMS_MAX]);
 
 /* --- evaluation --- */
 

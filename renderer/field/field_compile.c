@@ -77,27 +77,63 @@ static size_t material_slot(const struct scene *scene, const char *name)
 
 /* --- instructions --- */
 
+static uint32_t subtree_count(const struct node *node)
+{
+    uint32_t count = 1;
+    for (size_t i = 0; i < node->child_count; i++) {
+        count += subtree_count(node->children[i]);
+    }
+    return count;
+}
+
 static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
                           uint16_t slot);
+
+static int prepared_numbers(const struct node *node, const struct sdf *sdf,
+                            double out[SDF_NUMBERS_MAX])
+{
+    int count = sdf_numbers(&node->params, out);
+    if (sdf->prepare) {
+        sdf->prepare(out);
+    }
+    return count;
+}
+
+/* The indices of all choices, eight bits each: they are part of the program. */
+static uint32_t choices(const struct record *params)
+{
+    uint32_t all = 0;
+    for (int i = 0; params->type->params[i].name; i++) {
+        if (params->type->params[i].type == PARAM_ENUM) {
+            all = all << 8 | (uint32_t)params->values[i].number[0];
+        }
+    }
+    return all;
+}
 
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
                        const struct frame *frame, uint16_t slot, uint32_t number)
 {
-    struct field_place places[SDF_NUMBERS_MAX];
-    int vec4s = field_layout(node->type, FIELD_HEAD_NUMBERS, places);
+    struct field_place places[SDF_PARAMS_MAX];
+    double numbers[SDF_NUMBERS_MAX];
+    int vec4s = field_layout(node->params.type, FIELD_HEAD_NUMBERS, places);
+    int count = prepared_numbers(node, sdf, numbers);
     uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
-    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + SDF_NUMBERS_MAX);
-    double head[FIELD_HEAD_NUMBERS] = {frame->scale, number, (double)frame->material};
+    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
+    double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
+    double head[FIELD_HEAD_NUMBERS] = {frame->scale / slope, number, (double)frame->material};
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    builder_put_params(b, node, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
+    builder_put_params(b, &node->params, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
                        arguments + 12 + FIELD_HEAD_NUMBERS);
+    b->trips += sdf->trips ? (uint64_t)sdf->trips(numbers) : 0;
     builder_add_leaf(b, number, node->id);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
                                                           .type = node->type,
                                                           .sdf = sdf,
                                                           .a = slot,
                                                           .point = frame->point,
+                                                          .choices = choices(&node->params),
                                                           .numbers = block,
                                                           .arguments = arguments});
 }
@@ -105,10 +141,7 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
 static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
 {
     double numbers[SDF_NUMBERS_MAX];
-    sdf_numbers(&node->params, numbers);
-    if (sdf->prepare) {
-        sdf->prepare(numbers);
-    }
+    prepared_numbers(node, sdf, numbers);
     return sdf->box(numbers);
 }
 
@@ -116,10 +149,12 @@ static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
 static void add_block(struct builder *b, const struct node *node, const struct sdf *sdf,
                       double scale, struct field_instruction *instruction)
 {
-    struct field_place places[SDF_NUMBERS_MAX];
-    instruction->numbers = builder_add_vec4s(b, (size_t)field_layout(node->type, 0, places));
-    instruction->arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
-    builder_put_params(b, node, sdf, scale, instruction->numbers, 0, instruction->arguments);
+    struct field_place places[SDF_PARAMS_MAX];
+    instruction->numbers = builder_add_vec4s(b, (size_t)field_layout(node->params.type, 0, places));
+    instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
+    instruction->choices = choices(&node->params);
+    builder_put_params(b, &node->params, sdf, scale, instruction->numbers, 0,
+                       instruction->arguments);
 }
 
 /* Folds the children from the left into `slot`, starting from `whole` where that is solid. */
@@ -130,6 +165,10 @@ static struct result emit_children(struct builder *b, const struct node *node,
     enum sdf_rule rule = combine.sdf->rule;
     bool first = !whole.solid, dead = false;
     for (size_t i = 0; i < node->child_count; i++) {
+        if (combine.sdf->operands > 0 && i >= combine.sdf->operands) {
+            b->index += subtree_count(node->children[i]);
+            continue;
+        }
         struct result child = emit(b, node->children[i], frame, slot + whole.solid);
         bool leads = rule == SDF_FIRST && i == 0;
         dead =
@@ -220,7 +259,11 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     builder_add_instruction(b, next);
     next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
     next.op = loops ? FIELD_LOOP : FIELD_MAP, next.point = own, next.out = inner;
-    builder_add_instruction(b, next);
+    if (loops || domain->map) {
+        builder_add_instruction(b, next);
+    } else {
+        inner = own;
+    }
 
     struct frame inside = {.scale = frame->scale, .point = inner, .material = frame->material};
     memcpy(inside.matrix, identity, sizeof identity);
@@ -251,9 +294,10 @@ static struct result emit_kind(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
     const struct sdf *sdf = sdf_find(node->type);
-    assert(sdf);
+    assert(sdf || node->type->kind == KIND_MODEL || node->type->kind == KIND_CODE);
     switch (node->type->kind) {
-    case KIND_SHAPE: {
+    case KIND_SHAPE:
+    case KIND_FLAT: {
         emit_shape(b, node, sdf, frame, slot, number);
         struct result own = {.solid = true, .box = shape_box(node, sdf)};
         return emit_union(b, node, frame, slot, own);
@@ -265,18 +309,11 @@ static struct result emit_kind(struct builder *b, const struct node *node,
     case KIND_DOMAIN:
         return emit_domain(b, node, sdf, frame, slot);
     case KIND_GROUP:
+    case KIND_MODEL:
+    case KIND_CODE:
         break;
     }
     return emit_union(b, node, frame, slot, (struct result){0});
-}
-
-static uint32_t subtree_count(const struct node *node)
-{
-    uint32_t count = 1;
-    for (size_t i = 0; i < node->child_count; i++) {
-        count += subtree_count(node->children[i]);
-    }
-    return count;
 }
 
 /* Far inside what a float holds: products of two such numbers must not overflow. */
@@ -355,6 +392,7 @@ static void add_materials(struct builder *b)
         to += FIELD_MATERIAL_NUMBERS;
         put_material(to, &b->scene->materials.items[i]->record);
     }
+    builder_place_points(b);
     builder_add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
 }
 
@@ -377,6 +415,7 @@ static uint64_t shape_hash(const struct field *field)
         state = hash(state, in->type ? (uint32_t)in->type->number : 0);
         state = hash(state, (uint32_t)in->a << 16 | in->b);
         state = hash(state, (uint32_t)in->point << 16 | in->out);
+        state = hash(state, in->choices);
         state = hash(state, in->numbers);
     }
     state = hash(state, (uint32_t)field->material_base);

@@ -17,16 +17,19 @@ struct writer {
 static void write_params(const struct writer *w, const struct field_instruction *in, uint32_t vec4,
                          int used)
 {
-    static const char *const components[] = {"x", "y", "z", "w"};
-    struct field_place places[SDF_NUMBERS_MAX];
-    field_layout(in->type, used, places);
+    struct field_place places[SDF_PARAMS_MAX];
     const struct param *params = in->type->record.params;
+    int choice = 0;
+    field_layout(&in->type->record, used, places);
     for (size_t i = 0; params[i].name; i++) {
-        if (places[i].vec4 >= 0) {
-            bool vector = param_components(params[i].type) == 3;
-            fprintf(w->out, ", N(%u).%s", vec4 + (uint32_t)places[i].vec4,
-                    vector ? (places[i].component ? "yzw" : "xyz")
-                           : components[places[i].component]);
+        choice += params[i].type == PARAM_ENUM;
+    }
+    for (size_t i = 0; params[i].name; i++) {
+        if (params[i].type == PARAM_ENUM) {
+            fprintf(w->out, ", %u", in->choices >> (8 * --choice) & 0xff);
+        } else if (places[i].vec4 >= 0) {
+            fprintf(w->out, ", N(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
+                    "xyzw" + places[i].component);
         }
     }
 }
@@ -61,6 +64,7 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
     fprintf(w->out, w->surface ? "h%u = vec3(" : "d%u = ", in->a);
     fprintf(w->out, "%s(", in->type->glsl);
     write_local(w, in);
+    fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
     write_params(w, in, head, FIELD_HEAD_NUMBERS);
     fprintf(w->out, ") * N(%u).x", head);
     fprintf(w->out, w->surface ? ", N(%u).yz);\n" : ";\n", head);

@@ -5,10 +5,15 @@
 
 #include "field.h"
 
+/* Names in glsl/, to be put before the text. They read the macro N_ANY(i): vec4 number i, where i
+ * need not be a constant. */
+#define FIELD_GLSL_FILES                                                                           \
+    "points.glsl", "shapes.glsl", "flat.glsl", "fractals.glsl", "operations.glsl", "modifiers.glsl"
+
 /* `float map(vec3 p)`: the distance. Caller frees.
  *
- * The text calls functions of glsl/shapes.glsl, operations.glsl and modifiers.glsl, which stand
- * before it, and a macro N(i), which gives the vec4 number i of field->numbers; i is a constant. */
+ * The text calls functions of FIELD_GLSL_FILES and a macro N(i), which gives the vec4 number i of
+ * field->numbers; i is a constant. */
 char *shader_map(const struct field *field);
 
 /* `void surface(vec3 p, out Surface s)`: leaf and material at a hit (Surface: glsl/surface.glsl).

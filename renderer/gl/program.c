@@ -10,6 +10,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/draw/frame.h"
+#include "renderer/field/shader.h"
 #include "targets.h"
 
 enum { PRELOAD_MAX = 4096 }; /* vec4s */
@@ -80,17 +81,13 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
 static bool link_passes(const struct gl *gl, const struct program *program, bool software,
                         struct pass *march, struct pass *light, struct error *err)
 {
-    static const char *const march_files[] = {"group.glsl",       "numbers.glsl",
-                                              "frame.glsl",       "surface.glsl",
-                                              "shapes.glsl",      "modifiers.glsl",
-                                              "operations.glsl",  "map",
-                                              "numbers_any.glsl", "surface",
-                                              "camera.glsl",      "gbuffer.glsl",
-                                              "march.glsl",       NULL};
+    static const char *const march_files[] = {
+        "group.glsl",       "numbers.glsl", "frame.glsl",  "surface.glsl", FIELD_GLSL_FILES, "map",
+        "numbers_any.glsl", "surface",      "camera.glsl", "gbuffer.glsl", "march.glsl",     NULL};
     static const char *const light_files[] = {
-        "group.glsl",     "numbers.glsl",    "frame.glsl", "surface.glsl", "shapes.glsl",
-        "modifiers.glsl", "operations.glsl", "map",        "camera.glsl",  "gbuffer.glsl",
-        "sky.glsl",       "light.glsl",      NULL};
+        "group.glsl",     "numbers.glsl", "frame.glsl",  "surface.glsl",
+        FIELD_GLSL_FILES, "map",          "camera.glsl", "gbuffer.glsl",
+        "sky.glsl",       "light.glsl",   NULL};
     char *defines =
         make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
     struct pass_source source = {true, defines, march_files, program->map_text,

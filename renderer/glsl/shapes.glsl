@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Distance functions of primitives; in C they are in renderer/field/sdf.c. */
+/* Distance functions of primitives; in C they are in renderer/sdf/shapes.c. */
 
 /* The point in a node's own space: three rows of (x, y, z, translation). */
 vec3 local(vec3 p, vec4 x, vec4 y, vec4 z)

@@ -103,9 +103,10 @@ static GLuint link_program(const struct gl *gl, GLuint vertex, GLuint fragment, 
 
 static const char head_block[] =
     "layout(std140, binding = 1) uniform Numbers { vec4 numbers[COUNT]; };\n"
-    "#define N(i) numbers[i]\n";
+    "#define N(i) numbers[i]\n#define N_ANY(i) numbers[i]\n";
 static const char head_texture[] = "layout(binding = 1) uniform samplerBuffer numbers;\n"
-                                   "#define N(i) texelFetch(numbers, i)\n";
+                                   "#define N(i) texelFetch(numbers, i)\n"
+                                   "#define N_ANY(i) texelFetch(numbers, i)\n";
 static const char main_text[] =
     "layout(binding = 0) uniform samplerBuffer points;\n"
     "layout(location = 0) out vec4 o0;\nlayout(location = 1) out vec4 o1;\n"
@@ -134,20 +135,16 @@ bool probe_program_init(struct probe_program *program, const struct probe *probe
     char *map = shader_map(field);
     char *surface_text = surface ? shader_surface(field) : memory_text(no_surface);
     const char *const vertex_texts[] = {version, glsl_text("full.glsl")};
-    const char *const texts[] = {version,
-                                 head,
-                                 in_texture ? head_texture : head_block,
-                                 glsl_text("surface.glsl"),
-                                 glsl_text("shapes.glsl"),
-                                 glsl_text("operations.glsl"),
-                                 glsl_text("modifiers.glsl"),
-                                 map,
-                                 surface_text,
-                                 main_text};
+    static const char *const files[] = {FIELD_GLSL_FILES};
+    enum { FILES = sizeof files / sizeof files[0], BEFORE = 4, ALL = BEFORE + FILES + 3 };
+    const char *texts[ALL] = {version, head, in_texture ? head_texture : head_block,
+                              glsl_text("surface.glsl")};
+    for (int i = 0; i < FILES; i++) {
+        texts[BEFORE + i] = glsl_text(files[i]);
+    }
+    texts[ALL - 3] = map, texts[ALL - 2] = surface_text, texts[ALL - 1] = main_text;
     GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_texts, 2, err);
-    GLuint fragment =
-        vertex ? compile(gl, GL_FRAGMENT_SHADER, texts, (int)(sizeof texts / sizeof texts[0]), err)
-               : 0;
+    GLuint fragment = vertex ? compile(gl, GL_FRAGMENT_SHADER, texts, ALL, err) : 0;
     program->program = fragment ? link_program(gl, vertex, fragment, err) : 0;
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);

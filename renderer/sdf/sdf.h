@@ -2,8 +2,12 @@
 /* Distance functions in C, one row per row of the registry: the oracle of the GLSL functions of the
  * same name in renderer/glsl/, and what picking runs. Pure, double precision.
  *
- * Numbers (`n`) are a node's parameters in the order of the registry, vectors as three, choices
- * left out, after the row's `prepare`. */
+ * Numbers (`n`) are a node's parameters in the order of the registry, after the row's `prepare`:
+ * vectors as two to four, a choice as its index, a list of points as their count and then x, y of
+ * each (at the end: such a parameter is the last). Texts are left out.
+ *
+ * In GLSL a choice is a literal int, and so part of the program; a list of points is a vec2 to be
+ * read by points_count and points_at of glsl/points.glsl; all else floats and vectors. */
 #ifndef RENDERER_SDF_H
 #define RENDERER_SDF_H
 
@@ -11,7 +15,8 @@
 #include "protocol/nodes.h"
 
 enum {
-    SDF_NUMBERS_MAX = 16, /* of one node */
+    SDF_PARAMS_MAX = 24,               /* of one node, in values */
+    SDF_NUMBERS_MAX = 24 + 1 + 2 * 64, /* and in numbers, with a list of points */
     SDF_DOMAIN_VEC4S_MAX = 4,
     SDF_REPEAT_CELLS_MAX = 125, /* that one repeat looks at for one point */
 };
@@ -35,6 +40,7 @@ struct sdf_domain {
     void (*prepare)(const double *params, const struct bounds *child, double scale, double *out_n);
     /* The box of the whole, from the children's. */
     struct bounds (*box)(const double *params, const struct bounds *child);
+    /* NULL: children see the point as it is (displace). */
     void (*map)(const double p[3], const double *n, double out[3]);
     /* What makes the children's distance one of the whole; NULL where it is one already. */
     double (*after)(double d, const double p[3], const double *n);
@@ -50,14 +56,20 @@ struct sdf {
     /* Makes the numbers ready: unit vectors, limits. May be NULL. */
     void (*prepare)(double *n);
 
-    /* KIND_SHAPE */
+    /* KIND_SHAPE, KIND_FLAT (which leaves p[2] alone and has a box without an end along Z) */
     double (*shape)(const double p[3], const double *n);
     struct bounds (*box)(const double *n);
+    /* Largest gradient length of `shape`, where the registry row says 0. The field is divided by
+     * it. */
+    double (*lipschitz)(const double *n);
+    /* Loop iterations in the GLSL function; NULL: no loops. */
+    int (*trips)(const double *n);
 
     /* KIND_COMBINE: `*out_share` is the derivative by `b`, in magnitude; `a` has the rest. */
     double (*combine)(double a, double b, const double *n, double *out_share);
     enum sdf_rule rule;
-    bool soft; /* shares between 0 and 1 occur */
+    bool soft;       /* shares between 0 and 1 occur */
+    size_t operands; /* only the first so many children count; 0: all */
 
     /* KIND_DISTANCE */
     double (*change)(double d, const double *n);
@@ -69,11 +81,13 @@ struct sdf {
     const struct sdf_domain *domain; /* KIND_DOMAIN */
 };
 
-size_t sdf_count(void);
-const struct sdf *sdf_at(size_t index);
+const struct sdf *sdf_at(size_t index); /* NULL behind the last */
 /* The row for a registry row; NULL: not written yet (a test fails then). */
 const struct sdf *sdf_find(const struct node_type *type);
 /* The numbers of a node; returns how many. */
 int sdf_numbers(const struct record *params, double out_n[SDF_NUMBERS_MAX]);
+
+/* Each ends with a row whose type is NULL. */
+extern const struct sdf sdf_shapes[], sdf_flat[], sdf_fractals[], sdf_operations[], sdf_modifiers[];
 
 #endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* Registry: modifiers. */
+#include "nodes_parts.h"
+
+/* clang-format off */
+const struct node_type node_modifiers[] = {
+    {.record = {"round", "Grows its children outwards, so that edges become round.", PARAMS(
+        {"radius", PARAM_FLOAT, REACH, .def = {0.05}, .main = true, .doc = "How far it grows."})},
+     .number = 201, .group = GROUP_MODIFIER, .kind = KIND_DISTANCE, .exactness = EXACT,
+     .lipschitz = 1, .glsl = "mod_round", .words = "grow offset inflate fillet soften",
+     .source = QUILEZ_DISTANCE ", Rounding"},
+    {.record = {"shell", "Keeps only a wall on both sides of the surface.", PARAMS(
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true,
+         .doc = "Half of the wall: the surface to either side."})},
+     .number = 202, .group = GROUP_MODIFIER, .kind = KIND_DISTANCE, .exactness = EXACT,
+     .lipschitz = 1, .glsl = "mod_shell", .words = "onion hollow wall skin",
+     .source = QUILEZ_DISTANCE ", Onion"},
+    {.record = {"mirror", "Shows the positive side on both sides.", PARAMS(
+        {"axes", PARAM_BVEC3, .def = {1, 0, 0}, .main = true, .doc = "Axes that are mirrored."})},
+     .number = 203, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "dom_mirror", .words = "symmetry reflect flip",
+     .source = QUILEZ_DISTANCE ", Symmetry"},
+    {.record = {"repeat", "Copies its children along the axes.", PARAMS(
+        {"spacing", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .main = true, .doc = "Copy to copy."},
+        {"count", PARAM_IVEC3, UNIT_NONE, .min = -1, .max = 10000, .step = 1, .main = true,
+         .doc = "Copies along each axis, centred; 0: no repetition, -1: without end."})},
+     .number = 204, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "dom_repeat", .words = "array tile grid copies pattern infinite",
+     .source = QUILEZ_REPEAT},
+    {.record = {"twist", "Turns each section about the Y axis by its height.", PARAMS(
+        {"rate", PARAM_FLOAT, UNIT_ANGLE, .def = {1}, .min = -1000, .max = 1000, .step = 0.05,
+         .main = true, .doc = "Turn for each unit of height, right-handed."})},
+     .number = 205, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 0, .glsl = "dom_twist", .words = "spiral screw helix wring turn",
+     .source = QUILEZ_DISTANCE ", Twist; the bound is " HART ", section 3"},
+    {.record = {.name = NULL}},
+};
+/* clang-format on */

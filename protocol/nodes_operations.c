@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+/* Registry: operations, and the nodes that only give structure. */
+#include "nodes_parts.h"
+
+static const char *const kernels[] = {"quadratic", NULL};
+
+/* clang-format off */
+static const struct param blend_params[] = {
+    {"k", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
+     .doc = "Greatest reach of the blend: nothing changes where the distances differ by more."},
+    {"kernel", PARAM_ENUM, .choices = kernels, .doc = "Profile of the blend."},
+    {.name = NULL},
+};
+
+const struct node_type node_operations[] = {
+    {.record = {"union", "Everything that is in any child.", no_params},
+     .number = 101, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_union", .words = "or add join merge min", .source = HART},
+    {.record = {"intersection", "Only what is in every child.", no_params},
+     .number = 102, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_intersection", .words = "and common overlap max", .source = HART},
+    {.record = {"difference", "The first child minus every other.", no_params},
+     .number = 103, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_difference", .words = "subtract minus cut carve hole",
+     .source = HART},
+    {.record = {"smooth_union", "A union whose parts melt together.", blend_params},
+     .number = 104, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_smooth_union", .words = "blend melt merge metaballs or add",
+     .source = QUILEZ_SMIN ", quadratic polynomial"},
+    {.record = {"smooth_intersection", "An intersection with softened edges.", blend_params},
+     .number = 105, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_smooth_intersection", .words = "blend and common overlap",
+     .source = QUILEZ_SMIN ", quadratic polynomial"},
+    {.record = {"smooth_difference", "The first child minus every other, with softened edges.",
+                blend_params},
+     .number = 106, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_smooth_difference", .words = "blend subtract minus carve dent",
+     .source = QUILEZ_SMIN ", quadratic polynomial"},
+    {.record = {.name = NULL}},
+};
+
+const struct node_type node_structure[] = {
+    {.record = {"group", "A union, for order and a common transform.", no_params},
+     .number = 301, .group = GROUP_STRUCTURE, .kind = KIND_GROUP, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_union", .words = "folder collection null parent", .source = HART},
+    {.record = {"material", "Gives its material to all below it.", no_params},
+     .number = 302, .group = GROUP_STRUCTURE, .kind = KIND_GROUP, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_union", .words = "paint colour color surface look",
+     .source = HART},
+    {.record = {"model", "An instance of a model of the scene.", PARAMS(
+        {"model", PARAM_MODEL, .main = true, .doc = "Name of the model."})},
+     .number = 303, .group = GROUP_STRUCTURE, .kind = KIND_MODEL, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "", .words = "instance copy prefab symbol component reference use",
+     .source = HART},
+    {.record = {"field", "A distance function written in GLSL, here or among the primitives.", PARAMS(
+        {"primitive", PARAM_FUNCTION, .main = true,
+         .doc = "Name of a primitive of the document; empty: the code below."},
+        {"code", PARAM_CODE,
+         .doc = "GLSL with a function float sdf(vec3 p): the distance, negative inside."},
+        {"lipschitz", PARAM_FLOAT, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
+         .above_min = true, .step = 0.1,
+         .doc = "How much the code's function changes at most for each unit of length."},
+        {"size", PARAM_VEC3, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+         .doc = "Full lengths of a box that cuts the code's shape; 0: no end there."})},
+     .number = 304, .group = GROUP_STRUCTURE, .kind = KIND_CODE, .exactness = BOUND,
+     .lipschitz = 0, .glsl = "", .words = "code custom glsl function implicit own script shader",
+     .source = HART},
+    {.record = {.name = NULL}},
+};
+/* clang-format on */

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/* Code that users write: distance functions and the `shade` of their shaders, in the part of GLSL
+ * that needs no state, with the spellings of HLSL and Slang (float3, lerp, frac, ...).
+ *
+ * Text is read into a tree, checked there (names, types, constant loop bounds, no recursion, the
+ * limits of limits.h), and run from there in C. What the driver gets is written from the tree,
+ * never the author's text, with every name changed, every index kept inside its array, and #line
+ * directives, so that a driver's message, too, names a line of the author's.
+ *
+ * Pure and without GL. A struct code is immutable; any number of threads may run it. */
+#ifndef RENDERER_CODE_H
+#define RENDERER_CODE_H
+
+#include <stdio.h>
+
+#include "protocol/record.h"
+
+enum code_use {
+    CODE_DISTANCE, /* float sdf(vec3 p), or float NAME(vec3 p, Primitive3D primitive) */
+    CODE_SHADE,    /* vec3 or vec4 shade(FragmentProperties properties) */
+};
+
+/* `params` are those that the document declares, ending with a row whose name is NULL: float, int,
+ * bool, vec2, vec3, vec4, color. Code reads them as variables of these names, which it may declare
+ * once more without a value; primitive.data[i] is component i of all of them in order. */
+struct code_source {
+    enum code_use use;
+    const char *text;
+    const struct param *params;
+};
+
+struct code;
+
+/* NULL and ERROR_COMPILE with line and column of the author's text, place empty. */
+struct code *code_compile(const struct code_source *source, struct error *err);
+void code_destroy(struct code *code); /* NULL: nothing */
+
+/* Writes the GLSL of all functions, the last of which is
+ *     float NAME(vec3 p, float a, vec3 b, ...)       CODE_DISTANCE
+ *     vec4 NAME(Shading s, float a, vec3 b, ...)     CODE_SHADE (struct: glsl/surface.glsl)
+ * with one argument for each of `params`, whole numbers and booleans as float. `source_number` is
+ * what #line gives as the number of the string; the text ends with no #line of ours. */
+void code_write(const struct code *code, const char *name, int source_number, FILE *out);
+
+/* Loop iterations of one call, at most. */
+int code_trips(const struct code *code);
+
+/* Where a number that is none (or infinite) first came up while running. */
+struct code_fault {
+    int line, column; /* 0: nothing was wrong */
+    char message[80];
+};
+
+/* `n` are the numbers of `params` in order, vectors as several. `fault` may be NULL. */
+double code_distance(const struct code *code, const double p[3], const double *n,
+                     struct code_fault *fault);
+
+struct code_shading {
+    double world_position[3], object_position[3], world_normal[3], ray_direction[3], ray_distance;
+};
+void code_shade(const struct code *code, const struct code_shading *at, const double *n,
+                double out_rgba[4], struct code_fault *fault);
+
+/* Runs the function at points all over the box, and along short ways there. False and `err`, with
+ * line and column, where it gives no number, or where it changes faster than `lipschitz` allows
+ * (column and line 0 then; the message names the greatest slope seen). For CODE_SHADE: only
+ * numbers. */
+bool code_probe(const struct code *code, const double *n, const double low[3], const double high[3],
+                double lipschitz, struct error *err);
+
+#endif
