@@ -8,7 +8,8 @@
 /* Names in glsl/, to be put before the text. They read the macro N_ANY(i): vec4 number i, where i
  * need not be a constant. */
 #define FIELD_GLSL_FILES                                                                           \
-    "points.glsl", "shapes.glsl", "flat.glsl", "fractals.glsl", "operations.glsl", "modifiers.glsl"
+    "points.glsl", "shapes.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",                 \
+        "modifiers.glsl", "mixture.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Operations: each NAME combines two distances, each NAME_share tells how much of the result the
- * second operand is. Below them: how surfaces mix. */
+ * second operand is. How surfaces mix stands in mixture.glsl. */
 
 /* In either. */
 float op_union(float a, float b)
@@ -74,36 +74,4 @@ float op_smooth_difference(float a, float b, float k, int kernel)
 float op_smooth_difference_share(float a, float b, float k, int kernel)
 {
     return op_smooth_union_share(-a, b, k, kernel);
-}
-
-/* Empty space is this far away. */
-const float FAR = 1e9;
-
-/* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
- * Mixture has the materials' numbers, as they lie in the table, and the weight of its leaf. */
-struct Mixture {
-    float d, leaf, weight;
-    vec4 diffuse_shininess, specular, emission, ambient;
-};
-
-/* Nothing. */
-Mixture mixture_far()
-{
-    return Mixture(FAR, 0.0, 1.0, vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-}
-
-/* One of two, by the share of b, with the distance of the result. */
-vec3 choose(float d, float share, vec3 a, vec3 b)
-{
-    return vec3(d, share > 0.5 ? b.yz : a.yz);
-}
-
-/* Both, by the share of b, with the distance of the result. */
-Mixture blend(float d, float share, Mixture a, Mixture b)
-{
-    float wa = a.weight * (1.0 - share), wb = b.weight * share;
-    return Mixture(d, wb > wa ? b.leaf : a.leaf, max(wa, wb),
-                   mix(a.diffuse_shininess, b.diffuse_shininess, share),
-                   mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
-                   mix(a.ambient, b.ambient, share));
 }
