@@ -484,3 +484,19 @@ void scene_walk(const struct scene *scene,
 {
     walk_node(scene->root, 0, visit, data);
 }
+
+static const struct resource *named(const struct resource_list *list, const struct node *node,
+                                    enum node_kind kind, const char *param)
+{
+    return node->type->kind == kind ? resource_find(list, record_text(&node->params, param)) : NULL;
+}
+
+const struct resource *node_model(const struct scene *scene, const struct node *node)
+{
+    return named(&scene->models, node, KIND_MODEL, "model");
+}
+
+const struct resource *node_primitive(const struct scene *scene, const struct node *node)
+{
+    return named(&scene->primitives, node, KIND_CODE, "primitive");
+}

@@ -152,8 +152,8 @@ struct pick_result resident_pick(const struct resident *resident, const struct r
     field_normal(snapshot->field, result.position, 0.5 * print + 1e-6, result.normal);
     result.distance = t;
     result.hit = true;
-    const char *id =
-        field_leaf_id(snapshot->field, field_surface(snapshot->field, result.position).number);
+    const char *id = field_leaf_id(snapshot->field,
+                                   field_surface(snapshot->field, result.position, NULL).number);
     snprintf(result.node, sizeof result.node, "%s", id ? id : "");
     return result;
 }

@@ -35,9 +35,13 @@ static struct program *get_program(struct renderer *renderer, const struct field
     }
     map = shader_map(field);
     surface = shader_surface(field);
-    program =
-        program_cache_add(renderer->programs, &(struct program_source){key, map, surface, capacity,
-                                                                       field->material_base});
+    program = program_cache_add(renderer->programs,
+                                &(struct program_source){.shape_hash = key,
+                                                         .map_text = map,
+                                                         .surface_text = surface,
+                                                         .number_count = capacity,
+                                                         .user_shaders = field->shader_count > 0,
+                                                         .map_count = field->material_base});
     free(map);
     free(surface);
     return program;
@@ -59,13 +63,13 @@ static struct field *make_field(const struct scene *scene, struct error *err)
 {
     struct field *field = field_compile(scene, err);
 
-    if (field && field->leaf_count > LIMIT_DRAWN_SHAPES) {
+    if (field && field->shape_count > LIMIT_DRAWN_SHAPES) {
         char place[32 + LIMIT_ID_BYTES];
 
         snprintf(place, sizeof place, "/nodes/%s", scene->root->id);
         error_set(err, ERROR_LIMIT, place,
                   "%zu visible shapes are above the maximum %d that can be drawn",
-                  field->leaf_count, LIMIT_DRAWN_SHAPES);
+                  field->shape_count, LIMIT_DRAWN_SHAPES);
         field_unref(field);
         return NULL;
     }

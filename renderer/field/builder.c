@@ -129,23 +129,24 @@ void builder_place_points(struct builder *b)
     b->points = NULL;
 }
 
-void builder_put_params(struct builder *b, const struct record *params, const struct sdf *sdf,
-                        double scale, uint32_t vec4, int used, uint32_t argument)
+void builder_put_params(struct builder *b, const struct param *params, const struct value *values,
+                        const struct sdf *sdf, double scale, uint32_t vec4, int used,
+                        uint32_t argument)
 {
     struct field_place places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX], *from = numbers;
-    field_layout(params->type, used, places);
-    int count = sdf_numbers(params, numbers);
-    scale_numbers(params->type->params, scale, numbers);
-    if (sdf->prepare) {
+    field_layout(params, used, places);
+    int count = sdf_numbers(params, values, numbers);
+    scale_numbers(params, scale, numbers);
+    if (sdf && sdf->prepare) {
         sdf->prepare(numbers);
     }
     double *arguments = b->field->arguments + argument;
     for (int i = 0; i < count; i++) {
         arguments[i] = (float)numbers[i];
     }
-    for (size_t i = 0; params->type->params[i].name; i++) {
-        enum param_type type = params->type->params[i].type;
+    for (size_t i = 0; params[i].name; i++) {
+        enum param_type type = params[i].type;
         uint32_t at = vec4 + (uint32_t)places[i].vec4;
         if (type == PARAM_POINTS) {
             defer_points(b, at, places[i].component, arguments + (from - numbers));
@@ -166,4 +167,21 @@ void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
     field->leaves =
         reserve(field->leaves, &b->leaf_capacity, field->leaf_count + 1, sizeof *field->leaves);
     field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(id)};
+}
+
+uint64_t builder_hash(uint64_t state, uint32_t word)
+{
+    for (int i = 0; i < 4; i++) {
+        state = (state ^ (word >> (8 * i) & 0xff)) * UINT64_C(0x100000001b3);
+    }
+    return state;
+}
+
+void builder_fail(struct builder *b, const struct error *err, const char *place)
+{
+    if (!b->failed) {
+        b->failed = true;
+        b->err = *err;
+        snprintf(b->err.place, sizeof b->err.place, "%s", place);
+    }
 }

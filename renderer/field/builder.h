@@ -19,10 +19,21 @@ struct builder {
     size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
     struct builder_points *points;
     size_t points_count, points_capacity;
-    uint32_t index;                  /* pre-order, of the next node */
-    uint64_t trips;                  /* loop iterations so far, in the current loop */
-    const struct node *out_of_range; /* the first node whose place no float can hold */
+    uint32_t index;    /* pre-order in the scene's tree, of the next node */
+    uint32_t instance; /* number of the outermost `model` node around, 0: none */
+    const struct node *instance_node;
+    size_t depth;     /* nodes around, through models */
+    uint64_t trips;   /* loop iterations so far, in the current loop */
+    bool failed;      /* what follows may be left out */
+    struct error err; /* the first, once failed */
 };
+
+/* FNV-1a (Fowler, Noll, Vo), 64 bits, over the bytes of a word. */
+#define BUILDER_HASH_START UINT64_C(0xcbf29ce484222325)
+uint64_t builder_hash(uint64_t state, uint32_t word);
+
+/* Keeps the first error, at `place`. */
+void builder_fail(struct builder *b, const struct error *err, const char *place);
 
 /* `count` new vec4s of zeros; returns the first. */
 uint32_t builder_add_vec4s(struct builder *b, size_t count);
@@ -35,9 +46,10 @@ void builder_add_leaf(struct builder *b, uint32_t number, const char *id);
 void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
                  const double *numbers);
 /* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
- * are multiplied by `scale`. */
-void builder_put_params(struct builder *b, const struct record *params, const struct sdf *sdf,
-                        double scale, uint32_t vec4, int used, uint32_t argument);
+ * are multiplied by `scale`. `sdf` may be NULL: nothing is prepared. */
+void builder_put_params(struct builder *b, const struct param *params, const struct value *values,
+                        const struct sdf *sdf, double scale, uint32_t vec4, int used,
+                        uint32_t argument);
 /* Gives the lists of points their places, behind all that the program reads by constant index. */
 void builder_place_points(struct builder *b);
 

@@ -13,12 +13,12 @@ static int stored_components(enum param_type type)
     return type == PARAM_ENUM ? 0 : type == PARAM_POINTS ? 2 : param_components(type);
 }
 
-int field_layout(const struct record_type *type, int used, struct field_place out[SDF_PARAMS_MAX])
+int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX])
 {
     int taken[SDF_PARAMS_MAX + 1] = {used};
     int vec4s = used > 0;
-    for (size_t i = 0; type->params[i].name; i++) {
-        int components = stored_components(type->params[i].type);
+    for (size_t i = 0; params[i].name; i++) {
+        int components = stored_components(params[i].type);
         int at = 0;
         while (taken[at] + components > 4) {
             at++;
@@ -38,6 +38,14 @@ struct field *field_ref(struct field *field)
     return field;
 }
 
+static void free_codes(struct field_code *codes, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        code_destroy(codes[i].code);
+    }
+    free(codes);
+}
+
 void field_unref(struct field *field)
 {
     if (!field || --field->references > 0) {
@@ -47,6 +55,8 @@ void field_unref(struct field *field)
         free(field->leaves[i].id);
     }
     free(field->leaves);
+    free_codes(field->codes, field->code_count);
+    free_codes(field->shaders, field->shader_count);
     free(field->instructions);
     free(field->numbers);
     free(field->arguments);

@@ -20,6 +20,7 @@
 
 #include "protocol/limits.h"
 #include "protocol/scene.h"
+#include "renderer/code/code.h"
 #include "renderer/sdf/bounds.h"
 #include "renderer/sdf/sdf.h"
 
@@ -38,20 +39,35 @@ enum field_op {
 struct field_instruction {
     enum field_op op;
     const struct node_type *type; /* NULL for FIELD_EMPTY */
-    const struct sdf *sdf;
-    uint16_t a, b;       /* distance slots */
-    uint16_t point, out; /* point slots; 0 is the point asked for */
-    uint32_t choices;    /* what enumerated parameters hold, eight bits each, the last lowest */
-    uint32_t numbers;    /* first vec4 of what it reads */
-    uint32_t arguments;  /* the same for the C evaluator: index into field.arguments */
+    const struct sdf *sdf;        /* NULL for a shape of a user's code */
+    uint16_t a, b;                /* distance slots */
+    uint16_t point, out;          /* point slots; 0 is the point asked for */
+    /* What enumerated parameters hold, eight bits each, the last lowest; of a shape of a user's
+     * code: which of field.codes it is. */
+    uint32_t choices;
+    uint32_t numbers;   /* first vec4 of what it reads */
+    uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
 };
 
 /* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, first
  * parameter). Blocks of domain modifiers: three rows, then the row's own vec4s. */
 enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 3 };
 
-/* A material's vec4s: (diffuse, shininess), (specular, 0), (emission, 0), (ambient, 0). */
-enum { FIELD_MATERIAL_VEC4S = 4, FIELD_MATERIAL_NUMBERS = 4 * FIELD_MATERIAL_VEC4S };
+/* Behind the head of a shape of a user's code: (half of the box that cuts it, scale), then what it
+ * declares. */
+enum { FIELD_CUT_VEC4S = 1 };
+#define FIELD_UNCUT 1e9 /* half of a box without an end */
+
+/* The first vec4s of a material: (diffuse, shininess), (specular, 0), (emission, shader), (ambient,
+ * unlit). Shader i + 1 is field.shaders[i], whose parameters follow; 0 is Blinn-Phong. Of a custom
+ * material, what is here is added to by its shader: the colour it gives is added to diffuse, or
+ * to emission where it is unlit. */
+enum {
+    FIELD_MATERIAL_VEC4S = 4,
+    FIELD_MATERIAL_NUMBERS = 4 * FIELD_MATERIAL_VEC4S,
+    FIELD_SHADER = 11, /* component of these numbers */
+    FIELD_UNLIT = 15,
+};
 
 /* No nesting needs more: two slots for each level and one for the whole. */
 enum { FIELD_SLOTS_MAX = 2 * LIMIT_NODE_DEPTH + 4 };
@@ -61,15 +77,34 @@ struct field_leaf {
     char *id;
 };
 
+/* Where a parameter lies in the block of its node; vec4 is -1 where it is not there (choices,
+ * texts). */
+struct field_place {
+    int vec4, component, count;
+};
+
+/* Code of a user that a field calls: user_I or shade_I in GLSL. */
+struct field_code {
+    const char *text; /* only to tell codes apart while compiling */
+    struct code *code;
+    uint64_t hash;                             /* of the text and of what it declares */
+    struct field_place places[LIMIT_DECLARED]; /* of what it declares, in a block of `vec4s` */
+    int place_count, vec4s;
+};
+
 struct field {
     struct field_instruction *instructions;
     size_t instruction_count;
-    float *numbers;       /* 4 * vec4_count: blocks, one material for each slot, padding */
-    size_t vec4_count;    /* the same for every field of this shape_hash */
-    size_t material_base; /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
-    double *arguments;    /* the numbers again, as the C evaluator reads them */
+    float *numbers;         /* 4 * vec4_count: blocks, one material for each slot, padding */
+    size_t vec4_count;      /* the same for every field of this shape_hash */
+    size_t material_base;   /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
+    size_t material_stride; /* vec4s of one slot */
+    struct field_code *codes, *shaders;
+    size_t code_count, shader_count;
+    double *arguments;         /* the numbers again, as the C evaluator reads them */
     struct field_leaf *leaves; /* ascending */
     size_t leaf_count;
+    size_t shape_count; /* FIELD_SHAPEs */
     int point_slots, distance_slots;
     uint64_t shape_hash;
     /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
@@ -88,13 +123,9 @@ void field_unref(struct field *field); /* NULL: nothing */
 /* The id of the leaf with this number; NULL: none has it. */
 const char *field_leaf_id(const struct field *field, uint32_t number);
 
-/* Where the parameters of a type lie behind the head of its block, in registry order; vec4 is -1
- * where one is not there (choices, texts). `used` components of the first vec4 are taken. Returns
- * how many vec4s the block has from there. */
-struct field_place {
-    int vec4, component, count;
-};
-int field_layout(const struct record_type *type, int used, struct field_place out[SDF_PARAMS_MAX]);
+/* The places of parameters (ending with a row whose name is NULL) behind the head of a block.
+ * `used` components of the first vec4 are taken. Returns how many vec4s the block has from there. */
+int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
 
 /* --- evaluation --- */
 
@@ -105,7 +136,13 @@ struct field_surface {
     uint32_t number;                         /* of the leaf of greatest weight; 0: empty space */
     double material[FIELD_MATERIAL_NUMBERS]; /* mixed by weight, laid out as in the buffer */
 };
-struct field_surface field_surface(const struct field *field, const double p[3]);
+/* How a point is looked at, for shaders of users. */
+struct field_view {
+    double normal[3], direction[3], distance;
+};
+/* `view` may be NULL: then all of it is 0. */
+struct field_surface field_surface(const struct field *field, const double p[3],
+                                   const struct field_view *view);
 
 /* Unit vector along the gradient, by the corners of a tetrahedron of half edge `h` (Quilez,
  * Normals for an SDF, iquilezles.org/articles/normalsSDF). */

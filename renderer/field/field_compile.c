@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "builder.h"
+#include "field_code.h"
+#include "field_materials.h"
 #include "protocol/memory.h"
 
 /* Where a node stands: its point slot, local = matrix * point, the factor from local lengths to
@@ -64,17 +66,6 @@ static void multiply(const double a[12], const double b[12], double out[12])
     }
 }
 
-static size_t material_slot(const struct scene *scene, const char *name)
-{
-    const struct resource *found = resource_find(&scene->materials, name);
-    for (size_t i = 0; found && i < scene->materials.count; i++) {
-        if (scene->materials.items[i] == found) {
-            return i + 1;
-        }
-    }
-    return 0;
-}
-
 /* --- instructions --- */
 
 static uint32_t subtree_count(const struct node *node)
@@ -89,10 +80,16 @@ static uint32_t subtree_count(const struct node *node)
 static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
                           uint16_t slot);
 
+/* Nodes that are passed over have their numbers too. Those of models have none of their own. */
+static void skip(struct builder *b, const struct node *node)
+{
+    b->index += b->instance ? 0 : subtree_count(node);
+}
+
 static int prepared_numbers(const struct node *node, const struct sdf *sdf,
                             double out[SDF_NUMBERS_MAX])
 {
-    int count = sdf_numbers(&node->params, out);
+    int count = sdf_numbers(node->params.type->params, node->params.values, out);
     if (sdf->prepare) {
         sdf->prepare(out);
     }
@@ -111,12 +108,22 @@ static uint32_t choices(const struct record *params)
     return all;
 }
 
+/* Anything inside an instance is its leaf. */
+static void add_leaf(struct builder *b, uint32_t number, const struct node *node)
+{
+    const struct field *field = b->field;
+    b->field->shape_count++;
+    if (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number) {
+        builder_add_leaf(b, number, b->instance ? b->instance_node->id : node->id);
+    }
+}
+
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
                        const struct frame *frame, uint16_t slot, uint32_t number)
 {
     struct field_place places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX];
-    int vec4s = field_layout(node->params.type, FIELD_HEAD_NUMBERS, places);
+    int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
     int count = prepared_numbers(node, sdf, numbers);
     uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
@@ -124,10 +131,11 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
     double head[FIELD_HEAD_NUMBERS] = {frame->scale / slope, number, (double)frame->material};
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    builder_put_params(b, &node->params, sdf, 1, block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
+    builder_put_params(b, node->params.type->params, node->params.values, sdf, 1,
+                       block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
                        arguments + 12 + FIELD_HEAD_NUMBERS);
     b->trips += sdf->trips ? (uint64_t)sdf->trips(numbers) : 0;
-    builder_add_leaf(b, number, node->id);
+    add_leaf(b, number, node);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
                                                           .type = node->type,
                                                           .sdf = sdf,
@@ -150,11 +158,12 @@ static void add_block(struct builder *b, const struct node *node, const struct s
                       double scale, struct field_instruction *instruction)
 {
     struct field_place places[SDF_PARAMS_MAX];
-    instruction->numbers = builder_add_vec4s(b, (size_t)field_layout(node->params.type, 0, places));
+    instruction->numbers =
+        builder_add_vec4s(b, (size_t)field_layout(node->params.type->params, 0, places));
     instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
     instruction->choices = choices(&node->params);
-    builder_put_params(b, &node->params, sdf, scale, instruction->numbers, 0,
-                       instruction->arguments);
+    builder_put_params(b, node->params.type->params, node->params.values, sdf, scale,
+                       instruction->numbers, 0, instruction->arguments);
 }
 
 /* Folds the children from the left into `slot`, starting from `whole` where that is solid. */
@@ -166,7 +175,7 @@ static struct result emit_children(struct builder *b, const struct node *node,
     bool first = !whole.solid, dead = false;
     for (size_t i = 0; i < node->child_count; i++) {
         if (combine.sdf->operands > 0 && i >= combine.sdf->operands) {
-            b->index += subtree_count(node->children[i]);
+            skip(b, node->children[i]);
             continue;
         }
         struct result child = emit(b, node->children[i], frame, slot + whole.solid);
@@ -208,7 +217,7 @@ static struct result emit_union(struct builder *b, const struct node *node,
 static double lowered(const struct node *node, const struct sdf *sdf, size_t count)
 {
     double numbers[SDF_NUMBERS_MAX];
-    sdf_numbers(&node->params, numbers);
+    sdf_numbers(node->params.type->params, node->params.values, numbers);
     return sdf->lowered ? sdf->lowered(numbers, count) : 0;
 }
 
@@ -274,7 +283,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
         return whole;
     }
     double params[SDF_NUMBERS_MAX], own_numbers[4 * SDF_DOMAIN_VEC4S_MAX] = {0};
-    sdf_numbers(&node->params, params);
+    sdf_numbers(node->params.type->params, node->params.values, params);
     domain->prepare(params, &whole.box, frame->scale, own_numbers);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
     if (loops) {
@@ -290,18 +299,82 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     return whole;
 }
 
+/* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
+static struct result emit_code(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    struct field_call call;
+    if (!field_call_of(b->scene, node, &call)) {
+        return (struct result){0};
+    }
+    int index = field_code_add(b, CODE_DISTANCE, call.text, call.params, call.place);
+    if (index < 0) {
+        return (struct result){0};
+    }
+    const struct field_code *code = &b->field->codes[index];
+    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale};
+    double head[FIELD_HEAD_NUMBERS] = {frame->scale / call.lipschitz, number,
+                                       (double)frame->material};
+    struct bounds box = bounds_infinite();
+    for (int i = 0; i < 3; i++) {
+        bool ends = call.size[i] > 0;
+        cut[i] = ends ? call.size[i] / 2 : FIELD_UNCUT;
+        box.high[i] = ends ? cut[i] : INFINITY;
+        box.low[i] = -box.high[i];
+    }
+    int count = sdf_numbers(call.params, call.values, numbers);
+    size_t heads = FIELD_MATRIX_VEC4S + 1;
+    uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + 4 + (size_t)count);
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS, 4, cut);
+    builder_put_params(b, call.params, call.values, NULL, 1,
+                       block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
+                       arguments + 12 + FIELD_HEAD_NUMBERS + 4);
+    b->trips += (uint64_t)code_trips(code->code);
+    add_leaf(b, number, node);
+    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                          .type = node->type,
+                                                          .a = slot,
+                                                          .point = frame->point,
+                                                          .choices = (uint32_t)index,
+                                                          .numbers = block,
+                                                          .arguments = arguments});
+    return (struct result){.solid = true, .box = box};
+}
+
+static struct result emit_model(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    const struct resource *model = node_model(b->scene, node);
+    if (!model) {
+        return (struct result){0};
+    }
+    bool outermost = b->instance == 0;
+    if (outermost) {
+        b->instance = number;
+        b->instance_node = node;
+    }
+    struct result result = emit(b, model->root, frame, slot);
+    if (outermost) {
+        b->instance = 0;
+    }
+    result.hidden = false;
+    return result;
+}
+
 static struct result emit_kind(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
     const struct sdf *sdf = sdf_find(node->type);
-    assert(sdf || node->type->kind == KIND_MODEL || node->type->kind == KIND_CODE);
+    struct result own = {0};
     switch (node->type->kind) {
     case KIND_SHAPE:
-    case KIND_FLAT: {
+    case KIND_FLAT:
         emit_shape(b, node, sdf, frame, slot, number);
-        struct result own = {.solid = true, .box = shape_box(node, sdf)};
-        return emit_union(b, node, frame, slot, own);
-    }
+        own = (struct result){.solid = true, .box = shape_box(node, sdf)};
+        break;
     case KIND_COMBINE:
         return emit_combine(b, node, sdf, frame, slot);
     case KIND_DISTANCE:
@@ -309,11 +382,15 @@ static struct result emit_kind(struct builder *b, const struct node *node,
     case KIND_DOMAIN:
         return emit_domain(b, node, sdf, frame, slot);
     case KIND_GROUP:
+        break;
     case KIND_MODEL:
+        own = emit_model(b, node, frame, slot, number);
+        break;
     case KIND_CODE:
+        own = emit_code(b, node, frame, slot, number);
         break;
     }
-    return emit_union(b, node, frame, slot, (struct result){0});
+    return emit_union(b, node, frame, slot, own);
 }
 
 /* Far inside what a float holds: products of two such numbers must not overflow. */
@@ -326,28 +403,52 @@ static bool frame_is_sane(const struct frame *frame)
     return sane;
 }
 
+/* Where a node's numbers, nesting or count leave what can be drawn, with models written out. */
+static void check(struct builder *b, const struct node *node, const struct frame *frame)
+{
+    char place[32 + LIMIT_ID_BYTES];
+    struct error err = {0};
+    snprintf(place, sizeof place, "/nodes/%s", b->instance ? b->instance_node->id : node->id);
+    if (!frame_is_sane(frame)) {
+        snprintf(place, sizeof place, "/nodes/%s/transform", node->id);
+        error_set(&err, ERROR_LIMIT, place,
+                  "with its parents' transforms it leaves the range of 1e-15 to 1e15");
+    } else if (b->depth > LIMIT_NODE_DEPTH) {
+        error_set(&err, ERROR_LIMIT, place,
+                  "with its models it is nested %zu levels deep, above the maximum %d", b->depth,
+                  LIMIT_NODE_DEPTH);
+    } else if (b->field->shape_count > LIMIT_NODES) {
+        error_set(&err, ERROR_LIMIT, place, "with its models it has more than %d shapes",
+                  LIMIT_NODES);
+    } else {
+        return;
+    }
+    builder_fail(b, &err, place);
+}
+
 static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
                           uint16_t slot)
 {
-    if (record_number(&node->common, "visible") == 0) {
-        b->index += subtree_count(node);
+    if (b->failed || record_number(&node->common, "visible") == 0) {
+        skip(b, node);
         return (struct result){.hidden = true};
     }
-    uint32_t number = ++b->index;
+    uint32_t number = b->instance ? b->instance : ++b->index;
     double to[12], from[12], least, greatest;
     node_matrices(node, to, from, &least, &greatest);
     struct frame frame = *outer;
     multiply(to, outer->matrix, frame.matrix);
     frame.scale *= least;
-    if (!b->out_of_range && !frame_is_sane(&frame)) {
-        b->out_of_range = node;
-    }
     const char *material = record_text(&node->common, "material");
     if (*material) {
-        frame.material = material_slot(b->scene, material);
+        frame.material = field_material_slot(b->scene, material);
     }
+    b->depth++;
+    check(b, node, &frame);
     struct builder_mark before = builder_mark(b);
-    struct result result = emit_kind(b, node, &frame, slot, number);
+    struct result result =
+        b->failed ? (struct result){0} : emit_kind(b, node, &frame, slot, number);
+    b->depth--;
     if (result.solid) {
         result.box = bounds_transform(&result.box, from, greatest / least);
     } else {
@@ -358,68 +459,34 @@ static struct result emit(struct builder *b, const struct node *node, const stru
 
 /* --- the whole --- */
 
-static void put_color(float *to, const struct record *record, const char *name)
+static uint64_t hash_code(uint64_t state, const struct field_code *code)
 {
-    const double *color = record_vector(record, name);
-    for (int i = 0; i < 3; i++) {
-        to[i] = (float)color[i];
-    }
-}
-
-static void put_material(float *to, const struct record *record)
-{
-    put_color(to, record, "diffuse");
-    to[3] = (float)record_number(record, "shininess");
-    put_color(to + 4, record, "specular");
-    put_color(to + 8, record, "emission");
-    put_color(to + 12, record, "ambient");
-}
-
-/* The buffer's size is part of the shape; padded, it leaves room for some more materials. */
-enum { PADDING = 256 };
-
-static void add_materials(struct builder *b)
-{
-    struct field *field = b->field;
-    size_t count = b->scene->materials.count;
-    field->material_base = builder_add_vec4s(b, (count + 1) * FIELD_MATERIAL_VEC4S);
-    float *to = field->numbers + 4 * field->material_base;
-    struct record standard;
-    record_init(&standard, record_type_in(shader_types, "phong"));
-    put_material(to, &standard);
-    record_finish(&standard);
-    for (size_t i = 0; i < count; i++) {
-        to += FIELD_MATERIAL_NUMBERS;
-        put_material(to, &b->scene->materials.items[i]->record);
-    }
-    builder_place_points(b);
-    builder_add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
-}
-
-/* FNV-1a (Fowler, Noll, Vo), 64 bits. */
-static uint64_t hash(uint64_t state, uint32_t word)
-{
-    for (int i = 0; i < 4; i++) {
-        state = (state ^ (word >> (8 * i) & 0xff)) * UINT64_C(0x100000001b3);
-    }
-    return state;
+    state = builder_hash(state, (uint32_t)code->hash);
+    return builder_hash(state, (uint32_t)(code->hash >> 32));
 }
 
 /* Everything that the GLSL text is made of. */
 static uint64_t shape_hash(const struct field *field)
 {
-    uint64_t state = UINT64_C(0xcbf29ce484222325);
+    uint64_t state = BUILDER_HASH_START;
     for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
-        state = hash(state, (uint32_t)in->op);
-        state = hash(state, in->type ? (uint32_t)in->type->number : 0);
-        state = hash(state, (uint32_t)in->a << 16 | in->b);
-        state = hash(state, (uint32_t)in->point << 16 | in->out);
-        state = hash(state, in->choices);
-        state = hash(state, in->numbers);
+        state = builder_hash(state, (uint32_t)in->op);
+        state = builder_hash(state, in->type ? (uint32_t)in->type->number : 0);
+        state = builder_hash(state, (uint32_t)in->a << 16 | in->b);
+        state = builder_hash(state, (uint32_t)in->point << 16 | in->out);
+        state = builder_hash(state, in->choices);
+        state = builder_hash(state, in->numbers);
     }
-    state = hash(state, (uint32_t)field->material_base);
-    return hash(state, (uint32_t)field->vec4_count);
+    for (size_t i = 0; i < field->code_count; i++) {
+        state = hash_code(state, &field->codes[i]);
+    }
+    for (size_t i = 0; i < field->shader_count; i++) {
+        state = hash_code(builder_hash(state, 1), &field->shaders[i]);
+    }
+    state = builder_hash(state, (uint32_t)field->material_stride);
+    state = builder_hash(state, (uint32_t)field->material_base);
+    return builder_hash(state, (uint32_t)field->vec4_count);
 }
 
 struct field *field_compile(const struct scene *scene, struct error *err)
@@ -430,11 +497,11 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     struct frame frame = {.scale = 1};
     memcpy(frame.matrix, identity, sizeof identity);
     struct result whole = emit(&builder, scene->root, &frame, 0);
-    if (builder.out_of_range) {
-        char place[32 + LIMIT_ID_BYTES];
-        snprintf(place, sizeof place, "/nodes/%s/transform", builder.out_of_range->id);
-        error_set(err, ERROR_LIMIT, place,
-                  "with its parents' transforms it leaves the range of 1e-15 to 1e15");
+    field_add_materials(&builder);
+    if (builder.failed) {
+        if (err) {
+            *err = builder.err;
+        }
         field_unref(field);
         return NULL;
     }
@@ -442,7 +509,6 @@ struct field *field_compile(const struct scene *scene, struct error *err)
         builder_add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
         whole.box = bounds_empty();
     }
-    add_materials(&builder);
     field->bounds = whole.box;
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);

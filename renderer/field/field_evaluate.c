@@ -7,11 +7,19 @@
 
 #define FAR 1e9 /* as in glsl/operations.glsl */
 
+/* Where a shader of a user applies: a material slot, its share of the whole, and the point in the
+ * space of the shape. */
+struct paint {
+    size_t slot;
+    double weight, place[3];
+};
+
 /* What is known of a surface besides its distance. */
 struct tint {
     uint32_t leaf;
     double weight; /* of that leaf in what is seen */
     double material[FIELD_MATERIAL_NUMBERS];
+    struct paint paints[2]; /* the strongest first; more than two are not kept apart */
 };
 
 struct loop {
@@ -35,21 +43,67 @@ static void place(const double m[12], const double p[3], double out[3])
     }
 }
 
+static const float *material_numbers(const struct field *field, size_t slot)
+{
+    return field->numbers + 4 * (field->material_base + slot * field->material_stride);
+}
+
+/* A user's function, cut by its box. */
+static double run_code(const struct field *field, const struct field_instruction *in,
+                       const double p[3], const double *n)
+{
+    const double *cut = n + FIELD_HEAD_NUMBERS;
+    double d = code_distance(field->codes[in->choices].code, p, cut + 4, NULL) * n[0];
+    double q[3] = {fabs(p[0]) - cut[0], fabs(p[1]) - cut[1], fabs(p[2]) - cut[2]};
+    double outside = hypot(hypot(fmax(q[0], 0), fmax(q[1], 0)), fmax(q[2], 0));
+    return fmax(d, (outside + fmin(fmax(q[0], fmax(q[1], q[2])), 0)) * cut[3]);
+}
+
 static void run_shape(struct machine *m, const struct field_instruction *in, const double *n)
 {
     double local[3];
     place(n, m->p[in->point], local);
-    m->d[in->a] = in->sdf->shape(local, n + 12 + FIELD_HEAD_NUMBERS) * n[12];
+    n += 12;
+    m->d[in->a] = in->sdf ? in->sdf->shape(local, n + FIELD_HEAD_NUMBERS) * n[0]
+                          : run_code(m->field, in, local, n);
     if (!m->tints) {
         return;
     }
     struct tint *tint = &m->tints[in->a];
-    tint->leaf = (uint32_t)n[13];
-    tint->weight = 1;
-    const float *material =
-        m->field->numbers + 4 * m->field->material_base + FIELD_MATERIAL_NUMBERS * (size_t)n[14];
+    const float *material = material_numbers(m->field, (size_t)n[2]);
+    *tint = (struct tint){.leaf = (uint32_t)n[1], .weight = 1};
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
         tint->material[i] = material[i];
+    }
+    if (material[FIELD_SHADER] > 0) {
+        tint->paints[0] = (struct paint){(size_t)n[2], 1, {local[0], local[1], local[2]}};
+    }
+}
+
+/* Keeps the strongest two; the same slot counts as one. */
+static void add_paint(struct paint paints[2], const struct paint *more, double share)
+{
+    struct paint one = *more;
+    one.weight *= share;
+    if (one.weight <= 0) {
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (paints[i].weight > 0 && paints[i].slot == one.slot) {
+            double sum = paints[i].weight + one.weight;
+            paints[i] = one.weight > paints[i].weight ? one : paints[i];
+            paints[i].weight = sum;
+            one.weight = 0;
+            break;
+        }
+    }
+    if (one.weight > paints[1].weight) {
+        paints[1] = one;
+    }
+    if (paints[1].weight > paints[0].weight) {
+        struct paint first = paints[0];
+        paints[0] = paints[1];
+        paints[1] = first;
     }
 }
 
@@ -61,6 +115,10 @@ static void mix_tints(struct tint *a, const struct tint *b, double share)
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
         a->material[i] += (b->material[i] - a->material[i]) * share;
     }
+    a->paints[0].weight *= 1 - share;
+    a->paints[1].weight *= 1 - share;
+    add_paint(a->paints, &b->paints[0], share);
+    add_paint(a->paints, &b->paints[1], share);
 }
 
 static void run_combine(struct machine *m, const struct field_instruction *in, const double *n)
@@ -163,8 +221,37 @@ double field_distance(const struct field *field, const double p[3])
     return machine.d[0];
 }
 
-struct field_surface field_surface(const struct field *field, const double p[3])
+/* Adds what a shader of a user gives. */
+static void paint(const struct field *field, const struct paint *paint, const double p[3],
+                  const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
 {
+    const float *block = material_numbers(field, paint->slot);
+    const struct field_code *shader = &field->shaders[(size_t)block[FIELD_SHADER] - 1];
+    struct code_shading at = {.ray_distance = view->distance};
+    double numbers[4 * LIMIT_DECLARED], color[4];
+    size_t count = 0;
+    memcpy(at.world_position, p, sizeof at.world_position);
+    memcpy(at.object_position, paint->place, sizeof at.object_position);
+    memcpy(at.world_normal, view->normal, sizeof at.world_normal);
+    memcpy(at.ray_direction, view->direction, sizeof at.ray_direction);
+    for (int i = 0; i < shader->place_count; i++) {
+        const struct field_place *where = &shader->places[i];
+        const float *from = block + 4 * (FIELD_MATERIAL_VEC4S + where->vec4) + where->component;
+        for (int c = 0; c < where->count; c++) {
+            numbers[count++] = from[c];
+        }
+    }
+    code_shade(shader->code, &at, numbers, color, NULL);
+    double *to = material + (block[FIELD_UNLIT] > 0 ? 8 : 0);
+    for (int i = 0; i < 3; i++) {
+        to[i] += paint->weight * fmax(color[i], 0);
+    }
+}
+
+struct field_surface field_surface(const struct field *field, const double p[3],
+                                   const struct field_view *view)
+{
+    static const struct field_view nowhere = {.distance = 0};
     struct tint tints[FIELD_SLOTS_MAX];
     struct machine machine;
     machine.field = field;
@@ -172,6 +259,11 @@ struct field_surface field_surface(const struct field *field, const double p[3])
     run(&machine, p);
     struct field_surface out = {.distance = machine.d[0], .number = tints[0].leaf};
     memcpy(out.material, tints[0].material, sizeof out.material);
+    for (int i = 0; i < 2; i++) {
+        if (tints[0].paints[i].weight > 0) {
+            paint(field, &tints[0].paints[i], p, view ? view : &nowhere, out.material);
+        }
+    }
     return out;
 }
 

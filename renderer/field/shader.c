@@ -5,8 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* The numbers of strings that #line gives to users' code. */
+enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
+
 /* Surfaces that were never mixed are vec3 h (distance, leaf, slot): materials are read where a
- * blend first needs them, which for most scenes is at a few places only. Mixed ones are m. */
+ * blend first needs them, which for most scenes is at a few places only. Mixed ones are m. Where
+ * there are shaders of users, o is the point in the space of the shape that h is of. */
 struct writer {
     FILE *out;
     const struct field *field;
@@ -20,7 +24,7 @@ static void write_params(const struct writer *w, const struct field_instruction 
     struct field_place places[SDF_PARAMS_MAX];
     const struct param *params = in->type->record.params;
     int choice = 0;
-    field_layout(&in->type->record, used, places);
+    field_layout(params, used, places);
     for (size_t i = 0; params[i].name; i++) {
         choice += params[i].type == PARAM_ENUM;
     }
@@ -31,6 +35,18 @@ static void write_params(const struct writer *w, const struct field_instruction 
             fprintf(w->out, ", N(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
                     "xyzw" + places[i].component);
         }
+    }
+}
+
+/* What a code declares, in the block that starts at vec4 `first` of the numbers, or at an index
+ * known when it runs. */
+static void write_places(const struct writer *w, const struct field_code *code, const char *base,
+                         uint32_t first)
+{
+    for (int i = 0; i < code->place_count; i++) {
+        const struct field_place *place = &code->places[i];
+        uint32_t vec4 = first + (uint32_t)place->vec4;
+        fprintf(w->out, ", N(%s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
     }
 }
 
@@ -58,15 +74,37 @@ static void write_local(const struct writer *w, const struct field_instruction *
     fprintf(w->out, ")");
 }
 
+/* A user's function at the point, cut by its box. */
+static void write_code(const struct writer *w, const struct field_instruction *in)
+{
+    const struct field_code *code = &w->field->codes[in->choices];
+    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, own = head + 1 + FIELD_CUT_VEC4S;
+    fprintf(w->out, "cut(user_%u(", in->choices);
+    write_local(w, in);
+    write_places(w, code, "", own);
+    fprintf(w->out, ") * N(%u).x, ", head);
+    write_local(w, in);
+    fprintf(w->out, ", N(%u))", head + 1);
+}
+
 static void write_shape(struct writer *w, const struct field_instruction *in)
 {
     uint32_t head = in->numbers + FIELD_MATRIX_VEC4S;
+    if (w->surface && w->field->shader_count > 0) {
+        fprintf(w->out, "o%u = ", in->a);
+        write_local(w, in);
+        fprintf(w->out, ";\n");
+    }
     fprintf(w->out, w->surface ? "h%u = vec3(" : "d%u = ", in->a);
-    fprintf(w->out, "%s(", in->type->glsl);
-    write_local(w, in);
-    fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
-    write_params(w, in, head, FIELD_HEAD_NUMBERS);
-    fprintf(w->out, ") * N(%u).x", head);
+    if (in->sdf) {
+        fprintf(w->out, "%s(", in->type->glsl);
+        write_local(w, in);
+        fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
+        write_params(w, in, head, FIELD_HEAD_NUMBERS);
+        fprintf(w->out, ") * N(%u).x", head);
+    } else {
+        write_code(w, in);
+    }
     fprintf(w->out, w->surface ? ", N(%u).yz);\n" : ";\n", head);
     w->mixed[in->a] = false;
 }
@@ -87,7 +125,9 @@ static void write_call(const struct writer *w, const struct field_instruction *i
 static void write_mixed(struct writer *w, uint16_t slot)
 {
     if (!w->mixed[slot]) {
-        fprintf(w->out, "m%u = mixture(h%u);\n", slot, slot);
+        fprintf(w->out,
+                w->field->shader_count > 0 ? "m%u = mixture(h%u, o%u);\n" : "m%u = mixture(h%u);\n",
+                slot, slot, slot);
         w->mixed[slot] = true;
     }
 }
@@ -105,6 +145,11 @@ static void write_combine(struct writer *w, const struct field_instruction *in)
         write_mixed(w, in->b);
     }
     const char *name = w->mixed[in->a] ? "m" : "h";
+    if (!w->mixed[in->a] && w->field->shader_count > 0) {
+        fprintf(w->out, "o%u = ", in->a);
+        write_call(w, in, "_share");
+        fprintf(w->out, " > 0.5 ? o%u : o%u;\n", in->b, in->a);
+    }
     fprintf(w->out, "%s%u = %s(", name, in->a, w->mixed[in->a] ? "blend" : "choose");
     write_call(w, in, "");
     fprintf(w->out, ", ");
@@ -165,8 +210,10 @@ static void write_loop_end(struct writer *w, const struct field_instruction *in,
     if (w->surface) {
         const char *kind = w->mixed[in->b] ? "m" : "h";
         const char *distance = w->mixed[in->b] ? "d" : "x";
-        fprintf(w->out, "if (%s%u.%s < %s%u.%s) {\n%s%u = %s%u;\n}\n", kind, in->b, distance, kind,
+        bool objects = !w->mixed[in->b] && w->field->shader_count > 0;
+        fprintf(w->out, "if (%s%u.%s < %s%u.%s) {\n%s%u = %s%u;\n", kind, in->b, distance, kind,
                 in->a, distance, kind, in->a, kind, in->b);
+        fprintf(w->out, objects ? "o%u = o%u;\n}\n" : "}\n", in->a, in->b);
         w->mixed[in->a] = w->mixed[in->b];
     } else {
         fprintf(w->out, "d%u = min(d%u, d%u);\n", in->a, in->a, in->b);
@@ -234,11 +281,91 @@ static void write_slots(const struct writer *w, const char *type, const char *na
 /* Reads the material of a surface that was not mixed yet. */
 static void write_mixture(const struct writer *w)
 {
+    bool shaders = w->field->shader_count > 0;
     fprintf(w->out,
-            "Mixture mixture(vec3 h)\n{\n"
-            "int i = %zu + %d * int(h.z);\n"
-            "return Mixture(h.x, h.y, 1.0, N(i), N(i + 1), N(i + 2), N(i + 3));\n}\n",
-            w->field->material_base, FIELD_MATERIAL_VEC4S);
+            "Mixture mixture(vec3 h%s)\n{\n"
+            "int i = %zu + %zu * int(h.z);\n"
+            "return Mixture(h.x, h.y, 1.0, N(i), N(i + 1), N(i + 2), N(i + 3)%s);\n}\n",
+            shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
+            shaders ? ", vec4(o, N(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)" : "");
+}
+
+/* The colour that the material in a slot has by its shader, and whether it is lit. */
+static void write_paint(const struct writer *w)
+{
+    const struct field *field = w->field;
+    fprintf(w->out,
+            "vec4 paint(Shading at, float slot)\n{\n"
+            "int i = %zu + %zu * int(slot);\n"
+            "int shader = int(N(i + 2).w);\nvec4 color = vec4(0.0);\n",
+            field->material_base, field->material_stride);
+    for (size_t i = 0; i < field->shader_count; i++) {
+        fprintf(w->out, "if (shader == %zu) {\ncolor = shade_%zu(at", i + 1, i);
+        write_places(w, &field->shaders[i], "i + ", FIELD_MATERIAL_VEC4S);
+        fprintf(w->out, ");\n}\n");
+    }
+    fprintf(w->out, "return vec4(max(color.rgb, 0.0), N(i + 3).w);\n}\n");
+}
+
+static void write_codes(const struct writer *w, const struct field_code *codes, size_t count,
+                        const char *prefix, int first_source)
+{
+    for (size_t i = 0; i < count; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_%zu", prefix, i);
+        code_write(codes[i].code, name, first_source + (int)i, w->out);
+    }
+}
+
+/* Shaders of users, each in one place, at the end. */
+static void write_painting(const struct writer *w)
+{
+    if (w->field->shader_count > 0) {
+        fputs("for (int k = int(min(m0.first.w, 0.0)); k < 2; k++) {\n"
+              "vec4 place = k == 0 ? m0.first : m0.second;\n"
+              "at.object_position = place.xyz;\n"
+              "vec4 color = paint(at, k == 0 ? m0.slots.x : m0.slots.y);\n"
+              "vec3 added = place.w > 0.0 ? place.w * color.rgb : vec3(0.0);\n"
+              "s.diffuse += color.a > 0.5 ? vec3(0.0) : added;\n"
+              "s.emission += color.a > 0.5 ? added : vec3(0.0);\n}\n",
+              w->out);
+    }
+}
+
+static void write_map(struct writer *w)
+{
+    write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
+    fprintf(w->out, "float map(vec3 p0)\n{\n");
+    write_slots(w, "vec3", "p", 1, w->field->point_slots);
+    write_slots(w, "float", "d", 0, w->field->distance_slots);
+    write_instructions(w);
+    fprintf(w->out, "return d0;\n}\n");
+}
+
+static void write_surface(struct writer *w)
+{
+    const struct field *field = w->field;
+    write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
+    write_mixture(w);
+    if (field->shader_count > 0) {
+        write_paint(w);
+    }
+    fprintf(w->out, "void surface(vec3 p0, Shading at, out Surface s)\n{\n");
+    write_slots(w, "vec3", "p", 1, field->point_slots);
+    write_slots(w, "vec3", "h", 0, field->distance_slots);
+    write_slots(w, "vec3", "o", 0, field->shader_count > 0 ? field->distance_slots : 0);
+    write_slots(w, "Mixture", "m", 0, field->distance_slots);
+    write_instructions(w);
+    write_mixed(w, 0);
+    fputs("s.id = uint(m0.leaf);\n"
+          "s.diffuse = m0.diffuse_shininess.rgb;\n"
+          "s.shininess = m0.diffuse_shininess.w;\n"
+          "s.specular = m0.specular.rgb;\n"
+          "s.emission = m0.emission.rgb;\n"
+          "s.ambient = m0.ambient.rgb;\n",
+          w->out);
+    write_painting(w);
+    fprintf(w->out, "}\n");
 }
 
 static char *write_text(const struct field *field, bool surface)
@@ -251,29 +378,9 @@ static char *write_text(const struct field *field, bool surface)
         abort();
     }
     if (surface) {
-        write_mixture(&w);
-    }
-    fprintf(w.out,
-            surface ? "void surface(vec3 p0, out Surface s)\n{\n" : "float map(vec3 p0)\n{\n");
-    write_slots(&w, "vec3", "p", 1, field->point_slots);
-    if (surface) {
-        write_slots(&w, "vec3", "h", 0, field->distance_slots);
-        write_slots(&w, "Mixture", "m", 0, field->distance_slots);
+        write_surface(&w);
     } else {
-        write_slots(&w, "float", "d", 0, field->distance_slots);
-    }
-    write_instructions(&w);
-    if (surface) {
-        write_mixed(&w, 0);
-        fputs("s.id = uint(m0.leaf);\n"
-              "s.diffuse = m0.diffuse_shininess.rgb;\n"
-              "s.shininess = m0.diffuse_shininess.w;\n"
-              "s.specular = m0.specular.rgb;\n"
-              "s.emission = m0.emission.rgb;\n"
-              "s.ambient = m0.ambient.rgb;\n}\n",
-              w.out);
-    } else {
-        fprintf(w.out, "return d0;\n}\n");
+        write_map(&w);
     }
     if (fclose(w.out) != 0) {
         abort();

@@ -9,7 +9,7 @@
  * need not be a constant. */
 #define FIELD_GLSL_FILES                                                                           \
     "points.glsl", "shapes.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",                 \
-        "modifiers.glsl", "mixture.glsl"
+        "modifiers.glsl", "user.glsl", "mixture.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *
@@ -17,7 +17,8 @@
  * field->numbers; i is a constant. */
 char *shader_map(const struct field *field);
 
-/* `void surface(vec3 p, out Surface s)`: leaf and material at a hit (Surface: glsl/surface.glsl).
+/* `void surface(vec3 p, Shading at, out Surface s)`: leaf and material at a hit (glsl/surface.glsl;
+ * object_position is filled in). USER_SHADERS must be defined where field->shader_count > 0.
  * As above, but some i are not constant. */
 char *shader_surface(const struct field *field);
 

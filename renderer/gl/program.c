@@ -21,6 +21,7 @@ struct program {
     uint64_t shape_hash;
     char *map_text, *surface_text;
     size_t number_count, map_count;
+    bool user_shaders;
     int refs;
     uint64_t last_use;
     enum program_state state;
@@ -62,8 +63,9 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
     if (!out) {
         abort();
     }
-    fprintf(out, "#define NUMBERS_COUNT %zu\n%s", program->number_count,
-            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "");
+    fprintf(out, "#define NUMBERS_COUNT %zu\n%s%s", program->number_count,
+            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
+            program->user_shaders ? "#define USER_SHADERS\n" : "");
     if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
         fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
                 program->map_count);
@@ -348,6 +350,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->surface_text = memory_text(source->surface_text);
     program->number_count = source->number_count;
     program->map_count = source->map_count;
+    program->user_shaders = source->user_shaders;
     program->refs = 1;
     program->queued = true;
     pthread_mutex_lock(&cache->lock);

@@ -22,6 +22,7 @@ struct program_source {
     uint64_t shape_hash;
     const char *map_text, *surface_text; /* of shader.h; copied */
     size_t number_count;                 /* vec4s in the buffer; at least 1 */
+    bool user_shaders;                   /* USER_SHADERS is defined */
     size_t map_count;                    /* the first so many are those that the map reads */
 };
 

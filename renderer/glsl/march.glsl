@@ -103,7 +103,8 @@ void main()
     } else {
         Surface s;
         uvec4 matter, more;
-        surface(found.point, s);
+        surface(found.point,
+                Shading(found.point, vec3(0.0), found.normal, ray.direction, found.t), s);
         s.id = found.hit ? s.id : 0u;
         surface_pack(s, matter, more);
         imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), found.t));

@@ -9,3 +9,12 @@ struct Surface {
     float shininess;
     uint id; /* 1 + pre-order index of the leaf */
 };
+
+/* How a point of it is seen. */
+struct Shading {
+    vec3 world_position;
+    vec3 object_position; /* in the space of the shape */
+    vec3 world_normal;
+    vec3 ray_direction;
+    float ray_distance;
+};

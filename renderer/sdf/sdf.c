@@ -33,13 +33,14 @@ const struct sdf *sdf_find(const struct node_type *type)
     return NULL;
 }
 
-int sdf_numbers(const struct record *params, double out_n[SDF_NUMBERS_MAX])
+int sdf_numbers(const struct param *params, const struct value *values,
+                double out_n[SDF_NUMBERS_MAX])
 {
     int count = 0;
-    for (int i = 0; params->type->params[i].name; i++) {
-        const struct value *value = &params->values[i];
-        int components = param_components(params->type->params[i].type);
-        bool points = params->type->params[i].type == PARAM_POINTS;
+    for (int i = 0; params[i].name; i++) {
+        const struct value *value = &values[i];
+        int components = param_components(params[i].type);
+        bool points = params[i].type == PARAM_POINTS;
         int listed = points ? 2 * (int)value->number[0] : 0;
         assert(count + components + points + listed <= SDF_NUMBERS_MAX);
         memcpy(out_n + count, value->number, (size_t)(components + points) * sizeof *out_n);

@@ -84,8 +84,10 @@ struct sdf {
 const struct sdf *sdf_at(size_t index); /* NULL behind the last */
 /* The row for a registry row; NULL: not written yet (a test fails then). */
 const struct sdf *sdf_find(const struct node_type *type);
-/* The numbers of a node; returns how many. */
-int sdf_numbers(const struct record *params, double out_n[SDF_NUMBERS_MAX]);
+/* The numbers of a node, of the values that belong to `params` (ending with a row whose name is
+ * NULL); returns how many. */
+int sdf_numbers(const struct param *params, const struct value *values,
+                double out_n[SDF_NUMBERS_MAX]);
 
 /* Each ends with a row whose type is NULL. */
 extern const struct sdf sdf_shapes[], sdf_flat[], sdf_fractals[], sdf_operations[], sdf_modifiers[];

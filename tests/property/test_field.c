@@ -525,9 +525,9 @@ static void leaves_are_numbered_in_pre_order(void **state)
                 "\"translation\":[3,0,0]}}]}]}",
         "");
     const double p[2][3] = {{-3, 0, 0}, {3, 0, 0}};
-    assert_int_equal(field_surface(pair.field, p[0]).number,
+    assert_int_equal(field_surface(pair.field, p[0], NULL).number,
                      6); /* root 1, hidden 2 to 4, group 5 */
-    assert_int_equal(field_surface(pair.field, p[1]).number, 7);
+    assert_int_equal(field_surface(pair.field, p[1], NULL).number, 7);
     assert_string_equal(field_leaf_id(pair.field, 6), "left");
     assert_string_equal(field_leaf_id(pair.field, 7), "right");
     assert_null(field_leaf_id(pair.field, 5));
@@ -560,10 +560,10 @@ static void materials_mix_by_the_derivative(void **state)
         "\"materials\":{\"a\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0,0,0]}},"
         "\"b\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[1,1,1]}}},");
     const double middle[3] = {0, 0, 0}, right[3] = {0.5, 0, 0};
-    assert_near(field_surface(pair.field, middle).material[0], 0.5);
+    assert_near(field_surface(pair.field, middle, NULL).material[0], 0.5);
     /* Distances 1 and 0: h = 1/2, so three quarters of b. */
-    assert_near(field_surface(pair.field, right).material[0], 0.75);
-    assert_int_equal(field_surface(pair.field, right).number, 3);
+    assert_near(field_surface(pair.field, right, NULL).material[0], 0.75);
+    assert_int_equal(field_surface(pair.field, right, NULL).number, 3);
     pair_finish(&pair);
 }
 
@@ -577,8 +577,8 @@ static void materials_are_inherited(void **state)
         "\"materials\":{\"a\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.25,0,0]}},"
         "\"b\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.5,0,0]}}},");
     const double p[2][3] = {{0, 0, 0}, {9, 0, 0}};
-    assert_near(field_surface(pair.field, p[0]).material[0], 0.25);
-    assert_near(field_surface(pair.field, p[1]).material[0], 0.5);
+    assert_near(field_surface(pair.field, p[0], NULL).material[0], 0.25);
+    assert_near(field_surface(pair.field, p[1], NULL).material[0], 0.5);
     pair_finish(&pair);
 }
 
@@ -602,7 +602,7 @@ static void rays_stop_at_surfaces(void **state)
     for (int i = 0; i < 3; i++) {
         assert_true(fabs(normal[i] - to_middle[i]) < 1e-4);
     }
-    assert_string_equal(field_leaf_id(pair.field, field_surface(pair.field, hit).number),
+    assert_string_equal(field_leaf_id(pair.field, field_surface(pair.field, hit, NULL).number),
                         "sphere-1");
     pair_finish(&pair);
 }
@@ -625,7 +625,7 @@ static void deep_and_wide_scenes_fit(void **state)
     struct pair deep = pair_of(text, "");
     const double p[3] = {4, 0, 0};
     assert_near(field_distance(deep.field, p), 3);
-    assert_int_equal(field_surface(deep.field, p).distance, 3);
+    assert_int_equal(field_surface(deep.field, p, NULL).distance, 3);
     free(text);
     pair_finish(&deep);
     out = open_memstream(&text, &length);
@@ -640,7 +640,7 @@ static void deep_and_wide_scenes_fit(void **state)
     struct pair wide = pair_of(text, "");
     const double end[3] = {2.0 * (LIMIT_CHILDREN - 1), 3, 0};
     assert_near(field_distance(wide.field, end), 2.5);
-    assert_string_equal(field_leaf_id(wide.field, field_surface(wide.field, end).number),
+    assert_string_equal(field_leaf_id(wide.field, field_surface(wide.field, end, NULL).number),
                         "sphere-10000");
     assert_int_equal(wide.field->distance_slots, 2);
     free(text);

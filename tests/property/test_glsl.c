@@ -62,7 +62,7 @@ static bool surface_agrees(const struct field *field, const float point[3],
         for (int j = 0; j < 3; j++) {
             q[j] = p[j] + (corner < 0 ? 0 : (corner >> j & 1) ? 1e-4 : -1e-4);
         }
-        struct field_surface want = field_surface(field, q);
+        struct field_surface want = field_surface(field, q, NULL);
         bool same = want.number == answer->leaf;
         for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
             /* Blends as narrow as 0.15 change by 1/(2k) per unit; shininess is up to 100. */

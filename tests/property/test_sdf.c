@@ -224,7 +224,7 @@ static void random_shape(struct random *random, const struct node_type *type,
 {
     const struct random_limits limits = {.plain = true};
     struct scene *scene = random_scene(random, type, &limits);
-    sdf_numbers(&scene->root->params, raw);
+    sdf_numbers(type->record.params, scene->root->params.values, raw);
     memcpy(ready, raw, 16 * sizeof *raw);
     if (sdf_find(type)->prepare) {
         sdf_find(type)->prepare(ready);

@@ -116,11 +116,11 @@ static const char main_text[] =
     "int i = int(gl_FragCoord.y) * SIDE + int(gl_FragCoord.x);\n"
     "vec3 p = vec3(texelFetch(points, 3 * i).r, texelFetch(points, 3 * i + 1).r,\n"
     "              texelFetch(points, 3 * i + 2).r);\n"
-    "Surface s;\nsurface(p, s);\n"
+    "Surface s;\nsurface(p, Shading(p, p, p, p, 0.0), s);\n"
     "o0 = vec4(map(p), float(s.id), 0.0, 0.0);\n"
     "o1 = vec4(s.diffuse, s.shininess);\no2 = vec4(s.specular, 0.0);\n"
     "o3 = vec4(s.emission, 0.0);\no4 = vec4(s.ambient, 0.0);\n}\n";
-static const char no_surface[] = "void surface(vec3 p, out Surface s)\n{\n"
+static const char no_surface[] = "void surface(vec3 p, Shading at, out Surface s)\n{\n"
                                  "s.id = 0u;\ns.shininess = 0.0;\ns.diffuse = s.specular ="
                                  " s.emission = s.ambient = vec3(0.0);\n}\n";
 
@@ -130,8 +130,8 @@ bool probe_program_init(struct probe_program *program, const struct probe *probe
     const struct gl *gl = &probe->gl;
     static const char version[] = "#version 430 core\n";
     char head[128];
-    snprintf(head, sizeof head, "#define SIDE %d\n#define COUNT %zu\n", PROBE_SIDE,
-             field->vec4_count);
+    snprintf(head, sizeof head, "#define SIDE %d\n#define COUNT %zu\n%s", PROBE_SIDE,
+             field->vec4_count, field->shader_count > 0 ? "#define USER_SHADERS\n" : "");
     char *map = shader_map(field);
     char *surface_text = surface ? shader_surface(field) : memory_text(no_surface);
     const char *const vertex_texts[] = {version, glsl_text("full.glsl")};
