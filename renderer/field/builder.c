@@ -58,9 +58,14 @@ void builder_add_instruction(struct builder *b, struct field_instruction instruc
 
 struct builder_mark builder_mark(const struct builder *b)
 {
-    return (struct builder_mark){
-        b->field->instruction_count, b->field->vec4_count, b->argument_count,
-        b->field->leaf_count,        b->points_count,      b->trips};
+    const struct field *field = b->field;
+    return (struct builder_mark){.instructions = field->instruction_count,
+                                 .vec4s = field->vec4_count,
+                                 .arguments = b->argument_count,
+                                 .leaves = field->leaf_count,
+                                 .points = b->points_count,
+                                 .shapes = field->shape_count,
+                                 .trips = b->trips};
 }
 
 void builder_rewind(struct builder *b, struct builder_mark mark)
@@ -72,6 +77,7 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
         free(b->field->leaves[--b->field->leaf_count].id);
     }
     b->points_count = mark.points;
+    b->field->shape_count = mark.shapes;
     b->trips = mark.trips;
 }
 

@@ -55,7 +55,7 @@ void builder_place_points(struct builder *b);
 
 /* What is taken back when something turns out to be empty space. */
 struct builder_mark {
-    size_t instructions, vec4s, arguments, leaves, points;
+    size_t instructions, vec4s, arguments, leaves, points, shapes;
     uint64_t trips;
 };
 struct builder_mark builder_mark(const struct builder *b);

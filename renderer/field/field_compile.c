@@ -2,69 +2,14 @@
 /* From a scene to its field program. */
 #include "field.h"
 
-#include <assert.h>
 #include <math.h>
-#include <string.h>
 
 #include "builder.h"
 #include "field_code.h"
+#include "field_frame.h"
 #include "field_materials.h"
+#include "field_shape.h"
 #include "protocol/memory.h"
-
-/* Where a node stands: its point slot, local = matrix * point, the factor from local lengths to
- * the scene's, and the material slot that it inherits. */
-struct frame {
-    double matrix[12];
-    double scale;
-    uint16_t point;
-    size_t material;
-};
-
-struct result {
-    bool hidden;       /* not drawn at all: an operation does not see it */
-    bool solid;        /* there is an instruction for it; else empty space */
-    struct bounds box; /* in the space of the frame that it was emitted in */
-};
-
-static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-
-/* --- places --- */
-
-/* The matrix from the parent's space to the node's, (S^-1)(R^-1)(p - t), and back. */
-static void node_matrices(const struct node *node, double out_to[12], double out_from[12],
-                          double *out_least, double *out_greatest)
-{
-    const double *t = record_vector(&node->transform, "translation");
-    const double *r = record_vector(&node->transform, "rotation");
-    const double *s = record_vector(&node->transform, "scale");
-    double cx = cos(r[0]), sx = sin(r[0]), cy = cos(r[1]), sy = sin(r[1]), cz = cos(r[2]),
-           sz = sin(r[2]);
-    /* Rz * Ry * Rx */
-    double rotation[3][3] = {{cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
-                             {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
-                             {-sy, cy * sx, cy * cx}};
-    for (int i = 0; i < 3; i++) {
-        out_to[4 * i + 3] = 0;
-        for (int j = 0; j < 3; j++) {
-            out_to[4 * i + j] = rotation[j][i] / s[i];
-            out_to[4 * i + 3] -= rotation[j][i] / s[i] * t[j];
-            out_from[4 * i + j] = rotation[i][j] * s[j];
-        }
-        out_from[4 * i + 3] = t[i];
-    }
-    *out_least = fmin(fabs(s[0]), fmin(fabs(s[1]), fabs(s[2])));
-    *out_greatest = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
-}
-
-static void multiply(const double a[12], const double b[12], double out[12])
-{
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
-            out[4 * i + j] = a[4 * i] * b[j] + a[4 * i + 1] * b[4 + j] + a[4 * i + 2] * b[8 + j] +
-                             (j == 3 ? a[4 * i + 3] : 0);
-        }
-    }
-}
 
 /* --- instructions --- */
 
@@ -86,73 +31,6 @@ static void skip(struct builder *b, const struct node *node)
     b->index += b->instance ? 0 : subtree_count(node);
 }
 
-static int prepared_numbers(const struct node *node, const struct sdf *sdf,
-                            double out[SDF_NUMBERS_MAX])
-{
-    int count = sdf_numbers(node->params.type->params, node->params.values, out);
-    if (sdf->prepare) {
-        sdf->prepare(out);
-    }
-    return count;
-}
-
-/* The indices of all choices, eight bits each: they are part of the program. */
-static uint32_t choices(const struct record *params)
-{
-    uint32_t all = 0;
-    for (int i = 0; params->type->params[i].name; i++) {
-        if (params->type->params[i].type == PARAM_ENUM) {
-            all = all << 8 | (uint32_t)params->values[i].number[0];
-        }
-    }
-    return all;
-}
-
-/* Anything inside an instance is its leaf. */
-static void add_leaf(struct builder *b, uint32_t number, const struct node *node)
-{
-    const struct field *field = b->field;
-    b->field->shape_count++;
-    if (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number) {
-        builder_add_leaf(b, number, b->instance ? b->instance_node->id : node->id);
-    }
-}
-
-static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
-                       const struct frame *frame, uint16_t slot, uint32_t number)
-{
-    struct field_place places[SDF_PARAMS_MAX];
-    double numbers[SDF_NUMBERS_MAX];
-    int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
-    int count = prepared_numbers(node, sdf, numbers);
-    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
-    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
-    double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
-    double head[FIELD_HEAD_NUMBERS] = {frame->scale / slope, number, (double)frame->material};
-    builder_put(b, block, 0, arguments, 12, frame->matrix);
-    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    builder_put_params(b, node->params.type->params, node->params.values, sdf, 1,
-                       block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
-                       arguments + 12 + FIELD_HEAD_NUMBERS);
-    b->trips += sdf->trips ? (uint64_t)sdf->trips(numbers) : 0;
-    add_leaf(b, number, node);
-    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
-                                                          .type = node->type,
-                                                          .sdf = sdf,
-                                                          .a = slot,
-                                                          .point = frame->point,
-                                                          .choices = choices(&node->params),
-                                                          .numbers = block,
-                                                          .arguments = arguments});
-}
-
-static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
-{
-    double numbers[SDF_NUMBERS_MAX];
-    prepared_numbers(node, sdf, numbers);
-    return sdf->box(numbers);
-}
-
 /* The block of an operation's or distance modifier's parameters. */
 static void add_block(struct builder *b, const struct node *node, const struct sdf *sdf,
                       double scale, struct field_instruction *instruction)
@@ -161,7 +39,7 @@ static void add_block(struct builder *b, const struct node *node, const struct s
     instruction->numbers =
         builder_add_vec4s(b, (size_t)field_layout(node->params.type->params, 0, places));
     instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
-    instruction->choices = choices(&node->params);
+    instruction->choices = field_choices(&node->params);
     builder_put_params(b, node->params.type->params, node->params.values, sdf, scale,
                        instruction->numbers, 0, instruction->arguments);
 }
@@ -274,8 +152,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
         inner = own;
     }
 
-    struct frame inside = {.scale = frame->scale, .point = inner, .material = frame->material};
-    memcpy(inside.matrix, identity, sizeof identity);
+    struct frame inside = frame_create(inner, frame->scale, frame->material);
     uint64_t trips_before = b->trips;
     b->trips = 0;
     struct result whole = emit_union(b, node, &inside, slot + loops, (struct result){0});
@@ -297,51 +174,6 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     b->trips += trips_before;
     whole.box = domain->box(params, &whole.box);
     return whole;
-}
-
-/* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
-static struct result emit_code(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, uint32_t number)
-{
-    struct field_call call;
-    if (!field_call_of(b->scene, node, &call)) {
-        return (struct result){0};
-    }
-    int index = field_code_add(b, CODE_DISTANCE, call.text, call.params, call.place);
-    if (index < 0) {
-        return (struct result){0};
-    }
-    const struct field_code *code = &b->field->codes[index];
-    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale};
-    double head[FIELD_HEAD_NUMBERS] = {frame->scale / call.lipschitz, number,
-                                       (double)frame->material};
-    struct bounds box = bounds_infinite();
-    for (int i = 0; i < 3; i++) {
-        bool ends = call.size[i] > 0;
-        cut[i] = ends ? call.size[i] / 2 : FIELD_UNCUT;
-        box.high[i] = ends ? cut[i] : INFINITY;
-        box.low[i] = -box.high[i];
-    }
-    int count = sdf_numbers(call.params, call.values, numbers);
-    size_t heads = FIELD_MATRIX_VEC4S + 1;
-    uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
-    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + 4 + (size_t)count);
-    builder_put(b, block, 0, arguments, 12, frame->matrix);
-    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS, 4, cut);
-    builder_put_params(b, call.params, call.values, NULL, 1,
-                       block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
-                       arguments + 12 + FIELD_HEAD_NUMBERS + 4);
-    b->trips += (uint64_t)code_trips(code->code);
-    add_leaf(b, number, node);
-    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
-                                                          .type = node->type,
-                                                          .a = slot,
-                                                          .point = frame->point,
-                                                          .choices = (uint32_t)index,
-                                                          .numbers = block,
-                                                          .arguments = arguments});
-    return (struct result){.solid = true, .box = box};
 }
 
 static struct result emit_model(struct builder *b, const struct node *node,
@@ -372,8 +204,8 @@ static struct result emit_kind(struct builder *b, const struct node *node,
     switch (node->type->kind) {
     case KIND_SHAPE:
     case KIND_FLAT:
-        emit_shape(b, node, sdf, frame, slot, number);
-        own = (struct result){.solid = true, .box = shape_box(node, sdf)};
+    case KIND_CODE:
+        own = field_emit_shape(b, node, frame, slot, number);
         break;
     case KIND_COMBINE:
         return emit_combine(b, node, sdf, frame, slot);
@@ -386,21 +218,8 @@ static struct result emit_kind(struct builder *b, const struct node *node,
     case KIND_MODEL:
         own = emit_model(b, node, frame, slot, number);
         break;
-    case KIND_CODE:
-        own = emit_code(b, node, frame, slot, number);
-        break;
     }
     return emit_union(b, node, frame, slot, own);
-}
-
-/* Far inside what a float holds: products of two such numbers must not overflow. */
-static bool frame_is_sane(const struct frame *frame)
-{
-    bool sane = frame->scale > 1e-15;
-    for (int i = 0; i < 12; i++) {
-        sane = sane && fabs(frame->matrix[i]) < 1e15;
-    }
-    return sane;
 }
 
 /* Where a node's numbers, nesting or count leave what can be drawn, with models written out. */
@@ -434,11 +253,8 @@ static struct result emit(struct builder *b, const struct node *node, const stru
         return (struct result){.hidden = true};
     }
     uint32_t number = b->instance ? b->instance : ++b->index;
-    double to[12], from[12], least, greatest;
-    node_matrices(node, to, from, &least, &greatest);
-    struct frame frame = *outer;
-    multiply(to, outer->matrix, frame.matrix);
-    frame.scale *= least;
+    double from[12], ratio;
+    struct frame frame = frame_enter(outer, node, from, &ratio);
     const char *material = record_text(&node->common, "material");
     if (*material) {
         frame.material = field_material_slot(b->scene, material);
@@ -450,7 +266,7 @@ static struct result emit(struct builder *b, const struct node *node, const stru
         b->failed ? (struct result){0} : emit_kind(b, node, &frame, slot, number);
     b->depth--;
     if (result.solid) {
-        result.box = bounds_transform(&result.box, from, greatest / least);
+        result.box = bounds_transform(&result.box, from, ratio);
     } else {
         builder_rewind(b, before);
     }
@@ -494,8 +310,7 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     struct field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
     struct builder builder = {.field = field, .scene = scene};
-    struct frame frame = {.scale = 1};
-    memcpy(frame.matrix, identity, sizeof identity);
+    struct frame frame = frame_create(0, 1, 0);
     struct result whole = emit(&builder, scene->root, &frame, 0);
     field_add_materials(&builder);
     if (builder.failed) {

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* Where a node stands while its field is compiled. Private to this folder. */
+#ifndef RENDERER_FIELD_FRAME_H
+#define RENDERER_FIELD_FRAME_H
+
+#include "protocol/scene.h"
+#include "renderer/sdf/bounds.h"
+
+/* A node sees the point in one of the program's point slots: local = matrix * point. */
+struct frame {
+    double matrix[12];
+    double scale; /* from local lengths to the scene's */
+    uint16_t point;
+    size_t material; /* the slot that it inherits */
+};
+
+/* A frame whose local space is that of the point slot. */
+struct frame frame_create(uint16_t point, double scale, size_t material);
+
+/* Inside `outer`, by the node's transform. `out_from` takes local points to the space of `outer`,
+ * `*out_ratio` tells how much more it stretches one way than another. */
+struct frame frame_enter(const struct frame *outer, const struct node *node, double out_from[12],
+                         double *out_ratio);
+
+/* Far inside what a float holds: products of two such numbers must not overflow. */
+bool frame_is_sane(const struct frame *frame);
+
+#endif

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+/* Blocks of numbers and instructions of single shapes. */
+#include "field_shape.h"
+
+#include <math.h>
+
+#include "field_code.h"
+
+uint32_t field_choices(const struct record *params)
+{
+    uint32_t all = 0;
+    for (int i = 0; params->type->params[i].name; i++) {
+        if (params->type->params[i].type == PARAM_ENUM) {
+            all = all << 8 | (uint32_t)params->values[i].number[0];
+        }
+    }
+    return all;
+}
+
+static int prepared_numbers(const struct node *node, const struct sdf *sdf,
+                            double out[SDF_NUMBERS_MAX])
+{
+    int count = sdf_numbers(node->params.type->params, node->params.values, out);
+    if (sdf->prepare) {
+        sdf->prepare(out);
+    }
+    return count;
+}
+
+/* Anything inside an instance is its leaf. */
+static void add_leaf(struct builder *b, uint32_t number, const struct node *node)
+{
+    const struct field *field = b->field;
+    b->field->shape_count++;
+    if (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number) {
+        builder_add_leaf(b, number, b->instance ? b->instance_node->id : node->id);
+    }
+}
+
+static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
+                       const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    struct field_place places[SDF_PARAMS_MAX];
+    double numbers[SDF_NUMBERS_MAX];
+    int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
+    int count = prepared_numbers(node, sdf, numbers);
+    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
+    double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
+    double head[FIELD_HEAD_NUMBERS] = {frame->scale / slope, number, (double)frame->material};
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    builder_put_params(b, node->params.type->params, node->params.values, sdf, 1,
+                       block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
+                       arguments + 12 + FIELD_HEAD_NUMBERS);
+    b->trips += sdf->trips ? (uint64_t)sdf->trips(numbers) : 0;
+    add_leaf(b, number, node);
+    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                          .type = node->type,
+                                                          .sdf = sdf,
+                                                          .a = slot,
+                                                          .point = frame->point,
+                                                          .choices = field_choices(&node->params),
+                                                          .numbers = block,
+                                                          .arguments = arguments});
+}
+
+static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
+{
+    double numbers[SDF_NUMBERS_MAX];
+    prepared_numbers(node, sdf, numbers);
+    return sdf->box(numbers);
+}
+
+/* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
+static struct result emit_code(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    struct field_call call;
+    if (!field_call_of(b->scene, node, &call)) {
+        return (struct result){0};
+    }
+    int index = field_code_add(b, CODE_DISTANCE, call.text, call.params, call.place);
+    if (index < 0) {
+        return (struct result){0};
+    }
+    const struct field_code *code = &b->field->codes[index];
+    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale};
+    double head[FIELD_HEAD_NUMBERS] = {frame->scale / call.lipschitz, number,
+                                       (double)frame->material};
+    struct bounds box = bounds_infinite();
+    for (int i = 0; i < 3; i++) {
+        bool ends = call.size[i] > 0;
+        cut[i] = ends ? call.size[i] / 2 : FIELD_UNCUT;
+        box.high[i] = ends ? cut[i] : INFINITY;
+        box.low[i] = -box.high[i];
+    }
+    int count = sdf_numbers(call.params, call.values, numbers);
+    size_t heads = FIELD_MATRIX_VEC4S + 1;
+    uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + 4 + (size_t)count);
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS, 4, cut);
+    builder_put_params(b, call.params, call.values, NULL, 1,
+                       block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
+                       arguments + 12 + FIELD_HEAD_NUMBERS + 4);
+    b->trips += (uint64_t)code_trips(code->code);
+    add_leaf(b, number, node);
+    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                          .type = node->type,
+                                                          .a = slot,
+                                                          .point = frame->point,
+                                                          .choices = (uint32_t)index,
+                                                          .numbers = block,
+                                                          .arguments = arguments});
+    return (struct result){.solid = true, .box = box};
+}
+
+struct result field_emit_shape(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    if (node->type->kind == KIND_CODE) {
+        return emit_code(b, node, frame, slot, number);
+    }
+    const struct sdf *sdf = sdf_find(node->type);
+    emit_shape(b, node, sdf, frame, slot, number);
+    return (struct result){.solid = true, .box = shape_box(node, sdf)};
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* Shapes in a field while it is compiled: the registry's and users'. Private to this folder. */
+#ifndef RENDERER_FIELD_SHAPE_H
+#define RENDERER_FIELD_SHAPE_H
+
+#include "builder.h"
+#include "field_frame.h"
+
+struct result {
+    bool hidden;       /* not drawn at all: an operation does not see it */
+    bool solid;        /* there is an instruction for it; else empty space */
+    struct bounds box; /* in the space of the frame that it was emitted in */
+};
+
+/* Adds the instruction that leaves the distance of the node's own shape in `slot`; `number` is its
+ * leaf's. The node is of KIND_SHAPE, KIND_FLAT or KIND_CODE. */
+struct result field_emit_shape(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, uint32_t number);
+
+/* The indices of all choices, eight bits each: they are part of the program. */
+uint32_t field_choices(const struct record *params);
+
+#endif
