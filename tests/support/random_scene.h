@@ -18,12 +18,14 @@ double random_between(struct random *random, double low, double high);
 size_t random_below(struct random *random, size_t count);
 void random_direction(struct random *random, double out[3]);
 
-/* What scenes may hold. */
+/* What scenes may hold. Instances and users' code are left out. */
 struct random_limits {
     int depth;    /* of operations and modifiers; 0: only shapes */
-    bool bounded; /* no planes */
+    bool bounded; /* below the root nothing goes on without end */
     bool exact;   /* only shapes with exact distances and uniform scales */
     bool plain;   /* no transforms */
+    bool lean;    /* of a node's children the first alone goes deeper, down to `depth` */
+    bool inner;   /* not the root; random_node sets it for what is below */
 };
 
 /* Writes {"type": ..., "params": ..., "transform": ..., "children": ...} without id. */
@@ -35,7 +37,8 @@ const struct node_type *random_type(struct random *random, enum node_kind kind,
 /* A scene with three materials and a random tree whose root has this type. */
 struct scene *random_scene(struct random *random, const struct node_type *type,
                            const struct random_limits *limits);
-/* Sets every number of every node's parameters and transform to other ones; the types stay. */
+/* Sets every number of every node's parameters and transform to other ones; types, choices, texts
+ * and how many points a list has stay, and with them the program. */
 void random_numbers(struct random *random, struct node *node, const struct random_limits *limits);
 
 #endif
