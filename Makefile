@@ -81,7 +81,8 @@ sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
-examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg))
+examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg \
+                               $(S)/protocol/reference/*.jpg))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 # What is embedded: C by deploy/embed.sh, for renderer/glsl.h and server/rest/assets.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
@@ -190,11 +191,15 @@ golden-accept: ## draw CASE=name (or all) and take the picture as its reference
 	$(again) CONFIG=release programs
 	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
 
-cards: fieldcast ## draw the pictures of the examples that the start page shows
+cards: fieldcast ## draw the pictures of the examples and of the reference page
 	$(Q)for f in $(S)/protocol/examples/*.json; do $(OUT)/fieldcast render $$f --width 480 --height 270 \
 	  --samples 4 --quality 85 -o $${f%.json}.jpg || exit 1; done
+	$(Q)mkdir -p $(S)/protocol/reference
+	$(Q)for d in $(S)/tests/golden/nodes/*/; do $(OUT)/fieldcast render $${d}scene.json --width 192 \
+	  --height 144 --samples 4 --quality 80 -o $(S)/protocol/reference/$$(basename $$d).jpg || exit 1; done
 
-docs: fieldcast ## write the table of options into README.md
+docs: fieldcast ## write the reference page, and the table of options into README.md
+	$(Q)$(OUT)/fieldcast schema --reference >$(S)/protocol/REFERENCE.md
 	$(Q)$(S)/deploy/update-readme.sh $(OUT)/fieldcast $(S)/README.md
 
 # --- use ---

@@ -5,9 +5,9 @@
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
 #   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and
-#                                  cards_table[] (SOURCE/protocol/examples) of assets.h; WORK
-#                                  takes the compressed files. Without web/dist the page's table is
-#                                  empty
+#                                  cards_table[] (SOURCE/protocol/examples), references_table[]
+#                                  (SOURCE/protocol/reference) of assets.h; WORK takes the
+#                                  compressed files. Without web/dist the page's table is empty
 set -eu
 
 # bytes LABEL FILE: the file under a name, and one NUL behind it, so that text is a C string.
@@ -85,9 +85,9 @@ page() {
     done
 }
 
-# examples SOURCE ENDING
-examples() {
-    for file in "$1"/protocol/examples/*."$2"; do
+# files FOLDER ENDING
+files() {
+    for file in "$1"/*."$2"; do
         [ -e "$file" ] && echo "$(basename "$file") $file false"
     done
 }
@@ -95,8 +95,9 @@ examples() {
 assets() {
     echo '#include "server/rest/assets.h"'
     page "$1" "$2" | table assets asset_
-    examples "$1" json | LC_ALL=C sort | table examples example_
-    examples "$1" jpg | LC_ALL=C sort | table cards card_
+    files "$1/protocol/examples" json | LC_ALL=C sort | table examples example_
+    files "$1/protocol/examples" jpg | LC_ALL=C sort | table cards card_
+    files "$1/protocol/reference" jpg | LC_ALL=C sort | table references reference_
 }
 
 "$@"

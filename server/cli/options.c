@@ -122,6 +122,8 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "How often each thing is measured; the median counts."},
     [OPTION_ONLY] = {"only", 0, "EXAMPLE", OPTION_TEXT, .commands = FOR(BENCH),
         .doc = "Measure this example scene alone."},
+    [OPTION_REFERENCE] = {"reference", 0, NULL, OPTION_FLAG, .commands = FOR(SCHEMA),
+        .doc = "Print the reference page, in Markdown, instead."},
     [OPTION_CONFIG] = {"config", 0, "FILE", OPTION_PATH, .base = BASE_CONFIG,
         .fallback = "fieldcast/fieldcast.conf", .commands = DRAWING,
         .doc = "The config file; the default one may be absent."},

@@ -27,3 +27,8 @@ const struct asset *cards_find(const char *id)
 {
     return find(cards_table, cards_count, id);
 }
+
+const struct asset *references_find(const char *type)
+{
+    return find(references_table, references_count, type);
+}

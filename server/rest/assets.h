@@ -26,9 +26,14 @@ extern const size_t examples_count;
 extern const struct asset cards_table[];
 extern const size_t cards_count;
 
+/* Pictures of the node types, protocol/reference: path is the type. */
+extern const struct asset references_table[];
+extern const size_t references_count;
+
 /* NULL: none. */
 const struct asset *assets_find(const char *path);
 const struct asset *examples_find(const char *id);
 const struct asset *cards_find(const char *id);
+const struct asset *references_find(const char *type);
 
 #endif

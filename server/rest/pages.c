@@ -181,21 +181,29 @@ void pages_example(struct request *request)
     request_reply(request, &response);
 }
 
-void pages_card(struct request *request)
+static void reply_picture(struct request *request, const struct asset *picture)
 {
-    const struct asset *card = cards_find(request->capture[0]);
-
-    if (!card) {
+    if (!picture) {
         reply_not_found(request);
         return;
     }
     struct response response = {.status = 200,
-                                .type = card->mime,
-                                .body = (void *)card->bytes,
-                                .length = card->length,
+                                .type = picture->mime,
+                                .body = (void *)picture->bytes,
+                                .length = picture->length,
                                 .borrowed = true};
     response_add(&response, "Cache-Control", "max-age=3600");
     request_reply(request, &response);
+}
+
+void pages_card(struct request *request)
+{
+    reply_picture(request, cards_find(request->capture[0]));
+}
+
+void pages_reference(struct request *request)
+{
+    reply_picture(request, references_find(request->capture[0]));
 }
 
 /* --- about the server --- */

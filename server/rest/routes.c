@@ -17,6 +17,7 @@ static const struct route table[] = {
     {"GET", "/v1/examples/{}", pages_example, BODY_NONE, false},
     {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, false},
     {"GET", "/v1/examples/{}/image.{}", images_of_example, BODY_NONE, false},
+    {"GET", "/v1/reference/{}.jpg", pages_reference, BODY_NONE, false},
     {"GET", "/v1/schema.json", pages_schema, BODY_NONE, false},
     {"GET", "/metrics", pages_metrics, BODY_NONE, false},
     {"GET", "/healthz", pages_health, BODY_NONE, true},

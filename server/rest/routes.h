@@ -34,6 +34,7 @@ void pages_asset(struct request *request);
 void pages_examples(struct request *request);
 void pages_example(struct request *request);
 void pages_card(struct request *request);
+void pages_reference(struct request *request);
 void pages_schema(struct request *request);
 void pages_health(struct request *request);
 void pages_ready(struct request *request);
