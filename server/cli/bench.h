@@ -20,7 +20,13 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
                      struct error *err);
 
-/* Edits applied and committed in a store of its own below `directory`. */
+/* A document of so many nodes, node-I in groups of a hundred; caller frees. */
+char *bench_document(size_t nodes, size_t *out_length);
+/* Reading, copying, printing and editing of documents of 1,000 to 100,000 nodes. */
+cJSON *bench_documents(struct error *err);
+
+/* Edits applied and committed in a store of its own below `directory`: of a scene of one node and
+ * of 10,000. */
 cJSON *bench_store(const char *directory, struct error *err);
 
 #endif

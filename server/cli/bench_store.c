@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How fast edits become durable: one at a time, each waiting for its commit, and in a stream, where
- * many share one. Each is checked, applied and printed as in a room. */
+ * many share one; in a scene of one node and in one of very many. Each is checked, applied and
+ * printed as in a room. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@
 #include "server/clock.h"
 #include "server/store/store.h"
 
-enum { ALONE = 200, STREAM = 5000 };
+enum { ALONE = 200, STREAM = 5000, MANY = 10000 };
 
 struct bench_edits {
     struct scene *scene;
@@ -25,7 +26,7 @@ static struct store_write *new_write(const struct bench_edits *edits, enum store
 {
     struct store_write *write = memory_alloc(1, sizeof *write);
     write->kind = kind;
-    strcpy(write->scene, "bench");
+    snprintf(write->scene, sizeof write->scene, "bench-%zu", edits->scene->node_count);
     strcpy(write->author, "benchmark");
     write->revision = edits->revision;
     write->edit = (int64_t)edits->revision;
@@ -53,8 +54,10 @@ static void push_edit(struct bench_edits *edits)
     cJSON_Delete(applied);
 }
 
-static void measure(struct bench_edits *edits, cJSON *row)
+static cJSON *measure(struct bench_edits *edits)
 {
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddNumberToObject(row, "nodes", (double)edits->scene->node_count);
     static double numbers[ALONE];
     store_push(edits->store, new_write(edits, STORE_CREATE, scene_print(edits->scene, false)));
     store_flush(edits->store);
@@ -74,14 +77,27 @@ static void measure(struct bench_edits *edits, cJSON *row)
     }
     store_flush(edits->store);
     bench_add(row, "stream_per_second", STREAM * 1e6 / (double)(clock_us() - start));
+    return row;
+}
+
+/* A scene of so many nodes, on its own in the store. */
+static cJSON *measure_scene(struct store *store, size_t nodes)
+{
+    size_t length;
+    char *text = bench_document(nodes, &length);
+    struct bench_edits edits = {
+        .scene = scene_parse(text, length, NULL), .store = store, .revision = 1};
+    cJSON *row = measure(&edits);
+    scene_destroy(edits.scene);
+    free(text);
+    return row;
 }
 
 cJSON *bench_store(const char *directory, struct error *err)
 {
     static struct metrics metrics;
-    struct bench_edits edits = {.revision = 1};
     char *path = NULL;
-    cJSON *row = NULL;
+    cJSON *rows = NULL;
     if (!directory_make(directory, err)) {
         return NULL;
     }
@@ -94,15 +110,14 @@ cJSON *bench_store(const char *directory, struct error *err)
         return NULL;
     }
     fprintf(stderr, "fieldcast: storing in %s\n", path);
-    edits.scene = scene_create_empty();
-    edits.store = store_open(path, &metrics, err);
-    if (edits.store) {
-        row = cJSON_CreateObject();
-        measure(&edits, row);
+    struct store *store = store_open(path, &metrics, err);
+    if (store) {
+        rows = cJSON_CreateArray();
+        cJSON_AddItemToArray(rows, measure_scene(store, 1));
+        cJSON_AddItemToArray(rows, measure_scene(store, MANY));
     }
-    store_close(edits.store);
-    scene_destroy(edits.scene);
+    store_close(store);
     directory_remove(path);
     free(path);
-    return row;
+    return rows;
 }

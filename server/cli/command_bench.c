@@ -50,6 +50,7 @@ int command_bench(const struct options *options)
     cJSON_AddNumberToObject(result, "rounds", rounds);
     bool ok = add(result, "renderer", bench_renderer(&params, &err)) &&
               add(result, "drawing", bench_drawing(&params, only, rounds, &err)) &&
+              add(result, "documents", bench_documents(&err)) &&
               add(result, "edits", bench_store(option_text(options, OPTION_DATA), &err));
     if (ok) {
         char *text = json_print(result, true);
