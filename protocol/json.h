@@ -13,6 +13,14 @@
 /* Pre-scan and parse exactly `length` bytes. NULL and `err` ("line 3, column 7") on failure. */
 cJSON *json_parse(const char *text, size_t length, struct error *err);
 
+/* Sorts the members of an object that may have `names` (NULL-terminated) and no other: that of
+ * name i goes to found[i], NULL where absent. */
+bool json_sort_members(const cJSON *object, const char *const *names, const cJSON **found,
+                       const char *place, struct error *err);
+/* The text of a member that has to be there: `json` is NULL where it is missing. */
+bool json_read_text(const cJSON *json, const char **out, const char *place, const char *member,
+                    struct error *err);
+
 /* The shortest decimal text that reads back as the same number, in the form of ECMAScript's
  * Number::toString (-0 becomes 0, what is not finite becomes null); `out` holds 32 bytes. */
 void json_number(double value, char out[32]);

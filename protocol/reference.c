@@ -37,7 +37,7 @@ static void add(struct page *page, const char *format, ...)
 
 static void add_default(struct page *page, const struct param *param)
 {
-    cJSON *json = param_value_json(param, param->def, "");
+    cJSON *json = param_default(param);
     char *text = json_print(json, false);
     add(page, "%s", strcmp(text, "\"\"") == 0 ? "–" : text);
     free(text);

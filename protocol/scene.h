@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "definition.h"
 #include "nodes.h"
 
 struct node {
@@ -18,15 +19,6 @@ struct node {
     struct node *parent;     /* NULL for the root */
     struct node **children;
     size_t child_count;
-};
-
-/* Parameters that a document declares. Records point at `type`, so it is counted. */
-struct definition {
-    /* Of a primitive: the rows of the node type `field`, then the declared ones. Of a shader: the
-     * declared ones. Owned, with all texts in it. */
-    struct record_type type;
-    size_t first_declared; /* index of the first declared row */
-    size_t references;
 };
 
 /* Something with a name of its own beside the tree. */

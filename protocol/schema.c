@@ -142,7 +142,7 @@ static cJSON *param_schema(const struct param *param)
         break;
     }
     cJSON_AddStringToObject(schema, "description", param->doc);
-    cJSON_AddItemToObject(schema, "default", param_value_json(param, param->def, ""));
+    cJSON_AddItemToObject(schema, "default", param_default(param));
     return schema;
 }
 
@@ -297,10 +297,8 @@ static cJSON *describe_params(const struct record_type *type)
 static const char *children_word(enum node_group group)
 {
     static const char *const words[] = {
-        [GROUP_PRIMITIVE] = "none",
-        [GROUP_OPERATION] = "many",
-        [GROUP_MODIFIER] = "one",
-        [GROUP_STRUCTURE] = "many",
+        [GROUP_PRIMITIVE] = "none", [GROUP_SHAPE] = "none",     [GROUP_OPERATION] = "many",
+        [GROUP_MODIFIER] = "one",   [GROUP_STRUCTURE] = "many",
     };
     return words[group];
 }

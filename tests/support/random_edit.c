@@ -47,28 +47,95 @@ static cJSON *random_part(struct random *random, const struct param *param)
     return cJSON_CreateNumber(random_number(random, param));
 }
 
+static cJSON *random_points(struct random *random, const struct param *param)
+{
+    static const struct param number = {.type = PARAM_FLOAT};
+    cJSON *list = cJSON_CreateArray();
+    size_t least = (size_t)param->min, most = (size_t)param->max;
+    for (size_t i = least + random_below(random, most - least + 1); i > 0; i--) {
+        cJSON *pair = cJSON_CreateArray();
+        cJSON_AddItemToArray(pair, random_part(random, &number));
+        cJSON_AddItemToArray(pair, random_part(random, &number));
+        cJSON_AddItemToArray(list, pair);
+    }
+    return list;
+}
+
+/* A row named after `index`; few names and many types, so that edits change the types of names. */
+static cJSON *random_row(struct random *random, size_t index)
+{
+    static const enum param_type types[] = {PARAM_FLOAT, PARAM_INT,  PARAM_BOOL, PARAM_VEC2,
+                                            PARAM_VEC3,  PARAM_VEC4, PARAM_COLOR};
+    struct param param = {.type = types[random_below(random, sizeof types / sizeof types[0])]};
+    char name[24];
+    cJSON *row = cJSON_CreateObject();
+    snprintf(name, sizeof name, "%c%zu", random_below(random, 2) ? 'a' : 'b', index);
+    cJSON_AddStringToObject(row, "name", name);
+    cJSON_AddStringToObject(row, "type", param_type_name(param.type));
+    if (param.type != PARAM_BOOL && param.type != PARAM_COLOR && chance(random, 0.4)) {
+        const double range[] = {floor(random_between(random, -4, 4)),
+                                floor(random_between(random, 5, 9))};
+        cJSON_AddItemToObject(row, "range", cJSON_CreateDoubleArray(range, 2));
+        param.min = range[0];
+        param.max = range[1];
+    }
+    if (chance(random, 0.6)) {
+        cJSON_AddItemToObject(row, "default", random_value(random, &param, NULL));
+    }
+    if (chance(random, 0.3)) {
+        cJSON_AddItemToObject(row, "doc", random_text(random));
+    }
+    return row;
+}
+
+static cJSON *random_rows(struct random *random)
+{
+    cJSON *rows = cJSON_CreateArray();
+    for (size_t i = random_below(random, 5); i > 0; i--) {
+        cJSON_AddItemToArray(rows, random_row(random, i));
+    }
+    return rows;
+}
+
+static cJSON *random_code(struct random *random)
+{
+    static const char *const texts[] = {"", "float sdf(vec3 p)\n{\n\treturn length(p) - 0.5;\n}\n",
+                                        "no code \xe2\x98\x83 \"at all\"\\"};
+    return cJSON_CreateString(texts[random_below(random, sizeof texts / sizeof texts[0])]);
+}
+
 cJSON *random_value(struct random *random, const struct param *param,
                     const struct resource_list *materials)
 {
-    if (param->type == PARAM_TEXT) {
+    size_t count = 0;
+    switch (param->type) {
+    case PARAM_TEXT:
         return random_text(random);
-    }
-    if (param->type == PARAM_MATERIAL) {
-        size_t index = random_below(random, materials->count + 1);
-        return cJSON_CreateString(index < materials->count ? materials->items[index]->name : "");
-    }
-    if (param->type == PARAM_ENUM) {
-        size_t count = 0;
+    case PARAM_CODE:
+        return random_code(random);
+    case PARAM_ROWS:
+        return random_rows(random);
+    case PARAM_POINTS:
+        return random_points(random, param);
+    case PARAM_MODEL:
+    case PARAM_FUNCTION:
+        return cJSON_CreateString("");
+    case PARAM_MATERIAL:
+        count = random_below(random, materials->count + 1);
+        return cJSON_CreateString(count < materials->count ? materials->items[count]->name : "");
+    case PARAM_ENUM:
         while (param->choices[count]) {
             count++;
         }
         return cJSON_CreateString(param->choices[random_below(random, count)]);
+    default:
+        break;
     }
     if (param_components(param->type) == 1 || (param->uniform && chance(random, 0.3))) {
         return random_part(random, param);
     }
     cJSON *array = cJSON_CreateArray();
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < param_components(param->type); i++) {
         cJSON_AddItemToArray(array, random_part(random, param));
     }
     if (param->direction) {

@@ -104,7 +104,7 @@ static void assert_default_holds(const struct record_type *type, int index)
     struct record record;
     struct error err = {0};
     const struct param *param = &type->params[index];
-    cJSON *json = param_value_json(param, param->def, "");
+    cJSON *json = param_default(param);
     record_init(&record, type);
     if (!record_set(&record, index, json, param->name, &err)) {
         fail_msg("%s: default of %s: %s", type->name, err.place, err.message);

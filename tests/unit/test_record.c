@@ -10,11 +10,15 @@
 
 #include <cmocka.h>
 
+#include "protocol/definition.h"
 #include "protocol/json.h"
+#include "protocol/limits.h"
 #include "protocol/nodes.h"
 #include "tests/support/random_edit.h"
 
 static const char *const shapes[] = {"round", "square", NULL};
+
+static const double corners[] = {0, 0, 1, 0, 0, 1};
 
 static const struct param params[] = {
     {"size", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .max = 10, .above_min = true, .doc = "S."},
@@ -29,6 +33,14 @@ static const struct param params[] = {
     {"material", PARAM_MATERIAL, .doc = "M."},
     {"scale", PARAM_VEC3, .def = {1, 1, 1}, .nonzero = true, .uniform = true, .doc = "S."},
     {"normal", PARAM_VEC3, .def = {0, 1, 0}, .direction = true, .doc = "N."},
+    {"extent", PARAM_VEC2, .def = {1, 2}, .doc = "E."},
+    {"constant", PARAM_VEC4, .doc = "C."},
+    {"outline", PARAM_POINTS, .def = {3}, .def_points = corners, .min = 3, .max = LIMIT_POINTS,
+     .doc = "O."},
+    {"code", PARAM_CODE, .doc = "C."},
+    {"model", PARAM_MODEL, .doc = "M."},
+    {"function", PARAM_FUNCTION, .doc = "F."},
+    {"rows", PARAM_ROWS, .doc = "R."},
     {.name = NULL},
 };
 static const struct record_type type = {"thing", "A thing.", params};
@@ -97,6 +109,12 @@ static void test_reads_and_prints(void **state)
     assert_reads("{\"title\":\"\",\"material\":\"\"}", "{\"title\":\"\",\"material\":\"\"}");
     assert_reads("{\"scale\":2}", "{\"scale\":[2,2,2]}");
     assert_reads("{\"scale\":[1,-2,3]}", "{\"scale\":[1,-2,3]}");
+    assert_reads("{\"extent\":[3,-0],\"constant\":[1,2,3,4]}",
+                 "{\"extent\":[3,0],\"constant\":[1,2,3,4]}");
+    assert_reads("{\"outline\":[[0,-0],[1,0],[1,1],[0,1]]}",
+                 "{\"outline\":[[0,0],[1,0],[1,1],[0,1]]}");
+    assert_reads("{\"code\":\"a\\n\\tb\",\"model\":\"pawn\",\"function\":\"\"}",
+                 "{\"code\":\"a\\n\\tb\",\"model\":\"pawn\",\"function\":\"\"}");
 }
 
 /* -0 equals 0 but has other bytes, which hashes would see. */
@@ -138,6 +156,23 @@ static void test_refuses_with_place_value_and_limit(void **state)
     assert_refuses("{\"scale\":[1,0,1]}", "/thing/scale", "0 (y) is not allowed here");
     assert_refuses("{\"scale\":\"big\"}", "/thing/scale", "expected three numbers or one");
     assert_refuses("{\"normal\":[0,0,-0]}", "/thing/normal", "0, 0, 0 has no direction");
+    assert_refuses("{\"extent\":[1]}", "/thing/extent", "expected two numbers");
+    assert_refuses("{\"extent\":[1,2,3]}", "/thing/extent", "expected two numbers, not more");
+    assert_refuses("{\"extent\":1}", "/thing/extent", "expected two numbers");
+    assert_refuses("{\"constant\":[1,2,3]}", "/thing/constant", "expected four numbers");
+    assert_refuses("{\"constant\":[1,2,3,2e6]}", "/thing/constant",
+                   "2000000 (w) is above the maximum 1000000");
+    assert_refuses("{\"outline\":{}}", "/thing/outline", "expected a list of points");
+    assert_refuses("{\"outline\":[[0,0],[1,1]]}", "/thing/outline",
+                   "2 points are below the minimum 3");
+    assert_refuses("{\"outline\":[[0,0],[1,1],[0]]}", "/thing/outline/2", "expected two numbers");
+    assert_refuses("{\"outline\":[[0,0],[1,-2e6],[0,1]]}", "/thing/outline/1",
+                   "-2000000 (y) is below the minimum -1000000");
+    assert_refuses("{\"code\":\"a\\rb\"}", "/thing/code", "control character 13 is not allowed");
+    assert_refuses("{\"code\":1}", "/thing/code", "expected a text");
+    assert_refuses("{\"model\":\"a/b\"}", "/thing/model",
+                   "\"a/b\" is not a name: expected 1 to 64 of A-Z a-z 0-9 _ . -");
+    assert_refuses("{\"function\":false}", "/thing/function", "expected a text");
     assert_refuses("{\"sise\":1}", "/thing/sise",
                    "thing has no member \"sise\"; did you mean \"size\"?");
     assert_refuses("{\"whatever\":1}", "/thing/whatever", "thing has no member \"whatever\"");
@@ -154,11 +189,150 @@ static void test_long_texts(void **state)
     cJSON *json = cJSON_CreateString(text);
     int title = record_type_find(&type, "title");
     assert_false(record_set(&record, title, json, "/title", &err));
-    assert_string_equal(err.message, "201 bytes is above the maximum 200");
+    assert_string_equal(err.message, "201 bytes are above the maximum 200");
     json->valuestring[200] = '\0';
     assert_true(record_set(&record, title, json, "/title", &err));
     assert_int_equal(strlen(record_text(&record, "title")), 200);
     cJSON_Delete(json);
+}
+
+#define ROWS(row) "{\"rows\":[" row "]}"
+
+static void test_declared_rows(void **state)
+{
+    (void)state;
+    assert_reads(ROWS(""), ROWS(""));
+    assert_reads(ROWS("{\"type\":\"float\",\"name\":\"a\"}"),
+                 ROWS("{\"name\":\"a\",\"type\":\"float\"}"));
+    assert_reads(
+        ROWS("{\"doc\":\"D.\",\"range\":[-0,4],\"default\":1,\"name\":\"_a1\","
+             "\"type\":\"int\"},{\"name\":\"b\",\"type\":\"float3\",\"default\":[1,2,-0]}"),
+        ROWS("{\"name\":\"_a1\",\"type\":\"int\",\"default\":1,\"range\":[0,4],"
+             "\"doc\":\"D.\"},{\"name\":\"b\",\"type\":\"vec3\",\"default\":[1,2,0]}"));
+    static const struct {
+        const char *row, *place, *message;
+    } bad[] = {
+        {"1", "", "expected an object"},
+        {"{\"name\":\"a\"}", "/type", "is missing"},
+        {"{\"type\":\"float\"}", "/name", "is missing"},
+        {"{\"name\":\"a\",\"type\":\"flot\"}", "/type",
+         "\"flot\" is no type of a parameter; did you mean \"float\"?"},
+        {"{\"name\":\"a\",\"type\":\"bool\",\"min\":1}", "/min", "there is no member \"min\" here"},
+        {"{\"name\":\"a\",\"type\":\"bool\",\"default\":1}", "/default", "expected true or false"},
+        {"{\"name\":\"a\",\"type\":\"bool\",\"range\":[0,1]}", "/range", "a bool has no range"},
+        {"{\"name\":\"a\",\"type\":\"color\",\"range\":[0,1]}", "/range", "a color has no range"},
+        {"{\"name\":\"a\",\"type\":\"color\",\"default\":[0,0,-1]}", "/default",
+         "-1 (blue) is below the minimum 0"},
+        {"{\"name\":\"a\",\"type\":\"float\",\"range\":[1,1]}", "/range",
+         "the first number is not below the second"},
+        {"{\"name\":\"a\",\"type\":\"float\",\"range\":[1,2,3]}", "/range", "expected two numbers"},
+        {"{\"name\":\"a\",\"type\":\"int\",\"range\":[0.5,2]}", "/range",
+         "0.5 is not a whole number"},
+        {"{\"name\":\"a\",\"type\":\"vec2\",\"range\":[0,2],\"default\":[1,3]}", "/default",
+         "3 (y) is above the maximum 2"},
+        {"{\"name\":\"a\",\"type\":\"float\",\"doc\":1}", "/doc", "expected a text"},
+        {"{\"name\":\"a\",\"type\":\"float\",\"default\":1e7}", "/default",
+         "10000000 is above the maximum 1000000"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char text[200], place[64];
+        snprintf(text, sizeof text, ROWS("%s"), bad[i].row);
+        snprintf(place, sizeof place, "/thing/rows/0%s", bad[i].place);
+        assert_refuses(text, place, bad[i].message);
+    }
+    assert_refuses("{\"rows\":{}}", "/thing/rows", "expected a list of parameters");
+    assert_refuses(ROWS("{\"name\":\"a\",\"type\":\"int\"},{\"name\":\"a\",\"type\":\"bool\"}"),
+                   "/thing/rows/1/name", "\"a\" is declared twice");
+}
+
+static void test_names_of_declared_rows(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"a", "_", "_Color1", "A9_z", "glow"};
+    static const char *const wrong[] = {"", "1a", "a b", "a-b", "a__b", "gl_x", "\xc3\xa9", "a."};
+    struct error err = {0};
+    char text[200];
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        snprintf(text, sizeof text, ROWS("{\"name\":\"%s\",\"type\":\"int\"}"), good[i]);
+        assert_true(read_text(text, &err));
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        snprintf(text, sizeof text, ROWS("{\"name\":\"%s\",\"type\":\"int\"}"), wrong[i]);
+        assert_false(read_text(text, &err));
+        assert_string_equal(err.place, "/thing/rows/0/name");
+    }
+}
+
+/* Rows are defaults and ranges of the values given to them. */
+static void test_definitions(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "[{\"name\":\"a\",\"type\":\"float\",\"range\":[2,3]},"
+        "{\"name\":\"b\",\"type\":\"vec2\",\"range\":[-3,-2],\"doc\":\"B.\"},"
+        "{\"name\":\"c\",\"type\":\"int\",\"default\":7},{\"name\":\"d\",\"type\":\"color\"}]";
+    struct error err = {0};
+    struct definition *definition = definition_create("thing", &type, text);
+    const struct param *rows = definition->type.params + definition->first_declared;
+    assert_int_equal(definition->first_declared, record_type_count(&type));
+    assert_string_equal(definition->type.name, "thing");
+    assert_ptr_equal(definition->type.params[0].name, params[0].name);
+    assert_true(rows[0].def[0] == 2 && rows[0].min == 2 && rows[0].max == 3);
+    assert_true(rows[1].def[0] == -2 && rows[1].def[1] == -2);
+    assert_string_equal(rows[1].doc, "B.");
+    assert_true(rows[2].def[0] == 7 && rows[2].type == PARAM_INT);
+    assert_true(rows[3].def[0] == 0 && rows[3].type == PARAM_COLOR);
+    assert_null(rows[4].name);
+    cJSON *json = json_parse(text, strlen(text), NULL);
+    const struct record_type taken = {.name = "field", .params = rows + 2};
+    assert_false(definition_check(json, &taken, "/p", &err));
+    assert_string_equal(err.place, "/p/2/name");
+    assert_string_equal(err.message, "every field has a \"c\" already");
+    cJSON_Delete(json);
+    definition_destroy(definition);
+    definition_destroy(NULL);
+}
+
+/* As many as allowed, and one more. */
+static void test_limits_of_values(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    static char code[LIMIT_CODE_BYTES + 2];
+    memset(code, ' ', LIMIT_CODE_BYTES + 1);
+    cJSON *text = cJSON_CreateString(code), *points = cJSON_CreateArray();
+    cJSON *rows = cJSON_CreateArray();
+    int index = record_type_find(&type, "code");
+    assert_false(record_set(&record, index, text, "/code", &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.message, "16385 bytes are above the maximum 16384");
+    text->valuestring[LIMIT_CODE_BYTES] = '\0';
+    assert_true(record_set(&record, index, text, "/code", &err));
+    index = record_type_find(&type, "outline");
+    for (int i = 0; i <= LIMIT_POINTS; i++) {
+        assert_int_equal(record_set(&record, index, points, "/outline", &err), i >= 3);
+        cJSON_AddItemToArray(points, cJSON_CreateIntArray((const int[]){i, i * i}, 2));
+    }
+    assert_int_equal(record.values[index].number[0], LIMIT_POINTS);
+    assert_false(record_set(&record, index, points, "/outline", &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.message, "65 points are above the maximum 64");
+    index = record_type_find(&type, "rows");
+    for (int i = 0; i <= LIMIT_DECLARED; i++) {
+        char name[16];
+        assert_true(record_set(&record, index, rows, "/rows", &err));
+        snprintf(name, sizeof name, "p%d", i);
+        cJSON *row = cJSON_CreateObject();
+        cJSON_AddStringToObject(row, "name", name);
+        cJSON_AddStringToObject(row, "type", "float");
+        cJSON_AddItemToArray(rows, row);
+    }
+    assert_false(record_set(&record, index, rows, "/rows", &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.message, "17 parameters are above the maximum 16");
+    cJSON_Delete(text);
+    cJSON_Delete(points);
+    cJSON_Delete(rows);
 }
 
 static void test_null_restores_and_failure_keeps(void **state)
@@ -188,6 +362,14 @@ static void test_copies_share_nothing(void **state)
     assert_float_equal(record_vector(&copy, "place")[2], 3, 0);
     record_finish(&copy);
     record_finish(&copy); /* twice is fine */
+    assert_true(read_text("{\"outline\":[[1,2],[3,4],[5,6]]}", NULL));
+    record_copy(&copy, &record);
+    int outline = record_type_find(&type, "outline");
+    assert_true(param_value_equal(&copy.values[outline], &record.values[outline]));
+    assert_true(read_text("{\"outline\":[[1,2],[3,4],[5,7]]}", NULL));
+    assert_false(param_value_equal(&copy.values[outline], &record.values[outline]));
+    assert_float_equal(copy.values[outline].points[5], 6, 0);
+    record_finish(&copy);
 }
 
 static void test_describes(void **state)
@@ -207,6 +389,9 @@ static void test_describes(void **state)
                "\"uniform\":true,\"doc\":\"S.\"}",
         [11] = "{\"name\":\"normal\",\"type\":\"vec3\",\"default\":[0,1,0],\"direction\":true,"
                "\"doc\":\"N.\"}",
+        [14] = "{\"name\":\"outline\",\"type\":\"points\",\"default\":[[0,0],[1,0],[0,1]],"
+               "\"min\":3,\"max\":64,\"doc\":\"O.\"}",
+        [18] = "{\"name\":\"rows\",\"type\":\"rows\",\"default\":[],\"doc\":\"R.\"}",
     };
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
         if (expected[i]) {
@@ -238,8 +423,7 @@ static void test_values_survive(void **state)
             assert_true(record_set(&first, i, json, "", &err));
             cJSON *given = record_get(&first, i);
             assert_true(record_set(&second, i, given, "", &err));
-            assert_memory_equal(first.values[i].number, second.values[i].number,
-                                sizeof first.values[i].number);
+            assert_true(param_value_equal(&first.values[i], &second.values[i]));
             cJSON_Delete(json);
             cJSON_Delete(given);
         }
@@ -271,6 +455,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_zero_has_one_form, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_long_texts, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_declared_rows, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_names_of_declared_rows, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_definitions, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_limits_of_values, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_null_restores_and_failure_keeps, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_copies_share_nothing, set_up, tear_down),
         cmocka_unit_test(test_describes),

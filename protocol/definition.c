@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+/* Declared parameters: from JSON to rows of a table. */
+#include "definition.h"
+
+#include <assert.h>
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json.h"
+#include "limits.h"
+#include "memory.h"
+#include "nearest.h"
+
+static const struct {
+    const char *name;
+    enum param_type type;
+} types[] = {
+    {"float", PARAM_FLOAT}, {"int", PARAM_INT},     {"bool", PARAM_BOOL},   {"vec2", PARAM_VEC2},
+    {"vec3", PARAM_VEC3},   {"vec4", PARAM_VEC4},   {"color", PARAM_COLOR}, {"float2", PARAM_VEC2},
+    {"float3", PARAM_VEC3}, {"float4", PARAM_VEC4},
+};
+
+enum { TYPE_COUNT = sizeof types / sizeof types[0] };
+
+const char *const definition_types[] = {"float", "int",  "bool",  "vec2",
+                                        "vec3",  "vec4", "color", NULL};
+
+enum { ROW_NAME, ROW_TYPE, ROW_DEFAULT, ROW_RANGE, ROW_DOC, ROW_MEMBERS };
+static const char *const row_members[] = {"name", "type", "default", "range", "doc", NULL};
+
+/* --- one row --- */
+
+static bool is_identifier(const char *name)
+{
+    size_t length = 0;
+    while (isalnum((unsigned char)name[length]) || name[length] == '_') {
+        length++;
+    }
+    return length > 0 && length <= LIMIT_ID_BYTES && !name[length] &&
+           !isdigit((unsigned char)name[0]) && strncmp(name, "gl_", 3) != 0 && !strstr(name, "__");
+}
+
+static bool read_name(struct param *out, const cJSON *json, const char *place, struct error *err)
+{
+    char path[ERROR_PLACE_BYTES];
+    if (!json_read_text(json, &out->name, place, row_members[ROW_NAME], err)) {
+        return false;
+    }
+    return is_identifier(out->name) ||
+           error_set(
+               err, ERROR_INVALID, error_place(path, place, row_members[ROW_NAME]),
+               "\"%.80s\" is not a name for code: expected 1 to %d of A-Z a-z 0-9 _, no digit "
+               "or gl_ first and no __",
+               out->name, LIMIT_ID_BYTES);
+}
+
+static bool read_type(struct param *out, const cJSON *json, const char *place, struct error *err)
+{
+    struct nearest nearest = {0};
+    char path[ERROR_PLACE_BYTES], hint[64];
+    if (!json_read_text(json, &nearest.text, place, row_members[ROW_TYPE], err)) {
+        return false;
+    }
+    for (int i = 0; i < TYPE_COUNT; i++) {
+        if (strcmp(types[i].name, nearest.text) == 0) {
+            out->type = types[i].type;
+            return true;
+        }
+        nearest_consider(&nearest, types[i].name);
+    }
+    return error_set(err, ERROR_INVALID, error_place(path, place, row_members[ROW_TYPE]),
+                     "\"%.64s\" is no type of a parameter%s", nearest.text,
+                     nearest_hint(&nearest, hint, sizeof hint));
+}
+
+static bool read_range(struct param *out, const cJSON *json, const char *place, struct error *err)
+{
+    const struct param pair = {.type = out->type == PARAM_INT ? PARAM_INT : PARAM_FLOAT};
+    char path[ERROR_PLACE_BYTES];
+    double low[4], high[4];
+    if (!json) {
+        return true;
+    }
+    error_place(path, place, row_members[ROW_RANGE]);
+    if (out->type == PARAM_BOOL || out->type == PARAM_COLOR) {
+        return error_set(err, ERROR_INVALID, path, "a %s has no range", param_type_name(out->type));
+    }
+    if (!cJSON_IsArray(json) || cJSON_GetArraySize(json) != 2) {
+        return error_set(err, ERROR_INVALID, path, "expected two numbers");
+    }
+    if (!param_read(&pair, json->child, low, path, err) ||
+        !param_read(&pair, json->child->next, high, path, err)) {
+        return false;
+    }
+    out->min = low[0];
+    out->max = high[0];
+    return low[0] < high[0] ||
+           error_set(err, ERROR_INVALID, path, "the first number is not below the second");
+}
+
+static bool read_default(struct param *out, const cJSON *json, const char *place, struct error *err)
+{
+    char path[ERROR_PLACE_BYTES];
+    if (json) {
+        return param_read(out, json, out->def, error_place(path, place, row_members[ROW_DEFAULT]),
+                          err);
+    }
+    double nearest_to_0 = out->min > 0 ? out->min : out->max < 0 ? out->max : 0;
+    for (int i = 0; i < param_components(out->type); i++) {
+        out->def[i] = nearest_to_0;
+    }
+    return true;
+}
+
+/* Texts stay in the JSON. */
+static bool read_row(struct param *out, const cJSON *json, const char *place, struct error *err)
+{
+    static const struct param doc = {.type = PARAM_TEXT};
+    char path[ERROR_PLACE_BYTES];
+    const cJSON *found[ROW_MEMBERS];
+    *out = (struct param){.doc = ""};
+    if (!json_sort_members(json, row_members, found, place, err) ||
+        !read_name(out, found[ROW_NAME], place, err) ||
+        !read_type(out, found[ROW_TYPE], place, err) ||
+        !read_range(out, found[ROW_RANGE], place, err) ||
+        !read_default(out, found[ROW_DEFAULT], place, err)) {
+        return false;
+    }
+    if (!found[ROW_DOC]) {
+        return true;
+    }
+    error_place(path, place, row_members[ROW_DOC]);
+    out->doc = cJSON_GetStringValue(found[ROW_DOC]);
+    return param_read(&doc, found[ROW_DOC], NULL, path, err);
+}
+
+/* What is said is said again, in one form. */
+static cJSON *row_json(const struct param *row, const cJSON *json)
+{
+    cJSON *out = cJSON_CreateObject();
+    cJSON_AddStringToObject(out, row_members[ROW_NAME], row->name);
+    cJSON_AddStringToObject(out, row_members[ROW_TYPE], param_type_name(row->type));
+    if (cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_DEFAULT])) {
+        cJSON_AddItemToObject(out, row_members[ROW_DEFAULT], param_default(row));
+    }
+    if (cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_RANGE])) {
+        const double range[] = {row->min, row->max};
+        cJSON_AddItemToObject(out, row_members[ROW_RANGE], cJSON_CreateDoubleArray(range, 2));
+    }
+    if (cJSON_GetObjectItemCaseSensitive(json, row_members[ROW_DOC])) {
+        cJSON_AddStringToObject(out, row_members[ROW_DOC], row->doc);
+    }
+    return out;
+}
+
+/* --- all rows --- */
+
+bool definition_check(const cJSON *rows, const struct record_type *taken, const char *place,
+                      struct error *err)
+{
+    struct param seen[LIMIT_DECLARED + 1] = {{.name = NULL}};
+    const struct record_type before = {.params = seen};
+    int count = 0;
+    if (!cJSON_IsArray(rows)) {
+        return error_set(err, ERROR_INVALID, place, "expected a list of parameters");
+    }
+    if (cJSON_GetArraySize(rows) > LIMIT_DECLARED) {
+        return error_set(err, ERROR_LIMIT, place, "%d parameters are above the maximum %d",
+                         cJSON_GetArraySize(rows), LIMIT_DECLARED);
+    }
+    for (const cJSON *row = rows->child; row; row = row->next) {
+        char path[ERROR_PLACE_BYTES], number[24];
+        struct param param;
+        snprintf(number, sizeof number, "%d", count);
+        if (!read_row(&param, row, error_place(path, place, number), err)) {
+            return false;
+        }
+        error_place(path, path, row_members[ROW_NAME]);
+        if (record_type_find(&before, param.name) >= 0) {
+            return error_set(err, ERROR_INVALID, path, "\"%s\" is declared twice", param.name);
+        }
+        if (taken && record_type_find(taken, param.name) >= 0) {
+            return error_set(err, ERROR_INVALID, path, "every %s has a \"%s\" already", taken->name,
+                             param.name);
+        }
+        seen[count++] = param;
+    }
+    return true;
+}
+
+char *definition_text(const cJSON *rows)
+{
+    cJSON *canonical = cJSON_CreateArray();
+    for (const cJSON *row = rows->child; row; row = row->next) {
+        struct param param;
+        read_row(&param, row, "", NULL);
+        cJSON_AddItemToArray(canonical, row_json(&param, row));
+    }
+    char *text = json_print(canonical, false);
+    cJSON_Delete(canonical);
+    return text;
+}
+
+struct definition *definition_create(const char *name, const struct record_type *first,
+                                     const char *text)
+{
+    struct definition *definition = memory_alloc(1, sizeof *definition);
+    size_t count = first ? record_type_count(first) : 0;
+    cJSON *rows = json_parse(text, strlen(text), NULL);
+    assert(rows);
+    struct param *params =
+        memory_alloc(count + (size_t)cJSON_GetArraySize(rows) + 1, sizeof *params);
+    if (first) {
+        memcpy(params, first->params, count * sizeof *params);
+    }
+    definition->first_declared = count;
+    definition->type = (struct record_type){.name = memory_text(name), .doc = "", .params = params};
+    for (const cJSON *row = rows->child; row; row = row->next, count++) {
+        read_row(&params[count], row, "", NULL);
+        params[count].name = memory_text(params[count].name);
+        params[count].doc = memory_text(params[count].doc);
+    }
+    cJSON_Delete(rows);
+    return definition;
+}
+
+void definition_destroy(struct definition *definition)
+{
+    if (!definition) {
+        return;
+    }
+    for (const struct param *row = definition->type.params + definition->first_declared; row->name;
+         row++) {
+        free((char *)row->name);
+        free((char *)row->doc);
+    }
+    free((struct param *)definition->type.params);
+    free((char *)definition->type.name);
+    free(definition);
+}

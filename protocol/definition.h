@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* Parameters that a document declares for its primitives and shaders:
+ * [{"name", "type", "default"?, "range"?, "doc"?}, ...]. They become rows of a table, so that values
+ * of them are read, checked and printed like all others. */
+#ifndef PROTOCOL_DEFINITION_H
+#define PROTOCOL_DEFINITION_H
+
+#include "record.h"
+
+/* Records point at `type` and have to be gone before it. */
+struct definition {
+    /* Of a primitive: the rows of the node type `field`, then the declared ones. Of a shader: the
+     * declared ones. Owned, with all texts of the declared ones. */
+    struct record_type type;
+    size_t first_declared; /* index of the first declared row */
+};
+
+/* Types that may be declared, by their canonical names; NULL-terminated. float2 and the like are
+ * read too. */
+extern const char *const definition_types[];
+
+/* Checks declarations; their names may not be among those of `taken` (may be NULL). */
+bool definition_check(const cJSON *rows, const struct record_type *taken, const char *place,
+                      struct error *err);
+/* Canonical JSON of rows that pass the check. Caller frees. */
+char *definition_text(const cJSON *rows);
+/* `text` as from definition_text. The table begins with the rows of `first` (may be NULL). */
+struct definition *definition_create(const char *name, const struct record_type *first,
+                                     const char *text);
+void definition_destroy(struct definition *definition); /* NULL is fine */
+
+#endif
