@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* What is inside of a shape, by the words of the catalogue: the oracle of the distance functions,
+ * and therefore none of their formulas. */
+#ifndef TESTS_SUPPORT_PREDICATES_H
+#define TESTS_SUPPORT_PREDICATES_H
+
+#include <stdbool.h>
+
+struct predicate {
+    const char *type; /* name of the registry row, of KIND_SHAPE */
+    /* `n`: the numbers of sdf_numbers, as a document has them: before `prepare`. */
+    bool (*inside)(const double p[3], const double *n);
+};
+
+/* NULL where there is none. */
+const struct predicate *predicate_find(const char *type);
+
+/* Each ends with a row whose type is NULL. */
+extern const struct predicate predicates_round[], predicates_flat_sided[];
+
+#endif
