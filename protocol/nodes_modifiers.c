@@ -33,6 +33,20 @@ const struct node_type node_modifiers[] = {
      .number = 205, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 0, .glsl = "dom_twist", .words = "spiral screw helix wring turn",
      .source = QUILEZ_DISTANCE ", Twist; the bound is " HART ", section 3"},
+    {.record = {"extrude", "Gives a flat shape a height along Z.", PARAMS(
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
+         .doc = "Full length along Z, centred."},
+        {"rounding", PARAM_FLOAT, REACH, .main = true,
+         .doc = "Radius of the edges at both ends, inside the height; at most half of it."})},
+     .number = 211, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "dom_extrude", .words = "extrusion prism thicken depth solid 2d flat",
+     .source = QUILEZ_DISTANCE ", Extrusion"},
+    {.record = {"revolve", "Turns a flat shape around the Y axis.", PARAMS(
+        {"offset", PARAM_FLOAT, PLACE, .main = true,
+         .doc = "How far the shape is moved out along X before it turns."})},
+     .number = 212, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "dom_revolve", .words = "revolution lathe spin turn vase ring 2d flat",
+     .source = QUILEZ_DISTANCE ", Revolution"},
     {.record = {.name = NULL}},
 };
 /* clang-format on */

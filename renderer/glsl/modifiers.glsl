@@ -77,3 +77,22 @@ float dom_twist_after(float d, vec3 p, vec4 twist)
 {
     return corner(d * twist.z, (length(p.xz) - twist.y) * twist.w);
 }
+
+/* The section's point: all of them are at z = 0. */
+vec3 dom_extrude(vec3 p, vec4 extrude)
+{
+    return vec3(p.xy, 0.0);
+}
+
+/* Ends the section's prism: (half height, scale, rounding times scale). */
+float dom_extrude_after(float d, vec3 p, vec4 extrude)
+{
+    float along = (abs(p.z) - extrude.x) * extrude.y;
+    return corner(d + extrude.z, along + extrude.z) - extrude.z;
+}
+
+/* The section's point, which goes around Y: (offset). */
+vec3 dom_revolve(vec3 p, vec4 revolve)
+{
+    return vec3(length(p.xz) - revolve.x, p.y, 0.0);
+}

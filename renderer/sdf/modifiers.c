@@ -186,6 +186,64 @@ static double twist_after(double d, const double p[3], const double *n)
     return corner(d * n[PER_LIPSCHITZ], (hypot(p[0], p[2]) - n[RADIUS]) * n[SCALE]);
 }
 
+/* extrude: n = half height, scale, rounding times scale. The section, drawn in by the rounding and
+ * as much lower, grows back by it: only edges between cap and side become round. */
+enum { HALF, EXTRUDE_SCALE, ROUNDING };
+
+static void extrude_prepare(const double *params, const struct bounds *child, double scale,
+                            double *out_n)
+{
+    (void)child;
+    out_n[HALF] = params[0] / 2;
+    out_n[EXTRUDE_SCALE] = scale;
+    out_n[ROUNDING] = fmin(params[1], params[0] / 2) * scale;
+}
+
+static struct bounds extrude_box(const double *params, const struct bounds *child)
+{
+    struct bounds out = *child;
+    out.high[2] = params[0] / 2;
+    out.low[2] = -out.high[2];
+    return out;
+}
+
+static void extrude_map(const double p[3], const double *n, double out[3])
+{
+    (void)n;
+    out[0] = p[0], out[1] = p[1], out[2] = 0;
+}
+
+/* Distances along the section and across it stand at a right angle, so the gradient stays 1. */
+static double extrude_after(double d, const double p[3], const double *n)
+{
+    double along = (fabs(p[2]) - n[HALF]) * n[EXTRUDE_SCALE];
+    return corner(d + n[ROUNDING], along + n[ROUNDING]) - n[ROUNDING];
+}
+
+/* revolve: n = offset. The way to the section's point lengthens no distance. */
+static void revolve_prepare(const double *params, const struct bounds *child, double scale,
+                            double *out_n)
+{
+    (void)child, (void)scale;
+    out_n[0] = params[0];
+}
+
+static struct bounds revolve_box(const double *params, const struct bounds *child)
+{
+    struct bounds out = *child;
+    double radius = fmax(child->high[0] + params[0], 0);
+    out.low[0] = out.low[2] = -radius;
+    out.high[0] = out.high[2] = radius;
+    return out;
+}
+
+static void revolve_map(const double p[3], const double *n, double out[3])
+{
+    out[0] = hypot(p[0], p[2]) - n[0];
+    out[1] = p[1];
+    out[2] = 0;
+}
+
 static const struct sdf_domain mirror = {
     .vec4s = 1, .prepare = mirror_prepare, .box = mirror_box, .map = mirror_map};
 static const struct sdf_domain repeat = {.vec4s = 4,
@@ -194,6 +252,13 @@ static const struct sdf_domain repeat = {.vec4s = 4,
                                          .range = repeat_range,
                                          .cell = repeat_cell,
                                          .cells = repeat_cells};
+static const struct sdf_domain extrude = {.vec4s = 1,
+                                          .prepare = extrude_prepare,
+                                          .box = extrude_box,
+                                          .map = extrude_map,
+                                          .after = extrude_after};
+static const struct sdf_domain revolve = {
+    .vec4s = 1, .prepare = revolve_prepare, .box = revolve_box, .map = revolve_map};
 static const struct sdf_domain twist = {
     .vec4s = 1, .prepare = twist_prepare, .box = twist_box, .map = twist_map, .after = twist_after};
 
@@ -203,5 +268,7 @@ const struct sdf sdf_modifiers[] = {
     {"mirror", .domain = &mirror},
     {"repeat", .domain = &repeat},
     {"twist", .domain = &twist},
+    {"extrude", .domain = &extrude},
+    {"revolve", .domain = &revolve},
     {.type = NULL},
 };

@@ -242,11 +242,12 @@ static const struct node_type *random_section(struct random *random)
     return node_type_find(random_below(random, 2) ? "extrude" : "revolve");
 }
 
-/* A shape, among them sections of flat ones, and now and then a flat one without an end. */
+/* A shape, among them sections of flat ones, which are bounds, and now and then a flat one without
+ * an end. */
 static const struct node_type *random_leaf(struct random *random,
                                            const struct random_limits *limits)
 {
-    if (random_below(random, 4) || !node_type_find("extrude")) {
+    if (limits->exact || random_below(random, 4)) {
         return random_type(random, KIND_SHAPE, limits);
     }
     return limits->bounded || random_below(random, 12) ? random_section(random)
