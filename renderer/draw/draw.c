@@ -17,14 +17,14 @@ enum {
 };
 
 static const struct draw_form forms[] = {
-    {AOV_COLOR, false, "OUT_COLOR", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, true},
-    {AOV_COLOR, true, "OUT_LINEAR", OUT_FLOATS, GL_RGBA, GL_FLOAT, 16, true},
-    {AOV_DEPTH, false, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false},
-    {AOV_DEPTH, true, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false},
-    {AOV_NORMAL, false, "OUT_NORMAL", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, false},
-    {AOV_NORMAL, true, "OUT_NORMAL_RAW", OUT_FLOATS, GL_RGB, GL_FLOAT, 12, false},
-    {AOV_ID, false, "OUT_ID", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, false},
-    {AOV_ID, true, "OUT_ID_RAW", OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, false},
+    {AOV_COLOR, false, "OUT_COLOR", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, true, true},
+    {AOV_COLOR, true, "OUT_LINEAR", OUT_FLOATS, GL_RGBA, GL_FLOAT, 16, true, true},
+    {AOV_DEPTH, false, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false, false},
+    {AOV_DEPTH, true, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false, false},
+    {AOV_NORMAL, false, "OUT_NORMAL", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, false, false},
+    {AOV_NORMAL, true, "OUT_NORMAL_RAW", OUT_FLOATS, GL_RGB, GL_FLOAT, 12, false, false},
+    {AOV_ID, false, "OUT_ID", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, true, false},
+    {AOV_ID, true, "OUT_ID_RAW", OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, true, false},
 };
 enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
 
@@ -227,7 +227,7 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct pro
     const struct gl *gl = draw->gl;
     const struct draw_form *form = picture->form;
     struct draw_slot *slot = &picture->slots[index];
-    const int n = picture->samples;
+    const int width = tile.width * picture->samples, height = tile.height * picture->samples;
     uint64_t times[3] = {0};
 
     slot->tile = tile;
@@ -237,12 +237,14 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct pro
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
     bind_numbers(numbers, gl);
     mark(draw, slot, 0, &times[0]);
-    pass_compute_coarse(program_march(program), gl, tile.x, tile.y, tile.width * n,
-                        tile.height * n);
-    pass_compute(program_march(program), gl, tile.x, tile.y, tile.width * n, tile.height * n);
+    pass_compute_coarse(program_pass(program, STAGE_MARCH), gl, tile.x, tile.y, width, height);
+    pass_compute(program_pass(program, STAGE_MARCH), gl, tile.x, tile.y, width, height);
+    if (form->matter) {
+        pass_compute(program_pass(program, STAGE_MATTER), gl, tile.x, tile.y, width, height);
+    }
     mark(draw, slot, 1, &times[1]);
     if (form->light) {
-        pass_compute(program_light(program), gl, tile.x, tile.y, tile.width * n, tile.height * n);
+        pass_compute(program_pass(program, STAGE_LIGHT), gl, tile.x, tile.y, width, height);
     }
     gl->Viewport(0, 0, tile.width, tile.height);
     gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.out_buffers[form->kind]);

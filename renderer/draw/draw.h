@@ -20,8 +20,8 @@ struct draw_form {
     const char *define; /* for glsl/resolve.glsl */
     enum out_kind kind;
     GLenum read_format, read_type;
-    int read_bytes; /* of a pixel as read */
-    bool light;     /* needs the light pass */
+    int read_bytes;     /* of a pixel as read */
+    bool matter, light; /* the passes that it needs besides march */
 };
 
 const struct draw_form *draw_form_find(enum aov aov, bool floats);

@@ -38,15 +38,14 @@ static void write_params(const struct writer *w, const struct field_instruction 
     }
 }
 
-/* What a code declares, in the block that starts at vec4 `first` of the numbers, or at an index
- * known when it runs. */
+/* What a code declares, in the block that starts at vec4 `first` of what `base` begins to read. */
 static void write_places(const struct writer *w, const struct field_code *code, const char *base,
                          uint32_t first)
 {
     for (int i = 0; i < code->place_count; i++) {
         const struct field_place *place = &code->places[i];
         uint32_t vec4 = first + (uint32_t)place->vec4;
-        fprintf(w->out, ", N(%s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
+        fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
     }
 }
 
@@ -81,7 +80,7 @@ static void write_code(const struct writer *w, const struct field_instruction *i
     uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, own = head + 1 + FIELD_CUT_VEC4S;
     fprintf(w->out, "cut(user_%u(", in->choices);
     write_local(w, in);
-    write_places(w, code, "", own);
+    write_places(w, code, "N(", own);
     fprintf(w->out, ") * N(%u).x, ", head);
     write_local(w, in);
     fprintf(w->out, ", N(%u))", head + 1);
@@ -282,12 +281,13 @@ static void write_slots(const struct writer *w, const char *type, const char *na
 static void write_mixture(const struct writer *w)
 {
     bool shaders = w->field->shader_count > 0;
-    fprintf(w->out,
-            "Mixture mixture(vec3 h%s)\n{\n"
-            "int i = %zu + %zu * int(h.z);\n"
-            "return Mixture(h.x, h.y, 1.0, N(i), N(i + 1), N(i + 2), N(i + 3)%s);\n}\n",
-            shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
-            shaders ? ", vec4(o, N(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)" : "");
+    fprintf(
+        w->out,
+        "Mixture mixture(vec3 h%s)\n{\n"
+        "int i = %zu + %zu * int(h.z);\n"
+        "return Mixture(h.x, h.y, 1.0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3)%s);\n}\n",
+        shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
+        shaders ? ", vec4(o, N_ANY(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)" : "");
 }
 
 /* The colour that the material in a slot has by its shader, and whether it is lit. */
@@ -297,14 +297,14 @@ static void write_paint(const struct writer *w)
     fprintf(w->out,
             "vec4 paint(Shading at, float slot)\n{\n"
             "int i = %zu + %zu * int(slot);\n"
-            "int shader = int(N(i + 2).w);\nvec4 color = vec4(0.0);\n",
+            "int shader = int(N_ANY(i + 2).w);\nvec4 color = vec4(0.0);\n",
             field->material_base, field->material_stride);
     for (size_t i = 0; i < field->shader_count; i++) {
         fprintf(w->out, "if (shader == %zu) {\ncolor = shade_%zu(at", i + 1, i);
-        write_places(w, &field->shaders[i], "i + ", FIELD_MATERIAL_VEC4S);
+        write_places(w, &field->shaders[i], "N_ANY(i + ", FIELD_MATERIAL_VEC4S);
         fprintf(w->out, ");\n}\n");
     }
-    fprintf(w->out, "return vec4(max(color.rgb, 0.0), N(i + 3).w);\n}\n");
+    fprintf(w->out, "return vec4(max(color.rgb, 0.0), N_ANY(i + 3).w);\n}\n");
 }
 
 static void write_codes(const struct writer *w, const struct field_code *codes, size_t count,
@@ -315,6 +315,14 @@ static void write_codes(const struct writer *w, const struct field_code *codes, 
         snprintf(name, sizeof name, "%s_%zu", prefix, i);
         code_write(codes[i].code, name, first_source + (int)i, w->out);
     }
+}
+
+/* The same functions serve map and surface, in one program or in two. */
+static void write_functions(const struct writer *w)
+{
+    fprintf(w->out, "#ifndef USER_FUNCTIONS\n#define USER_FUNCTIONS\n");
+    write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
+    fprintf(w->out, "#endif\n");
 }
 
 /* Shaders of users, each in one place, at the end. */
@@ -334,7 +342,7 @@ static void write_painting(const struct writer *w)
 
 static void write_map(struct writer *w)
 {
-    write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
+    write_functions(w);
     fprintf(w->out, "float map(vec3 p0)\n{\n");
     write_slots(w, "vec3", "p", 1, w->field->point_slots);
     write_slots(w, "float", "d", 0, w->field->distance_slots);
@@ -345,6 +353,7 @@ static void write_map(struct writer *w)
 static void write_surface(struct writer *w)
 {
     const struct field *field = w->field;
+    write_functions(w);
     write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
     write_mixture(w);
     if (field->shader_count > 0) {

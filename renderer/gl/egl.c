@@ -149,9 +149,11 @@ static bool make_contexts(struct egl *egl, bool debug, struct error *err)
                          GL_MAJOR_NEEDED, GL_MINOR_NEEDED, egl_error_name(eglGetError()),
                          GL_MAJOR_NEEDED, GL_MINOR_NEEDED);
     }
-    egl->compile = make_context(egl->display, egl->draw, egl->robust, debug);
-    if (egl->compile == EGL_NO_CONTEXT) {
-        return egl_fail(err, "no second context that shares objects");
+    for (int i = 0; i < EGL_COMPILERS; i++) {
+        egl->compile[i] = make_context(egl->display, egl->draw, egl->robust, debug);
+        if (egl->compile[i] == EGL_NO_CONTEXT) {
+            return egl_fail(err, "no second context that shares objects");
+        }
     }
     return true;
 }
@@ -337,8 +339,10 @@ void egl_finish(struct egl *egl)
         return;
     }
     eglMakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (egl->compile != EGL_NO_CONTEXT) {
-        eglDestroyContext(egl->display, egl->compile);
+    for (int i = 0; i < EGL_COMPILERS; i++) {
+        if (egl->compile[i] != EGL_NO_CONTEXT) {
+            eglDestroyContext(egl->display, egl->compile[i]);
+        }
     }
     if (egl->draw != EGL_NO_CONTEXT) {
         eglDestroyContext(egl->display, egl->draw);

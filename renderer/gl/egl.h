@@ -9,9 +9,11 @@
 
 enum { EGL_DEVICES_MAX = 32 };
 
+enum { EGL_COMPILERS = 2 }; /* threads that compile, while another draws */
+
 struct egl {
     EGLDisplay display;
-    EGLContext draw, compile; /* sharing objects; one thread each */
+    EGLContext draw, compile[EGL_COMPILERS]; /* sharing objects; one thread each */
     bool software;
     bool robust; /* the contexts report resets */
     char device[192];

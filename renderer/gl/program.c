@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The cache, and the thread that fills it. One lock guards list, queue, states and counters; the
- * thread holds it only between compilations. */
+/* The cache, and the threads that fill it. One lock guards list, queue, states and counters; the
+ * threads hold it only between compilations. */
 #include "program.h"
 
 #include <pthread.h>
@@ -25,8 +25,8 @@ struct program {
     int refs;
     uint64_t last_use;
     enum program_state state;
-    bool queued; /* not yet taken by the thread */
-    struct pass march, light;
+    int taken, done; /* stages that a thread took, and those finished or given up */
+    struct pass passes[STAGE_COUNT];
     struct error error;
 };
 
@@ -34,8 +34,9 @@ struct program_cache {
     const struct egl *egl;
     const struct gl *gl;
     const struct gl_sink *sink;
-    pthread_t thread;
-    bool running, stop;
+    pthread_t threads[EGL_COMPILERS];
+    int started, running; /* threads */
+    bool stop;
     pthread_mutex_t lock;
     pthread_cond_t work, done;
     struct program *first;
@@ -80,32 +81,30 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
     return text;
 }
 
-static bool link_passes(const struct gl *gl, const struct program *program, bool software,
-                        struct pass *march, struct pass *light, struct error *err)
+static bool link_stage(const struct gl *gl, const struct program *program, bool software,
+                       enum program_stage stage, struct pass *out_pass, struct error *err)
 {
-    static const char *const march_files[] = {
-        "group.glsl",       "numbers.glsl", "frame.glsl",  "surface.glsl", FIELD_GLSL_FILES, "map",
-        "numbers_any.glsl", "surface",      "camera.glsl", "gbuffer.glsl", "march.glsl",     NULL};
-    static const char *const light_files[] = {
-        "group.glsl",     "numbers.glsl", "frame.glsl",  "surface.glsl",
-        FIELD_GLSL_FILES, "map",          "camera.glsl", "gbuffer.glsl",
-        "sky.glsl",       "light.glsl",   NULL};
+    static const char *const files[STAGE_COUNT][24] = {
+        {"group.glsl", "numbers.glsl", "frame.glsl", FIELD_GLSL_FILES, "map", "camera.glsl",
+         "march.glsl", NULL},
+        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "surface",
+         "camera.glsl", "gbuffer.glsl", "matter.glsl", NULL},
+        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "map",
+         "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL},
+    };
     char *defines =
         make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
-    struct pass_source source = {true, defines, march_files, program->map_text,
-                                 program->surface_text};
-    bool ok = pass_init(march, gl, &source, err);
-
-    source.files = light_files;
-    ok = ok && pass_init(light, gl, &source, err);
+    bool ok = pass_init(out_pass, gl,
+                        &(struct pass_source){true, defines, files[stage], program->map_text,
+                                              program->surface_text},
+                        err);
     free(defines);
     return ok;
 }
 
-/* One work group through both passes, with nothing in the buffers: the driver finishes its work. */
+/* One work group, with nothing in the buffers: the driver finishes its work. */
 static void warm_up(const struct program_cache *cache, const struct targets *targets,
-                    const struct program *program, const struct pass *march,
-                    const struct pass *light)
+                    const struct program *program, const struct pass *pass)
 {
     const struct gl *gl = cache->gl;
     const size_t bytes = 16 * program->number_count;
@@ -128,8 +127,7 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
         gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
         gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
     }
-    pass_compute(march, gl, 0, 0, targets->width, targets->height);
-    pass_compute(light, gl, 0, 0, targets->width, targets->height);
+    pass_compute(pass, gl, 0, 0, targets->width, targets->height);
     gl->Finish();
     gl->DeleteBuffers(2, buffers);
     if (view) {
@@ -138,43 +136,58 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
     free(zeros);
 }
 
-static void compile_one(struct program_cache *cache, const struct targets *targets,
-                        struct program *program)
+/* The state follows from the stages once none is left. */
+static void finish_stage(struct program_cache *cache, struct program *program,
+                         const struct error *err)
+{
+    if (err->kind != ERROR_NONE && program->error.kind == ERROR_NONE) {
+        program->error = *err;
+    }
+    cache->compilations++;
+    if (++program->done == STAGE_COUNT) {
+        program->state = program->error.kind == ERROR_NONE ? PROGRAM_READY : PROGRAM_FAILED;
+        cache->finished++;
+        pthread_cond_broadcast(&cache->done);
+    }
+}
+
+static void compile_stage(struct program_cache *cache, const struct targets *targets,
+                          struct program *program, enum program_stage stage)
 {
     const struct gl *gl = cache->gl;
-    struct pass march = {0}, light = {0};
+    struct pass pass = {0};
     struct error err = {0};
-    const bool ok = link_passes(gl, program, cache->egl->software, &march, &light, &err);
 
-    if (ok) {
-        warm_up(cache, targets, program, &march, &light);
-    } else {
-        pass_finish(&march, gl);
-        gl->Finish();
+    if (link_stage(gl, program, cache->egl->software, stage, &pass, &err)) {
+        warm_up(cache, targets, program, &pass);
     }
+    gl->Finish();
     pthread_mutex_lock(&cache->lock);
-    program->march = march;
-    program->light = light;
-    program->error = err;
-    program->state = ok ? PROGRAM_READY : PROGRAM_FAILED;
-    cache->compilations += 2;
-    cache->finished++;
-    pthread_cond_broadcast(&cache->done);
+    program->passes[stage] = pass;
+    finish_stage(cache, program, &err);
+    program->refs--;
     pthread_mutex_unlock(&cache->lock);
 }
 
-/* The newest program that somebody still wants: what was asked for before it is out of date. */
-static struct program *take_work(struct program_cache *cache)
+static bool is_waiting(const struct program *program)
+{
+    return program->taken < STAGE_COUNT && program->refs > 0;
+}
+
+/* A stage of the newest program that somebody still wants: what was asked for before it is out of
+ * date. One that has been begun is finished, since another thread is at it. */
+static struct program *take_work(struct program_cache *cache, enum program_stage *out_stage)
 {
     struct program *best = NULL;
 
     for (struct program *p = cache->first; p; p = p->next) {
-        if (p->queued && p->refs > 0 && (!best || p->last_use > best->last_use)) {
+        int begun = best ? (p->taken > 0) - (best->taken > 0) : 1;
+        if (is_waiting(p) && (begun > 0 || (begun == 0 && p->last_use > best->last_use))) {
             best = p;
         }
     }
     if (best) {
-        best->queued = false;
+        *out_stage = (enum program_stage)best->taken++;
         best->refs++;
     }
     return best;
@@ -184,15 +197,15 @@ static void work(struct program_cache *cache, const struct targets *targets)
 {
     pthread_mutex_lock(&cache->lock);
     while (!cache->stop) {
-        struct program *program = take_work(cache);
+        enum program_stage stage = STAGE_MARCH;
+        struct program *program = take_work(cache, &stage);
         if (!program) {
             pthread_cond_wait(&cache->work, &cache->lock);
             continue;
         }
         pthread_mutex_unlock(&cache->lock);
-        compile_one(cache, targets, program);
+        compile_stage(cache, targets, program, stage);
         pthread_mutex_lock(&cache->lock);
-        program->refs--;
     }
     pthread_mutex_unlock(&cache->lock);
 }
@@ -203,13 +216,16 @@ static void *thread_main(void *data)
     const struct gl *gl = cache->gl;
     struct targets targets = {0};
     struct error err = {0};
-    const bool ok = egl_bind(cache->egl, cache->egl->compile, &err) &&
-                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
 
     pthread_mutex_lock(&cache->lock);
-    cache->running = ok;
-    cache->stop = !ok;
-    cache->start_error = err;
+    EGLContext context = cache->egl->compile[cache->started++];
+    pthread_mutex_unlock(&cache->lock);
+    const bool ok = egl_bind(cache->egl, context, &err) &&
+                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
+    pthread_mutex_lock(&cache->lock);
+    cache->running += ok;
+    cache->stop = cache->stop || !ok;
+    cache->start_error = ok ? cache->start_error : err;
     pthread_cond_broadcast(&cache->done);
     pthread_mutex_unlock(&cache->lock);
     if (ok) {
@@ -239,17 +255,18 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
     pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
     pthread_cond_init(&cache->done, &clock);
     pthread_condattr_destroy(&clock);
-    if (pthread_create(&cache->thread, NULL, thread_main, cache) != 0) {
-        error_set(err, ERROR_UNAVAILABLE, "", "no thread for compiling shaders");
-        free(cache);
-        return NULL;
+    for (int i = 0; i < EGL_COMPILERS; i++) {
+        if (pthread_create(&cache->threads[i], NULL, thread_main, cache) != 0) {
+            abort(); /* as where there is no memory */
+        }
     }
     pthread_mutex_lock(&cache->lock);
-    while (!cache->running && !cache->stop) {
+    while (cache->running < EGL_COMPILERS && !cache->stop) {
         pthread_cond_wait(&cache->done, &cache->lock);
     }
+    const bool ok = !cache->stop;
     pthread_mutex_unlock(&cache->lock);
-    if (!cache->running) {
+    if (!ok) {
         if (err) {
             *err = cache->start_error;
         }
@@ -261,8 +278,9 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
 
 static void destroy_program(const struct gl *gl, struct program *program)
 {
-    pass_finish(&program->march, gl);
-    pass_finish(&program->light, gl);
+    for (int i = 0; i < STAGE_COUNT; i++) {
+        pass_finish(&program->passes[i], gl);
+    }
     free(program->map_text);
     free(program->surface_text);
     free(program);
@@ -277,7 +295,9 @@ void program_cache_destroy(struct program_cache *cache)
     cache->stop = true;
     pthread_cond_broadcast(&cache->work);
     pthread_mutex_unlock(&cache->lock);
-    pthread_join(cache->thread, NULL);
+    for (int i = 0; i < EGL_COMPILERS; i++) {
+        pthread_join(cache->threads[i], NULL);
+    }
     while (cache->first) {
         struct program *program = cache->first;
         cache->first = program->next;
@@ -303,7 +323,7 @@ static void evict(struct program_cache *cache)
                 continue;
             }
             unused++;
-            if (p->queued || p->state == PROGRAM_FAILED) {
+            if (p->taken < STAGE_COUNT || p->state == PROGRAM_FAILED) {
                 victim = at;
                 unused = PROGRAMS_KEPT + 1;
                 break;
@@ -334,7 +354,7 @@ struct program *program_cache_find(struct program_cache *cache, uint64_t shape_h
     if (found) {
         found->refs++;
         found->last_use = ++cache->uses;
-        pthread_cond_signal(&cache->work); /* it may have been given up while queued */
+        pthread_cond_broadcast(&cache->work); /* it may have been given up while queued */
     }
     pthread_mutex_unlock(&cache->lock);
     return found;
@@ -352,12 +372,11 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->map_count = source->map_count;
     program->user_shaders = source->user_shaders;
     program->refs = 1;
-    program->queued = true;
     pthread_mutex_lock(&cache->lock);
     program->last_use = ++cache->uses;
     program->next = cache->first;
     cache->first = program;
-    pthread_cond_signal(&cache->work);
+    pthread_cond_broadcast(&cache->work);
     pthread_mutex_unlock(&cache->lock);
     return program;
 }
@@ -397,14 +416,9 @@ const struct error *program_error(const struct program *program)
     return &program->error;
 }
 
-const struct pass *program_march(const struct program *program)
+const struct pass *program_pass(const struct program *program, enum program_stage stage)
 {
-    return &program->march;
-}
-
-const struct pass *program_light(const struct program *program)
-{
-    return &program->light;
+    return &program->passes[stage];
 }
 
 static bool is_pending(const struct program_cache *cache)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Linked GL programs, one pair (march, light) for each shape of a field, kept by shape hash.
+/* Linked GL programs, one for each stage and shape of a field, kept by shape hash.
  *
- * A second thread with a context of its own compiles, links and runs one work group, because
- * drivers do most of their work at the first use. The drawing thread never waits for it. */
+ * Threads with contexts of their own compile, link and run one work group, because drivers do most
+ * of their work at the first use. The drawing thread never waits for them. */
 #ifndef RENDERER_PROGRAM_H
 #define RENDERER_PROGRAM_H
 
@@ -15,6 +15,9 @@ enum { PROGRAMS_KEPT = 64 }; /* without a user, the least recently used go beyon
 
 enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 
+/* What is compiled for each shape; glsl/ has a file of each name. */
+enum program_stage { STAGE_MARCH, STAGE_MATTER, STAGE_LIGHT, STAGE_COUNT };
+
 struct program; /* reference counted */
 struct program_cache;
 
@@ -26,7 +29,7 @@ struct program_source {
     size_t map_count;                    /* the first so many are those that the map reads */
 };
 
-/* The compile context of `egl` belongs to the cache until program_cache_destroy. */
+/* The compile contexts of `egl` belong to the cache until program_cache_destroy. */
 struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
                                            const struct gl_sink *sink, struct error *err);
 void program_cache_destroy(struct program_cache *cache);
@@ -42,8 +45,7 @@ enum program_state program_state(const struct program *program);
 /* Valid when failed. */
 const struct error *program_error(const struct program *program);
 /* Valid when ready. */
-const struct pass *program_march(const struct program *program);
-const struct pass *program_light(const struct program *program);
+const struct pass *program_pass(const struct program *program, enum program_stage stage);
 
 /* True when some program became ready or failed since the last call; waits at most that long for
  * it while there is something to wait for. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What march.glsl leaves for light.glsl, 48 bytes for each sample:
+/* What march.glsl and matter.glsl leave for light.glsl, 48 bytes for each sample:
  *   geometry  rgba32f   normal, distance along the ray (INFINITY: nothing hit)
  *   matter    rgba32ui  eight halves: diffuse, shininess, specular, emission.r
  *   more      rgba32ui  five halves: emission.gb, ambient, unused; then the id */

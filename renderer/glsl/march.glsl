@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* First pass: where each ray meets the field, its normal and its surface. It runs twice: coarsely
- * at first, with a cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
+/* First pass: where each ray meets the field, and its normal. It runs twice: coarsely at first, with
+ * a cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
 
 layout(rgba32f, binding = 0) writeonly uniform image2D out_geometry;
-layout(rgba32ui, binding = 1) writeonly uniform uimage2D out_matter;
-layout(rgba32ui, binding = 2) writeonly uniform uimage2D out_more;
 layout(r32f, binding = 4) uniform image2D starts; /* one value for each block */
 
 #define BLOCK 8
@@ -17,7 +15,7 @@ struct Hit {
     bool hit;
     float free; /* nothing is nearer */
     float t;
-    vec3 point, normal;
+    vec3 normal;
 };
 
 /* In a loop of two rounds, so that map() stands in the program once, which halves the time drivers
@@ -86,7 +84,7 @@ Hit march(Ray ray, float start, float cone)
     normal = normalize(normal - ray.direction * max(dot(normal, ray.direction) + 0.02, 0.0));
     /* The last piece, to the tangent plane. */
     t += rest * 4.0 * e / max(size, 0.4 * e) / max(-dot(normal, ray.direction), 0.02);
-    return Hit(hit, free, hit ? t : INFINITY, base, normal);
+    return Hit(hit, free, hit ? t : INFINITY, normal);
 }
 
 void main()
@@ -101,14 +99,6 @@ void main()
     if (coarse) {
         imageStore(starts, here, vec4(found.free));
     } else {
-        Surface s;
-        uvec4 matter, more;
-        surface(found.point,
-                Shading(found.point, vec3(0.0), found.normal, ray.direction, found.t), s);
-        s.id = found.hit ? s.id : 0u;
-        surface_pack(s, matter, more);
         imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), found.t));
-        imageStore(out_matter, here, matter);
-        imageStore(out_more, here, more);
     }
 }
