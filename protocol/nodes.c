@@ -4,8 +4,10 @@
 
 #include "nodes_parts.h"
 
-static const struct node_type *const tables[] = {node_shapes,     node_flat,      node_fractals,
-                                                 node_operations, node_modifiers, node_structure};
+static const struct node_type *const tables[] = {
+    node_shapes,     node_solids,    node_flat,      node_fractals,
+    node_operations, node_modifiers, node_structure,
+};
 enum { TABLE_COUNT = sizeof tables / sizeof tables[0] };
 
 const char *node_group_name(enum node_group group)

@@ -22,7 +22,8 @@
 #define PLACE UNIT_LENGTH, .step = 0.05
 
 /* Each ends with a row whose name is NULL. */
-extern const struct node_type node_shapes[];     /* numbers 1 to 69 */
+extern const struct node_type node_shapes[];     /* numbers 1 to 39 */
+extern const struct node_type node_solids[];     /* 40 to 69 */
 extern const struct node_type node_fractals[];   /* 70 to 99 */
 extern const struct node_type node_operations[]; /* 101 to 199 */
 extern const struct node_type node_modifiers[];  /* 201 to 299 */

@@ -8,7 +8,7 @@
 /* Names in glsl/, to be put before the text. They read the macro N_ANY(i): vec4 number i, where i
  * need not be a constant. */
 #define FIELD_GLSL_FILES                                                                           \
-    "points.glsl", "shapes.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",                 \
+    "points.glsl", "shapes.glsl", "solids.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",  \
         "modifiers.glsl", "user.glsl", "mixture.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
@@ -19,7 +19,7 @@ char *shader_map(const struct field *field);
 
 /* `void surface(vec3 p, Shading at, out Surface s)`: leaf and material at a hit (glsl/surface.glsl;
  * object_position is filled in). USER_SHADERS must be defined where field->shader_count > 0.
- * As above, but some i are not constant. */
+ * It calls N_ANY(i) where i is not constant. Both texts may stand in one program. */
 char *shader_surface(const struct field *field);
 
 #endif

@@ -74,9 +74,14 @@ struct sdf {
     /* KIND_DISTANCE */
     double (*change)(double d, const double *n);
 
-    /* KIND_COMBINE and KIND_DISTANCE: how much the field of `count` operands may be lowered; NULL:
-     * not at all. */
+    /* KIND_COMBINE and KIND_DISTANCE, of numbers as they are in the document. All may be NULL. */
+    /* Takes them from local lengths to lengths of the scene; NULL: every UNIT_LENGTH is multiplied
+     * by the scale. */
+    void (*scale)(double *n, double scale);
+    /* How much the field of `count` operands may be lowered; NULL: not at all. */
     double (*lowered)(const double *n, size_t count);
+    /* How many times a field above 0 may be too small; NULL: once. */
+    double (*stretched)(const double *n, size_t count);
 
     const struct sdf_domain *domain; /* KIND_DOMAIN */
 };
@@ -90,6 +95,7 @@ int sdf_numbers(const struct param *params, const struct value *values,
                 double out_n[SDF_NUMBERS_MAX]);
 
 /* Each ends with a row whose type is NULL. */
-extern const struct sdf sdf_shapes[], sdf_flat[], sdf_fractals[], sdf_operations[], sdf_modifiers[];
+extern const struct sdf sdf_shapes[], sdf_solids[], sdf_flat[], sdf_fractals[], sdf_operations[],
+    sdf_modifiers[];
 
 #endif

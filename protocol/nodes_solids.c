@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* Registry: primitives in three dimensions with flat sides, and flat ones with a thickness. */
+#include "nodes_parts.h"
+
+#define REGULAR "H. S. M. Coxeter, Regular Polytopes (1973), chapter 5, The Kaleidoscope"
+#define CIRCUMRADIUS                                                                               \
+    PARAMS({"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Centre to corners."})
+#define CORNER PARAM_VEC3, PLACE
+#define AROUND SIZE, .def = {0.02}, .main = true
+
+/* clang-format off */
+const struct node_type node_solids[] = {
+    {.record = {"hex_prism", "A rod with six equal sides along the Z axis.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true,
+         .doc = "Axis to the middle of a side; two sides face up and down."},
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Full length along Z."})},
+     .number = 40, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_hex_prism", .words = "hexagon nut pencil honeycomb rod",
+     .source = QUILEZ_DISTANCE ", Hexagonal Prism"},
+    {.record = {"tri_prism", "A rod with three equal sides along the Z axis, an edge up.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true,
+         .doc = "Axis to the middle of a side, half as far as to an edge."},
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Full length along Z."})},
+     .number = 41, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_tri_prism", .words = "triangle wedge roof tent toblerone",
+     .source = QUILEZ_DISTANCE ", Triangular Prism, in a form that is exact"},
+    {.record = {"octahedron", "A regular solid of eight triangles, its corners on the axes.",
+                CIRCUMRADIUS},
+     .number = 42, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_octahedron", .words = "diamond platonic crystal eight d8",
+     .source = QUILEZ_DISTANCE ", Octahedron"},
+    {.record = {"tetrahedron", "A regular solid of four triangles.", CIRCUMRADIUS},
+     .number = 43, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_tetrahedron", .words = "pyramid platonic crystal four d4", .source = REGULAR},
+    {.record = {"dodecahedron", "A regular solid of twelve pentagons.", CIRCUMRADIUS},
+     .number = 44, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_dodecahedron", .words = "platonic pentagon crystal twelve d12", .source = REGULAR},
+    {.record = {"icosahedron", "A regular solid of twenty triangles.", CIRCUMRADIUS},
+     .number = 45, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_icosahedron", .words = "platonic crystal twenty d20", .source = REGULAR},
+    {.record = {"pyramid", "A pyramid on a square that lies at y = 0.", PARAMS(
+        {"base", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Side of the square."},
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Square to tip."})},
+     .number = 46, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_pyramid", .words = "egypt roof spike tip",
+     .source = QUILEZ_DISTANCE ", Pyramid, by the nearest point of one side"},
+    {.record = {"rhombus", "A plate in the form of a diamond with rounded corners.", PARAMS(
+        {"width", PARAM_FLOAT, SIZE, .def = {0.8}, .main = true,
+         .doc = "Full diagonal along X, without the rounding."},
+        {"depth", PARAM_FLOAT, SIZE, .def = {0.4}, .main = true,
+         .doc = "Full diagonal along Z, without the rounding."},
+        {"height", PARAM_FLOAT, SIZE, .def = {0.1}, .doc = "Full height along Y."},
+        {"rounding", PARAM_FLOAT, REACH, .def = {0.05},
+         .doc = "By how much the diamond grows in its plane."})},
+     .number = 47, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_rhombus", .words = "diamond lozenge plate kite",
+     .source = QUILEZ_DISTANCE ", Rhombus"},
+    {.record = {"triangle", "All points near a triangle, which may be as narrow as a segment.",
+        PARAMS(
+        {"a", CORNER, .def = {-0.5, -0.4, 0}, .doc = "One corner."},
+        {"b", CORNER, .def = {0.5, -0.4, 0}, .doc = "Another."},
+        {"c", CORNER, .def = {0, 0.5, 0}, .main = true, .doc = "The third."},
+        {"thickness", PARAM_FLOAT, AROUND, .doc = "Triangle to surface, on either side."})},
+     .number = 48, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_triangle", .words = "face facet polygon sheet sail",
+     .source = QUILEZ_DISTANCE ", Triangle"},
+    {.record = {"quad", "All points near the two triangles a, b, c and a, c, d. Where these form "
+                "no flat convex quadrilateral, distances inside are bounds.", PARAMS(
+        {"a", CORNER, .def = {-0.5, -0.4, 0}, .doc = "One corner."},
+        {"b", CORNER, .def = {0.5, -0.4, 0}, .doc = "The next, in order around."},
+        {"c", CORNER, .def = {0.5, 0.4, 0}, .main = true, .doc = "The corner opposite to a."},
+        {"d", CORNER, .def = {-0.5, 0.4, 0}, .doc = "The last."},
+        {"thickness", PARAM_FLOAT, AROUND, .doc = "Quadrilateral to surface, on either side."})},
+     .number = 49, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_quad", .words = "face facet polygon sheet panel card",
+     .source = QUILEZ_DISTANCE ", Quad"},
+    {.record = {.name = NULL}},
+};
+/* clang-format on */
