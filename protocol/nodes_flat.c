@@ -8,6 +8,8 @@
 /* The full width of a line. */
 #define WIDTH SIZE, .main = true, .doc = "Full width of the line, half on each side."
 
+static const double corners[] = {-0.5, -0.5, 0.5, -0.5, 0.5, -0.1, -0.1, -0.1, -0.1, 0.5, -0.5, 0.5};
+
 /* clang-format off */
 const struct node_type node_flat[] = {
     {.record = {"circle", "A disc.", PARAMS(
@@ -40,6 +42,12 @@ const struct node_type node_flat[] = {
      .number = 405, .group = GROUP_SHAPE, .kind = KIND_FLAT, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd2_regular_polygon", .words = "ngon pentagon hexagon octagon nut",
      .source = "its symmetry, and the distance to half of one side"},
+    {.record = {"polygon", "A polygon, its corners in either order.", PARAMS(
+        {"points", PARAM_POINTS, UNIT_LENGTH, .def = {6}, .def_points = corners, .min = 3,
+         .max = LIMIT_POINTS, .main = true, .doc = "The corners; its sides must not cross."})},
+     .number = 406, .group = GROUP_SHAPE, .kind = KIND_FLAT, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd2_polygon", .words = "outline path shape freeform profile",
+     .source = QUILEZ_FLAT ", Polygon"},
     {.record = {"star", "A star, its first point up.", PARAMS(
         {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Centre to points."},
         {"points", PARAM_INT, UNIT_NONE, .def = {5}, .min = 2, .max = 64, .step = 1, .main = true,

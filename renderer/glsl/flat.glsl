@@ -63,6 +63,23 @@ float sd2_regular_polygon(vec2 p, float radius, float sides)
     return sd2_star(p, radius, sides, radius * cos(FLAT_PI / sides));
 }
 
+/* A polygon: inside, a ray from the point to the right crosses an odd number of sides. */
+float sd2_polygon(vec2 p, vec2 points)
+{
+    int count = points_count(points);
+    vec2 a = points_at(points, count - 1);
+    float nearest = 1e18;
+    bool inside = false;
+    for (int i = 0; i < count; i++) {
+        vec2 b = points_at(points, i);
+        bool level = (a.y > p.y) != (b.y > p.y);
+        inside = inside != (level && (cross2(b - a, p - a) > 0.0) == (b.y > a.y));
+        nearest = min(nearest, to_segment(p, a, b));
+        a = b;
+    }
+    return inside ? -sqrt(nearest) : sqrt(nearest);
+}
+
 /* A line along a circle, at most twice as thick as the circle's radius. */
 float sd2_ring(vec2 p, float radius, float thickness)
 {

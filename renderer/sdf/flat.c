@@ -119,6 +119,35 @@ static double regular_polygon(const double p[3], const double *n)
     return star(p, as_star);
 }
 
+/* n = how many corners, and x and y of each. Inside: a ray from the point to the right crosses an
+ * odd number of sides. */
+static double polygon(const double p[3], const double *n)
+{
+    int count = (int)n[0];
+    const double *a = n + 1 + 2 * (count - 1);
+    double nearest = INFINITY;
+    bool inside = false;
+    for (int i = 0; i < count; i++) {
+        const double *b = n + 1 + 2 * i;
+        double left = cross2(b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
+        bool level = (a[1] > p[1]) != (b[1] > p[1]);
+        inside = inside != (level && (left > 0) == (b[1] > a[1]));
+        nearest = fmin(nearest, to_segment(p, a, b));
+        a = b;
+    }
+    return inside ? -sqrt(nearest) : sqrt(nearest);
+}
+
+static struct bounds polygon_box(const double *n)
+{
+    return points_box(n + 1, (int)n[0], 0);
+}
+
+static int polygon_trips(const double *n)
+{
+    return (int)n[0];
+}
+
 /* A line so thick that it has no hole is a disc. */
 static void ring_prepare(double *n)
 {
@@ -142,7 +171,7 @@ static struct bounds ring_box(const double *n)
 static void arc_prepare(double *n)
 {
     double radius = n[0], angle = n[1];
-    n[0] = fmax(radius * sin(angle), 0);
+    n[0] = fmax(radius * sin(angle), 1e-12 * radius); /* never 0: the axis has a side */
     n[1] = radius * cos(angle);
 }
 
@@ -168,7 +197,7 @@ static double arc_depth(double x, double y, const double *n, bool beyond)
     return nearest;
 }
 
-static double arc(const double p[3], const double *n)
+double flat_arc(const double p[3], const double *n)
 {
     double x = fabs(p[0]), y = p[1];
     bool beyond = cross2(x, y, n[0], n[1]) > 0;
@@ -316,9 +345,10 @@ const struct sdf sdf_flat[] = {
      .box = rectangle_box},
     {"triangle2", .shape = triangle2, .box = triangle2_box},
     {"regular_polygon", .shape = regular_polygon, .box = circle_box},
+    {"polygon", .shape = polygon, .box = polygon_box, .trips = polygon_trips},
     {"star", .shape = star, .box = star_box},
     {"ring", .prepare = ring_prepare, .shape = ring, .box = ring_box},
-    {"arc", .prepare = arc_prepare, .shape = arc, .box = arc_box},
+    {"arc", .prepare = arc_prepare, .shape = flat_arc, .box = arc_box},
     {"vesica", .prepare = vesica_prepare, .shape = vesica, .box = vesica_box},
     {"cross", .prepare = cross_prepare, .shape = cross, .box = cross_box},
     {"bezier", .shape = bezier, .box = bezier_box, .trips = bezier_trips},

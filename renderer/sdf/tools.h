@@ -29,4 +29,7 @@ static inline double corner(double a, double b)
     return fmin(fmax(a, b), 0) + hypot(fmax(a, 0), fmax(b, 0));
 }
 
+/* The row `arc` of flat.c, after its `prepare`: x and y of the end on the side of +X, thickness. */
+double flat_arc(const double p[3], const double *n);
+
 #endif

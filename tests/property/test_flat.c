@@ -363,7 +363,7 @@ static void distances_are_those_of_the_words(void **state)
             }
         }
     }
-    assert_true(rows > 0);
+    assert_int_equal(rows, sizeof all_words / sizeof all_words[0]);
 }
 
 static void boxes_hold_the_shapes_and_have_no_end_along_z(void **state)
@@ -418,11 +418,16 @@ static const struct {
     {"star", {2, 4, 0}, {0, 0}, 0},
     {"star", {1, 2, 1}, {2, 2}, 2.1213203435596426}, /* two points: a square on its corner */
     {"star", {1, 3, 2}, {0, -3}, 1},                 /* the corners between are farther out */
+    {"polygon", {4, 0, 0, 2, 0, 2, 2, 0, 2}, {1, 1}, -1},
+    {"polygon", {4, 0, 2, 2, 2, 2, 0, 0, 0}, {1, 1}, -1},      /* the other way around */
+    {"polygon", {4, 0, 0, 2, 0, 2, 0, 2, 2}, {2.5, 0.5}, 0.5}, /* a corner twice */
+    {"polygon", {3, 0, 0, 2, 0, 4, 0}, {1, 0.5}, 0.5},         /* flat: a line */
     {"ring", {2, 1}, {0, 0}, 1.5},
     {"ring", {1, 4}, {0, 0}, -3}, /* no hole: a disc */
     {"ring", {1, 4}, {0, 5}, 2},
     {"arc", {2, 0, 1}, {0, 0}, 1.5}, /* a disc at (0, 2) */
     {"arc", {2, 0, 1}, {0, 2}, -0.5},
+    {"arc", {2, 0, 1}, {0, -2}, 3.5},
     {"arc", {2, PI, 1}, {0, -2}, -0.5}, /* a ring */
     {"arc", {2, PI, 1}, {0, -5}, 2.5},
     {"arc", {2, PI / 2, 1}, {2, -3}, 2.5},
