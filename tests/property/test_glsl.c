@@ -17,18 +17,35 @@
 #define SIZE 4.0
 #define TOLERANCE (1e-4 * SIZE)
 
+enum { FIELDS_MAX = 4, POINTS_MAX = 1024 };
+
 static struct probe probe;
 
+/* Scenes that share one GLSL program. */
 struct batch {
-    float points[PROBE_POINTS_MAX][3];
-    struct probe_answer answers[PROBE_POINTS_MAX];
+    struct scene *scenes[FIELDS_MAX];
+    struct field *fields[FIELDS_MAX];
+    size_t count, loop_trips;
+    float points[POINTS_MAX][3];
+    struct probe_answer answers[FIELDS_MAX * POINTS_MAX];
 };
 
-static void random_points(struct random *random, struct batch *batch, size_t count)
+static struct batch batch;
+
+static void batch_finish(void)
+{
+    for (size_t i = 0; i < batch.count; i++) {
+        field_unref(batch.fields[i]);
+        scene_destroy(batch.scenes[i]);
+    }
+    batch.count = batch.loop_trips = 0;
+}
+
+static void random_points(struct random *random, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         for (int j = 0; j < 3; j++) {
-            batch->points[i][j] = (float)random_between(random, -SIZE, SIZE);
+            batch.points[i][j] = (float)random_between(random, -SIZE, SIZE);
         }
     }
 }
@@ -38,16 +55,24 @@ static void to_double(const float p[3], double out[3])
     out[0] = p[0], out[1] = p[1], out[2] = p[2];
 }
 
-static double compare_distances(const struct field *field, const struct batch *batch, size_t count)
+static void fail_scene(size_t index, const char *what, double much, size_t point)
 {
-    double worst = 0;
-    for (size_t i = 0; i < count; i++) {
+    const float *p = batch.points[point];
+    fail_msg("%s: %g at %.9g %.9g %.9g\n%s", what, much, (double)p[0], (double)p[1], (double)p[2],
+             root_text(batch.scenes[index]));
+}
+
+static void compare_distances(size_t index, size_t points)
+{
+    for (size_t i = 0; i < points; i++) {
         double p[3];
-        to_double(batch->points[i], p);
-        double difference = fabs(field_distance(field, p) - batch->answers[i].distance);
-        worst = difference <= worst ? worst : difference; /* NaN is worst of all */
+        to_double(batch.points[i], p);
+        double want = field_distance(batch.fields[index], p);
+        double difference = fabs(want - batch.answers[index * points + i].distance);
+        if (!(difference <= TOLERANCE)) {
+            fail_scene(index, "distances differ", difference, i);
+        }
     }
-    return worst;
 }
 
 /* The leaf and material may differ only where two leaves are nearly equal: then they are those of
@@ -76,48 +101,66 @@ static bool surface_agrees(const struct field *field, const float point[3],
     return false;
 }
 
-static size_t count_bad_surfaces(const struct field *field, const struct batch *batch, size_t count)
+static void compare_surfaces(size_t index, size_t points)
 {
-    size_t bad = 0;
-    for (size_t i = 0; i < count; i++) {
-        bad += !surface_agrees(field, batch->points[i], &batch->answers[i]);
+    for (size_t i = 0; i < points; i++) {
+        const struct probe_answer *answer = &batch.answers[index * points + i];
+        if (!surface_agrees(batch.fields[index], batch.points[i], answer)) {
+            fail_scene(index, "surfaces differ, leaf", answer->leaf, i);
+        }
     }
-    return bad;
 }
 
-/* One program; `rounds` times other numbers in the same shape. */
-static void check_scene(struct random *random, struct scene *scene,
-                        const struct random_limits *limits, int rounds, size_t points,
-                        const char *name)
+/* One program; `rounds` times other numbers in the same shapes. Empties the batch. */
+static void check_batch(struct random *random, const struct random_limits *limits, int rounds,
+                        size_t points, bool in_block)
 {
-    static struct batch batch;
     struct error err = {0};
     struct probe_program program;
-    struct field *field = compile_field(scene);
-    const uint64_t shape = field->shape_hash;
-    if (!probe_program_init(&program, &probe, field, true, true, &err)) {
-        fail_msg("%s: %s", name, err.message);
+    if (!probe_program_init(&program, &probe, batch.fields, batch.count, true, in_block, &err)) {
+        fail_msg("%s", err.message);
     }
     for (int round = 0; round < rounds; round++) {
-        random_points(random, &batch, points);
-        probe_run(&probe, &program, field, batch.points, points, 0, batch.answers);
-        double worst = compare_distances(field, &batch, points);
-        if (!(worst <= TOLERANCE)) {
-            fail_msg("%s, round %d: distances differ by %g\n%s", name, round, worst,
-                     root_text(scene));
+        random_points(random, points);
+        probe_run(&probe, &program, batch.fields, batch.count, batch.points, points, batch.answers);
+        for (size_t i = 0; i < batch.count; i++) {
+            compare_distances(i, points);
+            compare_surfaces(i, points);
+            const uint64_t shape = batch.fields[i]->shape_hash;
+            random_numbers(random, batch.scenes[i]->root, limits);
+            field_unref(batch.fields[i]);
+            batch.fields[i] = compile_field(batch.scenes[i]);
+            assert_true(batch.fields[i]->shape_hash == shape);
         }
-        size_t bad = count_bad_surfaces(field, &batch, points);
-        if (bad > 0) {
-            fail_msg("%s, round %d: %zu of %zu surfaces differ\n%s", name, round, bad, points,
-                     root_text(scene));
-        }
-        random_numbers(random, scene->root, limits);
-        field_unref(field);
-        field = compile_field(scene);
-        assert_true(field->shape_hash == shape);
     }
-    field_unref(field);
     probe_program_finish(&program, &probe);
+    batch_finish();
+}
+
+/* Adds a scene; false where it needs a program of its own: a driver may cut off loops. */
+static bool batch_add(struct scene *scene)
+{
+    struct field *field = compile_field(scene);
+    if (batch.count == FIELDS_MAX ||
+        (batch.count && batch.loop_trips + field->loop_trips > 25000)) {
+        field_unref(field);
+        return false;
+    }
+    batch.loop_trips += field->loop_trips;
+    batch.scenes[batch.count] = scene;
+    batch.fields[batch.count++] = field;
+    return true;
+}
+
+/* The first parameter with choices; -1: none. */
+static int choice_of(const struct node_type *type)
+{
+    for (int i = 0; type->record.params[i].name; i++) {
+        if (type->record.params[i].type == PARAM_ENUM) {
+            return i;
+        }
+    }
+    return -1;
 }
 
 static void every_row_agrees(void **state)
@@ -125,67 +168,68 @@ static void every_row_agrees(void **state)
     (void)state;
     struct random random = {1};
     const struct random_limits limits = {.depth = 1};
+    const int rounds = 25;
+    const size_t points = 400;
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
-        assert_non_null(sdf_find(type));
-        struct scene *scene = random_scene(&random, type, &limits);
-        check_scene(&random, scene, &limits, 25, 400, type->record.name);
-        scene_destroy(scene);
+        if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
+            continue;
+        }
+        int choice = choice_of(type);
+        const char *const *choices = choice < 0 ? NULL : type->record.params[choice].choices;
+        for (int k = 0; k == 0 || (choices && choices[k]); k++) {
+            struct scene *scene = random_scene(&random, type, &limits);
+            if (choices) {
+                scene->root->params.values[choice].number[0] = k;
+            }
+            if (!batch_add(scene)) {
+                check_batch(&random, &limits, rounds, points, false);
+                assert_true(batch_add(scene));
+            }
+        }
     }
+    check_batch(&random, &limits, rounds, points, false);
 }
 
 static void nested_scenes_agree(void **state)
 {
     (void)state;
     struct random random = {2};
-    for (int i = 0; i < 24; i++) {
-        const struct random_limits limits = {.depth = 2 + i % 3};
+    struct random_limits limits = {.lean = true};
+    for (int i = 0; i < 500; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
-        const struct node_type *type = random_type(&random, kind, &limits);
-        struct scene *scene = random_scene(&random, type, &limits);
-        char name[64];
-        snprintf(name, sizeof name, "nested scene %d (%s)", i, type->record.name);
-        check_scene(&random, scene, &limits, 3, 300, name);
-        scene_destroy(scene);
+        limits.depth = 1 + i % 8;
+        struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
+        if (!batch_add(scene)) {
+            check_batch(&random, &limits, 2, 64, false);
+            assert_true(batch_add(scene));
+        }
     }
+    check_batch(&random, &limits, 2, 64, false);
 }
 
 /* The other tests read a texture, which software compiles ten times faster. */
 static void numbers_may_come_from_a_block(void **state)
 {
     (void)state;
-    static struct batch batch;
     struct random random = {3};
-    struct error err = {0};
-    const struct random_limits limits = {.depth = 3};
-    struct scene *scene = random_scene(&random, node_type_find("smooth_union"), &limits);
-    struct field *field = compile_field(scene);
-    struct probe_program program;
-    assert_true(probe_program_init(&program, &probe, field, true, false, &err));
-    random_points(&random, &batch, 1000);
-    probe_run(&probe, &program, field, batch.points, 1000, 0, batch.answers);
-    assert_true(compare_distances(field, &batch, 1000) <= TOLERANCE);
-    assert_int_equal(count_bad_surfaces(field, &batch, 1000), 0);
-    probe_program_finish(&program, &probe);
-    field_unref(field);
-    scene_destroy(scene);
+    const struct random_limits limits = {.depth = 3, .lean = true};
+    assert_true(batch_add(random_scene(&random, node_type_find("smooth_union"), &limits)));
+    check_batch(&random, &limits, 3, 400, true);
 }
 
 static void empty_scenes_compile(void **state)
 {
     (void)state;
-    static struct batch batch;
     struct error err = {0};
-    struct scene *scene = scene_create_empty();
-    struct field *field = compile_field(scene);
     struct probe_program program;
-    assert_true(probe_program_init(&program, &probe, field, true, false, &err));
-    probe_run(&probe, &program, field, batch.points, 1, 0, batch.answers);
+    assert_true(batch_add(scene_create_empty()));
+    assert_true(probe_program_init(&program, &probe, batch.fields, 1, true, false, &err));
+    probe_run(&probe, &program, batch.fields, 1, batch.points, 1, batch.answers);
     assert_true(batch.answers[0].distance > 1e8f);
     assert_int_equal(batch.answers[0].leaf, 0);
     probe_program_finish(&program, &probe);
-    field_unref(field);
-    scene_destroy(scene);
+    batch_finish();
 }
 
 static int set_up(void **state)

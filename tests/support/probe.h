@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Asks the GLSL of a field program about points, on whatever device EGL gives: the fragment stage,
- * as in production, one pixel for each point. Not a renderer: no camera, no marching. */
+/* Asks the GLSL of field programs about points, on whatever device EGL gives: in a compute shader,
+ * as in production, one invocation for each point. Not a renderer: no camera, no marching. */
 #ifndef TESTS_SUPPORT_PROBE_H
 #define TESTS_SUPPORT_PROBE_H
 
@@ -8,18 +8,17 @@
 #include "renderer/gl/egl.h"
 #include "renderer/gl/gl.h"
 
-enum { PROBE_SIDE = 128, PROBE_POINTS_MAX = PROBE_SIDE * PROBE_SIDE };
-
 struct probe {
     struct egl egl;
     struct gl gl;
-    GLuint vertex_array, framebuffer, targets[5];
-    GLuint buffers[2], views[2]; /* points, numbers */
+    GLuint buffers[3], views[2]; /* points, numbers, answers */
 };
 
-/* One program, for every field of one shape. */
+/* One program for several fields, which compiles faster than one for each: the text around them is
+ * longer than theirs. It serves every list of fields of these shapes. */
 struct probe_program {
     GLuint program;
+    bool surface;
 };
 
 struct probe_answer {
@@ -31,16 +30,17 @@ struct probe_answer {
 bool probe_init(struct probe *probe, struct error *err);
 void probe_finish(struct probe *probe);
 
-/* `surface`: with surface(), which takes longer to compile. `in_texture`: N() reads a texture
- * instead of a uniform block. */
+/* `surface`: with surface(), which takes longer to compile. `in_block`: N() reads a uniform block
+ * instead of a texture, which software compiles ten times slower. A driver may cut off loops after
+ * 65,535 iterations of all fields together. Only one field of several may have users' code. */
 bool probe_program_init(struct probe_program *program, const struct probe *probe,
-                        const struct field *field, bool surface, bool in_texture,
+                        struct field *const *fields, size_t count, bool surface, bool in_block,
                         struct error *err);
 void probe_program_finish(struct probe_program *program, const struct probe *probe);
 
-/* `repeat` draws the same again, for measuring. */
+/* The answer of fields[i] about points[j] goes to out[i * point_count + j]. */
 void probe_run(const struct probe *probe, const struct probe_program *program,
-               const struct field *field, const float (*points)[3], size_t count, int repeat,
-               struct probe_answer *out);
+               struct field *const *fields, size_t count, const float (*points)[3],
+               size_t point_count, struct probe_answer *out);
 
 #endif
