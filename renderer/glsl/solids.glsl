@@ -89,7 +89,7 @@ float sd_pyramid(vec3 p, float base, float height)
     vec2 edge = vec2(slope, -half_base), rest = vec2(side.y, side.z - half_base);
     bool beside = rest.x * half_base + rest.y * slope > 0.0;
     vec2 over = beside ? rest - edge * clamp(dot(rest, edge) / dot(edge, edge), 0.0, 1.0)
-                       : vec2(min(side.y, 0.0), 0.0);
+                       : vec2(min(side.y, 0.0), max(rest.y, 0.0));
     float square = min(dot(under, under), side.x * side.x + dot(over, over));
     return q.y > 0.0 && side.x < 0.0 ? -min(q.y, -side.x) : sqrt(square);
 }

@@ -158,7 +158,7 @@ static double pyramid(const double p[3], const double *n)
     if (p[1] > 0 && above < 0) {
         return -fmin(p[1], -above);
     }
-    double over[2] = {fmin(u, 0), 0};
+    double over[2] = {fmin(u, 0), fmax(z, 0)};
     if (u * half + z * slope > 0) {
         double t = clamp((u * slope - z * half) / (slope * slope + half * half), 0, 1);
         over[0] = u - t * slope;

@@ -5,6 +5,29 @@
 
 #include "predicates.h"
 
+#define PI 3.141592653589793
+#define PHI 1.618033988749895
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void minus(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = a[i] - b[i];
+    }
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
 static bool in_box(const double p[3], const double *n)
 {
     return fabs(p[0]) < n[0] / 2 && fabs(p[1]) < n[1] / 2 && fabs(p[2]) < n[2] / 2;
@@ -16,8 +39,218 @@ static bool in_plane(const double p[3], const double *n)
     return (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / length < n[3];
 }
 
+/* --- prisms and plates --- */
+
+static bool in_prism(const double p[3], const double *n, int sides, double first)
+{
+    bool inside = fabs(p[2]) < n[1] / 2;
+    for (int i = 0; i < sides; i++) {
+        double angle = first + 2 * PI * i / sides;
+        inside = inside && p[0] * cos(angle) + p[1] * sin(angle) < n[0];
+    }
+    return inside;
+}
+
+static bool in_hex_prism(const double p[3], const double *n)
+{
+    return in_prism(p, n, 6, PI / 2);
+}
+
+static bool in_tri_prism(const double p[3], const double *n)
+{
+    return in_prism(p, n, 3, -PI / 2);
+}
+
+static bool in_pyramid(const double p[3], const double *n)
+{
+    double half = n[0] / 2 * (1 - p[1] / n[1]);
+    return p[1] > 0 && p[1] < n[1] && fabs(p[0]) < half && fabs(p[2]) < half;
+}
+
+static bool near_point(const double p[3], const double *a, double radius)
+{
+    double w[3];
+    minus(p, a, w);
+    return dot(w, w) < radius * radius;
+}
+
+/* Beside the segment from a to b, not beyond its ends. */
+static bool beside_segment(const double p[3], const double *a, const double *b, double radius)
+{
+    double w[3], e[3], across[3];
+    minus(p, a, w);
+    minus(b, a, e);
+    cross(w, e, across);
+    return dot(w, e) > 0 && dot(w, e) < dot(e, e) &&
+           dot(across, across) < radius * radius * dot(e, e);
+}
+
+static bool in_rhombus(const double p[3], const double *n)
+{
+    double q[3] = {fabs(p[0]), 0, fabs(p[2])}, a[3] = {n[0] / 2, 0, 0}, b[3] = {0, 0, n[1] / 2};
+    bool plan = q[0] / a[0] + q[2] / b[2] < 1 || near_point(q, a, n[3]) || near_point(q, b, n[3]) ||
+                beside_segment(q, a, b, n[3]);
+    return plan && fabs(p[1]) < n[2] / 2;
+}
+
+/* Above or under the triangle. */
+static bool beside_face(const double p[3], const double *const corners[3], double thickness)
+{
+    double u[3], v[3], normal[3], w[3], edge[3], outward[3];
+    minus(corners[1], corners[0], u);
+    minus(corners[2], corners[0], v);
+    cross(u, v, normal);
+    minus(p, corners[0], w);
+    bool inside = fabs(dot(w, normal)) < thickness * sqrt(dot(normal, normal));
+    for (int i = 0; i < 3; i++) {
+        minus(corners[(i + 1) % 3], corners[i], edge);
+        minus(p, corners[i], w);
+        cross(edge, normal, outward);
+        inside = inside && dot(w, outward) < 0;
+    }
+    return inside;
+}
+
+static bool near_triangle(const double p[3], const double *a, const double *b, const double *c,
+                          double thickness)
+{
+    const double *corners[3] = {a, b, c};
+    bool inside = beside_face(p, corners, thickness);
+    for (int i = 0; i < 3; i++) {
+        inside = inside || near_point(p, corners[i], thickness) ||
+                 beside_segment(p, corners[i], corners[(i + 1) % 3], thickness);
+    }
+    return inside;
+}
+
+static bool in_triangle(const double p[3], const double *n)
+{
+    return near_triangle(p, n, n + 3, n + 6, n[9]);
+}
+
+static bool in_quad(const double p[3], const double *n)
+{
+    return near_triangle(p, n, n + 3, n + 6, n[12]) || near_triangle(p, n, n + 6, n + 9, n[12]);
+}
+
+/* --- regular solids: the hull of their corners --- */
+
+struct hull {
+    int corner_count, plane_count;
+    double corners[20][3];
+    double planes[256][4]; /* unit normal and offset; some are there several times */
+};
+
+/* The corner with these coordinates, and all others that have other signs and turn (x, y, z) to
+ * (y, z, x). */
+static void add_corners(struct hull *hull, double x, double y, double z)
+{
+    double at[3] = {x, y, z}, length = sqrt(x * x + y * y + z * z);
+    for (int turn = 0; turn < (x == y && y == z ? 1 : 3); turn++) {
+        for (int signs = 0; signs < 8; signs++) {
+            double *corner = hull->corners[hull->corner_count];
+            bool twice = false;
+            for (int i = 0; i < 3; i++) {
+                double sign = signs >> i & 1 ? -1 : 1;
+                corner[i] = sign * at[(i + turn) % 3] / length;
+                twice = twice || (sign < 0 && corner[i] == 0);
+            }
+            hull->corner_count += !twice;
+        }
+    }
+}
+
+/* A plane through three corners with none beyond it is a face. */
+static void add_plane(struct hull *hull, const double *a, const double *b, const double *c)
+{
+    double u[3], v[3], normal[3];
+    minus(b, a, u);
+    minus(c, a, v);
+    cross(u, v, normal);
+    double length = sqrt(dot(normal, normal));
+    if (length < 1e-9) {
+        return;
+    }
+    double *plane = hull->planes[hull->plane_count];
+    for (int i = 0; i < 3; i++) {
+        plane[i] = normal[i] / length;
+    }
+    plane[3] = dot(plane, a);
+    for (int i = 0; i < hull->corner_count; i++) {
+        if (dot(plane, hull->corners[i]) > plane[3] + 1e-9) {
+            return;
+        }
+    }
+    hull->plane_count++;
+}
+
+static bool in_hull(struct hull *hull, const double p[3], double radius)
+{
+    if (hull->plane_count == 0) {
+        int count = hull->corner_count;
+        for (int i = 0; i < count * count * count; i++) {
+            int a = i % count, b = i / count % count, c = i / count / count;
+            if (a < b && a < c && b != c) { /* each turn once, in both senses */
+                add_plane(hull, hull->corners[a], hull->corners[b], hull->corners[c]);
+            }
+        }
+    }
+    bool inside = true;
+    for (int i = 0; i < hull->plane_count; i++) {
+        inside = inside && dot(hull->planes[i], p) < hull->planes[i][3] * radius;
+    }
+    return inside;
+}
+
+static bool in_octahedron(const double p[3], const double *n)
+{
+    return fabs(p[0]) + fabs(p[1]) + fabs(p[2]) < n[0];
+}
+
+static bool in_tetrahedron(const double p[3], const double *n)
+{
+    static struct hull hull;
+    static const double signs[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    if (hull.corner_count == 0) {
+        hull.corner_count = 4;
+        for (int i = 0; i < 12; i++) {
+            hull.corners[i / 3][i % 3] = signs[i / 3][i % 3] / sqrt(3);
+        }
+    }
+    return in_hull(&hull, p, n[0]);
+}
+
+static bool in_dodecahedron(const double p[3], const double *n)
+{
+    static struct hull hull;
+    if (hull.corner_count == 0) {
+        add_corners(&hull, 0, 1 / PHI, PHI);
+        add_corners(&hull, 1, 1, 1);
+    }
+    return in_hull(&hull, p, n[0]);
+}
+
+static bool in_icosahedron(const double p[3], const double *n)
+{
+    static struct hull hull;
+    if (hull.corner_count == 0) {
+        add_corners(&hull, 0, 1, PHI);
+    }
+    return in_hull(&hull, p, n[0]);
+}
+
 const struct predicate predicates_flat_sided[] = {
     {"box", in_box},
     {"plane", in_plane},
+    {"hex_prism", in_hex_prism},
+    {"tri_prism", in_tri_prism},
+    {"octahedron", in_octahedron},
+    {"tetrahedron", in_tetrahedron},
+    {"dodecahedron", in_dodecahedron},
+    {"icosahedron", in_icosahedron},
+    {"pyramid", in_pyramid},
+    {"rhombus", in_rhombus},
+    {"triangle", in_triangle},
+    {"quad", in_quad},
     {.type = NULL},
 };
