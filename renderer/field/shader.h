@@ -9,7 +9,7 @@
  * need not be a constant. */
 #define FIELD_GLSL_FILES                                                                           \
     "points.glsl", "shapes.glsl", "solids.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",  \
-        "modifiers.glsl", "user.glsl", "mixture.glsl"
+        "modifiers.glsl", "code.glsl", "user.glsl", "mixture.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* THE TABLE of functions that users' code can call: name, arguments, GLSL, C.
+ *
+ * Both evaluators agree also where GLSL says nothing. What is outside of a function's domain is
+ * moved to its nearest end (glsl/code.glsl): sqrt(-1) is 0, acos(2) is 0, log(0) is log(1e-30),
+ * normalize of nothing is nothing. pow() takes the magnitude of its first argument. A division by
+ * 0 inside of mod() or of whole numbers gives 0; with / it is infinite, as everywhere. */
+#ifndef RENDERER_CODE_BUILTINS_H
+#define RENDERER_CODE_BUILTINS_H
+
+#include "types.h"
+
+/* What arguments a function takes. Where several are of one shape, a scalar is also taken for a
+ * vector, and a whole number for a float. */
+enum family {
+    FAMILY_FLOAT,       /* floats or vectors of one shape, which the result has, too */
+    FAMILY_SIGNED,      /* the same, or of int */
+    FAMILY_NUMBER,      /* the same, or of uint */
+    FAMILY_SELECT,      /* two of float and one of bool, of one shape, which the result has, too */
+    FAMILY_TEST,        /* one of float; the result is of bool */
+    FAMILY_COMPARE,     /* two vectors of numbers; the result is of bool */
+    FAMILY_EQUAL,       /* the same, also of bool */
+    FAMILY_LOGIC,       /* a vector of bool, which the result is, too */
+    FAMILY_COUNT,       /* a vector of bool; the result is a bool */
+    FAMILY_SCALAR,      /* floats or vectors of one shape; the result is a float */
+    FAMILY_SHAPE,       /* the same, but as a whole; the result has their shape */
+    FAMILY_REFRACT,     /* two of one shape and a float */
+    FAMILY_CROSS,       /* two of vec3 */
+    FAMILY_MATRIX,      /* matrices of one size, which the result has, too */
+    FAMILY_DETERMINANT, /* a matrix; the result is a float */
+    FAMILY_OUTER,       /* two vectors of one size; the result is a matrix */
+    FAMILY_PRODUCT,     /* mul() of HLSL, whose M[i] are rows: b * a */
+};
+
+enum { BUILTIN_ARGUMENTS = 3 };
+
+struct builtin {
+    const char *name;
+    enum family family;
+    int arguments;
+    /* A name to call, or a text where $0, $1, $2 are arguments, each at most once. NULL: `name`. */
+    const char *glsl;
+    /* One of these; NULL for the others. The first three go component by component. */
+    double (*one)(double);
+    double (*two)(double, double);
+    double (*three)(double, double, double);
+    /* `n` is the size of vectors and matrices. */
+    void (*whole)(double *out, const double *const in[BUILTIN_ARGUMENTS], int n);
+};
+
+/* Ends with a row whose name is NULL. Of rows of one name the first that fits is called. */
+extern const struct builtin builtin_table[];
+
+const struct builtin *builtin_find(const char *name); /* the first of this name; NULL: none */
+/* What to do instead of calling a function that GLSL or HLSL has, and users' code has not; NULL:
+ * nothing is known of it. */
+const char *builtin_advice(const char *name);
+
+#endif

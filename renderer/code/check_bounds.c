@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT */
+/* How large code is when every call is written out, as drivers do: a few lines of functions that
+ * call each other twice keep a compiler busy for minutes. */
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct bounds_walk {
+    struct tree *tree;
+    struct function *function; /* the innermost that is open */
+    int open;
+};
+
+struct cost {
+    long size, work, trips;
+};
+
+static bool walk_function(struct bounds_walk *walk, struct function *function, struct at call);
+
+static long most(long a, long b)
+{
+    return a > b ? a : b;
+}
+
+/* Adds operations, and refuses when they become too many. */
+static bool spend(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
+{
+    cost->size += size;
+    cost->work += size;
+    return cost->size <= LIMIT_CODE_SIZE ||
+           tree_fail_limit(walk->tree, at, "operations, with every call written out,",
+                           LIMIT_CODE_SIZE, "code_size");
+}
+
+/* --- calls --- */
+
+/* "a -> b -> a" */
+static bool refuse_cycle(struct bounds_walk *walk, const struct function *again, struct at at)
+{
+    const struct function *cycle[LIMIT_CODE_DEPTH + 1];
+    char path[200];
+    int count = 0, used = 0;
+    for (const struct function *f = walk->function; f != again; f = f->caller) {
+        cycle[count++] = f;
+    }
+    used += snprintf(path, sizeof path, "%.40s", again->name->text);
+    while (count > 0 && used < (int)sizeof path - 60) {
+        used += snprintf(path + used, sizeof path - (size_t)used, " -> %.40s",
+                         cycle[--count]->name->text);
+    }
+    return tree_fail(walk->tree, at, "a function calls itself: %s%s -> %.40s", path,
+                     count > 0 ? " -> ..." : "", again->name->text);
+}
+
+static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
+{
+    struct function *to = expr->function;
+    long arguments = type_components(to->result);
+    if (!walk_function(walk, to, expr->at)) {
+        return false;
+    }
+    struct call *call = tree_alloc(walk->tree, sizeof *call);
+    call->to = to;
+    call->next = walk->function->calls;
+    walk->function->calls = call;
+    walk->function->height = (int)most(walk->function->height, to->height + 1);
+    for (const struct variable *p = to->parameters; p; p = p->next) {
+        arguments += type_components(p->type);
+    }
+    cost->work += to->work - to->size;
+    cost->trips += to->trips;
+    return spend(walk, cost, 1 + arguments + to->size, expr->at);
+}
+
+/* --- expressions --- */
+
+/* Of the expression itself, without what is in it. */
+static long size_of(const struct expr *expr)
+{
+    long count = type_components(expr->type);
+    if (expr->value) {
+        return count > 1 ? count : 0;
+    }
+    switch (expr->kind) {
+    case EXPR_VARIABLE:
+    case EXPR_SWIZZLE:
+    case EXPR_FIELD:
+    case EXPR_DATA:
+        return 0;
+    case EXPR_INDEX:
+        return expr->b->value ? 0 : count + 1;
+    case EXPR_BINARY:
+        if (type_is_matrix(expr->a->type) && !type_is_scalar(expr->b->type)) {
+            return count * expr->a->type.columns;
+        }
+        return most(count, type_components(expr->a->type));
+    case EXPR_ASSIGN:
+        return expr->op == OP_NONE ? count : 2 * count;
+    case EXPR_BUILTIN:
+        count = most(count, type_components(expr->args->type));
+        return type_is_matrix(expr->args->type) ? 4 * count : count;
+    default:
+        return count;
+    }
+}
+
+static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
+{
+    if (!expr) {
+        return true;
+    }
+    if (!expr->value) {
+        if (!walk_expr(walk, cost, expr->a) || !walk_expr(walk, cost, expr->b) ||
+            !walk_expr(walk, cost, expr->c)) {
+            return false;
+        }
+        for (const struct expr *arg = expr->args; arg; arg = arg->next) {
+            if (!walk_expr(walk, cost, arg)) {
+                return false;
+            }
+        }
+        if (expr->kind == EXPR_CALL) {
+            return walk_call(walk, cost, expr);
+        }
+    }
+    return spend(walk, cost, size_of(expr), expr->at);
+}
+
+/* --- statements --- */
+
+static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt);
+
+static bool walk_list(struct bounds_walk *walk, struct cost *cost, const struct stmt *list)
+{
+    for (; list; list = list->next) {
+        if (!walk_statement(walk, cost, list)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool walk_for(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
+{
+    struct cost body = {.size = cost->size};
+    if (!walk_statement(walk, &body, stmt->body)) {
+        return false;
+    }
+    cost->work += stmt->trips * (1 + body.work);
+    cost->trips += stmt->trips * (1 + body.trips);
+    cost->size = body.size;
+    return cost->trips <= LIMIT_CODE_TRIPS ||
+           tree_fail_limit(walk->tree, stmt->at, "iterations of loops", LIMIT_CODE_TRIPS,
+                           "code_trips");
+}
+
+static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
+{
+    const struct variable *variable = stmt->variable;
+    switch (stmt->kind) {
+    case STMT_EMPTY:
+        return true;
+    case STMT_FOR:
+        return spend(walk, cost, 1, stmt->at) && walk_for(walk, cost, stmt);
+    case STMT_IF:
+        return spend(walk, cost, 1, stmt->at) && walk_expr(walk, cost, stmt->expr) &&
+               walk_statement(walk, cost, stmt->body) &&
+               (!stmt->other || walk_statement(walk, cost, stmt->other));
+    case STMT_DECLARE:
+        return walk_list(walk, cost, stmt->body) && walk_expr(walk, cost, stmt->expr) &&
+               (!variable || spend(walk, cost, type_components(variable->type), stmt->at));
+    case STMT_BLOCK:
+        return walk_list(walk, cost, stmt->body);
+    default:
+        return spend(walk, cost, 1, stmt->at) && walk_expr(walk, cost, stmt->expr);
+    }
+}
+
+/* --- functions --- */
+
+static bool open_function(struct bounds_walk *walk, struct function *function, struct at call)
+{
+    if (function->state == FUNCTION_OPEN) {
+        return refuse_cycle(walk, function, call);
+    }
+    if (!function->body) {
+        return tree_fail(walk->tree, call, "%.40s is declared, but nowhere defined",
+                         function->name->text);
+    }
+    if (walk->open == LIMIT_CODE_DEPTH) {
+        return tree_fail_limit(walk->tree, call, "calls inside calls", LIMIT_CODE_DEPTH,
+                               "code_depth");
+    }
+    function->state = FUNCTION_OPEN;
+    function->caller = walk->function;
+    walk->function = function;
+    walk->open++;
+    return true;
+}
+
+static bool walk_function(struct bounds_walk *walk, struct function *function, struct at call)
+{
+    struct cost cost = {0};
+    if (function->state == FUNCTION_DONE) {
+        return true;
+    }
+    if (!open_function(walk, function, call) || !walk_statement(walk, &cost, function->body)) {
+        return false;
+    }
+    function->size = cost.size;
+    function->work = cost.work;
+    function->trips = cost.trips;
+    if (function->trips > LIMIT_CODE_TRIPS) {
+        return tree_fail_limit(walk->tree, function->at, "iterations of loops", LIMIT_CODE_TRIPS,
+                               "code_trips");
+    }
+    if (function->height >= LIMIT_CODE_DEPTH) {
+        return tree_fail_limit(walk->tree, function->at, "calls inside calls", LIMIT_CODE_DEPTH,
+                               "code_depth");
+    }
+    function->state = FUNCTION_DONE;
+    *walk->tree->last_called = function;
+    walk->tree->last_called = &function->next_called;
+    walk->function = function->caller;
+    walk->open--;
+    return true;
+}
+
+bool check_bounds(struct tree *tree)
+{
+    struct bounds_walk walk = {.tree = tree};
+    for (struct function *f = tree->functions; f; f = f->next) {
+        if (f->body && !walk_function(&walk, f, f->at)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void check_reach(struct function *entry)
+{
+    entry->reachable = true;
+    for (const struct call *call = entry->calls; call; call = call->next) {
+        if (!call->to->reachable) {
+            check_reach(call->to);
+        }
+    }
+}

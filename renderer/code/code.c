@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* The public face: compiled code, and running it. */
+#include "code.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "code_parts.h"
+#include "lower.h"
+#include "parser.h"
+#include "protocol/memory.h"
+#include "writer.h"
+
+static bool check_length_of(const char *text, struct error *err)
+{
+    size_t length = strlen(text);
+    return length <= LIMIT_CODE_BYTES ||
+           error_set_at(err, ERROR_LIMIT, "", 1, 1,
+                        "code of %zu bytes, above the maximum %d (code_bytes)", length,
+                        LIMIT_CODE_BYTES);
+}
+
+struct code *code_compile(const struct code_source *source, struct error *err)
+{
+    if (!check_length_of(source->text, err)) {
+        return NULL;
+    }
+    struct code *code = memory_alloc(1, sizeof *code);
+    code->use = source->use;
+    tree_init(&code->tree, err);
+    if (!parser_read(&code->tree, source->text) || !check_tree(&code->tree, source) ||
+        !lower_tree(&code->tree, &code->machine)) {
+        code_destroy(code);
+        return NULL;
+    }
+    code->tree.err = NULL;
+    return code;
+}
+
+void code_destroy(struct code *code)
+{
+    if (code) {
+        tree_finish(&code->tree);
+        machine_code_finish(&code->machine);
+        free(code);
+    }
+}
+
+void code_write(const struct code *code, const char *name, int source_number, FILE *out)
+{
+    writer_write(&code->tree, code->use, name, source_number, out);
+}
+
+int code_trips(const struct code *code)
+{
+    return (int)code->tree.entry->trips;
+}
+
+/* --- running --- */
+
+/* What the document declares. */
+static void set_numbers(const struct code *code, const double *n, double *frame)
+{
+    double *to = frame + code->machine.numbers;
+    for (const struct variable *v = code->tree.declared; v; v = v->next) {
+        for (int i = 0; i < v->type.rows; i++) {
+            double number = n[v->first + i];
+            to[v->first + i] = v->type.base == BASE_INT    ? floor(number + 0.5)
+                               : v->type.base == BASE_BOOL ? number != 0
+                                                           : number;
+        }
+    }
+    for (int i = code->tree.number_count; i < code->tree.data_count; i++) {
+        to[i] = 0;
+    }
+}
+
+static void run(const struct code *code, const double *n, double *frame, struct code_fault *fault)
+{
+    if (fault) {
+        *fault = (struct code_fault){0};
+    }
+    machine_prepare(&code->machine, frame);
+    set_numbers(code, n, frame);
+    machine_run(&code->machine, code->tree.entry->entry, frame, fault);
+}
+
+double code_distance(const struct code *code, const double p[3], const double *n,
+                     struct code_fault *fault)
+{
+    double frame[MACHINE_FRAME] MACHINE_UNSET;
+    memcpy(frame + code->tree.entry->parameters->at_frame, p, 3 * sizeof *p);
+    run(code, n, frame, fault);
+    double d = frame[code->machine.result];
+    return fabs(d) < CODE_FAR ? d : CODE_FAR;
+}
+
+void code_shade(const struct code *code, const struct code_shading *at, const double *n,
+                double out_rgba[4], struct code_fault *fault)
+{
+    static const double magenta[4] = {1, 0, 1, 1};
+    double frame[MACHINE_FRAME] MACHINE_UNSET;
+    int components = code->tree.entry->result.rows;
+    if (code->tree.shading_used) {
+        memcpy(frame + code->machine.shading, at, sizeof *at);
+    }
+    run(code, n, frame, fault);
+    const double *color = frame + code->machine.result;
+    bool is_color = true;
+    for (int i = 0; i < 4; i++) {
+        out_rgba[i] = i < components ? color[i] : 1;
+        is_color = is_color && fabs(out_rgba[i]) < CODE_FAR;
+    }
+    for (int i = 0; i < 4; i++) {
+        double most = i < 3 ? CODE_BRIGHT : 1;
+        out_rgba[i] = is_color ? fmin(fmax(out_rgba[i], 0), most) : magenta[i];
+    }
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/* What users' code calls (renderer/code/builtins.h): as GLSL's own, but with a meaning for every
+ * argument. */
+
+#define CODE_TINY 1e-30
+
+/* Distances and colours of users beyond these are none: glsl/mixture.glsl's FAR, and half floats. */
+#define CODE_FAR 1e9
+#define CODE_BRIGHT 65504.0
+
+/* One shape of floats; `none` is 1 in the components where something would be divided by 0. */
+#define CODE_FLOATS(T)                                                                             \
+    T code_sqrt(T x) { return sqrt(max(x, 0.0)); }                                                 \
+    T code_inversesqrt(T x) { return inversesqrt(max(x, CODE_TINY)); }                             \
+    T code_pow(T x, T y) { return pow(max(abs(x), CODE_TINY * step(y, T(0.0))), y); }              \
+    T code_log(T x) { return log(max(x, CODE_TINY)); }                                             \
+    T code_log2(T x) { return log2(max(x, CODE_TINY)); }                                           \
+    T code_asin(T x) { return asin(clamp(x, -1.0, 1.0)); }                                         \
+    T code_acos(T x) { return acos(clamp(x, -1.0, 1.0)); }                                         \
+    T code_acosh(T x) { return acosh(max(x, 1.0)); }                                               \
+    T code_atanh(T x) { return atanh(clamp(x, -0.999999, 0.999999)); }                             \
+    T code_atan(T y, T x) { return atan(y, x + step(abs(x) + abs(y), T(0.0))); }                   \
+    T code_saturate(T x) { return clamp(x, 0.0, 1.0); }                                            \
+    T code_normalize(T x) { return x * inversesqrt(max(dot(x, x), CODE_TINY)); }                   \
+    T code_mod(T x, T y)                                                                           \
+    {                                                                                              \
+        T none = step(abs(y), T(0.0));                                                             \
+        return x - y * floor(x / (y + none));                                                      \
+    }                                                                                              \
+    T code_fmod(T x, T y)                                                                          \
+    {                                                                                              \
+        T none = step(abs(y), T(0.0));                                                             \
+        return x - y * trunc(x / (y + none));                                                      \
+    }                                                                                              \
+    T code_smoothstep(T low, T high, T x)                                                          \
+    {                                                                                              \
+        T none = step(abs(high - low), T(0.0));                                                    \
+        T t = clamp((x - low) / (high - low + none), 0.0, 1.0);                                    \
+        return mix(t * t * (3.0 - 2.0 * t), step(low, x), none);                                   \
+    }
+CODE_FLOATS(float)
+CODE_FLOATS(vec2)
+CODE_FLOATS(vec3)
+CODE_FLOATS(vec4)
+
+/* Whole numbers: a / 0 is 0, and -2147483648 / -1 is itself, which some processors cannot do. */
+#define CODE_INTS(T)                                                                               \
+    T code_div(T a, T b)                                                                           \
+    {                                                                                              \
+        T none = 1 - abs(sign(b)), minus = 1 - abs(sign(b + 1));                                   \
+        return (1 - none) * (1 - 2 * minus) * (a / (b + none + 2 * minus));                        \
+    }                                                                                              \
+    T code_rem(T a, T b) { return a - b * code_div(a, b); }
+CODE_INTS(int)
+CODE_INTS(ivec2)
+CODE_INTS(ivec3)
+CODE_INTS(ivec4)
+
+#define CODE_UINTS(T)                                                                              \
+    T code_div(T a, T b)                                                                           \
+    {                                                                                              \
+        T some = min(b, T(1u));                                                                    \
+        return some * (a / (b + (1u - some)));                                                     \
+    }                                                                                              \
+    T code_rem(T a, T b) { return a - b * code_div(a, b); }
+CODE_UINTS(uint)
+CODE_UINTS(uvec2)
+CODE_UINTS(uvec3)
+CODE_UINTS(uvec4)
+
+/* Floats to whole numbers, into what these hold. */
+#define CODE_WHOLE(T, I, U)                                                                        \
+    I code_int(T x) { return I(clamp(x, -2147483520.0, 2147483520.0)); }                           \
+    U code_uint(T x) { return U(clamp(x, 0.0, 4294967040.0)); }
+CODE_WHOLE(float, int, uint)
+CODE_WHOLE(vec2, ivec2, uvec2)
+CODE_WHOLE(vec3, ivec3, uvec3)
+CODE_WHOLE(vec4, ivec4, uvec4)
+
+/* Nothing where a matrix has no inverse. */
+#define CODE_MATRIX(T)                                                                             \
+    T code_inverse(T m)                                                                            \
+    {                                                                                              \
+        if (determinant(m) == 0.0) {                                                               \
+            return T(0.0);                                                                         \
+        }                                                                                          \
+        return inverse(m);                                                                         \
+    }
+CODE_MATRIX(mat2)
+CODE_MATRIX(mat3)
+CODE_MATRIX(mat4)
+
+/* A number, whatever the code of a user gave. */
+float code_distance(float d)
+{
+    return abs(d) < CODE_FAR ? d : CODE_FAR;
+}
+
+/* A colour; magenta where there is none. */
+vec4 code_color(vec4 c)
+{
+    if (all(lessThan(abs(c), vec4(CODE_FAR)))) {
+        return clamp(c, vec4(0.0), vec4(vec3(CODE_BRIGHT), 1.0));
+    }
+    return vec4(1.0, 0.0, 1.0, 1.0);
+}
