@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Edits: the form of their operations, applying all or none. The operations themselves are
- * edit_set.c and edit_list.c; undo and redo are history.c. */
+ * edit_set.c, edit_type.c and edit_list.c; undo and redo are history.c. */
 #include "edit.h"
 
 #include <assert.h>
@@ -47,25 +47,18 @@ struct node *edit_find_node(const struct editor *editor, const char *id, const c
     return node;
 }
 
-struct resource_list *edit_find_list(const struct editor *editor, const struct place *place)
+const struct resource_kind *edit_find_kind(const struct place *place)
 {
-    return place_is(place, 0, "lights")      ? &editor->scene->lights
-           : place_is(place, 0, "materials") ? &editor->scene->materials
-                                             : NULL;
+    return place->count > 0 ? resource_kind_find(place->part[0]) : NULL;
 }
 
-bool edit_is_lights(const struct editor *editor, const struct resource_list *list)
-{
-    return list == &editor->scene->lights;
-}
-
-struct resource *edit_find_resource(const struct editor *editor, const struct resource_list *list,
+struct resource *edit_find_resource(const struct editor *editor, const struct resource_kind *kind,
                                     const char *name, const char *place)
 {
-    struct resource *resource = resource_find(list, name);
+    struct resource *resource = resource_find(resource_list_of(kind, editor->scene), name);
     if (!resource) {
-        error_set(editor->err, ERROR_NOT_FOUND, place, "there is no %s \"%.64s\"",
-                  edit_is_lights(editor, list) ? "light" : "material", name);
+        error_set(editor->err, ERROR_NOT_FOUND, place, "there is no %s \"%.64s\"", kind->item,
+                  name);
     }
     return resource;
 }

@@ -10,7 +10,7 @@ static void add_text_or_null(cJSON *op, const char *name, const char *text)
     cJSON_AddItemToObject(op, name, text ? cJSON_CreateString(text) : cJSON_CreateNull());
 }
 
-/* Takes `value`. `name` is for materials, else NULL. */
+/* Takes `value`. `name` is a resource's that has no id, else NULL. */
 static cJSON *insert_operation(const char *into, const char *before, const char *name, cJSON *value)
 {
     cJSON *op = edit_operation("insert", into);
@@ -66,8 +66,8 @@ static bool insert_node(struct editor *editor, const struct place *place, const 
         return false;
     }
     error_place(value_place, into, "value");
-    struct node *node =
-        node_read(cJSON_GetObjectItemCaseSensitive(op, "value"), value_place, editor->err);
+    struct node *node = node_read(editor->scene, cJSON_GetObjectItemCaseSensitive(op, "value"),
+                                  value_place, editor->err);
     if (!node) {
         return false;
     }
@@ -81,6 +81,13 @@ static bool insert_node(struct editor *editor, const struct place *place, const 
     return true;
 }
 
+static bool fail_root(const struct editor *editor, const struct node *node, const char *at,
+                      const char *what)
+{
+    return error_set(editor->err, ERROR_CONFLICT, at, "the root%s cannot be %s",
+                     node->model ? " of a model" : "", what);
+}
+
 static bool remove_node(struct editor *editor, const struct place *place, const char *at)
 {
     char into[PLACE_TEXT_BYTES + 1];
@@ -89,7 +96,7 @@ static bool remove_node(struct editor *editor, const struct place *place, const 
         return false;
     }
     if (!node->parent) {
-        return error_set(editor->err, ERROR_CONFLICT, at, "the root cannot be removed");
+        return fail_root(editor, node, at, "removed");
     }
     const char *before = id_at(node->parent, node_position(node) + 1);
     snprintf(into, sizeof into, "/nodes/%s", node->parent->id);
@@ -104,7 +111,7 @@ static bool check_move(const struct editor *editor, const struct node *node,
                        const struct node *parent, const char *at)
 {
     if (!node->parent) {
-        return error_set(editor->err, ERROR_CONFLICT, at, "the root cannot be moved");
+        return fail_root(editor, node, at, "moved");
     }
     for (const struct node *above = parent; above; above = above->parent) {
         if (above == node) {
@@ -112,7 +119,7 @@ static bool check_move(const struct editor *editor, const struct node *node,
                              parent->id, node->id);
         }
     }
-    return scene_check_room(parent, node, at, editor->err);
+    return true;
 }
 
 static bool move_node(struct editor *editor, const struct place *place, const char *at,
@@ -140,14 +147,17 @@ static bool move_node(struct editor *editor, const struct place *place, const ch
         return error_set(editor->err, ERROR_CONFLICT, at, "a node cannot come before itself");
     }
     snprintf(from, sizeof from, "/nodes/%s", node->parent->id);
-    edit_undo_by(editor, move_operation(at, from, id_at(node->parent, old + 1)));
+    const char *after = id_at(node->parent, old + 1);
     position -= parent == node->parent && position > old;
-    scene_move(node, parent, position);
+    if (!scene_move(editor->scene, node, parent, position, at, editor->err)) {
+        return false;
+    }
+    edit_undo_by(editor, move_operation(at, from, after));
     edit_did(editor, move_operation(at, into, id_at(parent, position + 1)));
     return true;
 }
 
-/* --- lights and materials: insert, remove, move --- */
+/* --- resources: insert, remove, move --- */
 
 static const char *name_at(const struct resource_list *list, size_t position)
 {
@@ -163,92 +173,89 @@ static bool find_list_position(const struct editor *editor, const struct resourc
     return !before || next || editor->lenient || fail_before(editor, place, before);
 }
 
-static cJSON *resource_json(const struct editor *editor, const struct resource_list *list,
-                            const struct resource *resource)
+static cJSON *insert_resource_operation(const struct resource_kind *kind,
+                                        const struct resource_list *list, size_t position)
 {
-    return edit_is_lights(editor, list) ? resource_light_json(resource)
-                                        : resource_material_json(resource);
+    const struct resource *resource = list->items[position];
+    char home[PLACE_TEXT_BYTES + 1];
+    snprintf(home, sizeof home, "/%s", kind->list);
+    return insert_operation(home, name_at(list, position + 1), kind->array ? NULL : resource->name,
+                            resource_json(kind, resource));
 }
 
-static struct resource *read_resource(const struct editor *editor, const struct resource_list *list,
-                                      const cJSON *op)
+static struct resource *read_resource(const struct editor *editor, const struct resource_kind *kind,
+                                      const char *into, const cJSON *op)
 {
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(op, "value");
-    const char *name = edit_member_text(op, "name");
+    const char *name = kind->array ? NULL : edit_member_text(op, "name");
     char place[ERROR_PLACE_BYTES];
-    if (edit_is_lights(editor, list)) {
-        return resource_read_light(value, list, "/lights/value", editor->err);
-    }
-    if (!name) {
-        error_set(editor->err, ERROR_INVALID, "/materials", "the name of the material is missing");
+    if (!kind->array && !name) {
+        error_set(editor->err, ERROR_INVALID, into, "the name of the %s is missing", kind->item);
         return NULL;
     }
-    error_place(place, "/materials", name);
-    if (resource_find(list, name)) {
-        error_set(editor->err, ERROR_CONFLICT, place, "the name \"%.64s\" is in use", name);
-        return NULL;
-    }
-    return resource_read_material(name, value, place, editor->err);
+    error_place(place, into, name ? name : "value");
+    return resource_read(editor->scene, kind, name, value, place, editor->err);
 }
 
-static bool insert_resource(struct editor *editor, struct resource_list *list, const char *into,
-                            const cJSON *op)
+static bool insert_resource(struct editor *editor, const struct resource_kind *kind,
+                            const char *into, const cJSON *op)
 {
-    bool lights = edit_is_lights(editor, list);
+    const struct resource_list *list = resource_list_of(kind, editor->scene);
     char at[PLACE_TEXT_BYTES + 1];
-    size_t limit = lights ? LIMIT_LIGHTS : LIMIT_MATERIALS, position;
-    if (list->count >= limit) {
+    size_t position;
+    if (list->count >= kind->limit) {
         return error_set(editor->err, ERROR_LIMIT, into, "%zu %s are above the maximum %zu",
-                         list->count + 1, lights ? "lights" : "materials", limit);
+                         list->count + 1, kind->list, kind->limit);
     }
     if (!find_list_position(editor, list, op, into, &position)) {
         return false;
     }
-    struct resource *resource = read_resource(editor, list, op);
+    struct resource *resource = read_resource(editor, kind, into, op);
     if (!resource) {
         return false;
     }
-    resource_list_insert(list, resource, position);
+    if (!scene_attach_resource(editor->scene, kind, resource, position, into, editor->err)) {
+        resource_destroy(resource);
+        return false;
+    }
     snprintf(at, sizeof at, "%s/%s", into, resource->name);
     edit_undo_by(editor, edit_operation("remove", at));
-    edit_did(editor,
-             insert_operation(into, name_at(list, position + 1), lights ? NULL : resource->name,
-                              resource_json(editor, list, resource)));
+    edit_did(editor, insert_resource_operation(kind, list, position));
     return true;
 }
 
-static bool remove_resource(struct editor *editor, struct resource_list *list,
+static bool remove_resource(struct editor *editor, const struct resource_kind *kind,
                             const struct place *place, const char *at)
 {
-    bool lights = edit_is_lights(editor, list);
-    struct resource *resource = edit_find_resource(editor, list, place->part[1], at);
+    const struct resource_list *list = resource_list_of(kind, editor->scene);
+    struct resource *resource = edit_find_resource(editor, kind, place->part[1], at);
     if (!resource) {
         return false;
     }
     if (resource->users > 0) {
-        return error_set(editor->err, ERROR_CONFLICT, at, "is used by %zu node%s", resource->users,
-                         resource->users == 1 ? "" : "s");
+        return error_set(editor->err, ERROR_CONFLICT, at, "is used by %zu %s%s", resource->users,
+                         kind->user, resource->users == 1 ? "" : "s");
     }
-    const char *before = name_at(list, resource_list_position(list, resource) + 1);
-    edit_undo_by(editor, insert_operation(lights ? "/lights" : "/materials", before,
-                                          lights ? NULL : resource->name,
-                                          resource_json(editor, list, resource)));
+    edit_undo_by(editor,
+                 insert_resource_operation(kind, list, resource_list_position(list, resource)));
     edit_did(editor, edit_operation("remove", at));
-    resource_list_remove(list, resource);
+    scene_detach_resource(editor->scene, kind, resource);
     resource_destroy(resource);
     return true;
 }
 
-static bool move_resource(struct editor *editor, struct resource_list *list,
+static bool move_resource(struct editor *editor, const struct resource_kind *kind,
                           const struct place *place, const char *at, const char *into,
                           const cJSON *op)
 {
-    const char *home = edit_is_lights(editor, list) ? "/lights" : "/materials";
-    struct resource *resource = edit_find_resource(editor, list, place->part[1], at);
+    struct resource_list *list = resource_list_of(kind, editor->scene);
+    struct resource *resource = edit_find_resource(editor, kind, place->part[1], at);
+    char home[PLACE_TEXT_BYTES + 1];
     size_t position;
     if (!resource) {
         return false;
     }
+    snprintf(home, sizeof home, "/%s", kind->list);
     if (into && strcmp(into, home) != 0) {
         return error_set(editor->err, ERROR_NOT_FOUND, into, "\"%s\" moves only within %s", at,
                          home);
@@ -280,9 +287,9 @@ bool edit_insert(struct editor *editor, const cJSON *op)
     if (place.count == 2 && place_is(&place, 0, "nodes")) {
         return insert_node(editor, &place, into, op);
     }
-    struct resource_list *list = edit_find_list(editor, &place);
-    if (place.count == 1 && list) {
-        return insert_resource(editor, list, into, op);
+    const struct resource_kind *kind = edit_find_kind(&place);
+    if (place.count == 1 && kind) {
+        return insert_resource(editor, kind, into, op);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, into, "nothing can be inserted at this place");
 }
@@ -297,9 +304,9 @@ bool edit_remove(struct editor *editor, const cJSON *op)
     if (place.count == 2 && place_is(&place, 0, "nodes")) {
         return remove_node(editor, &place, at);
     }
-    struct resource_list *list = edit_find_list(editor, &place);
-    if (place.count == 2 && list) {
-        return remove_resource(editor, list, &place, at);
+    const struct resource_kind *kind = edit_find_kind(&place);
+    if (place.count == 2 && kind) {
+        return remove_resource(editor, kind, &place, at);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, at, "nothing can be removed at this place");
 }
@@ -314,9 +321,9 @@ bool edit_move(struct editor *editor, const cJSON *op)
     if (place.count == 2 && place_is(&place, 0, "nodes")) {
         return move_node(editor, &place, at, into, op);
     }
-    struct resource_list *list = edit_find_list(editor, &place);
-    if (place.count == 2 && list) {
-        return move_resource(editor, list, &place, at, into, op);
+    const struct resource_kind *kind = edit_find_kind(&place);
+    if (place.count == 2 && kind) {
+        return move_resource(editor, kind, &place, at, into, op);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, at, "nothing can be moved from this place");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the operations of an edit share. Private to edit.c, edit_set.c and edit_list.c. */
+/* What the operations of an edit share. Private to edit*.c. */
 #ifndef PROTOCOL_EDIT_PARTS_H
 #define PROTOCOL_EDIT_PARTS_H
 
@@ -35,11 +35,21 @@ bool place_is(const struct place *place, int index, const char *name);
 const char *edit_member_text(const cJSON *op, const char *name);
 /* NULL and an error where the id or name is not known. */
 struct node *edit_find_node(const struct editor *editor, const char *id, const char *place);
-struct resource *edit_find_resource(const struct editor *editor, const struct resource_list *list,
+/* The kind of resource whose list the place is in; NULL: none. */
+const struct resource_kind *edit_find_kind(const struct place *place);
+struct resource *edit_find_resource(const struct editor *editor, const struct resource_kind *kind,
                                     const char *name, const char *place);
-/* The list that the place is in; NULL: none. */
-struct resource_list *edit_find_list(const struct editor *editor, const struct place *place);
-bool edit_is_lights(const struct editor *editor, const struct resource_list *list);
+
+/* Sets what decides of which type a record is: values that the new type knows and accepts stay, and
+ * the inverse restores the others (edit_type.c). */
+bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
+                        const cJSON *value);
+bool edit_set_primitive(struct editor *editor, struct node *node, int index, const char *at,
+                        const cJSON *value);
+bool edit_set_resource_type(struct editor *editor, const struct resource_kind *kind,
+                            struct resource *resource, const char *at, const cJSON *value);
+bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
+                   struct resource *resource, int index, const char *at, const cJSON *value);
 
 /* A new operation with its place (`into` for insert, else `at`). */
 cJSON *edit_operation(const char *name, const char *place);

@@ -56,15 +56,23 @@ static const char *place_of(const cJSON *op)
     return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "at"));
 }
 
-/* Sets a value on which no other operation depends, as one may on a type or a material. */
+/* Sets a value on which no other operation depends, as one may on a type, on what is declared, and
+ * on which model a node names. */
 static bool sets_value(const cJSON *op)
 {
+    static const char *const others[] = {"/type",  "/shader", "/primitive",
+                                         "/model", "/params", "/properties"};
     const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "op"));
     if (!name || strcmp(name, "set") != 0 || !place_of(op)) {
         return false;
     }
     const char *last = strrchr(place_of(op), '/');
-    return last && strcmp(last, "/type") != 0 && strcmp(last, "/shader") != 0;
+    for (size_t i = 0; last && i < sizeof others / sizeof others[0]; i++) {
+        if (strcmp(last, others[i]) == 0) {
+            return false;
+        }
+    }
+    return last;
 }
 
 static struct step *step_create(const char *group, cJSON *ops)

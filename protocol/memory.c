@@ -33,3 +33,19 @@ char *memory_text(const char *text)
     size_t bytes = strlen(text) + 1;
     return memcpy(memory_alloc(bytes, 1), text, bytes);
 }
+
+void *memory_open_slot(void *items, size_t count, size_t position)
+{
+    if ((count & (count - 1)) == 0) {
+        items = memory_resize(items, count ? 2 * count : 1, sizeof(void *));
+    }
+    void **slots = items;
+    memmove(slots + position + 1, slots + position, (count - position) * sizeof *slots);
+    return items;
+}
+
+void memory_close_slot(void *items, size_t count, size_t position)
+{
+    void **slots = items;
+    memmove(slots + position, slots + position + 1, (count - position - 1) * sizeof *slots);
+}

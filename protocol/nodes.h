@@ -31,6 +31,8 @@ enum node_kind {
 
 enum node_exactness { EXACT, BOUND };
 
+enum { NODE_NUMBERS = 500 }; /* every row's number is below */
+
 struct node_type {
     struct record_type record; /* name, doc, params */
     int number;                /* saved in binary forms and hashes; never changes, never reused */

@@ -246,10 +246,7 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
                                length, LIMIT_NAME_BYTES)
                    : check_characters(text, "", place, err);
     }
-    return !*text || record_name_valid(text) ||
-           error_set(err, ERROR_INVALID, place,
-                     "\"%.80s\" is not a name: expected 1 to %d of A-Z a-z 0-9 _ . -", text,
-                     LIMIT_ID_BYTES);
+    return !*text || record_check_name(text, place, err);
 }
 
 bool param_read(const struct param *param, const cJSON *json, double out[4], const char *place,

@@ -17,6 +17,14 @@ bool record_name_valid(const char *name)
     return length > 0 && length <= LIMIT_ID_BYTES && name[length] == '\0';
 }
 
+bool record_check_name(const char *name, const char *place, struct error *err)
+{
+    return record_name_valid(name) ||
+           error_set(err, ERROR_INVALID, place,
+                     "\"%.80s\" is not a name: expected 1 to %d of A-Z a-z 0-9 _ . -", name,
+                     LIMIT_ID_BYTES);
+}
+
 size_t record_type_count(const struct record_type *type)
 {
     size_t count = 0;
@@ -102,19 +110,23 @@ bool record_read_value(struct record *record, int index, const cJSON *json, cons
     return record_set(record, index, json, place, err);
 }
 
+bool record_read_member(struct record *record, const cJSON *member, const char *place,
+                        struct error *err)
+{
+    char path[ERROR_PLACE_BYTES];
+    int index = record_type_find(record->type, member->string);
+    error_place(path, place, member->string);
+    return index < 0 ? record_type_unknown(record->type, member->string, path, err)
+                     : record_read_value(record, index, member, path, err);
+}
+
 bool record_read(struct record *record, const cJSON *object, const char *place, struct error *err)
 {
     if (!cJSON_IsObject(object)) {
         return error_set(err, ERROR_INVALID, place, "expected an object");
     }
     for (const cJSON *member = object->child; member; member = member->next) {
-        char path[ERROR_PLACE_BYTES];
-        int index = record_type_find(record->type, member->string);
-        error_place(path, place, member->string);
-        if (index < 0) {
-            return record_type_unknown(record->type, member->string, path, err);
-        }
-        if (!record_read_value(record, index, member, path, err)) {
+        if (!record_read_member(record, member, place, err)) {
             return false;
         }
     }

@@ -23,6 +23,8 @@ struct record {
 
 /* [A-Za-z0-9_.-]{1,64}: what ids of nodes and lights and names of materials look like. */
 bool record_name_valid(const char *name);
+/* The same with an error. */
+bool record_check_name(const char *name, const char *place, struct error *err);
 
 size_t record_type_count(const struct record_type *type);
 int record_type_find(const struct record_type *type, const char *name); /* -1: none */
@@ -46,6 +48,9 @@ cJSON *record_get(const struct record *record, int index);
 /* Reads an object: unknown names are refused, names absent keep their default. `place` is the
  * path of the object. */
 bool record_read(struct record *record, const cJSON *object, const char *place, struct error *err);
+/* One member of such an object, by its name; `place` is the object's. */
+bool record_read_member(struct record *record, const cJSON *member, const char *place,
+                        struct error *err);
 /* Adds every set value to `object`, in table order. */
 void record_print(const struct record *record, cJSON *object);
 /* First component by name, for code that knows its table; asserts that the name exists. */

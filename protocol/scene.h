@@ -15,10 +15,12 @@ struct node {
     const struct node_type *type;
     struct record common;    /* node_common_type */
     struct record transform; /* transform_type */
-    struct record params;    /* type->record */
-    struct node *parent;     /* NULL for the root */
+    struct record params;    /* type->record, or with what its primitive declares behind that */
+    struct node *parent;     /* NULL for the root of the scene or of a model */
     struct node **children;
     size_t child_count;
+    const struct resource *model; /* whose root it is; else NULL */
+    size_t last_position;         /* private to scene_node.c */
 };
 
 /* Something with a name of its own beside the tree. */
@@ -28,9 +30,11 @@ struct resource {
      * or what a shader of the document declares. Else primitive_type, shader_type, model_type. */
     struct record record;
     size_t users;                  /* nodes or materials that name it */
-    const struct resource *shader; /* a material's, where it is one of the document's; else NULL */
+    struct resource *shader;       /* a material's, where it is one of the document's; else NULL */
     struct definition *definition; /* of a primitive or shader; else NULL */
     struct node *root;             /* of a model; else NULL */
+    size_t level;                  /* of a model; private to scene_models.c */
+    int search;                    /* the same */
 };
 
 struct resource_list {
@@ -50,8 +54,8 @@ struct scene {
 };
 
 /* Strictly reads a document; NULL and `err` when it breaks a rule. A node without an id gets the
- * first free of TYPE-1, TYPE-2, ... in the order of the document; a number is not used again while
- * the scene is in memory. Caller destroys. */
+ * first free of TYPE-1, TYPE-2, ..., models' nodes first; a number is not used again while the
+ * scene is in memory. Caller destroys. */
 struct scene *scene_parse(const char *text, size_t length, struct error *err);
 struct scene *scene_read(const cJSON *document, struct error *err);
 struct scene *scene_create_empty(void);
@@ -69,11 +73,15 @@ struct resource *resource_find(const struct resource_list *list, const char *nam
 /* What a node of type `model` or `field` names; NULL: nothing. */
 const struct resource *node_model(const struct scene *scene, const struct node *node);
 const struct resource *node_primitive(const struct scene *scene, const struct node *node);
-/* Index among the parent's children; 0 for the root. */
+/* The model in whose tree the node is; NULL: in the scene's own. */
+const struct resource *node_owner(const struct node *node);
+/* Index among the parent's children; 0 for a root. */
 size_t node_position(const struct node *node);
-/* The material that applies: own or inherited; NULL where none is named up to the root. */
+/* The next in pre-order below `top`, after `node`, which is `top` at first; NULL at the end. */
+struct node *node_next(const struct node *node, const struct node *top);
+/* The material that applies: own or inherited; NULL where none is named up to the tree's root. */
 const struct resource *node_material(const struct scene *scene, const struct node *node);
-/* Pre-order walk including hidden nodes; the callback's `index` counts from 0 at the root. */
+/* Pre-order walk of the scene's own tree, hidden nodes too; `index` counts from 0 at the root. */
 void scene_walk(const struct scene *scene,
                 void (*visit)(void *data, const struct node *node, size_t index), void *data);
 

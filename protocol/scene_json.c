@@ -10,52 +10,7 @@
 #include "nearest.h"
 #include "scene_parts.h"
 
-static bool fail_member(const char *name, const char *const *names, const char *place,
-                        struct error *err)
-{
-    struct nearest nearest = {.text = name};
-    char path[ERROR_PLACE_BYTES], hint[64];
-    for (int i = 0; names[i]; i++) {
-        nearest_consider(&nearest, names[i]);
-    }
-    return error_set(err, ERROR_INVALID, error_place(path, place, name),
-                     "there is no member \"%.64s\" here%s", name,
-                     nearest_hint(&nearest, hint, sizeof hint));
-}
-
-/* Members of an object that is no record of its own: each name at most once, no other. The JSON
- * of name i goes to found[i], NULL where absent. */
-static bool sort_members(const cJSON *object, const char *const *names, const cJSON **found,
-                         const char *place, struct error *err)
-{
-    if (!cJSON_IsObject(object)) {
-        return error_set(err, ERROR_INVALID, place, "expected an object");
-    }
-    for (int i = 0; names[i]; i++) {
-        found[i] = NULL;
-    }
-    for (const cJSON *member = object->child; member; member = member->next) {
-        int i = 0;
-        while (names[i] && strcmp(names[i], member->string) != 0) {
-            i++;
-        }
-        if (!names[i]) {
-            return fail_member(member->string, names, place, err);
-        }
-        found[i] = member;
-    }
-    return true;
-}
-
-static bool fail_name(const char *name, const char *place, struct error *err)
-{
-    return error_set(err, ERROR_INVALID, place,
-                     "\"%.80s\" is not a name: expected 1 to %d of A-Z a-z 0-9 _ . -", name,
-                     LIMIT_ID_BYTES);
-}
-
-/* `json` NULL: absent, `*out` stays NULL. */
-static bool read_id(const cJSON *json, const char **out, const char *place, struct error *err)
+bool scene_read_id(const cJSON *json, const char **out, const char *place, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
     error_place(path, place, "id");
@@ -65,30 +20,12 @@ static bool read_id(const cJSON *json, const char **out, const char *place, stru
     if (!cJSON_IsString(json)) {
         return error_set(err, ERROR_INVALID, path, "expected a text");
     }
-    if (!record_name_valid(json->valuestring)) {
-        return fail_name(json->valuestring, path, err);
-    }
     *out = json->valuestring;
-    return true;
+    return record_check_name(json->valuestring, path, err);
 }
 
-static bool read_type_name(const cJSON *json, const char **out, const char *place,
-                           const char *member, struct error *err)
-{
-    char path[ERROR_PLACE_BYTES];
-    error_place(path, place, member);
-    if (!json) {
-        return error_set(err, ERROR_INVALID, path, "is missing");
-    }
-    if (!cJSON_IsString(json)) {
-        return error_set(err, ERROR_INVALID, path, "expected a text");
-    }
-    *out = json->valuestring;
-    return true;
-}
-
-static bool read_record(struct record *record, const cJSON *json, const char *place,
-                        const char *member, struct error *err)
+bool scene_read_record(struct record *record, const cJSON *json, const char *place,
+                       const char *member, struct error *err)
 {
     char path[ERROR_PLACE_BYTES];
     error_place(path, place, member);
@@ -106,24 +43,12 @@ bool node_type_unknown(const char *name, const char *place, struct error *err)
                      nearest_hint(&nearest, hint, sizeof hint));
 }
 
-bool resource_type_unknown(const struct record_type *table, const char *name, const char *place,
-                           struct error *err)
-{
-    struct nearest nearest = {.text = name};
-    char hint[64];
-    const char *what = table == shader_types ? "shader" : "type";
-    for (; table->name; table++) {
-        nearest_consider(&nearest, table->name);
-    }
-    return error_set(err, ERROR_INVALID, place, "unknown %s \"%.64s\"%s", what, name,
-                     nearest_hint(&nearest, hint, sizeof hint));
-}
-
 /* --- nodes --- */
 
 enum { NODE_ID, NODE_TYPE, NODE_TRANSFORM, NODE_PARAMS, NODE_CHILDREN, NODE_COMMON };
 
 struct reader {
+    const struct scene *scene;
     size_t count; /* nodes so far */
     struct error *err;
 };
@@ -151,7 +76,7 @@ static bool read_children(struct reader *reader, struct node *node, const cJSON 
         if (!child) {
             return false;
         }
-        node_append(node, child);
+        node_add_child(node, child, node->child_count);
     }
     return true;
 }
@@ -180,7 +105,7 @@ static bool sort_node_members(const cJSON *json, const cJSON **found, const char
     for (size_t i = 0; i < count; i++) {
         names[NODE_COMMON + i] = node_common_type.params[i].name;
     }
-    return sort_members(json, names, found, place, err);
+    return json_sort_members(json, names, found, place, err);
 }
 
 static bool count_node(struct reader *reader, const char *place, size_t depth)
@@ -201,7 +126,7 @@ static const struct node_type *read_node_type(const cJSON *json, const char *pla
 {
     char type_place[ERROR_PLACE_BYTES];
     const char *name;
-    if (!read_type_name(json, &name, place, "type", err)) {
+    if (!json_read_text(json, &name, place, "type", err)) {
         return NULL;
     }
     const struct node_type *type = node_type_find(name);
@@ -209,6 +134,24 @@ static const struct node_type *read_node_type(const cJSON *json, const char *pla
         node_type_unknown(name, error_place(type_place, place, "type"), err);
     }
     return type;
+}
+
+/* A field's parameters depend on the primitive that is among them. */
+static const struct record_type *read_params_type(struct reader *reader,
+                                                  const struct node_type *type, const cJSON *params,
+                                                  const char *place)
+{
+    char path[ERROR_PLACE_BYTES];
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(params, "primitive");
+    if (type->kind != KIND_CODE || !cJSON_IsString(name) || !*name->valuestring) {
+        return &type->record;
+    }
+    error_place(path, error_place(path, place, "params"), "primitive");
+    if (!scene_check_name(reader->scene, resource_kind_named_by(PARAM_FUNCTION), name->valuestring,
+                          path, reader->err)) {
+        return NULL;
+    }
+    return &resource_find(&reader->scene->primitives, name->valuestring)->definition->type;
 }
 
 static struct node *read_tree(struct reader *reader, const cJSON *json, const char *place,
@@ -219,7 +162,7 @@ static struct node *read_tree(struct reader *reader, const cJSON *json, const ch
     char path[ERROR_PLACE_BYTES];
     struct error *err = reader->err;
     const cJSON *given = cJSON_IsObject(json) ? cJSON_GetObjectItemCaseSensitive(json, "id") : NULL;
-    if (!read_id(given, &id, place, err)) {
+    if (!scene_read_id(given, &id, place, err)) {
         return NULL;
     }
     if (id) {
@@ -232,11 +175,15 @@ static struct node *read_tree(struct reader *reader, const cJSON *json, const ch
     if (!type) {
         return NULL;
     }
-    struct node *node = node_create(type);
+    const struct record_type *params = read_params_type(reader, type, found[NODE_PARAMS], place);
+    if (!params) {
+        return NULL;
+    }
+    struct node *node = node_create(type, params);
     node->id = id ? memory_text(id) : NULL;
     if (!read_common(&node->common, found, place, err) ||
-        !read_record(&node->transform, found[NODE_TRANSFORM], place, "transform", err) ||
-        !read_record(&node->params, found[NODE_PARAMS], place, "params", err) ||
+        !scene_read_record(&node->transform, found[NODE_TRANSFORM], place, "transform", err) ||
+        !scene_read_record(&node->params, found[NODE_PARAMS], place, "params", err) ||
         !read_children(reader, node, found[NODE_CHILDREN], place, depth)) {
         node_destroy(node);
         return NULL;
@@ -244,176 +191,56 @@ static struct node *read_tree(struct reader *reader, const cJSON *json, const ch
     return node;
 }
 
-struct node *node_read(const cJSON *json, const char *place, struct error *err)
+struct node *node_read(const struct scene *scene, const cJSON *json, const char *place,
+                       struct error *err)
 {
-    struct reader reader = {.err = err};
+    struct reader reader = {.scene = scene, .err = err};
     return read_tree(&reader, json, place, 1);
-}
-
-/* --- resources --- */
-
-/* "id" and "type" apart, the rest in an object of its own. Caller frees. */
-static cJSON *without_id_and_type(const cJSON *json)
-{
-    cJSON *rest = cJSON_CreateObject();
-    for (const cJSON *member = json->child; member; member = member->next) {
-        if (strcmp(member->string, "id") != 0 && strcmp(member->string, "type") != 0) {
-            cJSON_AddItemToObject(rest, member->string, cJSON_Duplicate(member, true));
-        }
-    }
-    return rest;
-}
-
-struct resource *resource_read_light(const cJSON *json, const struct resource_list *lights,
-                                     const char *place, struct error *err)
-{
-    char path[ERROR_PLACE_BYTES], type_place[ERROR_PLACE_BYTES], made[LIMIT_ID_BYTES + 1];
-    const char *id = NULL, *type_name;
-    if (!cJSON_IsObject(json)) {
-        error_set(err, ERROR_INVALID, place, "expected an object");
-        return NULL;
-    }
-    if (!read_id(cJSON_GetObjectItemCaseSensitive(json, "id"), &id, place, err)) {
-        return NULL;
-    }
-    if (id) {
-        error_place(path, "/lights", id);
-        place = path;
-    }
-    if (!read_type_name(cJSON_GetObjectItemCaseSensitive(json, "type"), &type_name, place, "type",
-                        err)) {
-        return NULL;
-    }
-    const struct record_type *type = record_type_in(light_types, type_name);
-    if (!type) {
-        error_place(type_place, place, "type");
-        resource_type_unknown(light_types, type_name, type_place, err);
-        return NULL;
-    }
-    if (id && resource_find(lights, id)) {
-        error_set(err, ERROR_CONFLICT, place, "the id \"%s\" is in use", id);
-        return NULL;
-    }
-    for (int number = 1; !id; number++) {
-        snprintf(made, sizeof made, "%s-%d", type_name, number);
-        id = resource_find(lights, made) ? NULL : made;
-    }
-    struct resource *light = resource_create(id, type);
-    cJSON *params = without_id_and_type(json);
-    if (!record_read(&light->record, params, place, err)) {
-        resource_destroy(light);
-        light = NULL;
-    }
-    cJSON_Delete(params);
-    return light;
-}
-
-struct resource *resource_read_material(const char *name, const cJSON *json, const char *place,
-                                        struct error *err)
-{
-    static const char *const names[] = {"shader", "properties", NULL};
-    const cJSON *found[2];
-    const char *shader;
-    if (!record_name_valid(name)) {
-        fail_name(name, place, err);
-        return NULL;
-    }
-    if (!sort_members(json, names, found, place, err) ||
-        !read_type_name(found[0], &shader, place, "shader", err)) {
-        return NULL;
-    }
-    const struct record_type *type = record_type_in(shader_types, shader);
-    if (!type) {
-        char type_place[ERROR_PLACE_BYTES];
-        error_place(type_place, place, "shader");
-        resource_type_unknown(shader_types, shader, type_place, err);
-        return NULL;
-    }
-    struct resource *material = resource_create(name, type);
-    if (!read_record(&material->record, found[1], place, "properties", err)) {
-        resource_destroy(material);
-        return NULL;
-    }
-    return material;
-}
-
-static bool read_lights(struct scene *scene, const cJSON *array, struct error *err)
-{
-    if (array && !cJSON_IsArray(array)) {
-        return error_set(err, ERROR_INVALID, "/lights", "expected an array of lights");
-    }
-    for (const cJSON *item = array ? array->child : NULL; item; item = item->next) {
-        struct resource_list *lights = &scene->lights;
-        char place[ERROR_PLACE_BYTES];
-        if (lights->count == LIMIT_LIGHTS) {
-            return error_set(err, ERROR_LIMIT, "/lights", "more lights than the maximum %d",
-                             LIMIT_LIGHTS);
-        }
-        snprintf(place, sizeof place, "/lights/%zu", lights->count);
-        struct resource *light = resource_read_light(item, lights, place, err);
-        if (!light) {
-            return false;
-        }
-        resource_list_insert(lights, light, lights->count);
-    }
-    return true;
-}
-
-static bool read_materials(struct scene *scene, const cJSON *object, struct error *err)
-{
-    if (object && !cJSON_IsObject(object)) {
-        return error_set(err, ERROR_INVALID, "/materials", "expected an object of materials");
-    }
-    for (const cJSON *item = object ? object->child : NULL; item; item = item->next) {
-        struct resource_list *materials = &scene->materials;
-        char place[ERROR_PLACE_BYTES];
-        if (materials->count == LIMIT_MATERIALS) {
-            return error_set(err, ERROR_LIMIT, "/materials", "more materials than the maximum %d",
-                             LIMIT_MATERIALS);
-        }
-        error_place(place, "/materials", item->string);
-        struct resource *material = resource_read_material(item->string, item, place, err);
-        if (!material) {
-            return false;
-        }
-        resource_list_insert(materials, material, materials->count);
-    }
-    return true;
 }
 
 /* --- documents --- */
 
-enum {
-    DOC_SCENE_FORMAT,
-    DOC_NAME,
-    DOC_CAMERA,
-    DOC_LIGHTS,
-    DOC_MATERIALS,
-    DOC_ENVIRONMENT,
-    DOC_RENDER,
-    DOC_ROOT,
-    DOC_RESERVED,
-    DOC_COUNT = DOC_RESERVED + 3
-};
+enum { DOC_FORMAT, DOC_NAME, DOC_CAMERA, DOC_ENVIRONMENT, DOC_RENDER, DOC_ROOT, DOC_RESOURCES };
 
-static const char *const document_members[] = {
-    "format", "name", "camera",  "lights",     "materials", "environment",
-    "render", "root", "shaders", "primitives", "models",    NULL,
-};
-
-static bool check_format(const cJSON *const *found, struct error *err)
+static bool check_format(const cJSON *format, struct error *err)
 {
-    const cJSON *format = found[DOC_SCENE_FORMAT];
-    if (!cJSON_IsString(format) || strcmp(format->valuestring, SCENE_FORMAT) != 0) {
-        return error_set(err, ERROR_INVALID, "/format", "%s \"" SCENE_FORMAT "\"",
-                         format ? "expected" : "is missing, expected");
+    return (cJSON_IsString(format) && strcmp(format->valuestring, SCENE_FORMAT) == 0) ||
+           error_set(err, ERROR_INVALID, "/format", "%s \"" SCENE_FORMAT "\"",
+                     format ? "expected" : "is missing, expected");
+}
+
+static bool read_resources(struct scene *scene, const struct resource_kind *kind, const cJSON *json,
+                           struct error *err)
+{
+    struct resource_list *list = resource_list_of(kind, scene);
+    char home[ERROR_PLACE_BYTES], place[ERROR_PLACE_BYTES], number[24];
+    error_place(home, "", kind->list);
+    if (json && !(kind->array ? cJSON_IsArray(json) : cJSON_IsObject(json))) {
+        return error_set(err, ERROR_INVALID, home, "expected an %s of %s",
+                         kind->array ? "array" : "object", kind->list);
     }
-    for (int i = DOC_RESERVED; i < DOC_COUNT; i++) {
-        if (found[i] && (!cJSON_IsObject(found[i]) || found[i]->child)) {
-            char place[ERROR_PLACE_BYTES];
-            error_place(place, "", document_members[i]);
-            return error_set(err, ERROR_INVALID, place,
-                             "is reserved: expected an object without members");
+    for (const cJSON *item = json ? json->child : NULL; item; item = item->next) {
+        if (list->count == kind->limit) {
+            return error_set(err, ERROR_LIMIT, home, "more %s than the maximum %zu", kind->list,
+                             kind->limit);
+        }
+        snprintf(number, sizeof number, "%zu", list->count);
+        error_place(place, home, item->string ? item->string : number);
+        struct resource *resource = resource_read(scene, kind, item->string, item, place, err);
+        if (!resource) {
+            return false;
+        }
+        resource_list_insert(list, resource, list->count);
+        resource_count_user(resource, 1);
+    }
+    return true;
+}
+
+static bool read_all_resources(struct scene *scene, const cJSON *const *found, struct error *err)
+{
+    for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
+        if (!read_resources(scene, kind, found[DOC_RESOURCES + (kind - resource_kinds)], err)) {
+            return false;
         }
     }
     return true;
@@ -424,32 +251,29 @@ static bool read_root(struct scene *scene, const cJSON *json, struct error *err)
     if (!json) {
         return error_set(err, ERROR_INVALID, "/root", "is missing");
     }
-    struct node *root = node_read(json, "/root", err);
-    if (!root) {
-        return false;
-    }
-    if (!scene_attach(scene, root, NULL, 0, "/root", err)) {
-        node_destroy(root);
-        return false;
-    }
-    return true;
+    scene->root = node_read(scene, json, "/root", err);
+    return scene->root;
 }
 
 static bool read_document(struct scene *scene, const cJSON *document, struct error *err)
 {
-    const cJSON *found[DOC_COUNT];
-    if (!sort_members(document, document_members, found, "", err) || !check_format(found, err)) {
+    const char *names[16] = {"format", "name", "camera", "environment", "render", "root"};
+    const cJSON *found[16];
+    for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
+        names[DOC_RESOURCES + (kind - resource_kinds)] = kind->list;
+    }
+    if (!json_sort_members(document, names, found, "", err) ||
+        !check_format(found[DOC_FORMAT], err)) {
         return false;
     }
     if (found[DOC_NAME] && !record_read_value(&scene->info, 0, found[DOC_NAME], "/name", err)) {
         return false;
     }
-    return read_record(&scene->camera, found[DOC_CAMERA], "", "camera", err) &&
-           read_lights(scene, found[DOC_LIGHTS], err) &&
-           read_materials(scene, found[DOC_MATERIALS], err) &&
-           read_record(&scene->environment, found[DOC_ENVIRONMENT], "", "environment", err) &&
-           read_record(&scene->render, found[DOC_RENDER], "", "render", err) &&
-           read_root(scene, found[DOC_ROOT], err);
+    return scene_read_record(&scene->camera, found[DOC_CAMERA], "", "camera", err) &&
+           read_all_resources(scene, found, err) &&
+           scene_read_record(&scene->environment, found[DOC_ENVIRONMENT], "", "environment", err) &&
+           scene_read_record(&scene->render, found[DOC_RENDER], "", "render", err) &&
+           read_root(scene, found[DOC_ROOT], err) && scene_attach_all(scene, err);
 }
 
 struct scene *scene_read(const cJSON *document, struct error *err)

@@ -3,8 +3,7 @@
 #include "json.h"
 #include "scene_parts.h"
 
-/* Adds the record as an object, unless nothing in it is set. */
-static void add_record(cJSON *object, const char *name, const struct record *record)
+void scene_add_record(cJSON *object, const char *name, const struct record *record)
 {
     cJSON *json = cJSON_CreateObject();
     record_print(record, json);
@@ -21,8 +20,8 @@ cJSON *node_to_json(const struct node *node)
     cJSON_AddStringToObject(json, "id", node->id);
     cJSON_AddStringToObject(json, "type", node->type->record.name);
     record_print(&node->common, json);
-    add_record(json, "transform", &node->transform);
-    add_record(json, "params", &node->params);
+    scene_add_record(json, "transform", &node->transform);
+    scene_add_record(json, "params", &node->params);
     if (node->child_count > 0) {
         cJSON *children = cJSON_AddArrayToObject(json, "children");
         for (size_t i = 0; i < node->child_count; i++) {
@@ -32,21 +31,22 @@ cJSON *node_to_json(const struct node *node)
     return json;
 }
 
-cJSON *resource_light_json(const struct resource *light)
+static void add_resources(cJSON *json, const struct scene *scene, const struct resource_kind *kind)
 {
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "id", light->name);
-    cJSON_AddStringToObject(json, "type", light->record.type->name);
-    record_print(&light->record, json);
-    return json;
-}
-
-cJSON *resource_material_json(const struct resource *material)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "shader", material->record.type->name);
-    add_record(json, "properties", &material->record);
-    return json;
+    const struct resource_list *list = resource_list_of(kind, (struct scene *)scene);
+    if (list->count == 0) {
+        return;
+    }
+    cJSON *all = kind->array ? cJSON_CreateArray() : cJSON_CreateObject();
+    cJSON_AddItemToObject(json, kind->list, all);
+    for (size_t i = 0; i < list->count; i++) {
+        cJSON *item = resource_json(kind, list->items[i]);
+        if (kind->array) {
+            cJSON_AddItemToArray(all, item);
+        } else {
+            cJSON_AddItemToObject(all, list->items[i]->name, item);
+        }
+    }
 }
 
 cJSON *scene_to_json(const struct scene *scene)
@@ -54,22 +54,12 @@ cJSON *scene_to_json(const struct scene *scene)
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "format", SCENE_FORMAT);
     record_print(&scene->info, json);
-    add_record(json, "camera", &scene->camera);
-    if (scene->lights.count > 0) {
-        cJSON *lights = cJSON_AddArrayToObject(json, "lights");
-        for (size_t i = 0; i < scene->lights.count; i++) {
-            cJSON_AddItemToArray(lights, resource_light_json(scene->lights.items[i]));
-        }
+    scene_add_record(json, "camera", &scene->camera);
+    for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
+        add_resources(json, scene, kind);
     }
-    if (scene->materials.count > 0) {
-        cJSON *materials = cJSON_AddObjectToObject(json, "materials");
-        for (size_t i = 0; i < scene->materials.count; i++) {
-            const struct resource *material = scene->materials.items[i];
-            cJSON_AddItemToObject(materials, material->name, resource_material_json(material));
-        }
-    }
-    add_record(json, "environment", &scene->environment);
-    add_record(json, "render", &scene->render);
+    scene_add_record(json, "environment", &scene->environment);
+    scene_add_record(json, "render", &scene->render);
     cJSON_AddItemToObject(json, "root", node_to_json(scene->root));
     return json;
 }

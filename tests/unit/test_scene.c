@@ -105,12 +105,131 @@ static void test_places_name_what_is_wrong(void **state)
     assert_refused(DOC("\"materials\":{\"a b\":{\"shader\":\"phong\"}}"), ERROR_INVALID,
                    "/materials/a b");
     assert_refused(DOC("\"name\":1"), ERROR_INVALID, "/name");
-    assert_refused(DOC("\"shaders\":{\"a\":1}"), ERROR_INVALID, "/shaders");
+    assert_refused(DOC("\"shaders\":[]"), ERROR_INVALID, "/shaders");
+    assert_string_equal(err.message, "expected an object of shaders");
+    assert_refused(DOC("\"lights\":{}"), ERROR_INVALID, "/lights");
+    assert_string_equal(err.message, "expected an array of lights");
     assert_refused("{\"format\":\"fieldcast/2\"}", ERROR_INVALID, "/format");
     assert_refused("{}", ERROR_INVALID, "/format");
     assert_refused("[]", ERROR_INVALID, "");
     assert_refused("{\"format\":\"fieldcast/1\"}", ERROR_INVALID, "/root");
     assert_refused("{\"format\"", ERROR_SYNTAX, "line 1, column 10");
+}
+
+/* A document with every kind of resource, in the order in which it is printed. */
+#define PRIMITIVE                                                                                  \
+    "\"rod\":{\"params\":[{\"name\":\"r\",\"type\":\"float\",\"default\":0.5,\"range\":[0,9]},"    \
+    "{\"name\":\"h\",\"type\":\"vec2\",\"doc\":\"H.\"}],\"code\":\"float sdf(vec3 p)\\n{...}\","   \
+    "\"lipschitz\":2,\"size\":[1,2,3],\"doc\":\"A rod.\"}"
+#define SHADER                                                                                     \
+    "\"marble\":{\"properties\":[{\"name\":\"tint\",\"type\":\"color\",\"default\":[1,1,1]},"      \
+    "{\"name\":\"blend\",\"type\":\"float\"}],\"code\":\"vec3 shade()\",\"lighting\":\"unlit\"}"
+#define MODELS                                                                                     \
+    "\"king\":{\"id\":\"k\",\"type\":\"union\",\"children\":[{\"id\":\"k1\",\"type\":\"model\","   \
+    "\"params\":{\"model\":\"pawn\"}}]},\"pawn\":{\"id\":\"p\",\"type\":\"sphere\",\"material\":"  \
+    "\"m\"}"
+#define EVERYTHING                                                                                 \
+    DOC("\"lights\":[{\"id\":\"sun\",\"type\":\"directional\"}],\"primitives\":{" PRIMITIVE        \
+        "},\"shaders\":{" SHADER "},\"materials\":{\"m\":{\"shader\":\"marble\",\"properties\":"   \
+        "{\"blend\":0.2}},\"n\":{\"shader\":\"phong\"}},\"models\":{" MODELS "},"                  \
+        "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":[{\"id\":\"f\",\"type\":"       \
+        "\"field\","                                                                               \
+        "\"params\":{\"primitive\":\"rod\",\"r\":0.7}},{\"id\":\"g\",\"type\":\"field\","          \
+        "\"params\":"                                                                              \
+        "{\"code\":\"float sdf(vec3 p)\"}},{\"id\":\"i\",\"type\":\"model\",\"material\":\"n\","   \
+        "\"params\":{\"model\":\"king\"}}]}")
+
+static void test_resources_of_every_kind(void **state)
+{
+    (void)state;
+    assert_prints(EVERYTHING, EVERYTHING);
+    struct scene *read = parse(EVERYTHING), *copy = scene_copy(read);
+    scene_destroy(read); /* a copy shares nothing */
+    const struct node *field = scene_find(copy, "f");
+    const struct resource *rod = resource_find(&copy->primitives, "rod");
+    const struct resource *marble = resource_find(&copy->shaders, "marble");
+    const struct resource *veined = resource_find(&copy->materials, "m");
+    const struct resource *king = resource_find(&copy->models, "king");
+    const struct resource *pawn = resource_find(&copy->models, "pawn");
+    assert_ptr_equal(node_primitive(copy, field), rod);
+    assert_ptr_equal(field->params.type, &rod->definition->type);
+    assert_int_equal(rod->definition->first_declared, record_type_count(&field->type->record));
+    assert_float_equal(record_number(&field->params, "r"), 0.7, 0);
+    assert_float_equal(record_vector(&field->params, "h")[1], 0, 0);
+    assert_null(node_primitive(copy, scene_find(copy, "g")));
+    assert_ptr_equal(scene_find(copy, "g")->params.type, &field->type->record);
+    assert_ptr_equal(veined->shader, marble);
+    assert_ptr_equal(veined->record.type, &marble->definition->type);
+    assert_null(resource_find(&copy->materials, "n")->shader);
+    assert_ptr_equal(node_model(copy, scene_find(copy, "i")), king);
+    assert_ptr_equal(node_model(copy, scene_find(copy, "k1")), pawn);
+    assert_ptr_equal(node_owner(scene_find(copy, "k1")), king);
+    assert_ptr_equal(king->root, scene_find(copy, "k"));
+    assert_null(scene_find(copy, "k")->parent);
+    assert_null(node_owner(field));
+    assert_int_equal(copy->node_count, 7);
+    assert_int_equal(rod->users, 1);
+    assert_int_equal(marble->users, 1);
+    assert_int_equal(veined->users, 1);
+    assert_int_equal(king->users, 1);
+    assert_int_equal(pawn->users, 1);
+    scene_destroy(copy);
+}
+
+/* What is named may stand anywhere in the document. */
+static void test_order_of_members_does_not_matter(void **state)
+{
+    (void)state;
+    cJSON *json = json_parse(EVERYTHING, strlen(EVERYTHING), &err), *backwards;
+    backwards = cJSON_CreateObject();
+    while (json->child) {
+        cJSON *last = cJSON_DetachItemViaPointer(json, json->child->prev);
+        cJSON_AddItemToObject(backwards, last->string, last);
+    }
+    char *text = json_print(backwards, false);
+    assert_prints(text, EVERYTHING);
+    free(text);
+    cJSON_Delete(json);
+    cJSON_Delete(backwards);
+}
+
+static void test_ids_are_shared_by_all_trees(void **state)
+{
+    (void)state;
+    assert_prints(DOC("\"models\":{\"a\":{\"type\":\"box\"},\"b\":{\"type\":\"box\"}},"
+                      "\"root\":{\"type\":\"union\",\"children\":[{\"type\":\"box\"},"
+                      "{\"id\":\"box-1\",\"type\":\"box\"}]}"),
+                  DOC("\"models\":{\"a\":{\"id\":\"box-2\",\"type\":\"box\"},"
+                      "\"b\":{\"id\":\"box-3\",\"type\":\"box\"}},"
+                      "\"root\":{\"id\":\"union-1\",\"type\":\"union\",\"children\":["
+                      "{\"id\":\"box-4\",\"type\":\"box\"},{\"id\":\"box-1\",\"type\":\"box\"}]}"));
+    assert_refused(DOC("\"models\":{\"a\":{\"id\":\"x\",\"type\":\"box\"}},"
+                       "\"root\":{\"id\":\"x\",\"type\":\"box\"}"),
+                   ERROR_CONFLICT, "/nodes/x");
+}
+
+#define MODEL(name, names)                                                                         \
+    "\"" name "\":{\"id\":\"" name "\",\"type\":\"model\",\"params\":{\"model\":\"" names "\"}}"
+
+static void test_models_in_a_circle(void **state)
+{
+    (void)state;
+    static const char root[] = ",\"root\":{\"type\":\"union\"}";
+    char text[400];
+    snprintf(text, sizeof text, DOC("\"models\":{" MODEL("a", "a") "}%s"), root);
+    assert_refused(text, ERROR_CONFLICT, "/models");
+    assert_string_equal(err.message, "models in a circle: /models/a -> /models/a");
+    snprintf(text, sizeof text,
+             DOC("\"models\":{" MODEL("d", "a") "," MODEL("a", "b") "," MODEL("b", "c") "," MODEL(
+                 "c", "a") "}%s"),
+             root);
+    assert_refused(text, ERROR_CONFLICT, "/models");
+    assert_string_equal(err.message,
+                        "models in a circle: /models/a -> /models/b -> /models/c -> /models/a");
+    snprintf(text, sizeof text,
+             DOC("\"models\":{" MODEL("a", "b") "," MODEL("b", "c") "," MODEL("c", "") "}%s"),
+             root);
+    scene_destroy(parse(text));
 }
 
 /* `levels` groups, one in the other. */
@@ -302,6 +421,10 @@ int main(void)
         cmocka_unit_test(test_prints_what_is_set),
         cmocka_unit_test(test_missing_ids_avoid_given_ones),
         cmocka_unit_test(test_places_name_what_is_wrong),
+        cmocka_unit_test(test_resources_of_every_kind),
+        cmocka_unit_test(test_order_of_members_does_not_matter),
+        cmocka_unit_test(test_ids_are_shared_by_all_trees),
+        cmocka_unit_test(test_models_in_a_circle),
         cmocka_unit_test(test_limits_of_the_tree),
         cmocka_unit_test(test_long_places_keep_their_end),
         cmocka_unit_test(test_tree_questions),

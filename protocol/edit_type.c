@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* Setting what decides of which type a record is: a node's type or primitive, a light's type, a
+ * material's shader, the rows that a primitive or shader declares. Values go over by name; what the
+ * new type does not know or accept falls to its default, and the inverse sets it again. */
+#include <string.h>
+
+#include "edit_parts.h"
+
+/* What `from` has set and `type` knows and accepts. A name of one kind is none of another. */
+static struct record converted(const struct record *from, const struct record_type *type)
+{
+    struct record to;
+    record_init(&to, type);
+    for (int i = 0; from->type->params[i].name; i++) {
+        const struct param *param = &from->type->params[i];
+        int index = record_type_find(type, param->name);
+        if (index < 0 || (resource_kind_named_by(type->params[index].type) &&
+                          type->params[index].type != param->type)) {
+            continue;
+        }
+        cJSON *json = record_get(from, i);
+        if (json) {
+            record_set(&to, index, json, "", NULL);
+        }
+        cJSON_Delete(json);
+    }
+    return to;
+}
+
+/* The same for a node's parameters, which are of more than their type's rows where they name a
+ * primitive. */
+static struct record converted_params(const struct scene *scene, const struct record *from,
+                                      const struct node_type *type)
+{
+    struct record to = converted(from, &type->record);
+    const struct record_type *params = node_params_type(scene, type, &to);
+    if (params != to.type) {
+        record_finish(&to);
+        to = converted(from, params);
+    }
+    return to;
+}
+
+/* Takes `changed`, which the record becomes, and `back`, what undoing so far would make of that. The
+ * inverse sets the rest, in the order of the rows: a primitive before what it declares. */
+static void change(struct editor *editor, struct record *record, struct record changed,
+                   struct record back, const char *values)
+{
+    for (int i = (int)record_type_count(record->type) - 1; i >= 0; i--) {
+        if (!param_value_equal(&back.values[i], &record->values[i])) {
+            char place[PLACE_TEXT_BYTES + 1];
+            snprintf(place, sizeof place, "%s/%s", values, record->type->params[i].name);
+            edit_undo_by(editor, edit_set_operation(place, record_get(record, i)));
+        }
+    }
+    record_finish(&back);
+    record_finish(record);
+    *record = changed;
+}
+
+static void node_values(char out[PLACE_TEXT_BYTES + 1], const struct node *node)
+{
+    snprintf(out, PLACE_TEXT_BYTES + 1, "/nodes/%s/params", node->id);
+}
+
+static void resource_values(char out[PLACE_TEXT_BYTES + 1], const struct resource_kind *kind,
+                            const struct resource *resource)
+{
+    snprintf(out, PLACE_TEXT_BYTES + 1, "/%s/%s%s%s", kind->list, resource->name,
+             kind->values ? "/" : "", kind->values ? kind->values : "");
+}
+
+bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
+                        const cJSON *value)
+{
+    char values[PLACE_TEXT_BYTES + 1];
+    if (!cJSON_IsString(value)) {
+        return error_set(editor->err, ERROR_INVALID, at, "expected the name of a type");
+    }
+    const struct node_type *type = node_type_find(value->valuestring);
+    if (!type) {
+        return node_type_unknown(value->valuestring, at, editor->err);
+    }
+    struct record changed = converted_params(editor->scene, &node->params, type);
+    struct record back = converted_params(editor->scene, &changed, node->type);
+    if (back.type != node->params.type) { /* its primitive is lost, and the first to be set */
+        struct record base = back;
+        back = converted(&base, node->params.type);
+        record_finish(&base);
+    }
+    scene_count_user(editor->scene, node, -1);
+    node_values(values, node);
+    change(editor, &node->params, changed, back, values);
+    edit_undo_by(editor, edit_set_operation(at, cJSON_CreateString(node->type->record.name)));
+    edit_did(editor, edit_set_operation(at, cJSON_CreateString(type->record.name)));
+    node->type = type;
+    scene_count_user(editor->scene, node, 1);
+    return true;
+}
+
+bool edit_set_primitive(struct editor *editor, struct node *node, int index, const char *at,
+                        const cJSON *value)
+{
+    struct record named, changed, back;
+    char values[PLACE_TEXT_BYTES + 1];
+    record_copy(&named, &node->params);
+    if (!record_set(&named, index, value, at, editor->err) ||
+        !scene_check_name(editor->scene, resource_kind_named_by(PARAM_FUNCTION),
+                          named.values[index].text, at, editor->err)) {
+        record_finish(&named);
+        return false;
+    }
+    changed = converted(&named, node_params_type(editor->scene, node->type, &named));
+    record_finish(&named);
+    cJSON *old = record_get(&node->params, index);
+    back = converted(&changed, node->params.type);
+    param_value_finish(&back.values[index]);
+    param_value_copy(&back.values[index], &node->params.values[index]);
+    scene_count_user(editor->scene, node, -1);
+    node_values(values, node);
+    change(editor, &node->params, changed, back, values);
+    edit_undo_by(editor, edit_set_operation(at, old));
+    edit_did(editor, edit_set_operation(at, record_get(&node->params, index)));
+    scene_count_user(editor->scene, node, 1);
+    return true;
+}
+
+bool edit_set_resource_type(struct editor *editor, const struct resource_kind *kind,
+                            struct resource *resource, const char *at, const cJSON *value)
+{
+    char values[PLACE_TEXT_BYTES + 1];
+    struct resource *shader;
+    if (!cJSON_IsString(value)) {
+        return error_set(editor->err, ERROR_INVALID, at, "expected the name of a %s", kind->type);
+    }
+    const struct record_type *type =
+        resource_type(editor->scene, kind, value->valuestring, &shader, at, editor->err);
+    if (!type) {
+        return false;
+    }
+    struct record changed = converted(&resource->record, type);
+    struct record back = converted(&changed, resource->record.type);
+    const char *old = resource->record.type->name;
+    resource_values(values, kind, resource);
+    change(editor, &resource->record, changed, back, values);
+    edit_undo_by(editor, edit_set_operation(at, cJSON_CreateString(old)));
+    edit_did(editor, edit_set_operation(at, cJSON_CreateString(type->name)));
+    resource_count_user(resource, -1);
+    resource->shader = shader;
+    resource_count_user(resource, 1);
+    return true;
+}
+
+/* --- rows --- */
+
+struct users {
+    const struct record_type *old, *fresh;
+};
+
+static void convert_user(struct editor *editor, const struct users *users, struct record *record,
+                         const char *values)
+{
+    struct record changed = converted(record, users->fresh);
+    change(editor, record, changed, converted(&changed, users->old), values);
+}
+
+static void convert_nodes(struct editor *editor, const struct users *users, struct node *top)
+{
+    for (struct node *node = top; node; node = node_next(node, top)) {
+        if (node->params.type == users->old) {
+            char values[PLACE_TEXT_BYTES + 1];
+            node_values(values, node);
+            convert_user(editor, users, &node->params, values);
+        }
+    }
+}
+
+static void convert_users(struct editor *editor, const struct users *users)
+{
+    struct scene *scene = editor->scene;
+    for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
+        const struct resource_list *list = resource_list_of(kind, scene);
+        for (size_t i = 0; i < list->count; i++) {
+            struct resource *resource = list->items[i];
+            if (resource->record.type == users->old) {
+                char values[PLACE_TEXT_BYTES + 1];
+                resource_values(values, kind, resource);
+                convert_user(editor, users, &resource->record, values);
+            }
+            convert_nodes(editor, users, resource->root);
+        }
+    }
+    convert_nodes(editor, users, scene->root);
+}
+
+bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
+                   struct resource *resource, int index, const char *at, const cJSON *value)
+{
+    struct record *record = &resource->record;
+    if (!cJSON_IsNull(value) && !resource_check_rows(kind, value, at, editor->err)) {
+        return false;
+    }
+    cJSON *old = record_get(record, index);
+    record_set(record, index, value, at, NULL);
+    struct definition *before = resource->definition;
+    resource->definition = resource_define(kind, resource);
+    convert_users(editor, &(struct users){&before->type, &resource->definition->type});
+    definition_destroy(before);
+    edit_undo_by(editor, edit_set_operation(at, old));
+    edit_did(editor, edit_set_operation(at, record_get(record, index)));
+    return true;
+}
