@@ -174,8 +174,10 @@ static void write_params(struct random *random, FILE *out, const struct node_typ
     fprintf(out, "}");
 }
 
-static void random_transform(struct random *random, const struct random_limits *limits,
-                             double translation[3], double rotation[3], double scale[3])
+/* Flat shapes that must end stay in the plane of their section. */
+static void random_transform(struct random *random, const struct node_type *type,
+                             const struct random_limits *limits, double translation[3],
+                             double rotation[3], double scale[3])
 {
     bool uniform = limits->exact || random_below(random, 2);
     double all = random_between(random, 0.6, 1.4);
@@ -185,12 +187,16 @@ static void random_transform(struct random *random, const struct random_limits *
         scale[i] = uniform ? all : random_between(random, 0.6, 1.4);
         scale[i] *= random_below(random, 8) == 0 ? -1 : 1;
     }
+    if (type->kind == KIND_FLAT && limits->bounded) {
+        rotation[0] = rotation[1] = 0;
+    }
 }
 
-static void write_transform(struct random *random, FILE *out, const struct random_limits *limits)
+static void write_transform(struct random *random, FILE *out, const struct node_type *type,
+                            const struct random_limits *limits)
 {
     double t[3], r[3], s[3];
-    random_transform(random, limits, t, r, s);
+    random_transform(random, type, limits, t, r, s);
     fprintf(out,
             ",\"transform\":{\"translation\":[%.9g,%.9g,%.9g],\"rotation\":[%.9g,%.9g,%.9g],"
             "\"scale\":[%.9g,%.9g,%.9g]}",
@@ -284,7 +290,7 @@ void random_node(struct random *random, FILE *out, const struct node_type *type,
     fprintf(out, "{\"type\":\"%s\",", type->record.name);
     write_params(random, out, type, limits);
     if (!limits->plain) {
-        write_transform(random, out, limits);
+        write_transform(random, out, type, limits);
     }
     if (random_below(random, 2)) {
         fprintf(out, ",\"material\":\"m%zu\"", random_below(random, 3));
@@ -361,7 +367,7 @@ void random_numbers(struct random *random, struct node *node, const struct rando
     if (!limits->plain) {
         double parts[3][3];
         static const char *const names[] = {"translation", "rotation", "scale"};
-        random_transform(random, limits, parts[0], parts[1], parts[2]);
+        random_transform(random, node->type, limits, parts[0], parts[1], parts[2]);
         for (int i = 0; i < 3; i++) {
             int at = record_type_find(&transform_type, names[i]);
             memcpy(node->transform.values[at].number, parts[i], sizeof parts[i]);
