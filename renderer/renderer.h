@@ -68,6 +68,8 @@ uint64_t resident_revision(const struct resident *resident);       /* newest tol
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
 /* ERROR_NONE while all is well; else why the newest shape cannot be drawn. */
 const struct error *resident_error(const struct resident *resident);
+/* What is not right with the newest state, and yet drawn; kind ERROR_NONE: nothing. */
+const struct error *resident_warning(const struct resident *resident);
 /* Takes finished compilations over; true when some resident can show something newer. `wait_ms`
  * > 0 blocks at most that long for one. Call it between tiles. */
 bool renderer_poll(struct renderer *renderer, int wait_ms);

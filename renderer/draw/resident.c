@@ -115,6 +115,13 @@ const struct error *resident_error(const struct resident *resident)
     return &resident->error;
 }
 
+const struct error *resident_warning(const struct resident *resident)
+{
+    static const struct error none;
+
+    return resident->newest ? &resident->newest->warning : &none;
+}
+
 bool renderer_poll(struct renderer *renderer, int wait_ms)
 {
     bool news = false;

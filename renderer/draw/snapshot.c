@@ -22,7 +22,10 @@ static size_t number_capacity(const struct field *field)
     return capacity;
 }
 
-static struct program *get_program(struct renderer *renderer, const struct field *field)
+/* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
+ * where that fails. */
+static struct program *get_program(struct renderer *renderer, const struct field *field,
+                                   struct error *out_warning, struct error *err)
 {
     const size_t capacity = number_capacity(field);
     const uint64_t key = field->shape_hash ^ (capacity * UINT64_C(0x9e3779b97f4a7c15));
@@ -32,6 +35,9 @@ static struct program *get_program(struct renderer *renderer, const struct field
     if (program) {
         renderer->counters.cache_hits++;
         return program;
+    }
+    if (!field_probe(field, out_warning, err)) {
+        return NULL;
     }
     map = shader_map(field);
     surface = shader_surface(field);
@@ -81,10 +87,17 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
 {
     struct field *field = make_field(scene, err);
     struct snapshot *snapshot;
+    struct program *program;
+    struct error warning = {0};
     struct frame_extent extent = {.scale = scene_scale(&scene->camera),
                                   .limit_loops = renderer->info.software};
 
     if (!field) {
+        return NULL;
+    }
+    program = get_program(renderer, field, &warning, err);
+    if (!program) {
+        field_unref(field);
         return NULL;
     }
     extent.loop_trips = (int)field->loop_trips;
@@ -96,7 +109,8 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->references = 1;
     snapshot->revision = revision;
     snapshot->field = field;
-    snapshot->program = get_program(renderer, field);
+    snapshot->program = program;
+    snapshot->warning = warning;
     record_copy(&snapshot->camera, &scene->camera);
     snapshot->samples = (int)record_number(&scene->render, "samples");
     snapshot->fewer_steps = frame_set_scene(&snapshot->frame, scene, &extent);

@@ -16,7 +16,8 @@ struct snapshot {
     struct frame_block frame; /* without a camera */
     int samples;              /* the document's */
     struct draw_numbers numbers;
-    bool fewer_steps; /* than the scene asks for: the driver's bound on loops */
+    struct error warning; /* of users' code, when the program was new; ERROR_NONE: nothing */
+    bool fewer_steps;     /* than the scene asks for: the driver's bound on loops */
 };
 
 struct renderer;

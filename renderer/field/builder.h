@@ -23,6 +23,7 @@ struct builder {
     uint32_t instance; /* number of the outermost `model` node around, 0: none */
     const struct node *instance_node;
     size_t depth;     /* nodes around, through models */
+    size_t emitted;   /* nodes so far, in models each time anew */
     uint64_t trips;   /* loop iterations so far, in the current loop */
     bool failed;      /* what follows may be left out */
     struct error err; /* the first, once failed */

@@ -87,6 +87,7 @@ struct field_place {
 struct field_code {
     const char *text; /* only to tell codes apart while compiling */
     struct code *code;
+    char place[ERROR_PLACE_BYTES];             /* of the text in the document */
     uint64_t hash;                             /* of the text and of what it declares */
     struct field_place places[LIMIT_DECLARED]; /* of what it declares, in a block of `vec4s` */
     int place_count, vec4s;
@@ -99,6 +100,7 @@ struct field {
     size_t vec4_count;      /* the same for every field of this shape_hash */
     size_t material_base;   /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
     size_t material_stride; /* vec4s of one slot */
+    size_t material_count;  /* without the default */
     struct field_code *codes, *shaders;
     size_t code_count, shader_count;
     double *arguments;         /* the numbers again, as the C evaluator reads them */
@@ -126,6 +128,11 @@ const char *field_leaf_id(const struct field *field, uint32_t number);
 /* The places of parameters (ending with a row whose name is NULL) behind the head of a block.
  * `used` components of the first vec4 are taken. Returns how many vec4s the block has from there. */
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
+
+/* Tries out users' code at many points, with the numbers of its first shape or material. False and
+ * `err`, with place and line, where something is no number. `*out_warning` tells of a function that
+ * changes faster than it should; its kind is ERROR_NONE where there is none. */
+bool field_probe(const struct field *field, struct error *out_warning, struct error *err);
 
 /* --- evaluation --- */
 

@@ -3,6 +3,7 @@
 #include "field_code.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,6 +56,7 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
     added->text = text;
     added->code = code;
     added->hash = hash_code(text, params);
+    snprintf(added->place, sizeof added->place, "%s", place);
     struct field_place places[SDF_PARAMS_MAX];
     added->vec4s = field_layout(params, 0, places);
     while (params[added->place_count].name) {
@@ -85,4 +87,81 @@ bool field_call_of(const struct scene *scene, const struct node *node, struct fi
         snprintf(out->place, sizeof out->place, "/nodes/%s/params/code", node->id);
     }
     return *out->text != '\0';
+}
+
+int field_shader_numbers(const struct field *field, size_t slot, double *out_n)
+{
+    const float *block =
+        field->numbers + 4 * (field->material_base + slot * field->material_stride);
+    int shader = (int)block[FIELD_SHADER] - 1;
+    int count = 0;
+    for (int i = 0; shader >= 0 && i < field->shaders[shader].place_count; i++) {
+        const struct field_place *place = &field->shaders[shader].places[i];
+        const float *from = block + 4 * (FIELD_MATERIAL_VEC4S + place->vec4) + place->component;
+        for (int c = 0; c < place->count; c++) {
+            out_n[count++] = from[c];
+        }
+    }
+    return shader;
+}
+
+/* --- trying out --- */
+
+#define PROBE_HALF 2.0 /* of the box where a function has none of its own */
+
+static bool probe(const struct field_code *code, const double *n, const double half[3],
+                  double lipschitz, struct error *out_warning, struct error *err)
+{
+    struct error found = {0};
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        high[i] = half[i] < FIELD_UNCUT ? half[i] : PROBE_HALF;
+        low[i] = -high[i];
+    }
+    if (code_probe(code->code, n, low, high, lipschitz, &found)) {
+        return true;
+    }
+    snprintf(found.place, sizeof found.place, "%s", code->place);
+    if (found.line == 0) {
+        *out_warning = found;
+        return true;
+    }
+    if (err) {
+        *err = found;
+    }
+    return false;
+}
+
+static bool probe_shapes(const struct field *field, struct error *out_warning, struct error *err)
+{
+    uint32_t next = 0; /* codes are numbered in the order of their first shapes */
+    for (size_t i = 0; i < field->instruction_count && next < field->code_count; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        if (in->op != FIELD_SHAPE || in->sdf || in->choices != next) {
+            continue;
+        }
+        const double *n = field->arguments + in->arguments + 12, *cut = n + FIELD_HEAD_NUMBERS;
+        if (!probe(&field->codes[next++], cut + 4, cut, cut[3] / n[0], out_warning, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool field_probe(const struct field *field, struct error *out_warning, struct error *err)
+{
+    static const double half[3] = {PROBE_HALF, PROBE_HALF, PROBE_HALF};
+    *out_warning = (struct error){0};
+    if (!probe_shapes(field, out_warning, err)) {
+        return false;
+    }
+    int next = 0; /* shaders are numbered in the order of materials */
+    for (size_t slot = 1; slot <= field->material_count; slot++) {
+        double n[4 * LIMIT_DECLARED];
+        if (field_shader_numbers(field, slot, n) == next &&
+            !probe(&field->shaders[next++], n, half, INFINITY, out_warning, err)) {
+            return false;
+        }
+    }
+    return true;
 }

@@ -22,4 +22,7 @@ struct field_call {
 /* False: it names no code, so it is empty space. */
 bool field_call_of(const struct scene *scene, const struct node *node, struct field_call *out);
 
+/* The shader of the material in a slot, -1 where it is none of a user's, and what it reads. */
+int field_shader_numbers(const struct field *field, size_t slot, double *out_n);
+
 #endif

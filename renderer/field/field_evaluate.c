@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "field.h"
+#include "field_code.h"
 
 #define FAR 1e9 /* as in glsl/operations.glsl */
 
@@ -226,22 +227,14 @@ static void paint(const struct field *field, const struct paint *paint, const do
                   const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
 {
     const float *block = material_numbers(field, paint->slot);
-    const struct field_code *shader = &field->shaders[(size_t)block[FIELD_SHADER] - 1];
     struct code_shading at = {.ray_distance = view->distance};
     double numbers[4 * LIMIT_DECLARED], color[4];
-    size_t count = 0;
+    int shader = field_shader_numbers(field, paint->slot, numbers);
     memcpy(at.world_position, p, sizeof at.world_position);
     memcpy(at.object_position, paint->place, sizeof at.object_position);
     memcpy(at.world_normal, view->normal, sizeof at.world_normal);
     memcpy(at.ray_direction, view->direction, sizeof at.ray_direction);
-    for (int i = 0; i < shader->place_count; i++) {
-        const struct field_place *where = &shader->places[i];
-        const float *from = block + 4 * (FIELD_MATERIAL_VEC4S + where->vec4) + where->component;
-        for (int c = 0; c < where->count; c++) {
-            numbers[count++] = from[c];
-        }
-    }
-    code_shade(shader->code, &at, numbers, color, NULL);
+    code_shade(field->shaders[shader].code, &at, numbers, color, NULL);
     double *to = material + (block[FIELD_UNLIT] > 0 ? 8 : 0);
     for (int i = 0; i < 3; i++) {
         to[i] += paint->weight * fmax(color[i], 0);

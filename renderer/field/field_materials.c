@@ -81,6 +81,7 @@ void field_add_materials(struct builder *b)
     const struct resource_list *materials = &b->scene->materials;
     int shaders[LIMIT_MATERIALS];
     add_shaders(b, shaders);
+    field->material_count = materials->count;
     field->material_base = builder_add_vec4s(b, (materials->count + 1) * field->material_stride);
     struct record standard;
     record_init(&standard, record_type_in(shader_types, "phong"));
