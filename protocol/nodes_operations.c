@@ -2,13 +2,18 @@
 /* Registry: operations, and the nodes that only give structure. */
 #include "nodes_parts.h"
 
-static const char *const kernels[] = {"quadratic", NULL};
+/* In the order of renderer/sdf/operations.c. */
+static const char *const kernels[] = {"quadratic",   "cubic", "quartic", "circular",
+                                      "exponential", "root",  "power",   NULL};
 
 /* clang-format off */
 static const struct param blend_params[] = {
     {"k", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
-     .doc = "Greatest reach of the blend: nothing changes where the distances differ by more."},
-    {"kernel", PARAM_ENUM, .choices = kernels, .doc = "Profile of the blend."},
+     .doc = "Reach of the blend: nothing changes where distances differ by more. Of the kernels "
+            "without end: exponential, 1 by a length (greater is harder); root, the square of a "
+            "length; power, an exponent."},
+    {"kernel", PARAM_ENUM, .choices = kernels,
+     .doc = "Profile of the blend; power changes distances but moves no surface."},
     {.name = NULL},
 };
 
@@ -26,16 +31,26 @@ const struct node_type node_operations[] = {
     {.record = {"smooth_union", "A union whose parts melt together.", blend_params},
      .number = 104, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_smooth_union", .words = "blend melt merge metaballs or add",
-     .source = QUILEZ_SMIN ", quadratic polynomial"},
+     .source = QUILEZ_SMIN},
     {.record = {"smooth_intersection", "An intersection with softened edges.", blend_params},
      .number = 105, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_smooth_intersection", .words = "blend and common overlap",
-     .source = QUILEZ_SMIN ", quadratic polynomial"},
+     .source = QUILEZ_SMIN},
     {.record = {"smooth_difference", "The first child minus every other, with softened edges.",
                 blend_params},
      .number = 106, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_smooth_difference", .words = "blend subtract minus carve dent",
-     .source = QUILEZ_SMIN ", quadratic polynomial"},
+     .source = QUILEZ_SMIN},
+    {.record = {"exclusive", "Everything that is in an odd number of children.", no_params},
+     .number = 107, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_exclusive", .words = "xor symmetric difference either odd",
+     .source = QUILEZ_DISTANCE ", Xor"},
+    {.record = {"morph", "Something between its first two children.", PARAMS(
+        {"t", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
+         .doc = "At 0 it is the first child, at 1 the second."})},
+     .number = 108, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "op_morph", .words = "mix lerp interpolate between transition",
+     .source = "Linear interpolation of both distances"},
     {.record = {.name = NULL}},
 };
 

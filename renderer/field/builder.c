@@ -143,7 +143,11 @@ void builder_put_params(struct builder *b, const struct param *params, const str
     double numbers[SDF_NUMBERS_MAX], *from = numbers;
     field_layout(params, used, places);
     int count = sdf_numbers(params, values, numbers);
-    scale_numbers(params, scale, numbers);
+    if (sdf && sdf->scale) {
+        sdf->scale(numbers, scale);
+    } else {
+        scale_numbers(params, scale, numbers);
+    }
     if (sdf && sdf->prepare) {
         sdf->prepare(numbers);
     }

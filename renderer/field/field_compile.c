@@ -92,11 +92,15 @@ static struct result emit_union(struct builder *b, const struct node *node,
     return emit_children(b, node, union_of(node_type_find("union")), frame, slot, whole);
 }
 
-static double lowered(const struct node *node, const struct sdf *sdf, size_t count)
+/* The box after the node changed the field of `count` operands in it. */
+static struct bounds changed_box(const struct node *node, const struct sdf *sdf, struct bounds box,
+                                 size_t count)
 {
     double numbers[SDF_NUMBERS_MAX];
     sdf_numbers(node->params.type->params, node->params.values, numbers);
-    return sdf->lowered ? sdf->lowered(numbers, count) : 0;
+    box = bounds_grow(box, sdf->lowered ? sdf->lowered(numbers, count) : 0);
+    box.stretch *= sdf->stretched ? sdf->stretched(numbers, count) : 1;
+    return box;
 }
 
 static struct result emit_combine(struct builder *b, const struct node *node, const struct sdf *sdf,
@@ -106,7 +110,7 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
     add_block(b, node, sdf, frame->scale, &combine);
     struct result whole = emit_children(b, node, combine, frame, slot, (struct result){0});
     if (whole.solid) {
-        whole.box = bounds_grow(whole.box, lowered(node, sdf, node->child_count));
+        whole.box = changed_box(node, sdf, whole.box, node->child_count);
     }
     return whole;
 }
@@ -120,7 +124,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
     struct result whole = emit_union(b, node, frame, slot, (struct result){0});
     if (whole.solid) {
         builder_add_instruction(b, change);
-        whole.box = bounds_grow(whole.box, lowered(node, sdf, 1));
+        whole.box = changed_box(node, sdf, whole.box, 1);
     }
     return whole;
 }

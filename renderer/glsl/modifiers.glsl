@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers
- * of dom_ functions are computed in C (renderer/sdf/modifiers.c tells how, and why the bounds hold). */
+/* Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers of
+ * dom_ functions are computed in C (renderer/sdf/modifiers.c tells how, and why bounds hold). */
 
 /* Grows outwards. */
 float mod_round(float d, float radius)

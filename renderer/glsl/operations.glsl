@@ -38,40 +38,123 @@ float op_difference_share(float a, float b)
     return -b > a ? 1.0 : 0.0;
 }
 
-/* In either, blended where the distances differ by less than k. */
-float op_smooth_union(float a, float b, float k, int kernel)
+/* In one but not in the other. */
+float op_exclusive(float a, float b)
 {
-    float h = max(k - abs(a - b), 0.0);
-    return min(a, b) - h * h * 0.25 / k;
+    return max(min(a, b), -max(a, b));
 }
 
-/* Share of b in the smooth union: its derivative by b. */
+/* Share of b in that. */
+float op_exclusive_share(float a, float b)
+{
+    return (a + b >= 0.0 ? b < a : b > a) ? 1.0 : 0.0;
+}
+
+/* Between the two. */
+float op_morph(float a, float b, float t)
+{
+    return mix(a, b, t);
+}
+
+/* Share of b in that. */
+float op_morph_share(float a, float b, float t)
+{
+    return t;
+}
+
+#define KERNEL_CUBIC 1
+#define KERNEL_QUARTIC 2
+#define KERNEL_CIRCULAR 3
+#define KERNEL_EXPONENTIAL 4
+#define KERNEL_ROOT 5
+#define KERNEL_POWER 6
+
+/* How far below the lesser of two distances their blend is, where they are x apart. The kernel is a
+ * literal wherever this is called, so that one line stays of it. */
+float blend_depth(float x, float k, int kernel)
+{
+    float h = max(k - x, 0.0) / k, y = 1.0 - h;
+    return kernel == KERNEL_CUBIC         ? k * h * h * h / 6.0
+           : kernel == KERNEL_QUARTIC     ? k * h * h * h * h * 0.125
+           : kernel == KERNEL_CIRCULAR    ? k * (1.0 - 0.5 * (y + sqrt(2.0 - y * y)))
+           : kernel == KERNEL_EXPONENTIAL ? log2(1.0 + exp2(-k * x)) / k
+           : kernel == KERNEL_ROOT        ? 0.5 * k / (sqrt(x * x + k) + x)
+                                          : k * h * h * 0.25;
+}
+
+/* The derivative of the blend by the greater of the two. */
+float blend_greater(float x, float k, int kernel)
+{
+    float h = max(k - x, 0.0) / k, y = 1.0 - h, root = sqrt(x * x + k);
+    return kernel == KERNEL_CUBIC         ? 0.5 * h * h
+           : kernel == KERNEL_QUARTIC     ? 0.5 * h * h * h
+           : kernel == KERNEL_CIRCULAR    ? 0.5 - 0.5 * y / sqrt(2.0 - y * y)
+           : kernel == KERNEL_EXPONENTIAL ? 1.0 / (1.0 + exp2(k * x))
+           : kernel == KERNEL_ROOT        ? 0.5 * k / (root * (root + x))
+                                          : 0.5 * h;
+}
+
+/* The lesser by the greater of two distances, both above 0. */
+float power_ratio(float least, float most)
+{
+    return max(least, 1e-30) / max(most, 1e-30);
+}
+
+/* The smooth minimum. */
+float smin(float a, float b, float k, int kernel)
+{
+    float least = min(a, b), most = max(a, b);
+    if (kernel == KERNEL_POWER) {
+        float part = exp2(k * log2(power_ratio(least, most)));
+        return least > 0.0 ? least * exp2(-log2(1.0 + part) / k) : least;
+    }
+    return least - blend_depth(most - least, k, kernel);
+}
+
+/* Share of b in the smooth minimum: its derivative by b, by the sum of both. */
+float smin_share(float a, float b, float k, int kernel)
+{
+    float least = min(a, b), most = max(a, b);
+    float greater = blend_greater(most - least, k, kernel);
+    if (kernel == KERNEL_POWER) {
+        float share = exp2((k + 1.0) * log2(power_ratio(least, most)));
+        greater = least > 0.0 ? share / (1.0 + share) : 0.0;
+    }
+    return b < a ? 1.0 - greater : greater;
+}
+
+/* In either, blended where the distances are near each other. */
+float op_smooth_union(float a, float b, float k, int kernel)
+{
+    return smin(a, b, k, kernel);
+}
+
+/* Share of b in the smooth union. */
 float op_smooth_union_share(float a, float b, float k, int kernel)
 {
-    float h = 0.5 * max(k - abs(a - b), 0.0) / k;
-    return b < a ? 1.0 - h : h;
+    return smin_share(a, b, k, kernel);
 }
 
 /* In both, blended. */
 float op_smooth_intersection(float a, float b, float k, int kernel)
 {
-    return -op_smooth_union(-a, -b, k, kernel);
+    return -smin(-a, -b, k, kernel);
 }
 
 /* Share of b in the smooth intersection. */
 float op_smooth_intersection_share(float a, float b, float k, int kernel)
 {
-    return op_smooth_union_share(-a, -b, k, kernel);
+    return smin_share(-a, -b, k, kernel);
 }
 
 /* In a but not in b, blended. */
 float op_smooth_difference(float a, float b, float k, int kernel)
 {
-    return -op_smooth_union(-a, b, k, kernel);
+    return -smin(-a, b, k, kernel);
 }
 
 /* Share of b in the smooth difference. */
 float op_smooth_difference_share(float a, float b, float k, int kernel)
 {
-    return op_smooth_union_share(-a, b, k, kernel);
+    return smin_share(-a, b, k, kernel);
 }

@@ -62,7 +62,7 @@ struct bounds bounds_intersection(struct bounds a, struct bounds b)
 
 struct bounds bounds_grow(struct bounds box, double delta)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3 && delta > 0; i++) {
         box.low[i] -= delta * box.stretch;
         box.high[i] += delta * box.stretch;
     }

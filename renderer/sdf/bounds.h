@@ -8,7 +8,7 @@
 struct bounds {
     double low[3], high[3]; /* low > high on any axis: nothing */
     /* How much faster than its field the shape may grow: every point whose field is at most
-     * delta lies in the box grown by stretch * delta. 1 where distances are exact. */
+     * delta is no farther than stretch * delta from the box. 1 where distances are exact. */
     double stretch;
 };
 

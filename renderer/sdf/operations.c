@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What combines the distances of several children. */
+/* What combines the distances of several children.
+ *
+ * No field gets steeper here. Minimum, maximum and `exclusive` are everywhere one of their operands
+ * or its negative. Blends and `morph` have two partial derivatives that are >= 0 and together at
+ * most 1, so their gradient is no longer than that of the steeper operand. */
 #include "tools.h"
 
 static double combine_union(double a, double b, const double *n, double *out_share)
@@ -21,44 +25,146 @@ static double combine_difference(double a, double b, const double *n, double *ou
     return combine_intersection(a, -b, n, out_share);
 }
 
-static void blend_prepare(double *n)
+/* In one but not in the other. */
+static double combine_exclusive(double a, double b, const double *n, double *out_share)
 {
-    n[0] = fmax(n[0], 1e-7);
+    (void)n;
+    *out_share = a + b >= 0 ? b < a : b > a;
+    return fmax(fmin(a, b), -fmax(a, b));
 }
 
-static double combine_smooth_union(double a, double b, const double *n, double *out_share)
+static double combine_morph(double a, double b, const double *n, double *out_share)
 {
-    double h = fmax(n[0] - fabs(a - b), 0) / n[0];
-    *out_share = b < a ? 1 - h / 2 : h / 2;
-    return fmin(a, b) - h * h * n[0] / 4;
+    *out_share = n[0];
+    return a * (1 - n[0]) + b * n[0];
+}
+
+/* --- blends: n = k, kernel --- */
+
+enum kernel { QUADRATIC, CUBIC, QUARTIC, CIRCULAR, EXPONENTIAL, ROOT, POWER }; /* registry order */
+
+#define K_MIN 1e-7 /* nothing divides by less */
+#define STRETCH_MAX 1e30
+
+/* What k measures: a length, 1 by a length, the square of one, or nothing. */
+static void blend_scale(double *n, double scale)
+{
+    n[0] = fmax(n[0], K_MIN);
+    switch ((enum kernel)n[1]) {
+    case QUADRATIC:
+    case CUBIC:
+    case QUARTIC:
+    case CIRCULAR:
+        n[0] *= scale;
+        break;
+    case EXPONENTIAL:
+        n[0] /= scale;
+        break;
+    case ROOT:
+        n[0] *= scale * scale;
+        break;
+    case POWER:
+        break;
+    }
+}
+
+/* How far below the lesser of two distances their blend is, where they are x apart, and its
+ * derivative by the greater. Written so that nothing is the difference of great numbers: floats
+ * keep their digits far away too. The power kernel is no function of x. */
+static double blend_depth(double x, double k, enum kernel kernel, double *out_greater)
+{
+    double h = fmax(k - x, 0) / k, y = 1 - h, root;
+    switch (kernel) {
+    case CUBIC:
+        *out_greater = h * h / 2;
+        return k * h * h * h / 6;
+    case QUARTIC:
+        *out_greater = h * h * h / 2;
+        return k * h * h * h * h / 8;
+    case CIRCULAR:
+        root = sqrt(2 - y * y);
+        *out_greater = (1 - y / root) / 2;
+        return k * (1 - (y + root) / 2);
+    case EXPONENTIAL:
+        *out_greater = 1 / (1 + exp2(k * x));
+        return log1p(exp2(-k * x)) / (k * log(2));
+    case ROOT:
+        root = sqrt(x * x + k);
+        *out_greater = k / (2 * root * (root + x));
+        return k / (2 * (root + x));
+    case QUADRATIC:
+    case POWER:
+        break;
+    }
+    *out_greater = h / 2;
+    return k * h * h / 4;
+}
+
+/* (a^-k + b^-k)^(-1/k), the lesser taken out of the brackets. With u the part of a^-k in the sum,
+ * the derivative by a is u^(1 + 1/k) <= u, and by b at most 1 - u. The shares are the derivatives
+ * divided by their sum. */
+static double power_blend(double least, double most, double k, double *out_greater)
+{
+    if (least <= 0) {
+        *out_greater = 0;
+        return least;
+    }
+    double ratio = least / most, part = exp2(k * log2(ratio)), share = part * ratio;
+    *out_greater = share / (1 + share);
+    return least * exp2(-log1p(part) / (k * log(2)));
+}
+
+static double smin(double a, double b, const double *n, double *out_share)
+{
+    enum kernel kernel = (enum kernel)n[1];
+    double least = fmin(a, b), most = fmax(a, b), greater;
+    double d = kernel == POWER ? power_blend(least, most, n[0], &greater)
+                               : least - blend_depth(most - least, n[0], kernel, &greater);
+    *out_share = b < a ? 1 - greater : greater;
+    return d;
 }
 
 static double combine_smooth_intersection(double a, double b, const double *n, double *out_share)
 {
-    return -combine_smooth_union(-a, -b, n, out_share);
+    return -smin(-a, -b, n, out_share);
 }
 
 static double combine_smooth_difference(double a, double b, const double *n, double *out_share)
 {
-    return -combine_smooth_union(-a, b, n, out_share);
+    return -smin(-a, b, n, out_share);
 }
 
-/* One blend lowers by at most k/4; from the left fold x <- x + (k - x)^2 / (4k) never passes k. */
+/* Folded from the left, equal operands are lowered most: what is x below their minimum already goes
+ * down by the blend's depth there, and x plus that depth grows with x. */
 static double blend_lowered(const double *n, size_t count)
 {
-    return n[0] * fmin(1, (double)(count > 0 ? count - 1 : 0) / 4);
+    enum kernel kernel = (enum kernel)n[1];
+    double k = fmax(n[0], K_MIN), x = 0, greater;
+    for (size_t i = 1; i < count && kernel != POWER; i++) {
+        x += blend_depth(x, k, kernel, &greater);
+    }
+    return x;
+}
+
+/* The power kernel moves no surface, but makes the field of equal operands as much less. */
+static double blend_stretched(const double *n, size_t count)
+{
+    bool power = (enum kernel)n[1] == POWER && count > 1;
+    return power ? fmin(pow((double)count, 1 / fmax(n[0], K_MIN)), STRETCH_MAX) : 1;
 }
 
 const struct sdf sdf_operations[] = {
     {"union", .combine = combine_union, .rule = SDF_ANY},
     {"intersection", .combine = combine_intersection, .rule = SDF_ALL},
     {"difference", .combine = combine_difference, .rule = SDF_FIRST},
-    {"smooth_union", .prepare = blend_prepare, .combine = combine_smooth_union, .rule = SDF_ANY,
-     .soft = true, .lowered = blend_lowered},
-    {"smooth_intersection", .prepare = blend_prepare, .combine = combine_smooth_intersection,
+    {"exclusive", .combine = combine_exclusive, .rule = SDF_ANY},
+    {"smooth_union", .scale = blend_scale, .combine = smin, .rule = SDF_ANY, .soft = true,
+     .lowered = blend_lowered, .stretched = blend_stretched},
+    {"smooth_intersection", .scale = blend_scale, .combine = combine_smooth_intersection,
      .rule = SDF_ALL, .soft = true},
-    {"smooth_difference", .prepare = blend_prepare, .combine = combine_smooth_difference,
+    {"smooth_difference", .scale = blend_scale, .combine = combine_smooth_difference,
      .rule = SDF_FIRST, .soft = true},
+    {"morph", .combine = combine_morph, .rule = SDF_ANY, .soft = true, .operands = 2},
     {"material", .combine = combine_union, .rule = SDF_ANY},
     {"group", .combine = combine_union, .rule = SDF_ANY},
     {.type = NULL},

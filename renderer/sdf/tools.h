@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files of distance functions share. Where a formula comes from stands in its registry row;
- * each GLSL function of the same name is the same formula. */
+/* What the files of distance functions share. Where a formula comes from stands in its registry
+ * row; each GLSL function of the same name is the same formula. */
 #ifndef RENDERER_TOOLS_H
 #define RENDERER_TOOLS_H
 
