@@ -2,6 +2,9 @@
 /* Registry: primitives in three dimensions. */
 #include "nodes_parts.h"
 
+/* From the +Y axis to either side. */
+#define HALF_ANGLE UNIT_ANGLE, .min = 0, .max = 3.141592653589793, .step = 0.05, .main = true
+
 /* clang-format off */
 const struct node_type node_shapes[] = {
     {.record = {"sphere", "A ball.", PARAMS(
@@ -12,10 +15,11 @@ const struct node_type node_shapes[] = {
         {"radii", PARAM_VEC3, SIZE, .def = {0.5, 0.3, 0.4}, .main = true,
          .doc = "Semi-axes along X, Y and Z."})},
      /* The unit ball's distance at p / radii times the least radius: its gradient is a direction
-      * divided by radii and times their least, so never longer than 1. */
+      * divided by radii and times their least, so never longer than 1. The distance of a box around
+      * the ellipsoid is a bound as well, and the greater one of the two where a radius is long. */
      .number = 2, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
      .glsl = "sd_ellipsoid", .words = "egg ball oval spheroid",
-     .source = QUILEZ_DISTANCE ", Ellipsoid, in the form that is a bound everywhere"},
+     .source = QUILEZ_DISTANCE ", Ellipsoid, in a form that is a bound everywhere"},
     {.record = {"box", "A cuboid.", PARAMS(
         {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .main = true,
          .doc = "Full lengths of the edges."})},
@@ -62,6 +66,90 @@ const struct node_type node_shapes[] = {
      .number = 9, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd_plane", .words = "floor ground half-space wall",
      .source = QUILEZ_DISTANCE ", Plane"},
+    {.record = {"box_frame", "The edges of a cuboid as bars.", PARAMS(
+        {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .main = true, .doc = "Full outer lengths."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true,
+         .doc = "Side of the bars' square section, inside the size; bars that meet close the sides "
+                "between them."})},
+     .number = 10, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_box_frame", .words = "cube wireframe cage scaffold edges",
+     .source = QUILEZ_DISTANCE ", Box Frame; the inside from the openings between the bars"},
+    {.record = {"capped_torus", "A part of a ring around the Z axis, with round ends.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true,
+         .doc = "Centre of the ring to centre of the tube."},
+        {"tube", PARAM_FLOAT, SIZE, .def = {0.15}, .doc = "Radius of the tube."},
+        {"angle", PARAM_FLOAT, HALF_ANGLE, .def = {2},
+         .doc = "From the +Y axis to each end; at the maximum the ring is closed."})},
+     .number = 11, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_capped_torus", .words = "arc horseshoe handle hook donut ring",
+     .source = QUILEZ_DISTANCE ", Capped Torus; the inside from the seams where it meets itself"},
+    {.record = {"link", "A link of a chain, along the Y axis.", PARAMS(
+        {"length", PARAM_FLOAT, REACH, .def = {0.5}, .main = true,
+         .doc = "Length of the straight parts."},
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.3}, .main = true,
+         .doc = "Radius of the bends, to the centre of the tube."},
+        {"tube", PARAM_FLOAT, SIZE, .def = {0.1}, .doc = "Radius of the tube."})},
+     .number = 12, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_link", .words = "chain ring oval shackle", .source = QUILEZ_DISTANCE ", Link"},
+    {.record = {"round_cylinder", "A cylinder along the Y axis with rounded edges.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true,
+         .doc = "Axis to wall, the rounding included."},
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
+         .doc = "Full height, the rounding included."},
+        {"rounding", PARAM_FLOAT, REACH, .def = {0.1},
+         .doc = "Radius of the edges; at most the radius and half of the height count."})},
+     .number = 13, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_round_cylinder", .words = "pill puck button cushion disc drum",
+     .source = QUILEZ_DISTANCE ", Rounded Cylinder"},
+    {.record = {"capped_cone", "A cone along the Y axis without its tip.", PARAMS(
+        {"radius1", PARAM_FLOAT, REACH, .def = {0.5}, .main = true, .doc = "Radius at the bottom."},
+        {"radius2", PARAM_FLOAT, REACH, .def = {0.25}, .main = true, .doc = "Radius at the top."},
+        {"height", PARAM_FLOAT, SIZE, .def = {1}, .doc = "Full height."})},
+     .number = 14, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_capped_cone", .words = "frustum truncated bucket cup lampshade",
+     .source = QUILEZ_DISTANCE ", Capped Cone"},
+    {.record = {"round_cone", "Two balls, one above the other, and a cone's wall.", PARAMS(
+        {"radius1", PARAM_FLOAT, REACH, .def = {0.4}, .main = true,
+         .doc = "Radius of the ball at the origin."},
+        {"radius2", PARAM_FLOAT, REACH, .def = {0.2}, .main = true,
+         .doc = "Radius of the ball above it."},
+        {"height", PARAM_FLOAT, SIZE, .def = {0.6}, .doc = "From centre to centre."})},
+     .number = 15, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_round_cone", .words = "egg drop pear capsule bulb",
+     .source = QUILEZ_DISTANCE ", Round cone"},
+    {.record = {"solid_angle", "The part of a ball that a cone around +Y cuts out.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Radius of the ball."},
+        {"angle", PARAM_FLOAT, HALF_ANGLE, .def = {0.5},
+         .doc = "From the +Y axis to the side; at the maximum the ball is whole."})},
+     .number = 16, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_solid_angle", .words = "sector wedge cone ice cream spotlight",
+     .source = QUILEZ_DISTANCE ", Solid Angle"},
+    {.record = {"cut_sphere", "The part of a ball above a plane.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Radius of the ball."},
+        {"height", PARAM_FLOAT, PLACE, .def = {0.2}, .main = true,
+         .doc = "Where the cut is on the Y axis; at most the radius counts, up and down."})},
+     .number = 17, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_cut_sphere", .words = "dome cap hemisphere half ball lens",
+     .source = QUILEZ_DISTANCE ", Cut Sphere"},
+    {.record = {"cut_hollow_sphere", "A bowl: a hollow ball below a plane, its rim round.", PARAMS(
+        {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true,
+         .doc = "Centre to the middle of the wall."},
+        {"height", PARAM_FLOAT, PLACE, .def = {0.2}, .main = true,
+         .doc = "Where the cut is on the Y axis; at most the radius counts, up and down."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.05},
+         .doc = "Half of the thickness of the wall."})},
+     .number = 18, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_cut_hollow_sphere", .words = "bowl cup shell dish hemisphere",
+     .source = QUILEZ_DISTANCE ", Cut Hollow Sphere; its section is the flat arc"},
+    {.record = {"death_star", "A ball with a hollow as from another ball.", PARAMS(
+        {"radius1", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Radius of the ball."},
+        {"radius2", PARAM_FLOAT, SIZE, .def = {0.4}, .main = true,
+         .doc = "Radius of the ball that is taken away; at most radius1 + distance counts."},
+        {"distance", PARAM_FLOAT, REACH, .def = {0.5},
+         .doc = "Where the centre of that ball is on the X axis."})},
+     .number = 19, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
+     .glsl = "sd_death_star", .words = "crater moon bite crescent dent",
+     .source = QUILEZ_DISTANCE ", Death Star"},
     {.record = {.name = NULL}},
 };
 /* clang-format on */
