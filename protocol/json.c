@@ -97,22 +97,11 @@ static void keep_byte(struct scan *scan, unsigned byte)
 
 static void keep_code(struct scan *scan, uint32_t code)
 {
-    if (code < 0x80) {
-        keep_byte(scan, code);
-        return;
+    char bytes[4];
+    size_t count = utf8_put(bytes, code);
+    for (size_t i = 0; i < count; i++) {
+        keep_byte(scan, (unsigned char)bytes[i]);
     }
-    if (code < 0x800) {
-        keep_byte(scan, 0xc0 | code >> 6);
-    } else {
-        if (code < 0x10000) {
-            keep_byte(scan, 0xe0 | code >> 12);
-        } else {
-            keep_byte(scan, 0xf0 | code >> 18);
-            keep_byte(scan, 0x80 | (code >> 12 & 0x3f));
-        }
-        keep_byte(scan, 0x80 | (code >> 6 & 0x3f));
-    }
-    keep_byte(scan, 0x80 | (code & 0x3f));
 }
 
 /* Four hexadecimal digits at `at`; -1 where they are not. */

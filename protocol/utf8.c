@@ -32,3 +32,16 @@ size_t utf8_sequence(const char *text, size_t left)
     }
     return count;
 }
+
+size_t utf8_put(char out[4], unsigned long code)
+{
+    const size_t count = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    static const unsigned char first[] = {0, 0, 0xc0, 0xe0, 0xf0};
+
+    for (size_t i = count - 1; i > 0; i--) {
+        out[i] = (char)(0x80 | (code & 0x3f));
+        code >>= 6;
+    }
+    out[0] = (char)(first[count] | code);
+    return count;
+}

@@ -1,0 +1,551 @@
+/* SPDX-License-Identifier: MIT */
+/* Folders in the format of Schneider's thesis: its listings as they are printed, what else may
+ * stand in such files, and what is refused where. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/import.h"
+#include "protocol/import_text.h"
+#include "tests/support/compiled.h"
+#include "tests/support/text_file.h"
+
+#define LISTINGS "tests/import/thesis/"
+#define SCENES "tests/import/scenes/"
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static const char *const listings[] = {
+    LISTINGS "primitives/hex_prism.json",      LISTINGS "shaders/blend_shader.json",
+    LISTINGS "materials/blend_material.json",  LISTINGS "materials/blend_material1.json",
+    LISTINGS "materials/blend_material2.json", LISTINGS "models/Esfera.json",
+    LISTINGS "models/TresEsferas.json",
+};
+
+static struct error err;
+static cJSON *notes;
+
+static struct scene *convert(const struct import_file *files, size_t count, const char *wanted)
+{
+    cJSON_Delete(notes);
+    notes = NULL;
+    err = (struct error){0};
+    return import_scene(&(struct import_source){.files = files, .count = count, .scene = wanted},
+                        &notes, &err);
+}
+
+/* The listings and one scene. */
+static struct scene *import_with(const char *scene_path)
+{
+    struct import_file files[COUNT(listings) + 1];
+    struct scene *scene;
+
+    for (size_t i = 0; i < COUNT(files); i++) {
+        files[i].path = i < COUNT(listings) ? listings[i] : scene_path;
+        files[i].text = text_file_read(files[i].path, &files[i].length);
+    }
+    scene = convert(files, COUNT(files), NULL);
+    for (size_t i = 0; i < COUNT(files); i++) {
+        free((char *)files[i].text);
+    }
+    if (!scene) {
+        fail_msg("%s:%d:%d: %s", err.place, err.line, err.column, err.message);
+    }
+    return scene;
+}
+
+/* Files written out here: path, text, path, text, ..., NULL. */
+static struct scene *import_texts(const char *path, ...)
+{
+    struct import_file files[8];
+    size_t count = 0;
+    va_list args;
+
+    va_start(args, path);
+    for (; path; path = va_arg(args, const char *)) {
+        const char *text = va_arg(args, const char *);
+
+        files[count++] = (struct import_file){path, text, strlen(text)};
+    }
+    va_end(args);
+    return convert(files, count, NULL);
+}
+
+static double distance(const struct scene *scene, double x, double y, double z)
+{
+    struct field *field = compile_field(scene);
+    const double d = field_distance(field, (double[3]){x, y, z});
+
+    field_unref(field);
+    return d;
+}
+
+static void assert_surface(const struct scene *scene, double x, double y, double z)
+{
+    const double d = distance(scene, x, y, z);
+
+    if (fabs(d) > 1e-6) {
+        fail_msg("at %g, %g, %g the surface is %g away", x, y, z, d);
+    }
+}
+
+/* --- the listings --- */
+
+static void check_spheres(const struct scene *scene)
+{
+    /* Three of radius 0.5 about (0.3, 0.2), (0.1, 0.4), (0.3, 0.1). */
+    assert_surface(scene, 0.8, 0.2, 0);
+    assert_surface(scene, 0.1, 0.9, 0);
+    assert_surface(scene, 0.3, -0.4, 0);
+    assert_surface(scene, 0.3 + 0.5 * sqrt(0.5), 0.1 - 0.5 * sqrt(0.5), 0);
+    /* One about (0.3 - 0.8, 0.2), scaled by 1, 2 and 4. */
+    assert_surface(scene, -1, 0.2, 0);
+    assert_surface(scene, -0.5, 1.2, 0);
+    assert_surface(scene, -0.5, -0.8, 0);
+    assert_surface(scene, -0.5, 0.2, 2);
+    assert_true(distance(scene, -0.5, 0.2, 1.9) < 0);
+    assert_true(distance(scene, -0.5, 1.3, 0) > 0);
+}
+
+static void test_scene_as_printed(void **state)
+{
+    struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
+
+    (void)state;
+    assert_string_equal(record_text(&scene->info, "name"), "Cena1");
+    assert_int_equal(scene->models.count, 2);
+    assert_int_equal(scene->materials.count, 3);
+    check_spheres(scene);
+    /* The object that ends too early is told. */
+    assert_int_equal(cJSON_GetArraySize(notes), 1);
+    assert_non_null(strstr(notes->child->valuestring, "Cena1.json:8:1: "));
+    scene_destroy(scene);
+}
+
+static void test_scene_of_the_draft(void **state)
+{
+    struct scene *scene = import_with(SCENES "draft.json");
+
+    (void)state;
+    check_spheres(scene);
+    assert_int_equal(cJSON_GetArraySize(notes), 0);
+    scene_destroy(scene);
+}
+
+static void test_materials(void **state)
+{
+    struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
+    const struct resource *shader = resource_find(&scene->shaders, "Blend-Shader");
+    const struct resource *material = resource_find(&scene->materials, "blend_material");
+    const double color[] = {0.5, 0.1, 0.5};
+
+    (void)state;
+    assert_non_null(shader);
+    assert_string_equal(record_text(&shader->record, "doc"), "Blend Shader");
+    assert_true(record_is(&shader->record, "lighting", "unlit"));
+    assert_non_null(strstr(record_text(&shader->record, "code"), "\n\nfloat3 shade("));
+    assert_ptr_equal(material->shader, shader);
+    assert_memory_equal(record_vector(&material->record, "_Color1"), color, sizeof color);
+    assert_true(record_number(&material->record, "_Blend") == 0.61803398874);
+    const struct param *blend = &material->record.type->params[2];
+    assert_int_equal(blend->type, PARAM_FLOAT);
+    assert_true(blend->min == 0 && blend->max == 1);
+    assert_int_equal(material->record.type->params[0].type, PARAM_COLOR);
+
+    /* Inherited where a child says nothing. */
+    const struct resource *three = resource_find(&scene->models, "TresEsferas");
+    assert_string_equal(node_material(scene, three->root->children[0])->name, "blend_material1");
+    assert_string_equal(node_material(scene, three->root->children[1])->name, "blend_material2");
+    assert_string_equal(record_text(&three->root->common, "name"), "TresEsferas");
+    scene_destroy(scene);
+}
+
+static void test_primitives(void **state)
+{
+    struct scene *scene = import_with(SCENES "prisms.json");
+    const struct resource *prism = resource_find(&scene->primitives, "HexPrism");
+
+    (void)state;
+    assert_non_null(prism);
+    /* Apothem 0.5, half as high as 0.25. */
+    assert_surface(scene, 0, 0.5, 0);
+    assert_surface(scene, 0.5 * sqrt(3) / 2, 0.25, 0.1);
+    assert_surface(scene, 0.2, 0, 0.25);
+    /* A cuboid with these edges, a ball cut out at its top. */
+    assert_surface(scene, 2.5, 0.1, 0);
+    assert_surface(scene, 2, -0.75, 0);
+    assert_surface(scene, 2, 0, 1);
+    assert_surface(scene, 2, 0.25, 0);
+    scene_destroy(scene);
+}
+
+/* What the scene does not say: everything is in the picture, and something shines. */
+static void check_seen(const struct scene *scene, const double p[3])
+{
+    const double *eye = record_vector(&scene->camera, "position");
+    const double *target = record_vector(&scene->camera, "target");
+    const double half = record_number(&scene->camera, "fov") / 2 * M_PI / 180;
+    double along = 0, length = 0, reach = 0;
+
+    for (int i = 0; i < 3; i++) {
+        along += (p[i] - eye[i]) * (target[i] - eye[i]);
+        length += (target[i] - eye[i]) * (target[i] - eye[i]);
+        reach += (p[i] - eye[i]) * (p[i] - eye[i]);
+    }
+    assert_true(along / sqrt(length * reach) >= cos(half) - 1e-9);
+}
+
+static void test_camera_and_light(void **state)
+{
+    struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
+
+    (void)state;
+    check_seen(scene, (double[3]){-0.5, 0.2, 2});
+    check_seen(scene, (double[3]){-0.5, 0.2, -2});
+    check_seen(scene, (double[3]){0.8, 0.2, 0});
+    check_seen(scene, (double[3]){-0.5, 1.2, 0});
+    assert_int_equal(scene->lights.count, 1);
+    scene_destroy(scene);
+}
+
+/* A listing by itself is worth a look. */
+static void test_without_a_scene(void **state)
+{
+    for (size_t i = 0; i < COUNT(listings); i++) {
+        struct import_file files[COUNT(listings)];
+        const bool needs_shader = strstr(listings[i], "/materials/") != NULL;
+        const bool needs_more = strstr(listings[i], "/models/") != NULL;
+        size_t count = 0;
+
+        for (size_t k = 0; k < COUNT(listings); k++) {
+            if (k == i || (needs_shader && strstr(listings[k], "/shaders/")) ||
+                (needs_more && !strstr(listings[k], "/models/"))) {
+                files[count].path = listings[k];
+                files[count].text = text_file_read(listings[k], &files[count].length);
+                count++;
+            }
+        }
+        struct scene *scene = convert(files, count, NULL);
+        if (!scene) {
+            fail_msg("%s: %s:%d: %s", listings[i], err.place, err.line, err.message);
+        }
+        assert_int_equal(scene->root->child_count, 1);
+        struct field *field = compile_field(scene);
+        assert_int_equal(field->shape_count, strstr(listings[i], "TresEsferas") ? 3 : 1);
+        field_unref(field);
+        scene_destroy(scene);
+        while (count > 0) {
+            free((char *)files[--count].text);
+        }
+    }
+    (void)state;
+}
+
+static void test_side_by_side(void **state)
+{
+    struct scene *scene = import_texts(
+        "a.json", "{\"model\": {\"type\": \"Primitives/Sphere\", \"data\": [2]}}", "b.json",
+        "{\"model\": {\"type\": \"Primitives/Box\", \"data\": [2, 2, 2]}}", NULL);
+
+    (void)state;
+    assert_non_null(scene);
+    assert_surface(scene, 2, 0, 0);
+    assert_surface(scene, 3, 0, 0);
+    assert_surface(scene, 5, 0, 0);
+    scene_destroy(scene);
+}
+
+/* --- what else may be written --- */
+
+#define ONE_NODE(node) "{\"scene\": [" node "]}"
+
+static void test_built_in_types(void **state)
+{
+    static const struct {
+        const char *type, *data;
+        double surface[3];
+    } rows[] = {
+        {"Sphere", "0.7", {0, 0.7, 0}},      {"Cuboid", "2, 4, 6", {1, 0, 0}},
+        {"Box", "2, 4, 6", {0, 0, 3}},       {"Cylinder", "3, 0.5", {0, 3, 0}},
+        {"Plane", "0, 1, 0, 2", {5, -2, 3}},
+    };
+    char text[256];
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        snprintf(text, sizeof text, ONE_NODE("{\"type\": \"Primitives/%s\", \"data\": [%s]}"),
+                 rows[i].type, rows[i].data);
+        struct scene *scene = import_texts("s.json", text, NULL);
+        assert_non_null(scene);
+        assert_surface(scene, rows[i].surface[0], rows[i].surface[1], rows[i].surface[2]);
+        scene_destroy(scene);
+    }
+}
+
+static void test_operations(void **state)
+{
+    static const char *const rows[][2] = {
+        {"Union", "union"},
+        {"Intersection", "intersection"},
+        {"Subtraction", "difference"},
+        {"SmoothUnion", "smooth_union"},
+        {"SmoothIntersection", "smooth_intersection"},
+        {"SmoothSubtraction", "smooth_difference"},
+    };
+    char text[256];
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        const bool smooth = rows[i][0][1] == 'm';
+
+        snprintf(text, sizeof text,
+                 ONE_NODE("{\"type\": \"Operations/%s\"%s, \"children\": "
+                          "[{\"type\": \"Primitives/Sphere\"}, {\"type\": \"Primitives/Box\"}]}"),
+                 rows[i][0], smooth ? ", \"data\": [0.25]" : "");
+        struct scene *scene = import_texts("s.json", text, NULL);
+        assert_non_null(scene);
+        const struct node *node = scene->root->children[0];
+        assert_string_equal(node->type->record.name, rows[i][1]);
+        assert_int_equal(node->child_count, 2);
+        if (smooth) {
+            assert_true(record_number(&node->params, "k") == 0.25);
+        }
+        scene_destroy(scene);
+    }
+}
+
+/* Printed there: Rx and Ry with the signs of a turn the other way, Rz as ours. */
+static void test_rotation(void **state)
+{
+    static const struct {
+        const char *axis;
+        double end[3];
+    } rows[] = {{"x", {0, 0, -3}}, {"y", {0, 3, 0}}, {"z", {-3, 0, 0}}};
+    char text[256];
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        snprintf(text, sizeof text,
+                 ONE_NODE("{\"type\": \"Operations/Union\", \"transform\": {\"rotation\": "
+                          "{\"%s\": 1.5707963267948966}}, \"children\": [{\"type\": "
+                          "\"Primitives/Sphere\", \"data\": [1], \"transform\": {\"position\": "
+                          "{\"y\": 2}}}]}"),
+                 rows[i].axis);
+        struct scene *scene = import_texts("s.json", text, NULL);
+        assert_non_null(scene);
+        assert_surface(scene, rows[i].end[0], rows[i].end[1], rows[i].end[2]);
+        scene_destroy(scene);
+    }
+}
+
+static void test_ids(void **state)
+{
+    static const char material[] = "{\"base_shader\": \"phong\"}";
+    static const char shader[] = "{\"name\": \"phong\", \"properties\": [], \"code\": "
+                                 "\"float3 shade(FragmentProperties p) { return float3(1); }\"}";
+    struct scene *scene =
+        import_texts("a/pele clara.json", material,
+                     "b/pele\xc3\xa9"
+                     "clara.json",
+                     material, "c/\xc3\xa9.json", material, "phong.json", shader, NULL);
+
+    (void)state;
+    assert_non_null(scene);
+    assert_non_null(resource_find(&scene->materials, "pele-clara"));
+    assert_non_null(resource_find(&scene->materials, "pele-clara-2"));
+    assert_non_null(resource_find(&scene->materials, "material"));
+    /* A built-in shader has the name. */
+    assert_non_null(resource_find(&scene->shaders, "phong-2"));
+    assert_string_equal(record_text(&scene->root->children[1]->common, "name"), "pele\xc3\xa9"
+                                                                                "clara");
+    scene_destroy(scene);
+}
+
+static void test_commas_and_line_breaks(void **state)
+{
+    struct scene *scene = import_texts(
+        "s.json",
+        "{\"name\": \"a\"\n \"scene\": [{\"type\": \"Primitives/Sphere\" \"data\": [1]}\r\n"
+        "{\"type\": \"Primitives/Box\"}]}",
+        "p.json", "{\"id\": 40, \"code\": \"float sdf(vec3 p) {\r\n\treturn length(p);\r\n}\"}",
+        NULL);
+
+    (void)state;
+    assert_non_null(scene);
+    assert_int_equal(scene->root->child_count, 2);
+    assert_int_equal(cJSON_GetArraySize(notes), 3);
+    assert_string_equal(notes->child->valuestring,
+                        "s.json:2:2: read as if there were a ',' before this");
+    assert_string_equal(record_text(&scene->primitives.items[0]->record, "code"),
+                        "float sdf(vec3 p) {\n\treturn length(p);\n}");
+    scene_destroy(scene);
+}
+
+/* --- what is refused --- */
+
+#define NODE ONE_NODE
+#define SPHERE "\"type\": \"Primitives/Sphere\""
+
+static void test_refused(void **state)
+{
+    static const struct {
+        const char *text;
+        int line, column;
+        const char *message;
+    } rows[] = {
+        {"", 1, 1, "the file ends here, expected an object"},
+        {"[]", 1, 1, "expected an object"},
+        {"{\"scene\": [}", 1, 12, "expected a value, not '}'"},
+        {"{\n\"scene\": [],\n}", 3, 1, "expected the name of a member in quotes, not '}'"},
+        {"{\"scene\": [1,]}", 1, 14, "expected a value, not ']'"},
+        {"{\"scene\": []", 1, 13, "the file ends here, expected ',' or '}'"},
+        {"{\"scene\": []} x", 1, 15, "expected the end of the file, not 'x'"},
+        {"{\"scene\" []}", 1, 10, "expected ':'"},
+        {"{\"name\": \"x\n\n", 1, 10, "the text that begins here does not end"},
+        {"{\"name\": \"\\x\"}", 1, 11, "no escape of JSON"},
+        {"{\"name\": \"\\ud800\"}", 1, 11, "no escape of JSON"},
+        {"{\"name\": \"\x01\"}", 1, 11, "a control character"},
+        {"{\"name\": \"\xff\"}", 1, 11, "not UTF-8"},
+        {"{\"scene\": 01}", 1, 11, "expected a number"},
+        {"{\"scene\": .5}", 1, 11, "expected a value, not '.'"},
+        {"{\"scene\": 1e999}", 1, 11, "this number is too large"},
+        {"{\"scene\": [], \"scene\": []}", 1, 24, "stands in the object already"},
+        {"{\"scene\": [1, \"a\": 2]}", 1, 18, "expected ',' or ']', not ':'"},
+        {"{\"other\": 1}", 1, 1, "neither a scene"},
+        {"{\"scene\": {}}", 1, 11, "scene: expected a list"},
+        {"{\"scene\": [], \"nmae\": 1}", 1, 23, "did you mean \"name\"?"},
+        {NODE("1"), 1, 12, "expected a node"},
+        {NODE("{}"), 1, 12, "expected one member type"},
+        {NODE("{\"type\": \"Sphere\"}"), 1, 21, "is no type"},
+        {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "no file has the primitive"},
+        {NODE("{\"type\": \"Operations/Unoin\"}"), 1, 21, "did you mean \"Operations/Union\"?"},
+        {NODE("{\"type\": \"Models/Nobody\"}"), 1, 21, "no file has the model \"Nobody\""},
+        {NODE("{" SPHERE ", \"data\": []}"), 1, 50, "data: expected 1 number for Sphere"},
+        {NODE("{" SPHERE ", \"data\": [\"1\"]}"), 1, 51, "data: expected a number"},
+        {NODE("{" SPHERE ", \"data\": [1,2,3,4,5,6,7,8,9]}"), 1, 67, "more than 8 numbers"},
+        {NODE("{" SPHERE ",\n\"data\": [-1]}"), 1, 12, "radius: -1 is "},
+        {NODE("{" SPHERE ", \"material_id\": 0}"), 1, 57, "material_id: 0 is none of the 0"},
+        {NODE("{" SPHERE ", \"transform\": {\"pos\": 1}}"), 1, 63, "no member \"pos\" here"},
+        {NODE("{" SPHERE ", \"transform\": {\"scale\": {\"x\": 0}}}"), 1, 12, "scale: 0 (x)"},
+        {NODE("{" SPHERE ", \"transform\": {\"position\": [1]}}"), 1, 68, "expected an object"},
+        {"{\"id\": 31, \"code\": \"\"}", 1, 8, "id: expected a whole number of at least 32"},
+        {"{\"id\": 33, \"code\": 1}", 1, 20, "code: expected a text in quotes"},
+        {"{\"properties\": [\"_A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
+        {"{\"properties\": [\"[half] _A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
+        {"{\"properties\": [\"[float] [Range(0)] _A\"], \"code\": \"\"}", 1, 17, "[Range(0, 1)]"},
+        {"{\"base_shader\": \"x\"}", 1, 17, "no file has the shader \"x\""},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        struct scene *scene = import_texts("f/s.json", rows[i].text, NULL);
+
+        if (scene || strcmp(err.place, "f/s.json") != 0 || err.line != rows[i].line ||
+            err.column != rows[i].column || !strstr(err.message, rows[i].message)) {
+            fail_msg("%s\n  expected %d:%d: %s\n  got %s:%d:%d: %s", rows[i].text, rows[i].line,
+                     rows[i].column, rows[i].message, err.place, err.line, err.column, err.message);
+        }
+    }
+}
+
+static void test_refused_materials(void **state)
+{
+    static const char shader[] = "{\"name\": \"S\", \"properties\": [\"[float] [Range(0, 1)] _A\", "
+                                 "\"[float3] _B\"], \"code\": \"\"}";
+    static const struct {
+        const char *property, *message;
+    } rows[] = {
+        {"{\"name\": \"_C\", \"type\": \"float\", \"value\": \"1\"}", "has no property \"_C\""},
+        {"{\"name\": \"_A\", \"type\": \"float3\", \"value\": \"1\"}", "_A is a float"},
+        {"{\"name\": \"_A\", \"type\": \"float\", \"value\": \"x\"}", "expected a text as \"0.5\""},
+        {"{\"name\": \"_A\", \"type\": \"float\", \"value\": \"(1, 2)\"}", "expected a text as"},
+        {"{\"name\": \"_A\", \"type\": \"float\", \"value\": \"2\"}", "2 is above the maximum 1"},
+        {"{\"name\": \"_A\", \"type\": \"float\", \"value\": \"nan\"}", "expected a text as"},
+        {"{\"name\": \"_B\", \"type\": \"float3\", \"value\": \"(1, 2)\"}", "\"(0.5, 1, 0)\""},
+        {"{\"name\": \"_B\", \"type\": \"float3\", \"value\": \"(1, 2, 3, 4)\"}", "(0.5, 1, 0)"},
+        {"{\"name\": \"_B\", \"type\": \"float3\"}", "expected a text as"},
+        {"{\"nome\": \"_B\"}", "name is missing"},
+        {"1", "expected a property"},
+    };
+    char text[256];
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        snprintf(text, sizeof text, "{\"base_shader\": \"S\",\n\"properties\": [%s]}",
+                 rows[i].property);
+        struct scene *scene = import_texts("s.json", shader, "m.json", text, NULL);
+        if (scene || strcmp(err.place, "m.json") != 0 || err.line < 1 ||
+            !strstr(err.message, rows[i].message)) {
+            fail_msg("%s\n  got %s:%d: %s", text, err.place, err.line, err.message);
+        }
+    }
+}
+
+static void test_ambiguous(void **state)
+{
+    static const char empty[] = "{\"name\": \"A\", \"scene\": []}";
+    static const char model[] = "{\"model\": {\"type\": \"Primitives/Sphere\"}}";
+    static const char user[] = "{\"scene\": [{\"type\": \"Models/m\"}]}";
+    const struct import_file two[] = {{"x/a.json", empty, strlen(empty)},
+                                      {"x/b.json", empty, strlen(empty)}};
+
+    (void)state;
+    assert_null(import_texts("x/a.json", empty, "x/b.json", empty, NULL));
+    assert_non_null(strstr(err.message, "there are 2 scenes: \"A\", \"A\"; say which"));
+    struct scene *scene = convert(two, 2, "b"); /* by its file */
+    assert_non_null(scene);
+    scene_destroy(scene);
+    assert_null(convert(two, 2, "A"));
+    assert_non_null(strstr(err.message, "may be the scene of x/a.json or of x/b.json"));
+    assert_null(import_texts("x/m.json", model, "y/m.json", model, "s.json", user, NULL));
+    assert_non_null(strstr(err.message, "may be the model of x/m.json or of y/m.json"));
+    assert_null(import_texts("readme.txt", "", NULL));
+    assert_non_null(strstr(err.message, "there is no file"));
+}
+
+static void test_circle(void **state)
+{
+    (void)state;
+    assert_null(import_texts("a.json", "{\"model\": {\"type\": \"Models/b\"}}", "b.json",
+                             "{\"model\": {\"type\": \"Models/a\"}}", NULL));
+    assert_int_equal(err.kind, ERROR_CONFLICT);
+    assert_non_null(strstr(err.message, "/models/a"));
+    assert_non_null(strstr(err.message, "/models/b"));
+}
+
+static int finish(void **state)
+{
+    (void)state;
+    cJSON_Delete(notes);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scene_as_printed),
+        cmocka_unit_test(test_scene_of_the_draft),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_primitives),
+        cmocka_unit_test(test_camera_and_light),
+        cmocka_unit_test(test_without_a_scene),
+        cmocka_unit_test(test_side_by_side),
+        cmocka_unit_test(test_built_in_types),
+        cmocka_unit_test(test_operations),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_ids),
+        cmocka_unit_test(test_commas_and_line_breaks),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused_materials),
+        cmocka_unit_test(test_ambiguous),
+        cmocka_unit_test(test_circle),
+    };
+
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, NULL, finish);
+}
