@@ -19,6 +19,10 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Check scene documents.",
         .more = "Prints `file: place: what is wrong` for each that breaks a rule, and fails if one "
                 "does."},
+    [COMMAND_IMPORT] = {"import", .operands = "DIR", .run = command_import,
+        .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
+        .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "
+                "scenes. What was put right while reading is told as `file:line:column: what`."},
     [COMMAND_SCHEMA] = {"schema", .run = command_schema,
         .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
     [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,

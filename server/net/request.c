@@ -210,8 +210,9 @@ struct response response_json(int status, cJSON *json)
     return response_text(status, "application/json", text);
 }
 
-struct response response_problem(int status, const char *code, const char *place,
-                                 const char *detail)
+/* Line and column are left out where they are 0. */
+static struct response problem(int status, const char *code, const char *place, int line,
+                               int column, const char *detail)
 {
     cJSON *json = cJSON_CreateObject();
 
@@ -221,6 +222,10 @@ struct response response_problem(int status, const char *code, const char *place
     cJSON_AddStringToObject(json, "detail", detail);
     cJSON_AddStringToObject(json, "code", code);
     cJSON_AddStringToObject(json, "place", place);
+    if (line > 0) {
+        cJSON_AddNumberToObject(json, "line", line);
+        cJSON_AddNumberToObject(json, "column", column);
+    }
     struct response response = response_json(status, json);
     response.type = "application/problem+json";
     if (status == 503) {
@@ -231,10 +236,16 @@ struct response response_problem(int status, const char *code, const char *place
     return response;
 }
 
+struct response response_problem(int status, const char *code, const char *place,
+                                 const char *detail)
+{
+    return problem(status, code, place, 0, 0, detail);
+}
+
 struct response response_error(const struct error *err)
 {
-    return response_problem(error_kind_status(err->kind), error_kind_name(err->kind), err->place,
-                            err->message);
+    return problem(error_kind_status(err->kind), error_kind_name(err->kind), err->place, err->line,
+                   err->column, err->message);
 }
 
 void request_reply_error(struct request *request, const struct error *err)

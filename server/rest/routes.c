@@ -6,6 +6,7 @@
 static const struct route table[] = {
     {"GET", "/v1/scenes", scenes_list, BODY_NONE, false},
     {"POST", "/v1/scenes", scenes_create, BODY_JSON, false},
+    {"POST", "/v1/import", scenes_import, BODY_JSON, false},
     {"GET", "/v1/scenes/{}", scenes_read, BODY_NONE, false},
     {"PUT", "/v1/scenes/{}", scenes_replace, BODY_JSON, false},
     {"PATCH", "/v1/scenes/{}", scenes_edit, BODY_JSON, false},

@@ -21,6 +21,7 @@ const struct route *routes_find(struct request *request, struct response *out);
 /* Handlers; each file knows one subject. */
 void scenes_list(struct request *request);
 void scenes_create(struct request *request);
+void scenes_import(struct request *request);
 void scenes_read(struct request *request);
 void scenes_replace(struct request *request);
 void scenes_edit(struct request *request);

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "assets.h"
+#include "protocol/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "routes.h"
@@ -20,6 +21,7 @@ struct waiting {
     int status;
     char id[LIMIT_ID_BYTES + 1];
     uint64_t revision;
+    cJSON *notes; /* of an import; NULL: none */
 };
 
 static void add_etag(struct response *response, uint64_t revision)
@@ -38,6 +40,9 @@ static void answer_change(void *data)
 
         cJSON_AddStringToObject(json, "id", waiting->id);
         cJSON_AddNumberToObject(json, "revision", (double)waiting->revision);
+        if (waiting->notes) {
+            cJSON_AddItemToObject(json, "notes", waiting->notes);
+        }
         response = response_json(waiting->status, json);
         add_etag(&response, waiting->revision);
     }
@@ -148,13 +153,16 @@ static bool check_match(const struct request *request, const struct room *room, 
     return true;
 }
 
-static void create(struct request *request, const char *id, struct scene *scene)
+/* Takes `scene` and `notes`. */
+static void create(struct request *request, const char *id, struct scene *scene, cJSON *notes)
 {
     struct error err = {0};
     struct waiting *waiting = wait_for(request, 201, id);
-    struct room *room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
 
+    waiting->notes = notes;
+    struct room *room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
     if (!room) {
+        cJSON_Delete(notes);
         free(waiting);
         request_reply_error(request, &err);
         return;
@@ -225,7 +233,76 @@ void scenes_create(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    create(request, id ? id : "", scene);
+    create(request, id ? id : "", scene, NULL);
+}
+
+/* {"files": {path: text}, "name", "scene"}; `source` points into the JSON. */
+static bool read_import(const cJSON *json, struct import_source *source, struct import_file *files,
+                        struct error *err)
+{
+    const cJSON *member, *file;
+
+    if (!cJSON_IsObject(json)) {
+        return error_set(err, ERROR_SYNTAX, "", "the body must be an object");
+    }
+    cJSON_ArrayForEach(member, json)
+    {
+        char place[80];
+
+        snprintf(place, sizeof(place), "/%.64s", member->string);
+        if (strcmp(member->string, "files") == 0 && cJSON_IsObject(member)) {
+            cJSON_ArrayForEach(file, member)
+            {
+                if (!cJSON_IsString(file)) {
+                    return error_set(err, ERROR_INVALID, place, "must be texts by their paths");
+                }
+                files[source->count++] = (struct import_file){file->string, file->valuestring,
+                                                              strlen(file->valuestring)};
+            }
+        } else if (strcmp(member->string, "name") == 0 && cJSON_IsString(member)) {
+            source->title = member->valuestring;
+        } else if (strcmp(member->string, "scene") == 0 && cJSON_IsString(member)) {
+            source->scene = member->valuestring;
+        } else {
+            return error_set(err, ERROR_INVALID, place,
+                             "expected files (an object), name and scene (texts)");
+        }
+    }
+    return cJSON_HasObjectItem(json, "files") ||
+           error_set(err, ERROR_INVALID, "/files", "is missing");
+}
+
+void scenes_import(struct request *request)
+{
+    static const char *const queries[] = {"id", NULL};
+    struct error err = {0};
+    const char *id = request_query(request, "id");
+    cJSON *json = NULL, *notes = NULL;
+    struct scene *scene = NULL;
+
+    if (request_check_query(request, queries, &err)) {
+        json = json_parse(request->body ? request->body : "", request->body_length, &err);
+    }
+    if (json) {
+        const cJSON *list = cJSON_GetObjectItemCaseSensitive(json, "files");
+        struct import_file *files = memory_alloc((size_t)cJSON_GetArraySize(list), sizeof(*files));
+        struct import_source source = {.files = files};
+
+        if (read_import(json, &source, files, &err)) {
+            scene = import_scene(&source, &notes, &err);
+        }
+        free(files);
+    }
+    cJSON_Delete(json);
+    if (!scene) {
+        request_reply_error(request, &err);
+        return;
+    }
+    if (!notes->child) {
+        cJSON_Delete(notes);
+        notes = NULL;
+    }
+    create(request, id ? id : "", scene, notes);
 }
 
 void scenes_replace(struct request *request)
@@ -242,7 +319,7 @@ void scenes_replace(struct request *request)
     }
     struct room *room = hub_lock_room(hub, id, &err);
     if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
-        create(request, id, scene);
+        create(request, id, scene, NULL);
         return;
     }
     if (!room || !check_match(request, room, &err)) {

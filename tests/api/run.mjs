@@ -11,7 +11,8 @@
 //   {"scenes": []}            `(empty)`: no body.
 //
 // `# args: ...` at the top adds arguments of the daemon. {{repeat N TEXT}} repeats,
-// {{file PATH}} is a file of the repository, {{token}} the token behind {{token-file}}, {{port}} the port.
+// {{file PATH}} is a file of the repository, {{text PATH}} the same as a JSON string, {{token}} the
+// token behind {{token-file}}, {{port}} the port.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
@@ -27,6 +28,9 @@ function expand(text, daemon) {
     return text
         .replace(/\{\{repeat (\d+) (.*?)\}\}/g, (_, count, what) => what.repeat(Number(count)))
         .replace(/\{\{file (\S+)\}\}/g, (_, name) => fs.readFileSync(path.join(root, name), 'utf8'))
+        .replace(/\{\{text (\S+)\}\}/g, (_, name) =>
+            JSON.stringify(fs.readFileSync(path.join(root, name), 'utf8')),
+        )
         .replaceAll('{{token}}', token)
         .replaceAll('{{port}}', String(daemon?.port));
 }

@@ -53,7 +53,7 @@ const pngSize = (bytes) => {
 test('version and help', () => {
     assert.match(succeed(['--version']).out, /^fieldcast \d+\.\d+\.\d+\n$/);
     const help = succeed(['--help']).out;
-    for (const command of ['serve', 'render', 'check', 'schema', 'doctor', 'bench']) {
+    for (const command of ['serve', 'render', 'check', 'import', 'schema', 'doctor', 'bench']) {
         assert.match(help, new RegExp(`^  ${command} `, 'm'));
         assert.match(succeed([command, '--help']).out, new RegExp(`^Usage: fieldcast ${command}`));
         assert.equal(succeed(['help', command]).out, succeed([command, '--help']).out);
@@ -106,6 +106,36 @@ test('every example is right', () => {
         .filter((name) => name.endsWith('.json'));
     assert.ok(examples.length >= 8);
     succeed(['check', ...examples.map((name) => `example:${path.basename(name, '.json')}`)]);
+});
+
+const thesis = path.join(root, 'tests/import/thesis');
+
+test('import makes a document of a folder, and it draws', () => {
+    const { err } = succeed(['import', thesis, '-o', 'cena.json']);
+    assert.match(err, /^\S+scenes\/Cena1\.json:8:1: read as a member of the object before it.*\n$/);
+    assert.equal(succeed(['check', 'cena.json']).out, '');
+    assert.equal(succeed(['import', thesis, '-o', '-']).out, fs.readFileSync(path.join(folder, 'cena.json'), 'utf8'));
+    succeed(['render', 'cena.json', '-o', 'cena.png', ...SMALL]);
+    assert.deepEqual(pngSize(fs.readFileSync(path.join(folder, 'cena.png'))), [32, 24]);
+});
+
+test('import names file, line, column and what was expected', () => {
+    fs.mkdirSync(path.join(folder, 'two/below'), { recursive: true });
+    write('two/below/a.json', '{"scene": []}');
+    write('two/b.json', '{"name": "B", "scene": [{"type": "Primitives/Sphere"}]}');
+    write('two/notes.txt', '{');
+    let result = run(['import', 'two', '-o', 'x.json']);
+    assert.equal(result.status, 1);
+    assert.match(result.err, /there are 2 scenes: "B", "a"; say which/);
+    succeed(['import', 'two', '-o', 'x.json', '--scene', 'B']);
+    assert.equal(JSON.parse(fs.readFileSync(path.join(folder, 'x.json'), 'utf8')).name, 'B');
+    write('two/b.json', '{"scene": [\n  {"type": "Primitives/Spere"}]}');
+    result = run(['import', 'two', '-o', 'y.json', '--scene', 'b']);
+    assert.equal(result.status, 1);
+    assert.match(result.err, /^fieldcast: two\/b\.json:2:12: no file has the primitive "Spere"/m);
+    assert.equal(fs.existsSync(path.join(folder, 'y.json')), false);
+    assert.match(run(['import', 'nowhere', '-o', 'y.json']).err, /nowhere: No such file/);
+    assert.equal(run(['import', 'two']).status, 2);
 });
 
 test('schema is JSON with the registry in it', () => {
