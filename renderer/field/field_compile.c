@@ -171,8 +171,9 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
         b->trips = (uint64_t)domain->cells(own_numbers) * (1 + b->trips);
         next.op = FIELD_LOOP_END, next.b = slot + 1;
         builder_add_instruction(b, next);
-    } else if (domain->after) {
-        next.op = FIELD_AFTER, next.out = own;
+    }
+    if (domain->after) {
+        next.op = FIELD_AFTER, next.b = slot, next.out = own;
         builder_add_instruction(b, next);
     }
     b->trips += trips_before;
@@ -240,8 +241,8 @@ static void check(struct builder *b, const struct node *node, const struct frame
         error_set(&err, ERROR_LIMIT, place,
                   "with its models it is nested %zu levels deep, above the maximum %d", b->depth,
                   LIMIT_NODE_DEPTH);
-    } else if (b->field->shape_count > LIMIT_NODES) {
-        error_set(&err, ERROR_LIMIT, place, "with its models it has more than %d shapes",
+    } else if (++b->emitted > LIMIT_NODES) {
+        error_set(&err, ERROR_LIMIT, place, "with its models it has more than %d nodes",
                   LIMIT_NODES);
     } else {
         return;
