@@ -178,6 +178,46 @@ static void test_groups_with_more_than_values_keep_all(void **state)
     free(after);
 }
 
+/* Of several sets of one place only the oldest counts: but not where another value was possible only
+ * in between. Each list is one group; undone, it gives back the first byte. */
+static void test_groups_keep_what_values_depend_on(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"format\":\"fieldcast/1\",\"primitives\":{"
+        "\"a\":{\"params\":[{\"name\":\"t\",\"type\":\"float\"}]},"
+        "\"b\":{\"params\":[{\"name\":\"t\",\"type\":\"float\"}]},\"c\":{}},\"models\":{"
+        "\"m\":{\"id\":\"x\",\"type\":\"model\"},"
+        "\"n\":{\"id\":\"y\",\"type\":\"model\",\"params\":{\"model\":\"m\"}}},"
+        "\"root\":{\"id\":\"f\",\"type\":\"field\",\"params\":{\"primitive\":\"a\",\"t\":7}}}";
+    static const char *const groups[][3] = {
+        {"[{\"op\":\"set\",\"at\":\"/nodes/f/params/primitive\",\"value\":\"b\"}]",
+         "[{\"op\":\"set\",\"at\":\"/nodes/f/params/t\",\"value\":1}]",
+         "[{\"op\":\"set\",\"at\":\"/nodes/f/params/primitive\",\"value\":\"c\"}]"},
+        {"[{\"op\":\"set\",\"at\":\"/primitives/a/params\",\"value\":[{\"name\":\"t\","
+         "\"type\":\"float\"},{\"name\":\"u\",\"type\":\"float\"}]}]",
+         "[{\"op\":\"set\",\"at\":\"/nodes/f/params/t\",\"value\":1}]",
+         "[{\"op\":\"set\",\"at\":\"/primitives/a/params\",\"value\":[]}]"},
+        {"[{\"op\":\"set\",\"at\":\"/nodes/x/params/model\",\"value\":null}]",
+         "[{\"op\":\"set\",\"at\":\"/nodes/y/params/model\",\"value\":null}]",
+         "[{\"op\":\"set\",\"at\":\"/nodes/x/params/model\",\"value\":\"n\"}]"},
+    };
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
+        tear_down(NULL);
+        scene = scene_parse(text, strlen(text), &err);
+        history = history_create();
+        assert_non_null(scene);
+        for (int step = 0; step < 3; step++) {
+            edit_as("anna", "g", groups[i][step]);
+        }
+        assert_depth("anna", 1, 0);
+        assert_true(undo("anna"));
+        char *after = scene_print(scene, false);
+        assert_string_equal(after, text);
+        free(after);
+    }
+}
+
 static void test_steps_are_bounded(void **state)
 {
     (void)state;
@@ -303,6 +343,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_what_others_removed_is_skipped, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_groups_with_more_than_values_keep_all, set_up,
                                         tear_down),
+        cmocka_unit_test_setup_teardown(test_groups_keep_what_values_depend_on, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_steps_are_bounded, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_authors_are_bounded, set_up, tear_down),
         cmocka_unit_test(test_undos_and_redos_cancel),

@@ -14,7 +14,7 @@
 #include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/nodes.h"
-#include "tests/support/random_edit.h"
+#include "tests/support/random_document.h"
 
 static const char *const shapes[] = {"round", "square", NULL};
 
@@ -409,7 +409,6 @@ static void test_values_survive(void **state)
 {
     (void)state;
     struct random random = {11};
-    const struct resource_list none = {0};
     for (int round = 0; round < 2000; round++) {
         const struct record_type *table =
             round % 3 == 0 ? &type
@@ -419,7 +418,7 @@ static void test_values_survive(void **state)
         record_init(&second, table);
         for (int i = 0; table->params[i].name; i++) {
             struct error err = {0};
-            cJSON *json = random_value(&random, &table->params[i], &none);
+            cJSON *json = random_value(&random, &table->params[i], NULL);
             assert_true(record_set(&first, i, json, "", &err));
             cJSON *given = record_get(&first, i);
             assert_true(record_set(&second, i, given, "", &err));

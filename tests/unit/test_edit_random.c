@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* Random and damaged edits: exact inverses, nothing left of what is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/json.h"
+#include "tests/support/random_edit.h"
+
+static struct error err;
+
+static void assert_same(const char *a, const char *b, const cJSON *ops)
+{
+    if (strcmp(a, b) != 0) {
+        char *text = json_print(ops, true);
+        print_error("%s", text);
+        free(text);
+    }
+    assert_string_equal(a, b);
+}
+
+/* Kinds of operations that random edits have to reach, each with an inverse of more than itself
+ * where it says so. */
+static struct {
+    const char *op, *begins, *ends;
+    bool more;
+    int seen;
+} reached[] = {
+    {"set", "/primitives/", "/params", false, 0},
+    {"set", "/primitives/", "/params", true, 0},
+    {"set", "/shaders/", "/properties", false, 0},
+    {"set", "/shaders/", "/properties", true, 0},
+    {"set", "/nodes/", "/params/primitive", false, 0},
+    {"set", "/nodes/", "/params/primitive", true, 0},
+    {"set", "/nodes/", "/params/model", false, 0},
+    {"set", "/nodes/", "/type", true, 0},
+    {"set", "/nodes/", "/params/points", false, 0},
+    {"set", "/nodes/", "/params/code", false, 0},
+    {"set", "/materials/", "/shader", true, 0},
+    {"set", "/primitives/", "/code", false, 0},
+    {"set", "/lights/", "/type", true, 0},
+    {"insert", "/primitives", "", false, 0},
+    {"insert", "/shaders", "", false, 0},
+    {"insert", "/models", "", false, 0},
+    {"remove", "/primitives/", "", false, 0},
+    {"remove", "/shaders/", "", false, 0},
+    {"remove", "/models/", "", false, 0},
+    {"move", "/models/", "", false, 0},
+    {"move", "/nodes/", "", false, 0},
+    {"remove", "/nodes/", "", false, 0},
+};
+
+enum { REACHED = sizeof reached / sizeof reached[0] };
+
+static void note_reached(const cJSON *applied, const cJSON *inverse)
+{
+    const char *name = cJSON_GetObjectItem(applied->child, "op")->valuestring;
+    const cJSON *at = cJSON_GetObjectItem(applied->child, "at");
+    at = at ? at : cJSON_GetObjectItem(applied->child, "into");
+    for (int i = 0; i < REACHED && !applied->child->next; i++) {
+        size_t length = strlen(at->valuestring), end = strlen(reached[i].ends);
+        reached[i].seen +=
+            strcmp(name, reached[i].op) == 0 && (inverse->child->next || !reached[i].more) &&
+            strncmp(at->valuestring, reached[i].begins, strlen(reached[i].begins)) == 0 &&
+            length >= end && strcmp(at->valuestring + length - end, reached[i].ends) == 0;
+    }
+}
+
+static void assert_same_users(const struct scene *a, const struct scene *b)
+{
+    for (int kind = 0; kind < RANDOM_KINDS; kind++) {
+        const struct resource_list *one = random_list(a, kind), *other = random_list(b, kind);
+        assert_int_equal(one->count, other->count);
+        for (size_t i = 0; i < one->count; i++) {
+            assert_int_equal(one->items[i]->users, other->items[i]->users);
+        }
+    }
+}
+
+/* An edit and its inverse leave the document byte for byte as it was; a refused edit changes
+ * nothing; the canonical form does what the edit did. */
+static void test_random_edits_have_exact_inverses(void **state)
+{
+    (void)state;
+    int accepted = 0, refused = 0;
+    for (uint64_t seed = 1; seed <= 150; seed++) {
+        struct random random = {seed};
+        struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
+        for (int i = 0; i < 60; i++) {
+            cJSON *ops = random_edit(&random, wild), *applied, *inverse;
+            char *before = scene_print(wild, false), *after;
+            struct scene *copy = scene_copy(wild);
+            if (edit_apply(wild, ops, &applied, &inverse, &err)) {
+                accepted++;
+                after = scene_print(wild, false);
+                assert_true(edit_apply(copy, applied, NULL, NULL, &err));
+                char *again = scene_print(copy, false);
+                assert_same(after, again, ops);
+                assert_true(edit_apply(copy, inverse, NULL, NULL, &err));
+                free(again);
+                again = scene_print(copy, false);
+                assert_same(before, again, ops);
+                assert_true(edit_check(applied, NULL));
+                note_reached(applied, inverse);
+                free(again);
+                cJSON_Delete(applied);
+                cJSON_Delete(inverse);
+            } else {
+                refused++;
+                assert_true(*err.message);
+                after = scene_print(wild, false);
+                assert_same(before, after, ops);
+            }
+            struct scene *read = scene_parse(after, strlen(after), &err);
+            assert_non_null(read); /* whatever edits do, the document stays valid */
+            assert_int_equal(read->node_count, wild->node_count);
+            assert_same_users(read, wild);
+            scene_destroy(read);
+            scene_destroy(copy);
+            free(before);
+            free(after);
+            cJSON_Delete(ops);
+        }
+        scene_destroy(wild);
+    }
+    assert_true(accepted > 2000 && refused > 1000);
+    for (int i = 0; i < REACHED; i++) {
+        if (reached[i].seen < 3) {
+            fail_msg("%s %s...%s: only %d", reached[i].op, reached[i].begins, reached[i].ends,
+                     reached[i].seen);
+        }
+    }
+}
+
+/* Edits with damaged texts: refused without a trace, or applied and taken back. */
+static void test_damaged_edits(void **state)
+{
+    (void)state;
+    struct random random = {5};
+    struct scene *wild = random_document(&random, 30);
+    char *before = scene_print(wild, false);
+    int accepted = 0, refused = 0;
+    for (int i = 0; i < 20000; i++) {
+        cJSON *edit = random_edit(&random, wild), *inverse;
+        char *text = json_print(edit, false);
+        size_t length = strlen(text);
+        random_damage(&random, text, length);
+        cJSON *ops = json_parse(text, length, &err);
+        if (ops && edit_check(ops, &err) && edit_apply(wild, ops, NULL, &inverse, &err)) {
+            assert_true(edit_apply(wild, inverse, NULL, NULL, &err));
+            cJSON_Delete(inverse);
+            accepted++;
+        } else if (ops) {
+            refused++;
+        }
+        if (i % 100 == 0) {
+            char *after = scene_print(wild, false);
+            assert_string_equal(before, after);
+            free(after);
+        }
+        cJSON_Delete(ops);
+        cJSON_Delete(edit);
+        free(text);
+    }
+    assert_true(accepted > 200 && refused > 200);
+    char *after = scene_print(wild, false);
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+    scene_destroy(wild);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_edits_have_exact_inverses),
+        cmocka_unit_test(test_damaged_edits),
+    };
+    return cmocka_run_group_tests_name("edit_random", tests, NULL, NULL);
+}
