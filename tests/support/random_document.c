@@ -177,7 +177,8 @@ static void add_values(struct random *random, cJSON *object, const struct record
 {
     double likely = random_chance(random, 0.5) ? 0.2 : 0.8;
     for (const struct param *param = type->params; param->name; param++) {
-        if (random_chance(random, likely) && !cJSON_GetObjectItemCaseSensitive(object, param->name)) {
+        if (random_chance(random, likely) &&
+            !cJSON_GetObjectItemCaseSensitive(object, param->name)) {
             cJSON_AddItemToObject(object, param->name, random_value(random, param, scene));
         }
     }
