@@ -27,6 +27,14 @@ const struct node_type node_modifiers[] = {
      .number = 204, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 1, .glsl = "dom_repeat", .words = "array tile grid copies pattern infinite",
      .source = QUILEZ_REPEAT},
+    {.record = {"repeat_polar", "Copies its children around the Y axis, the first on +X.", PARAMS(
+        {"count", PARAM_INT, .def = {6}, .min = 1, .max = 1000, .step = 1, .main = true,
+         .doc = "Copies, at equal angles."},
+        {"radius", PARAM_FLOAT, REACH, .def = {1}, .main = true,
+         .doc = "How far each is moved out."})},
+     .number = 210, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
+     .lipschitz = 1, .glsl = "dom_repeat_polar", .words = "array circular radial ring copies around",
+     .source = QUILEZ_REPEAT},
     {.record = {"twist", "Turns each section about the Y axis by its height.", PARAMS(
         {"rate", PARAM_FLOAT, UNIT_ANGLE, .def = {1}, .min = -1000, .max = 1000, .step = 0.05,
          .main = true, .doc = "Turn for each unit of height, right-handed."})},

@@ -42,6 +42,41 @@ vec3 dom_repeat_cell(vec3 p, vec3 cell, vec4 spacing, vec4 limit, vec4 centre, v
     return p - spacing.xyz * cell;
 }
 
+/* The middle of the cells that may hold the nearest copy around Y. */
+float polar_middle(vec3 p, vec4 polar)
+{
+    float phi = p.x == 0.0 && p.z == 0.0 ? 0.0 : atan(p.z, p.x);
+    return (phi - polar.z) / polar.y + 0.5;
+}
+
+/* Repetition around Y: the first cell that may hold the nearest copy; (radius, angle from copy to
+ * copy, middle of the child's angle, reach), (copies, slack, 1 / (1 + slack), scale). */
+vec3 dom_repeat_polar_first(vec3 p, vec4 polar, vec4 more)
+{
+    return vec3(floor(polar_middle(p, polar) - polar.w), 0.0, 0.0);
+}
+
+/* Repetition around Y: the last such cell. */
+vec3 dom_repeat_polar_last(vec3 p, vec4 polar, vec4 more)
+{
+    float middle = polar_middle(p, polar);
+    float last = min(floor(middle + polar.w), floor(middle - polar.w) + more.x - 1.0);
+    return vec3(last, 0.0, 0.0);
+}
+
+/* Repetition around Y: the point in a cell. */
+vec3 dom_repeat_polar_cell(vec3 p, vec3 cell, vec4 polar, vec4 more)
+{
+    float c = cos(polar.y * cell.x), s = sin(polar.y * cell.x);
+    return vec3(c * p.x + s * p.z - polar.x, p.y, c * p.z - s * p.x);
+}
+
+/* Repetition around Y: a bound where not all copies are looked at. */
+float dom_repeat_polar_after(float d, vec3 p, vec4 polar, vec4 more)
+{
+    return (d - length(p.xz) * more.y * more.w) * more.z;
+}
+
 /* How many cells there are from first to last. */
 float cell_count(vec3 first, vec3 last)
 {

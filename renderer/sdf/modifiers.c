@@ -51,87 +51,6 @@ static void mirror_map(const double p[3], const double *n, double out[3])
     }
 }
 
-/* repeat: n = spacing, limit, centre, reach, each a vec4.
- *
- * Copies sit at spacing * k, where k runs in steps of 1 from -limit to limit, so k is half a number
- * where their count is even. On each axis by itself, a part of the child at offset v of its box's
- * centre is nearest in the copy round(x - v / spacing), clamped to the limit, where
- * x = (p - centre) / spacing. As v lies in the box, looking at round(x - reach) to round(x + reach)
- * misses none, reach being half the box by the spacing. */
-enum { SPACING = 0, REPEAT_LIMIT = 4, CENTRE = 8, CELL_REACH = 12 };
-
-#define REPEAT_ENDLESS 1048576.0 /* copies to each side; a float still holds k exactly */
-
-static int axis_cells(const double *n, int axis)
-{
-    return (int)fmin(ceil(2 * n[CELL_REACH + axis]) + 1, 2 * n[REPEAT_LIMIT + axis] + 1);
-}
-
-static int repeat_cells(const double *n)
-{
-    return axis_cells(n, 0) * axis_cells(n, 1) * axis_cells(n, 2);
-}
-
-/* Where children reach over very many cells, or without end over endless ones, only the nearest are
- * looked at. */
-static void limit_cells(double *n)
-{
-    while (repeat_cells(n) > SDF_REPEAT_CELLS_MAX) {
-        int most = 0;
-        for (int i = 1; i < 3; i++) {
-            most = axis_cells(n, i) > axis_cells(n, most) ? i : most;
-        }
-        n[CELL_REACH + most] = (axis_cells(n, most) - 2) / 2.0;
-    }
-}
-
-static void repeat_prepare(const double *params, const struct bounds *child, double scale,
-                           double *out_n)
-{
-    (void)scale;
-    for (int i = 0; i < 3; i++) {
-        double spacing = params[i], count = params[3 + i];
-        double half = (child->high[i] - child->low[i]) / 2;
-        bool repeated = count != 0 && count != 1;
-        out_n[SPACING + i] = repeated ? spacing : 1;
-        out_n[REPEAT_LIMIT + i] = count < 0 ? REPEAT_ENDLESS : fmax(count - 1, 0) / 2;
-        out_n[CENTRE + i] = isfinite(half) ? child->low[i] + half : 0;
-        double reach = isfinite(half) || count > 0 ? half / spacing : 1;
-        out_n[CELL_REACH + i] = repeated ? fmin(reach, SDF_REPEAT_CELLS_MAX) : 0;
-    }
-    limit_cells(out_n);
-}
-
-static struct bounds repeat_box(const double *params, const struct bounds *child)
-{
-    struct bounds out = *child;
-    for (int i = 0; i < 3; i++) {
-        double count = params[3 + i];
-        double reach = count < 0 ? INFINITY : params[i] * fmax(count - 1, 0) / 2;
-        out.low[i] -= reach;
-        out.high[i] += reach;
-    }
-    return out;
-}
-
-static void repeat_range(const double p[3], const double *n, double out_first[3],
-                         double out_last[3])
-{
-    for (int i = 0; i < 3; i++) {
-        double limit = n[REPEAT_LIMIT + i], half = limit - floor(limit);
-        double x = (p[i] - n[CENTRE + i]) / n[SPACING + i] - half + 0.5;
-        out_first[i] = clamp(floor(x - n[CELL_REACH + i]) + half, -limit, limit);
-        out_last[i] = clamp(floor(x + n[CELL_REACH + i]) + half, -limit, limit);
-    }
-}
-
-static void repeat_cell(const double p[3], const double cell[3], const double *n, double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        out[i] = p[i] - n[SPACING + i] * cell[i];
-    }
-}
-
 /* twist: n = rate, radius of the children's cylinder, 1 / Lipschitz constant, scale.
  *
  * Inside the cylinder the twist shears by at most a = |rate| * radius, and the greatest singular
@@ -246,12 +165,6 @@ static void revolve_map(const double p[3], const double *n, double out[3])
 
 static const struct sdf_domain mirror = {
     .vec4s = 1, .prepare = mirror_prepare, .box = mirror_box, .map = mirror_map};
-static const struct sdf_domain repeat = {.vec4s = 4,
-                                         .prepare = repeat_prepare,
-                                         .box = repeat_box,
-                                         .range = repeat_range,
-                                         .cell = repeat_cell,
-                                         .cells = repeat_cells};
 static const struct sdf_domain extrude = {.vec4s = 1,
                                           .prepare = extrude_prepare,
                                           .box = extrude_box,
@@ -266,7 +179,6 @@ const struct sdf sdf_modifiers[] = {
     {"round", .change = change_round, .lowered = whole_lowered},
     {"shell", .change = change_shell, .lowered = whole_lowered},
     {"mirror", .domain = &mirror},
-    {"repeat", .domain = &repeat},
     {"twist", .domain = &twist},
     {"extrude", .domain = &extrude},
     {"revolve", .domain = &revolve},

@@ -96,6 +96,6 @@ int sdf_numbers(const struct param *params, const struct value *values,
 
 /* Each ends with a row whose type is NULL. */
 extern const struct sdf sdf_shapes[], sdf_solids[], sdf_flat[], sdf_fractals[], sdf_operations[],
-    sdf_modifiers[];
+    sdf_modifiers[], sdf_repeats[];
 
 #endif
