@@ -18,6 +18,7 @@
     X(PRECONDITION, "precondition", 412) /* If-Match names another revision */                     \
     X(FORBIDDEN, "forbidden", 403)       /* not with these rights */                               \
     X(COMPILE, "compile", 422)           /* a shader does not compile */                           \
+    X(QUARANTINED, "quarantined", 503)   /* drawing it ended a worker: not before it is edited */  \
     X(UNAVAILABLE, "unavailable", 503)   /* not now: worker restarting, queue full, draining */    \
     X(INTERNAL, "internal", 500)         /* our fault */
 

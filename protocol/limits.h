@@ -31,6 +31,9 @@
     X(CODE_SIZE, "code_size", 4096, "operations", "code, with every call written out")             \
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
+    X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling one pass of a scene")            \
+    X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
+      "the same with code in it, and few shapes")                                                  \
     X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
     X(NAME_BYTES, "name_bytes", 200, "bytes", "a display name")                                    \
     X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \

@@ -74,6 +74,7 @@ void renderer_destroy(struct renderer *renderer)
     program_cache_destroy(renderer->programs);
     draw_destroy(renderer->draw);
     egl_finish(&renderer->egl);
+    free(renderer->refused);
     free(renderer);
 }
 
@@ -94,6 +95,18 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     counters.compilations =
         program_cache_compilations(renderer->programs) + draw_compilations(renderer->draw);
     return counters;
+}
+
+void renderer_refuse(struct renderer *renderer, uint64_t shape)
+{
+    renderer->refused =
+        memory_resize(renderer->refused, renderer->refused_count + 1, sizeof *renderer->refused);
+    renderer->refused[renderer->refused_count++] = shape;
+}
+
+bool renderer_stuck(const struct renderer *renderer)
+{
+    return program_cache_stuck(renderer->programs);
 }
 
 bool renderer_render(struct resident *resident, const struct job_desc *desc,

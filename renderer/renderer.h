@@ -25,6 +25,10 @@ struct renderer_params {
     const char *cache_dir;   /* for Mesa's shader cache; NULL: the driver's default */
     void (*log)(void *data, const char *line);
     void *log_data;
+    /* Called before a program with code of users is compiled, which waits until this returns, with
+     * its shape, and with 0 when that is over. May be NULL. */
+    void (*on_compile)(void *data, uint64_t shape);
+    void *on_compile_data;
 };
 
 struct renderer_info {
@@ -55,15 +59,24 @@ struct renderer_counters {
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
+/* Whether a compiler has been at work for so long (limits.h) that it may never end. */
+bool renderer_stuck(const struct renderer *renderer);
+/* Scenes of this shape are never compiled: ERROR_QUARANTINED. For those that ended a process. */
+void renderer_refuse(struct renderer *renderer, uint64_t shape);
+
 /* --- scenes --- */
 
 /* Takes `scene`. Compiling starts in the background. */
 struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision);
 void resident_destroy(struct resident *resident);
+/* Another document; what can be drawn stays until the new one can. Takes `scene`. */
+void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision);
 /* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err);
 const struct scene *resident_scene(const struct resident *resident);
+/* The newest shape where there is code of users in it; else 0. */
+uint64_t resident_shape_with_code(const struct resident *resident);
 uint64_t resident_revision(const struct resident *resident);       /* newest told */
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
 /* ERROR_NONE while all is well; else why the newest shape cannot be drawn. */
@@ -99,6 +112,8 @@ enum job_state job_step(struct job *job);
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
+/* The shape of what it draws where there is code of users in it; else 0. */
+uint64_t job_shape_with_code(const struct job *job);
 struct job_times {
     uint32_t march_us, light_us, read_us;
 };

@@ -9,16 +9,24 @@
  * front -> worker                                     worker -> front
  *   scene  {scene, revision, document}                  ready    {renderer{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
- *   drop   {scene}                                      broken   {scene, revision, code, message}
+ *   drop   {scene}                                      broken   {scene, revision, ERROR}
+ *   refuse {shapes: [hex, ...]}                         warned   {scene, revision, ERROR}
  *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width,
  *           camera?, aov, samples, format, quality,               height, mime, march_us, light_us,
  *           chroma_halved, fast, exact}                           read_us, encode_us, queue_us}
  *                                                                 + payload
- *   cancel {job}                                        failed   {job, code, place, message}
+ *   cancel {job}                                        failed   {job, ERROR}
  *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position,
  *                                                                 normal, distance}
  *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
  *   stop   {}                                                     tiles, pictures, resident_bytes}
+ *                                                       compiling, drawing {scene, revision, shape}
+ * ERROR is code, place, message, and line and column where there are any.
+ *
+ * Before code of users is compiled, or drawn with, the worker names its scene, and an empty one
+ * afterwards; it waits until the front has that. So it is known whose code ended it. A shape that
+ * did so is refused by the next worker. A compiler that may never end (limits.h) ends the worker,
+ * with status 4.
  *
  * A render of a scene that is not known, or a malformed packet, is answered by `failed`. `newest`
  * is false where the picture is older than the scene because its shader still compiles. Jobs run

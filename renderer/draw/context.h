@@ -18,6 +18,9 @@ struct renderer {
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;
+    uint64_t *refused; /* shapes */
+    size_t refused_count;
+    bool told_compile; /* on_compile was called with a shape, and not yet with 0 */
 };
 
 struct resident {

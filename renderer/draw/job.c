@@ -215,6 +215,11 @@ uint64_t job_revision(const struct job *job)
     return job->snapshot->revision;
 }
 
+uint64_t job_shape_with_code(const struct job *job)
+{
+    return snapshot_shape_with_code(job->snapshot);
+}
+
 struct job_times job_times(const struct job *job)
 {
     return job->times;

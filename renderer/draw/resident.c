@@ -84,6 +84,14 @@ void resident_destroy(struct resident *resident)
     free(resident);
 }
 
+void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision)
+{
+    scene_destroy(resident->scene);
+    resident->scene = scene;
+    resident->revision = revision;
+    renew(resident);
+}
+
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err)
 {
@@ -98,6 +106,11 @@ bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revisio
 const struct scene *resident_scene(const struct resident *resident)
 {
     return resident->scene;
+}
+
+uint64_t resident_shape_with_code(const struct resident *resident)
+{
+    return resident->newest ? snapshot_shape_with_code(resident->newest) : 0;
 }
 
 uint64_t resident_revision(const struct resident *resident)
@@ -122,14 +135,32 @@ const struct error *resident_warning(const struct resident *resident)
     return resident->newest ? &resident->newest->warning : &none;
 }
 
+/* Lets the next program with code of users be compiled, once it is told. */
+static void allow_next(struct renderer *renderer)
+{
+    const struct renderer_params *params = &renderer->params;
+    bool busy;
+    struct program *next = program_cache_next(renderer->programs, &busy);
+
+    if (params->on_compile && (next || (renderer->told_compile && !busy))) {
+        params->on_compile(params->on_compile_data, next ? program_shape(next) : 0);
+        renderer->told_compile = next != NULL;
+    }
+    if (next) {
+        program_cache_allow(renderer->programs, next);
+    }
+}
+
 bool renderer_poll(struct renderer *renderer, int wait_ms)
 {
     bool news = false;
 
+    allow_next(renderer);
     if (program_cache_wait(renderer->programs, wait_ms)) {
         for (struct resident *r = renderer->residents; r; r = r->next) {
             news = advance(r) || news;
         }
+        allow_next(renderer);
     }
     return news;
 }

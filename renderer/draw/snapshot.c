@@ -22,6 +22,16 @@ static size_t number_capacity(const struct field *field)
     return capacity;
 }
 
+static bool is_refused(const struct renderer *renderer, uint64_t shape)
+{
+    size_t i = 0;
+
+    while (i < renderer->refused_count && renderer->refused[i] != shape) {
+        i++;
+    }
+    return i < renderer->refused_count;
+}
+
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
@@ -29,9 +39,17 @@ static struct program *get_program(struct renderer *renderer, const struct field
 {
     const size_t capacity = number_capacity(field);
     const uint64_t key = field->shape_hash ^ (capacity * UINT64_C(0x9e3779b97f4a7c15));
-    struct program *program = program_cache_find(renderer->programs, key);
+    const bool user_code = field->code_count + field->shader_count > 0;
+    struct program *program;
     char *map, *surface;
 
+    if (user_code && is_refused(renderer, key)) {
+        error_set(err, ERROR_QUARANTINED,
+                  field->code_count ? field->codes[0].place : field->shaders[0].place,
+                  "the shader with this code ended the render process");
+        return NULL;
+    }
+    program = program_cache_find(renderer->programs, key);
     if (program) {
         renderer->counters.cache_hits++;
         return program;
@@ -47,6 +65,8 @@ static struct program *get_program(struct renderer *renderer, const struct field
                                                          .surface_text = surface,
                                                          .number_count = capacity,
                                                          .user_shaders = field->shader_count > 0,
+                                                         .user_code = user_code,
+                                                         .shape_count = field->shape_count,
                                                          .map_count = field->material_base});
     free(map);
     free(surface);
@@ -115,6 +135,11 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->samples = (int)record_number(&scene->render, "samples");
     snapshot->fewer_steps = frame_set_scene(&snapshot->frame, scene, &extent);
     return snapshot;
+}
+
+uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
+{
+    return program_has_user_code(snapshot->program) ? program_shape(snapshot->program) : 0;
 }
 
 struct snapshot *snapshot_ref(struct snapshot *snapshot)

@@ -26,6 +26,8 @@ struct renderer;
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, struct error *err);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
+/* The shape of its program where there is code of users in it; else 0. */
+uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
 /* Uploads what is not yet on the device. */
 const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot);

@@ -1,244 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The cache, and the threads that fill it. One lock guards list, queue, states and counters; the
- * threads hold it only between compilations. */
-#include "program.h"
-
-#include <pthread.h>
+/* The cache; the threads that fill it are in program_compile.c. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "program_parts.h"
 #include "protocol/memory.h"
-#include "renderer/draw/frame.h"
-#include "renderer/field/shader.h"
-#include "targets.h"
-
-enum { PRELOAD_MAX = 4096 }; /* vec4s */
-
-struct program {
-    struct program_cache *cache;
-    struct program *next; /* in the cache's list */
-    uint64_t shape_hash;
-    char *map_text, *surface_text;
-    size_t number_count, map_count;
-    bool user_shaders;
-    int refs;
-    uint64_t last_use;
-    enum program_state state;
-    int taken, done; /* stages that a thread took, and those finished or given up */
-    struct pass passes[STAGE_COUNT];
-    struct error error;
-};
-
-struct program_cache {
-    const struct egl *egl;
-    const struct gl *gl;
-    const struct gl_sink *sink;
-    pthread_t threads[EGL_COMPILERS];
-    int started, running; /* threads */
-    bool stop;
-    pthread_mutex_t lock;
-    pthread_cond_t work, done;
-    struct program *first;
-    uint64_t uses, compilations, finished, finished_seen;
-    struct error start_error;
-};
-
-bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
-{
-    GLint bytes = 0;
-
-    gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
-    return software || number_count * 16 > (size_t)bytes;
-}
-
-/* --- the compiling thread --- */
-
-/* What glsl/numbers.glsl wants to know. */
-static char *make_defines(const struct program *program, bool preload, bool in_texture)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-
-    if (!out) {
-        abort();
-    }
-    fprintf(out, "#define NUMBERS_COUNT %zu\n%s%s", program->number_count,
-            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
-            program->user_shaders ? "#define USER_SHADERS\n" : "");
-    if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
-        fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
-                program->map_count);
-        for (size_t i = 0; i < program->map_count; i++) {
-            fprintf(out, " X(%zu)", i);
-        }
-        fputc('\n', out);
-    }
-    if (fclose(out) != 0) {
-        abort();
-    }
-    return text;
-}
-
-static bool link_stage(const struct gl *gl, const struct program *program, bool software,
-                       enum program_stage stage, struct pass *out_pass, struct error *err)
-{
-    static const char *const files[STAGE_COUNT][24] = {
-        {"group.glsl", "numbers.glsl", "frame.glsl", FIELD_GLSL_FILES, "map", "camera.glsl",
-         "march.glsl", NULL},
-        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "surface",
-         "camera.glsl", "gbuffer.glsl", "matter.glsl", NULL},
-        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "map",
-         "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL},
-    };
-    char *defines =
-        make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
-    bool ok = pass_init(out_pass, gl,
-                        &(struct pass_source){true, defines, files[stage], program->map_text,
-                                              program->surface_text},
-                        err);
-    free(defines);
-    return ok;
-}
-
-/* One work group, with nothing in the buffers: the driver finishes its work. */
-static void warm_up(const struct program_cache *cache, const struct targets *targets,
-                    const struct program *program, const struct pass *pass)
-{
-    const struct gl *gl = cache->gl;
-    const size_t bytes = 16 * program->number_count;
-    const bool texture = numbers_in_texture(gl, cache->egl->software, program->number_count);
-    float *zeros = memory_alloc(1, bytes);
-    const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
-    GLuint buffers[2], view = 0;
-
-    gl->GenBuffers(2, buffers);
-    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, buffers[0]);
-    gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
-    if (texture) {
-        gl->BindBuffer(GL_TEXTURE_BUFFER, buffers[1]);
-        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
-        gl->GenTextures(1, &view);
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
-        gl->BindTexture(GL_TEXTURE_BUFFER, view);
-        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers[1]);
-    } else {
-        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
-        gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
-    }
-    pass_compute(pass, gl, 0, 0, targets->width, targets->height);
-    gl->Finish();
-    gl->DeleteBuffers(2, buffers);
-    if (view) {
-        gl->DeleteTextures(1, &view);
-    }
-    free(zeros);
-}
-
-/* The state follows from the stages once none is left. */
-static void finish_stage(struct program_cache *cache, struct program *program,
-                         const struct error *err)
-{
-    if (err->kind != ERROR_NONE && program->error.kind == ERROR_NONE) {
-        program->error = *err;
-    }
-    cache->compilations++;
-    if (++program->done == STAGE_COUNT) {
-        program->state = program->error.kind == ERROR_NONE ? PROGRAM_READY : PROGRAM_FAILED;
-        cache->finished++;
-        pthread_cond_broadcast(&cache->done);
-    }
-}
-
-static void compile_stage(struct program_cache *cache, const struct targets *targets,
-                          struct program *program, enum program_stage stage)
-{
-    const struct gl *gl = cache->gl;
-    struct pass pass = {0};
-    struct error err = {0};
-
-    if (link_stage(gl, program, cache->egl->software, stage, &pass, &err)) {
-        warm_up(cache, targets, program, &pass);
-    }
-    gl->Finish();
-    pthread_mutex_lock(&cache->lock);
-    program->passes[stage] = pass;
-    finish_stage(cache, program, &err);
-    program->refs--;
-    pthread_mutex_unlock(&cache->lock);
-}
-
-static bool is_waiting(const struct program *program)
-{
-    return program->taken < STAGE_COUNT && program->refs > 0;
-}
-
-/* A stage of the newest program that somebody still wants: what was asked for before it is out of
- * date. One that has been begun is finished, since another thread is at it. */
-static struct program *take_work(struct program_cache *cache, enum program_stage *out_stage)
-{
-    struct program *best = NULL;
-
-    for (struct program *p = cache->first; p; p = p->next) {
-        int begun = best ? (p->taken > 0) - (best->taken > 0) : 1;
-        if (is_waiting(p) && (begun > 0 || (begun == 0 && p->last_use > best->last_use))) {
-            best = p;
-        }
-    }
-    if (best) {
-        *out_stage = (enum program_stage)best->taken++;
-        best->refs++;
-    }
-    return best;
-}
-
-static void work(struct program_cache *cache, const struct targets *targets)
-{
-    pthread_mutex_lock(&cache->lock);
-    while (!cache->stop) {
-        enum program_stage stage = STAGE_MARCH;
-        struct program *program = take_work(cache, &stage);
-        if (!program) {
-            pthread_cond_wait(&cache->work, &cache->lock);
-            continue;
-        }
-        pthread_mutex_unlock(&cache->lock);
-        compile_stage(cache, targets, program, stage);
-        pthread_mutex_lock(&cache->lock);
-    }
-    pthread_mutex_unlock(&cache->lock);
-}
-
-static void *thread_main(void *data)
-{
-    struct program_cache *cache = data;
-    const struct gl *gl = cache->gl;
-    struct targets targets = {0};
-    struct error err = {0};
-
-    pthread_mutex_lock(&cache->lock);
-    EGLContext context = cache->egl->compile[cache->started++];
-    pthread_mutex_unlock(&cache->lock);
-    const bool ok = egl_bind(cache->egl, context, &err) &&
-                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
-    pthread_mutex_lock(&cache->lock);
-    cache->running += ok;
-    cache->stop = cache->stop || !ok;
-    cache->start_error = ok ? cache->start_error : err;
-    pthread_cond_broadcast(&cache->done);
-    pthread_mutex_unlock(&cache->lock);
-    if (ok) {
-        gl_debug(gl, cache->sink);
-        targets_bind(&targets, gl);
-        work(cache, &targets);
-        targets_finish(&targets, gl);
-    }
-    egl_bind(cache->egl, EGL_NO_CONTEXT, NULL);
-    return NULL;
-}
-
-/* --- the cache --- */
 
 struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
                                            const struct gl_sink *sink, struct error *err)
@@ -256,7 +23,9 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
     pthread_cond_init(&cache->done, &clock);
     pthread_condattr_destroy(&clock);
     for (int i = 0; i < EGL_COMPILERS; i++) {
-        if (pthread_create(&cache->threads[i], NULL, thread_main, cache) != 0) {
+        struct compiler *compiler = &cache->compilers[i];
+        compiler->cache = cache;
+        if (pthread_create(&compiler->thread, NULL, program_compile_main, compiler) != 0) {
             abort(); /* as where there is no memory */
         }
     }
@@ -296,7 +65,7 @@ void program_cache_destroy(struct program_cache *cache)
     pthread_cond_broadcast(&cache->work);
     pthread_mutex_unlock(&cache->lock);
     for (int i = 0; i < EGL_COMPILERS; i++) {
-        pthread_join(cache->threads[i], NULL);
+        pthread_join(cache->compilers[i].thread, NULL);
     }
     while (cache->first) {
         struct program *program = cache->first;
@@ -370,7 +139,9 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->surface_text = memory_text(source->surface_text);
     program->number_count = source->number_count;
     program->map_count = source->map_count;
+    program->shape_count = source->shape_count;
     program->user_shaders = source->user_shaders;
+    program->user_code = source->user_code;
     program->refs = 1;
     pthread_mutex_lock(&cache->lock);
     program->last_use = ++cache->uses;
@@ -397,8 +168,19 @@ void program_unref(struct program_cache *cache, struct program *program)
     pthread_mutex_lock(&cache->lock);
     if (--program->refs == 0) {
         evict(cache);
+        pthread_cond_broadcast(&cache->work); /* it may have been alone at work */
     }
     pthread_mutex_unlock(&cache->lock);
+}
+
+uint64_t program_shape(const struct program *program)
+{
+    return program->shape_hash;
+}
+
+bool program_has_user_code(const struct program *program)
+{
+    return program->user_code;
 }
 
 enum program_state program_state(const struct program *program)

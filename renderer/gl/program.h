@@ -26,7 +26,9 @@ struct program_source {
     const char *map_text, *surface_text; /* of shader.h; copied */
     size_t number_count;                 /* vec4s in the buffer; at least 1 */
     bool user_shaders;                   /* USER_SHADERS is defined */
-    size_t map_count;                    /* the first so many are those that the map reads */
+    bool user_code;                      /* it waits for program_cache_allow */
+    size_t shape_count;
+    size_t map_count; /* the first so many are those that the map reads */
 };
 
 /* The compile contexts of `egl` belong to the cache until program_cache_destroy. */
@@ -38,9 +40,20 @@ void program_cache_destroy(struct program_cache *cache);
 struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash);
 /* Starts compiling. A new reference. */
 struct program *program_cache_add(struct program_cache *cache, const struct program_source *source);
+/* The program with code of users that is to be compiled next; nothing else is compiled beside one.
+ * NULL: none, or one is at work (`*out_busy`). Borrowed. */
+struct program *program_cache_next(struct program_cache *cache, bool *out_busy);
+/* Lets the compilers have it. */
+void program_cache_allow(struct program_cache *cache, struct program *program);
+/* Whether a compiler has been at one stage for so long that it may never end: LIMIT_COMPILE_MS of
+ * its processor time, LIMIT_COMPILE_CODE_MS and more for each shape where there is code of users,
+ * or three times as long without having the processor. */
+bool program_cache_stuck(struct program_cache *cache);
 struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);
 
+uint64_t program_shape(const struct program *program);
+bool program_has_user_code(const struct program *program);
 enum program_state program_state(const struct program *program);
 /* Valid when failed. */
 const struct error *program_error(const struct program *program);

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/* The threads that compile programs: what they take next, and how long they may take. */
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "program_parts.h"
+#include "protocol/limits.h"
+#include "protocol/memory.h"
+#include "renderer/draw/frame.h"
+#include "renderer/field/shader.h"
+#include "targets.h"
+
+enum {
+    PRELOAD_MAX = 4096, /* vec4s */
+    WALL_FACTOR = 3,    /* a compiler that waits for others may take so much longer */
+};
+
+bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
+{
+    GLint bytes = 0;
+
+    gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
+    return software || number_count * 16 > (size_t)bytes;
+}
+
+/* --- one stage --- */
+
+/* What glsl/numbers.glsl wants to know. */
+static char *make_defines(const struct program *program, bool preload, bool in_texture)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    if (!out) {
+        abort();
+    }
+    fprintf(out, "#define NUMBERS_COUNT %zu\n%s%s", program->number_count,
+            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
+            program->user_shaders ? "#define USER_SHADERS\n" : "");
+    if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
+        fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
+                program->map_count);
+        for (size_t i = 0; i < program->map_count; i++) {
+            fprintf(out, " X(%zu)", i);
+        }
+        fputc('\n', out);
+    }
+    if (fclose(out) != 0) {
+        abort();
+    }
+    return text;
+}
+
+static bool link_stage(const struct gl *gl, const struct program *program, bool software,
+                       enum program_stage stage, struct pass *out_pass, struct error *err)
+{
+    static const char *const files[STAGE_COUNT][24] = {
+        {"group.glsl", "numbers.glsl", "frame.glsl", FIELD_GLSL_FILES, "map", "camera.glsl",
+         "march.glsl", NULL},
+        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "surface",
+         "camera.glsl", "gbuffer.glsl", "matter.glsl", NULL},
+        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "map",
+         "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL},
+    };
+    char *defines =
+        make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
+    bool ok = pass_init(out_pass, gl,
+                        &(struct pass_source){true, defines, files[stage], program->map_text,
+                                              program->surface_text},
+                        err);
+    free(defines);
+    return ok;
+}
+
+/* One work group, with nothing in the buffers: the driver finishes its work. */
+static void warm_up(const struct program_cache *cache, const struct targets *targets,
+                    const struct program *program, const struct pass *pass)
+{
+    const struct gl *gl = cache->gl;
+    const size_t bytes = 16 * program->number_count;
+    const bool texture = numbers_in_texture(gl, cache->egl->software, program->number_count);
+    float *zeros = memory_alloc(1, bytes);
+    const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
+    GLuint buffers[2], view = 0;
+
+    gl->GenBuffers(2, buffers);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, buffers[0]);
+    gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
+    if (texture) {
+        gl->BindBuffer(GL_TEXTURE_BUFFER, buffers[1]);
+        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
+        gl->GenTextures(1, &view);
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
+        gl->BindTexture(GL_TEXTURE_BUFFER, view);
+        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers[1]);
+    } else {
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
+        gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
+    }
+    pass_compute(pass, gl, 0, 0, targets->width, targets->height);
+    gl->Finish();
+    gl->DeleteBuffers(2, buffers);
+    if (view) {
+        gl->DeleteTextures(1, &view);
+    }
+    free(zeros);
+}
+
+/* The state follows from the stages once none is left. */
+static void finish_stage(struct program_cache *cache, struct program *program,
+                         const struct error *err)
+{
+    if (err->kind != ERROR_NONE && program->error.kind == ERROR_NONE) {
+        program->error = *err;
+    }
+    cache->compilations++;
+    if (++program->done == STAGE_COUNT) {
+        program->state = program->error.kind == ERROR_NONE ? PROGRAM_READY : PROGRAM_FAILED;
+        cache->finished++;
+        pthread_cond_broadcast(&cache->done);
+    }
+}
+
+static int64_t clock_in_ms(clockid_t clock)
+{
+    struct timespec t;
+
+    clock_gettime(clock, &t);
+    return (int64_t)t.tv_sec * 1000 + t.tv_nsec / 1000000;
+}
+
+/* Under the lock. */
+static void begin(struct compiler *compiler, const struct program *program)
+{
+    compiler->program = program;
+    compiler->begun_ms = clock_in_ms(CLOCK_MONOTONIC);
+    compiler->begun_cpu_ms = clock_in_ms(CLOCK_THREAD_CPUTIME_ID);
+}
+
+static void compile_stage(struct program_cache *cache, const struct targets *targets,
+                          struct program *program, enum program_stage stage)
+{
+    const struct gl *gl = cache->gl;
+    struct pass pass = {0};
+    struct error err = {0};
+
+    if (link_stage(gl, program, cache->egl->software, stage, &pass, &err)) {
+        warm_up(cache, targets, program, &pass);
+    }
+    gl->Finish();
+    pthread_mutex_lock(&cache->lock);
+    program->passes[stage] = pass;
+    finish_stage(cache, program, &err);
+    program->refs--;
+    pthread_mutex_unlock(&cache->lock);
+}
+
+/* --- what is next --- */
+
+static bool is_waiting(const struct program *program)
+{
+    return program->taken < STAGE_COUNT && program->refs > 0;
+}
+
+static bool is_worked_at(const struct program *program)
+{
+    return program->taken > program->done;
+}
+
+/* Begun, or to be begun, with code of users in it. */
+static struct program *find_allowed(const struct program_cache *cache)
+{
+    struct program *p = cache->first;
+
+    while (p && !(p->allowed && (is_worked_at(p) || is_waiting(p)))) {
+        p = p->next;
+    }
+    return p;
+}
+
+/* A stage of the newest program that somebody still wants: what was asked for before it is out of
+ * date. One that has been begun is finished, since another thread is at it. One with code of users
+ * is alone, so that it is known whose compiler hangs or crashes. */
+static struct program *take_work(struct program_cache *cache, enum program_stage *out_stage)
+{
+    const struct program *alone = find_allowed(cache);
+    struct program *best = NULL;
+
+    for (struct program *p = cache->first; p; p = p->next) {
+        int begun = best ? (p->taken > 0) - (best->taken > 0) : 1;
+        if (alone && p != alone && is_worked_at(p)) {
+            return NULL;
+        }
+        if (is_waiting(p) && (alone ? p == alone : !p->user_code) &&
+            (begun > 0 || (begun == 0 && p->last_use > best->last_use))) {
+            best = p;
+        }
+    }
+    if (best) {
+        *out_stage = (enum program_stage)best->taken++;
+        best->refs++;
+    }
+    return best;
+}
+
+static void work(struct compiler *compiler, const struct targets *targets)
+{
+    struct program_cache *cache = compiler->cache;
+
+    pthread_mutex_lock(&cache->lock);
+    while (!cache->stop) {
+        enum program_stage stage = STAGE_MARCH;
+        struct program *program = take_work(cache, &stage);
+        if (!program) {
+            pthread_cond_wait(&cache->work, &cache->lock);
+            continue;
+        }
+        begin(compiler, program);
+        pthread_mutex_unlock(&cache->lock);
+        compile_stage(cache, targets, program, stage);
+        pthread_mutex_lock(&cache->lock);
+        compiler->program = NULL;
+        pthread_cond_broadcast(&cache->work); /* who waits to be alone */
+    }
+    pthread_mutex_unlock(&cache->lock);
+}
+
+void *program_compile_main(void *data)
+{
+    struct compiler *compiler = data;
+    struct program_cache *cache = compiler->cache;
+    const struct gl *gl = cache->gl;
+    struct targets targets = {0};
+    struct error err = {0};
+
+    pthread_mutex_lock(&cache->lock);
+    EGLContext context = cache->egl->compile[cache->started++];
+    pthread_mutex_unlock(&cache->lock);
+    const bool ok = egl_bind(cache->egl, context, &err) &&
+                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
+    pthread_mutex_lock(&cache->lock);
+    cache->running += ok;
+    cache->stop = cache->stop || !ok;
+    cache->start_error = ok ? cache->start_error : err;
+    pthread_cond_broadcast(&cache->done);
+    pthread_mutex_unlock(&cache->lock);
+    if (ok) {
+        gl_debug(gl, cache->sink);
+        targets_bind(&targets, gl);
+        work(compiler, &targets);
+        targets_finish(&targets, gl);
+    }
+    egl_bind(cache->egl, EGL_NO_CONTEXT, NULL);
+    return NULL;
+}
+
+/* --- for the drawing thread --- */
+
+struct program *program_cache_next(struct program_cache *cache, bool *out_busy)
+{
+    struct program *best = NULL;
+
+    pthread_mutex_lock(&cache->lock);
+    *out_busy = find_allowed(cache) != NULL;
+    for (struct program *p = cache->first; p && !*out_busy; p = p->next) {
+        if (p->user_code && !p->allowed && is_waiting(p) &&
+            (!best || p->last_use > best->last_use)) {
+            best = p;
+        }
+    }
+    pthread_mutex_unlock(&cache->lock);
+    return best;
+}
+
+void program_cache_allow(struct program_cache *cache, struct program *program)
+{
+    pthread_mutex_lock(&cache->lock);
+    program->allowed = true;
+    pthread_cond_broadcast(&cache->work);
+    pthread_mutex_unlock(&cache->lock);
+}
+
+/* Compilers take about the square of the shapes, with users' code in some of them as without. */
+static int64_t longest_ms(const struct program *program)
+{
+    const double part = fmin(1, (double)program->shape_count / LIMIT_DRAWN_SHAPES);
+
+    return program->user_code
+               ? LIMIT_COMPILE_CODE_MS +
+                     (int64_t)((LIMIT_COMPILE_MS - LIMIT_COMPILE_CODE_MS) * part * part)
+               : LIMIT_COMPILE_MS;
+}
+
+bool program_cache_stuck(struct program_cache *cache)
+{
+    bool stuck = false;
+
+    pthread_mutex_lock(&cache->lock);
+    for (int i = 0; i < EGL_COMPILERS; i++) {
+        const struct compiler *compiler = &cache->compilers[i];
+        clockid_t clock;
+
+        if (compiler->program && pthread_getcpuclockid(compiler->thread, &clock) == 0) {
+            const int64_t most = longest_ms(compiler->program);
+            stuck = stuck || clock_in_ms(clock) - compiler->begun_cpu_ms > most ||
+                    clock_in_ms(CLOCK_MONOTONIC) - compiler->begun_ms > WALL_FACTOR * most;
+        }
+    }
+    pthread_mutex_unlock(&cache->lock);
+    return stuck;
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/* What the render process says, and how it leaves. */
+#include <errno.h>
+#include <inttypes.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "worker_parts.h"
+
+void worker_flush(struct worker *w)
+{
+    while (w->out_sent < w->out_length) {
+        const ssize_t sent = send(w->fd, w->out + w->out_sent, w->out_length - w->out_sent,
+                                  MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent < 0) {
+            if (errno != EAGAIN && errno != EINTR) {
+                w->status = 0;
+            }
+            return;
+        }
+        w->out_sent += (size_t)sent;
+    }
+}
+
+void worker_flush_all(struct worker *w)
+{
+    worker_flush(w);
+    while (w->status < 0 && w->out_sent < w->out_length) {
+        struct pollfd fd = {.fd = w->fd, .events = POLLOUT};
+
+        poll(&fd, 1, -1);
+        worker_flush(w);
+    }
+}
+
+cJSON *worker_answer(const char *type)
+{
+    cJSON *json = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(json, "type", type);
+    return json;
+}
+
+void worker_send(struct worker *w, cJSON *json, const void *payload, size_t payload_length)
+{
+    size_t length;
+    uint8_t *bytes = packet_pack(json, payload, payload_length, &length);
+
+    if (w->out_sent > 0) {
+        memmove(w->out, w->out + w->out_sent, w->out_length - w->out_sent);
+        w->out_length -= w->out_sent;
+        w->out_sent = 0;
+    }
+    if (w->out_length + length > w->out_capacity) {
+        w->out_capacity = 2 * (w->out_length + length);
+        w->out = memory_resize(w->out, w->out_capacity, 1);
+    }
+    memcpy(w->out + w->out_length, bytes, length);
+    w->out_length += length;
+    free(bytes);
+    cJSON_Delete(json);
+}
+
+static void add_error(cJSON *json, const struct error *err)
+{
+    cJSON_AddStringToObject(json, "code", error_kind_name(err->kind));
+    cJSON_AddStringToObject(json, "place", err->place);
+    cJSON_AddStringToObject(json, "message", err->message);
+    if (err->line > 0) {
+        cJSON_AddNumberToObject(json, "line", err->line);
+        cJSON_AddNumberToObject(json, "column", err->column);
+    }
+}
+
+void worker_send_failed(struct worker *w, uint64_t job, const struct error *err)
+{
+    cJSON *json = worker_answer("failed");
+
+    cJSON_AddNumberToObject(json, "job", (double)job);
+    add_error(json, err);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
+                       const struct error *err)
+{
+    cJSON *json = worker_answer(type);
+
+    cJSON_AddStringToObject(json, "scene", scene);
+    cJSON_AddNumberToObject(json, "revision", (double)revision);
+    add_error(json, err);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
+                         uint64_t shape)
+{
+    cJSON *json = worker_answer(type);
+    char text[17];
+
+    snprintf(text, sizeof text, "%016" PRIx64, shape); /* no double holds it */
+    cJSON_AddStringToObject(json, "scene", scene);
+    cJSON_AddNumberToObject(json, "revision", (double)revision);
+    cJSON_AddStringToObject(json, "shape", text);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_ready(struct worker *w)
+{
+    const struct renderer_info *info = renderer_info(w->renderer);
+    cJSON *json = worker_answer("ready");
+    cJSON *renderer = cJSON_AddObjectToObject(json, "renderer");
+
+    cJSON_AddStringToObject(renderer, "name", info->name);
+    cJSON_AddStringToObject(renderer, "version", info->version);
+    cJSON_AddStringToObject(renderer, "device", info->device);
+    cJSON_AddBoolToObject(renderer, "software", info->software);
+    worker_send(w, json, NULL, 0);
+}
+
+static uint64_t resident_bytes(void)
+{
+    unsigned long pages = 0;
+    FILE *statm = fopen("/proc/self/statm", "r");
+
+    if (statm) {
+        if (fscanf(statm, "%*u %lu", &pages) != 1) {
+            pages = 0;
+        }
+        fclose(statm);
+    }
+    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
+}
+
+void worker_on_ping(struct worker *w, const cJSON *ping)
+{
+    const struct renderer_counters counters = renderer_counters(w->renderer);
+    cJSON *json = worker_answer("pong");
+
+    cJSON_AddNumberToObject(json, "ping", json_member_number(ping, "ping", 0));
+    cJSON_AddNumberToObject(json, "compilations", (double)counters.compilations);
+    cJSON_AddNumberToObject(json, "cache_hits", (double)counters.cache_hits);
+    cJSON_AddNumberToObject(json, "tiles", (double)counters.tiles);
+    cJSON_AddNumberToObject(json, "pictures", (double)counters.pictures);
+    cJSON_AddNumberToObject(json, "resident_bytes", (double)resident_bytes());
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_frame(struct worker *w, const struct task *task, const struct encoding *encoding)
+{
+    cJSON *json = worker_answer("frame");
+
+    cJSON_AddNumberToObject(json, "job", (double)task->number);
+    cJSON_AddNumberToObject(json, "revision", (double)task->revision);
+    cJSON_AddBoolToObject(json, "newest", task->newest);
+    cJSON_AddNumberToObject(json, "width", task->width);
+    cJSON_AddNumberToObject(json, "height", task->height);
+    cJSON_AddStringToObject(json, "mime", image_format_mime(task->encode.format));
+    cJSON_AddNumberToObject(json, "march_us", task->times.march_us);
+    cJSON_AddNumberToObject(json, "light_us", task->times.light_us);
+    cJSON_AddNumberToObject(json, "read_us", task->times.read_us);
+    cJSON_AddNumberToObject(json, "encode_us", encoding->encode_us);
+    cJSON_AddNumberToObject(json, "queue_us", (double)(task->begun_us - task->received_us));
+    worker_send(w, json, encoding->bytes, encoding->length);
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* The inside of the render process, for the files worker*.c. */
+#ifndef RENDERER_WORKER_PARTS_H
+#define RENDERER_WORKER_PARTS_H
+
+#include "encoder.h"
+#include "worker.h"
+
+/* A scene, and what the front was told of it. */
+struct held {
+    char *name;
+    struct resident *resident;
+    uint64_t told_shown, told_broken;
+    struct error told_warning;
+    struct held *next;
+};
+
+/* A picture that was asked for. */
+struct task {
+    uint64_t number; /* the front's */
+    char *scene;
+    int priority;
+    struct job *job; /* NULL once the picture is with the encoder */
+    struct encode_params encode;
+    bool newest;
+    bool cancelled; /* while with the encoder */
+    uint64_t received_us, begun_us;
+    uint64_t revision;
+    int width, height;
+    struct job_times times;
+    struct task *next; /* in order of arrival */
+};
+
+struct worker {
+    int fd, wake_fd;
+    struct renderer *renderer;
+    struct encoder *encoder;
+    struct packet_reader in;
+    uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
+    size_t out_sent, out_length, out_capacity;
+    struct held *scenes;
+    struct task *tasks;
+    uint64_t told_drawing; /* shape with code of users that the front thinks is drawn */
+    uint64_t steps;
+    int status; /* -1 while running */
+};
+
+enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front starts another */
+
+/* --- worker_answers.c --- */
+
+/* Sends what the socket takes. */
+void worker_flush(struct worker *w);
+/* Waits until the front has all that was answered: what comes next may end the process. */
+void worker_flush_all(struct worker *w);
+cJSON *worker_answer(const char *type);
+/* Queues a packet; takes `json`. */
+void worker_send(struct worker *w, cJSON *json, const void *payload, size_t payload_length);
+void worker_send_failed(struct worker *w, uint64_t job, const struct error *err);
+/* `broken` or `warned`. */
+void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
+                       const struct error *err);
+void worker_send_ready(struct worker *w);
+void worker_send_frame(struct worker *w, const struct task *task, const struct encoding *encoding);
+/* `compiling` or `drawing`: whose code is at work from here on; scene "": nobody's. */
+void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
+                         uint64_t shape);
+void worker_on_ping(struct worker *w, const cJSON *packet);
+
+/* --- worker_scenes.c --- */
+
+struct held **worker_find_scene(struct worker *w, const char *name);
+void worker_drop_scene(struct held **at);
+/* Tells the front what has become drawable, or never will. */
+void worker_announce(struct worker *w);
+/* renderer_params.on_compile; `data` is the worker. */
+void worker_on_compile(void *data, uint64_t shape);
+void worker_on_scene(struct worker *w, const cJSON *packet);
+void worker_on_edit(struct worker *w, const cJSON *packet);
+void worker_on_drop(struct worker *w, const cJSON *packet);
+void worker_on_refuse(struct worker *w, const cJSON *packet);
+void worker_on_pick(struct worker *w, const cJSON *packet);
+
+/* --- worker_pictures.c --- */
+
+uint64_t worker_now_us(void);
+void worker_drop_task(struct task **at);
+/* The most urgent picture that can go on; NULL: none. */
+struct task **worker_choose_task(struct worker *w);
+/* Draws one tile of it, or with NULL tells that nothing is drawn. */
+void worker_step(struct worker *w, struct task **at);
+void worker_collect_encodings(struct worker *w);
+void worker_on_render(struct worker *w, const cJSON *packet);
+void worker_on_cancel(struct worker *w, const cJSON *packet);
+/* `*out` is a record of camera_type; it stays the default where the packet has no camera. */
+bool worker_read_camera(const cJSON *packet, struct record *out, bool *out_given,
+                        struct error *err);
+/* A whole number of the packet; -1 where it does not fit an int. */
+int worker_read_int(const cJSON *packet, const char *name, int fallback);
+
+#endif

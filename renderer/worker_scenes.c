@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* The scenes that the render process holds. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+#include "protocol/messages.h"
+#include "worker_parts.h"
+
+struct held **worker_find_scene(struct worker *w, const char *name)
+{
+    struct held **at = &w->scenes;
+
+    while (*at && strcmp((*at)->name, name) != 0) {
+        at = &(*at)->next;
+    }
+    return at;
+}
+
+void worker_drop_scene(struct held **at)
+{
+    struct held *gone = *at;
+
+    *at = gone->next;
+    resident_destroy(gone->resident);
+    free(gone->name);
+    free(gone);
+}
+
+static void announce_warning(struct worker *w, struct held *held)
+{
+    const struct error *warning = resident_warning(held->resident);
+    const bool known = strcmp(warning->place, held->told_warning.place) == 0 &&
+                       strcmp(warning->message, held->told_warning.message) == 0;
+
+    if (warning->kind != ERROR_NONE && !known) {
+        worker_send_fault(w, "warned", held->name, resident_revision(held->resident), warning);
+    }
+    held->told_warning = *warning;
+}
+
+void worker_announce(struct worker *w)
+{
+    for (struct held *held = w->scenes; held; held = held->next) {
+        const uint64_t shown = resident_shown_revision(held->resident);
+        const uint64_t revision = resident_revision(held->resident);
+        const struct error *err = resident_error(held->resident);
+
+        if (shown != held->told_shown) {
+            cJSON *json = worker_answer("shown");
+            cJSON_AddStringToObject(json, "scene", held->name);
+            cJSON_AddNumberToObject(json, "revision", (double)shown);
+            worker_send(w, json, NULL, 0);
+            held->told_shown = shown;
+        }
+        if (err->kind != ERROR_NONE && held->told_broken != revision) {
+            worker_send_fault(w, "broken", held->name, revision, err);
+            held->told_broken = revision;
+        }
+        announce_warning(w, held);
+    }
+}
+
+void worker_on_compile(void *data, uint64_t shape)
+{
+    struct worker *w = data;
+    const struct held *held = w->scenes;
+    const struct task *task = w->tasks;
+
+    while (held && resident_shape_with_code(held->resident) != shape) {
+        held = held->next;
+    }
+    /* It may be left to a picture of an older state. */
+    while (task && !(task->job && job_shape_with_code(task->job) == shape)) {
+        task = task->next;
+    }
+    if (shape == 0 || (!held && !task)) {
+        worker_send_suspect(w, "compiling", "", 0, 0);
+    } else {
+        worker_send_suspect(w, "compiling", held ? held->name : task->scene,
+                            held ? resident_revision(held->resident) : task->revision, shape);
+        worker_flush_all(w);
+    }
+}
+
+void worker_on_scene(struct worker *w, const cJSON *packet)
+{
+    const char *name = json_member_text(packet, "scene", "");
+    const uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
+    struct held *held = *worker_find_scene(w, name);
+    struct error err = {0};
+    struct scene *scene = scene_read(cJSON_GetObjectItemCaseSensitive(packet, "document"), &err);
+
+    if (!scene) {
+        worker_send_fault(w, "broken", name, revision, &err);
+    } else if (held) {
+        resident_replace(held->resident, scene, revision);
+    } else {
+        held = memory_alloc(1, sizeof *held);
+        held->name = memory_text(name);
+        held->resident = resident_create(w->renderer, scene, revision);
+        held->next = w->scenes;
+        w->scenes = held;
+    }
+}
+
+void worker_on_edit(struct worker *w, const cJSON *packet)
+{
+    const char *name = json_member_text(packet, "scene", "");
+    const uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
+    const cJSON *ops = cJSON_GetObjectItemCaseSensitive(packet, "ops");
+    struct held *held = *worker_find_scene(w, name);
+    struct error err = {0};
+
+    if (!held) {
+        error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", name);
+    }
+    if (!held || !resident_edit(held->resident, ops, revision, &err)) {
+        worker_send_fault(w, "broken", name, revision, &err);
+    }
+}
+
+void worker_on_drop(struct worker *w, const cJSON *packet)
+{
+    struct held **at = worker_find_scene(w, json_member_text(packet, "scene", ""));
+
+    if (*at) {
+        worker_drop_scene(at);
+    }
+}
+
+void worker_on_refuse(struct worker *w, const cJSON *packet)
+{
+    const cJSON *shape;
+
+    cJSON_ArrayForEach(shape, cJSON_GetObjectItemCaseSensitive(packet, "shapes"))
+    {
+        renderer_refuse(w->renderer, strtoull(shape->valuestring, NULL, 16));
+    }
+}
+
+/* --- questions --- */
+
+static void add_vector(cJSON *json, const char *name, const double v[3])
+{
+    cJSON_AddItemToObject(json, name, cJSON_CreateDoubleArray(v, 3));
+}
+
+void worker_on_pick(struct worker *w, const cJSON *packet)
+{
+    struct held *held = *worker_find_scene(w, json_member_text(packet, "scene", ""));
+    const int width = worker_read_int(packet, "width", 0),
+              height = worker_read_int(packet, "height", 0);
+    cJSON *json = worker_answer("picked");
+    struct pick_result result = {0};
+    struct record camera;
+    bool given;
+
+    record_init(&camera, &camera_type);
+    if (held && width > 0 && height > 0 && worker_read_camera(packet, &camera, &given, NULL)) {
+        result =
+            resident_pick(held->resident, given ? &camera : NULL, width, height,
+                          json_member_number(packet, "x", 0), json_member_number(packet, "y", 0));
+    }
+    record_finish(&camera);
+    cJSON_AddNumberToObject(json, "pick", json_member_number(packet, "pick", 0));
+    cJSON_AddNumberToObject(json, "revision",
+                            held ? (double)resident_shown_revision(held->resident) : 0);
+    if (result.hit) {
+        cJSON_AddStringToObject(json, "node", result.node);
+        add_vector(json, "position", result.position);
+        add_vector(json, "normal", result.normal);
+        cJSON_AddNumberToObject(json, "distance", result.distance);
+    } else {
+        cJSON_AddNullToObject(json, "node");
+    }
+    worker_send(w, json, NULL, 0);
+}
