@@ -281,7 +281,7 @@ static size_t random_child_count(struct random *random, const struct node_type *
     if (type->kind == KIND_SHAPE || type->kind == KIND_FLAT) {
         return limits->depth > 0 && random_below(random, 6) == 0;
     }
-    return (type->kind == KIND_COMBINE ? 2 : 1) + random_below(random, 2);
+    return (type->kind == KIND_COMBINE ? 2 : 1) + (limits->lean ? 0 : random_below(random, 2));
 }
 
 void random_node(struct random *random, FILE *out, const struct node_type *type,

@@ -24,7 +24,7 @@ struct random_limits {
     bool bounded; /* below the root nothing goes on without end */
     bool exact;   /* only shapes with exact distances and uniform scales */
     bool plain;   /* no transforms */
-    bool lean;    /* of a node's children the first alone goes deeper, down to `depth` */
+    bool lean;    /* few children, and the first alone goes deeper, down to `depth` */
     bool inner;   /* not the root; random_node sets it for what is below */
 };
 
