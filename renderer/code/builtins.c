@@ -106,6 +106,11 @@ static double arc_cosine(double x)
     return acos(between(x, -1, 1));
 }
 
+static double arc_of(double y, double x)
+{
+    return x == 0 && y == 0 ? 0 : atan2(y, x);
+}
+
 static double area_cosine(double x)
 {
     return acosh(most(x, 1));
@@ -356,8 +361,8 @@ const struct builtin builtin_table[] = {
     {"asin", FAMILY_FLOAT, 1, "code_asin", .one = arc_sine},
     {"acos", FAMILY_FLOAT, 1, "code_acos", .one = arc_cosine},
     {"atan", FAMILY_FLOAT, 1, NULL, .one = atan},
-    {"atan", FAMILY_FLOAT, 2, "code_atan", .two = atan2},
-    {"atan2", FAMILY_FLOAT, 2, "code_atan", .two = atan2},
+    {"atan", FAMILY_FLOAT, 2, "code_atan", .two = arc_of},
+    {"atan2", FAMILY_FLOAT, 2, "code_atan", .two = arc_of},
     {"sinh", FAMILY_FLOAT, 1, NULL, .one = sinh},
     {"cosh", FAMILY_FLOAT, 1, NULL, .one = cosh},
     {"tanh", FAMILY_FLOAT, 1, NULL, .one = tanh},

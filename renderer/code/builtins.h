@@ -3,8 +3,10 @@
  *
  * Both evaluators agree also where GLSL says nothing. What is outside of a function's domain is
  * moved to its nearest end (glsl/code.glsl): sqrt(-1) is 0, acos(2) is 0, log(0) is log(1e-30),
- * normalize of nothing is nothing. pow() takes the magnitude of its first argument. A division by
- * 0 inside of mod() or of whole numbers gives 0; with / it is infinite, as everywhere. */
+ * normalize of nothing is nothing, atan(0, 0) is 0. pow() takes the magnitude of its first
+ * argument. A division by 0 inside of mod(), or of whole numbers, gives 0; one by / is infinite, as
+ * everywhere.
+ */
 #ifndef RENDERER_CODE_BUILTINS_H
 #define RENDERER_CODE_BUILTINS_H
 

@@ -456,13 +456,29 @@ static bool check_function(struct checker *checker, struct expr *expr)
     return fit_arguments(checker, expr);
 }
 
+/* A function of this name that is defined after its use; NULL: none. */
+static const struct function *find_below(const struct tree *tree, const struct name *name)
+{
+    for (const struct stmt *stmt = tree->top; stmt; stmt = stmt->next) {
+        if (stmt->kind == STMT_FUNCTION && stmt->function->name == name) {
+            return stmt->function;
+        }
+    }
+    return NULL;
+}
+
 static bool unknown_function(struct checker *checker, const struct expr *expr)
 {
+    const struct function *below = find_below(checker->tree, expr->name);
     char hint[80];
     const char *name = expr->name->text, *advice = builtin_advice(name);
     struct nearest nearest = {.text = name};
     if (advice) {
         return CHECK_FAIL(checker, expr->at, "%.40s is not known here: %s", name, advice);
+    }
+    if (below) {
+        return CHECK_FAIL(checker, expr->at, "%.40s is defined below, in line %d; move it up", name,
+                          below->at.line);
     }
     for (const struct function *f = checker->tree->functions; f; f = f->next) {
         nearest_consider(&nearest, f->name->text);
@@ -473,9 +489,8 @@ static bool unknown_function(struct checker *checker, const struct expr *expr)
     for (size_t i = 0; type_name_at(i); i++) {
         nearest_consider(&nearest, type_name_at(i));
     }
-    return CHECK_FAIL(checker, expr->at, "there is no function %.40s%s%s", name,
-                      nearest_hint(&nearest, hint, sizeof hint),
-                      nearest.best ? "" : " above this line");
+    return CHECK_FAIL(checker, expr->at, "there is no function %.40s%s", name,
+                      nearest_hint(&nearest, hint, sizeof hint));
 }
 
 bool check_call(struct checker *checker, struct expr *expr)

@@ -48,9 +48,6 @@ static bool check_bound(struct checker *checker, struct stmt *stmt, enum op *out
                                        [OP_GREATER_EQUAL] = OP_LESS_EQUAL,
                                        [OP_UNEQUAL] = OP_UNEQUAL};
     struct expr *test = stmt->expr;
-    if (!test) {
-        return refuse_loop(checker, stmt->at, "the loop has no bound");
-    }
     if (!check_value(checker, test)) {
         return false;
     }
@@ -76,9 +73,6 @@ static bool check_bound(struct checker *checker, struct stmt *stmt, enum op *out
 static bool check_step(struct checker *checker, struct stmt *stmt)
 {
     struct expr *step = stmt->advance;
-    if (!step) {
-        return refuse_loop(checker, stmt->at, "the loop has no step");
-    }
     if (!check_value(checker, step)) {
         return false;
     }
@@ -138,6 +132,10 @@ bool check_for(struct checker *checker, struct stmt *stmt)
 {
     enum op op = OP_NONE;
     double bound = 0;
+    if (!stmt->expr || !stmt->advance) {
+        return refuse_loop(checker, stmt->at,
+                           stmt->expr ? "the loop has no step" : "the loop has no bound");
+    }
     struct variable *variable = check_start(checker, stmt);
     if (!variable || !check_bound(checker, stmt, &op, &bound) || !check_step(checker, stmt) ||
         !count_trips(checker, stmt, op, bound)) {

@@ -191,7 +191,7 @@ static bool add_number(struct lexer *lexer, size_t length, enum base base, doubl
 {
     if (is_word(lexer->next[length]) || lexer->next[length] == '.') {
         size_t whole = length;
-        while (is_word(lexer->next[whole])) {
+        while (is_word(lexer->next[whole]) || lexer->next[whole] == '.') {
             whole++;
         }
         return FAIL(lexer, "%.*s is not a number", (int)(whole < 40 ? whole : 40), lexer->next);

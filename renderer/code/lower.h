@@ -31,19 +31,60 @@ struct lower {
     const struct function *function;
 };
 
-/* Where the expression's value is. Nothing may be assigned before it is used; lower_stable copies
- * it where `next` would assign to something. */
-uint16_t lower_value(struct lower *lower, const struct expr *expr);
-uint16_t lower_stable(struct lower *lower, const struct expr *expr, bool effects_follow);
+/* An operand; `spread`: one number, which stands for all components. */
+struct operand {
+    uint16_t at;
+    bool spread;
+};
+
+/* Something that can be assigned to, or a part of any value: numbers at `at`, further by the number
+ * at `offset` unless that is nowhere; of these the components of the swizzle, if there is one. */
+struct spot {
+    uint16_t at, offset;
+    struct type type; /* before the swizzle */
+    int count;        /* of the swizzle; 0: none */
+    uint8_t swizzle[4];
+};
+
+/* lower_steps.c: places in the frame; a constant's; the index of a new step. Operands that a step
+ * has not are MACHINE_NOWHERE. */
 uint16_t lower_alloc(struct lower *lower, int count);
 uint16_t lower_number(struct lower *lower, const double *numbers, int count);
-/* The index of the step; unused operands are MACHINE_NOWHERE. */
 size_t lower_step(struct lower *lower, struct step step);
 void lower_move(struct lower *lower, uint16_t to, uint16_t from, int count);
 /* A jump, and where it goes: to the next step. */
 size_t lower_jump(struct lower *lower, enum step_kind kind, uint16_t condition);
 void lower_land(struct lower *lower, size_t jump);
-/* Runs the step of an expression statement, whose value nobody reads. */
+
+/* lower_operators.c. a op b are numbers of one base, whose components go together, or one is for
+ * all. */
+struct operand lower_operand(struct lower *lower, const struct expr *expr, int count,
+                             bool effects_follow);
+uint8_t lower_spread_flags(struct operand a, struct operand b);
+uint16_t lower_join(struct lower *lower, enum step_kind kind, int count, struct operand a,
+                    struct operand b, struct step more);
+uint16_t lower_arithmetic(struct lower *lower, enum op op, struct type result, struct operand a,
+                          struct operand b);
+bool lower_is_product(enum op op, struct type a, struct type b); /* of matrices */
+uint16_t lower_product(struct lower *lower, struct type a_type, uint16_t a, struct type b_type,
+                       uint16_t b);
+uint16_t lower_binary(struct lower *lower, const struct expr *expr);
+uint16_t lower_unary(struct lower *lower, const struct expr *expr);
+uint16_t lower_choice(struct lower *lower, const struct expr *expr);
+
+/* lower_places.c */
+struct spot lower_spot(struct lower *lower, const struct expr *expr);
+uint16_t lower_load(struct lower *lower, const struct spot *spot);
+void lower_store(struct lower *lower, const struct spot *spot, uint16_t from);
+/* They give the value of the expression, if that is `wanted`. */
+uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted);
+uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool wanted);
+
+/* lower_values.c: where the expression's value is. Nothing may be assigned before it is used, except
+ * after lower_stable with `effects_follow`. */
+uint16_t lower_value(struct lower *lower, const struct expr *expr);
+uint16_t lower_stable(struct lower *lower, const struct expr *expr, bool effects_follow);
+/* Of a statement, whose value nobody reads. */
 void lower_effect(struct lower *lower, const struct expr *expr);
 
 #endif

@@ -20,7 +20,9 @@ void machine_code_finish(struct machine_code *code)
 
 void machine_prepare(const struct machine_code *code, double frame[MACHINE_FRAME])
 {
-    memcpy(frame + MACHINE_VALUES, code->constants, code->constant_count * sizeof(double));
+    if (code->constant_count > 0) {
+        memcpy(frame + MACHINE_VALUES, code->constants, code->constant_count * sizeof(double));
+    }
 }
 
 /* --- whole numbers, modulo 2^32 --- */

@@ -1,26 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* All names begin with that of the whole, which nothing else does: NAME_f2 is function 2, NAME_v3
- * variable 3, NAME_n3 the counter of its loop, NAME_d4 declared parameter 4. */
+/* Statements and functions as GLSL. */
 #include "writer.h"
 
-#include <assert.h>
-#include <math.h>
-#include <string.h>
-
-#include "builtins.h"
-
-struct writer {
-    FILE *out;
-    const struct tree *tree;
-    const char *name;
-    int source;
-    int line; /* of the author's text, that the driver takes the current one for; 0: unknown */
-};
-
-static void write_expr(struct writer *w, const struct expr *expr);
 static void write_statement(struct writer *w, const struct stmt *stmt);
-
-#define PUT(w, ...) fprintf((w)->out, __VA_ARGS__)
 
 static void end_line(struct writer *w)
 {
@@ -36,275 +18,6 @@ static void begin_line(struct writer *w, struct at at)
     }
 }
 
-/* --- constants --- */
-
-/* Nine digits are enough for every float. */
-static void write_float(struct writer *w, double number)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.9g", number);
-    bool whole = strspn(text, "-0123456789") == strlen(text);
-    PUT(w, number < 0 || signbit(number) ? "(%s%s)" : "%s%s", text, whole ? ".0" : "");
-}
-
-static void write_number(struct writer *w, enum base base, double number)
-{
-    switch (base) {
-    case BASE_FLOAT:
-        write_float(w, number);
-        break;
-    case BASE_UINT:
-        PUT(w, "%.0fu", number);
-        break;
-    case BASE_BOOL:
-        PUT(w, number != 0 ? "true" : "false");
-        break;
-    default:
-        if (number == -2147483648.0) {
-            PUT(w, "(-2147483647 - 1)");
-        } else {
-            PUT(w, number < 0 ? "(%.0f)" : "%.0f", number);
-        }
-    }
-}
-
-static void write_constant(struct writer *w, struct type type, const double *value)
-{
-    char name[TYPE_NAME_BYTES];
-    int count = type_components(type);
-    if (count == 1 && type.count == 0) {
-        write_number(w, (enum base)type.base, *value);
-        return;
-    }
-    PUT(w, "%s(", type_name(type, name));
-    struct type element = type.count > 0 ? type_element(type) : type_vector(type.base, 1);
-    int size = type_components(element);
-    for (int i = 0; i < count; i += size) {
-        PUT(w, i > 0 ? ", " : "");
-        write_constant(w, element, value + i);
-    }
-    PUT(w, ")");
-}
-
-/* --- expressions --- */
-
-static void write_variable(struct writer *w, const struct variable *variable)
-{
-    bool declared = variable->storage == STORAGE_DECLARED;
-    PUT(w, "%s_%c%d", w->name, declared ? 'd' : 'v', variable->number);
-}
-
-static void write_value(struct writer *w, const struct expr *expr)
-{
-    bool named = expr->kind == EXPR_VARIABLE && type_components(expr->type) > 1;
-    if (named) {
-        write_variable(w, expr->variable);
-    } else {
-        write_constant(w, expr->type, expr->value);
-    }
-}
-
-static void write_arguments(struct writer *w, const struct expr *args)
-{
-    const char *before = "(";
-    for (; args; args = args->next) {
-        if (!type_is_handle(args->type)) {
-            PUT(w, "%s", before);
-            write_expr(w, args);
-            before = ", ";
-        }
-    }
-    PUT(w, "%s)", *before == '(' ? "(" : "");
-}
-
-/* code_div(a, b), or (a << (b & 31)): what GLSL leaves open. */
-static bool write_guarded(struct writer *w, const struct expr *expr)
-{
-    const char *mask = expr->b->type.base == BASE_UINT ? "31u" : "31";
-    bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
-    bool divides = expr->op == OP_DIVIDE || expr->op == OP_REMAINDER;
-    if (!type_is_integer(expr->type) || !(shifts || divides)) {
-        return false;
-    }
-    PUT(w, shifts ? "(" : expr->op == OP_DIVIDE ? "code_div(" : "code_rem(");
-    write_expr(w, expr->a);
-    PUT(w, shifts ? " %s (" : ", ", tree_op_text(expr->op));
-    write_expr(w, expr->b);
-    if (shifts) {
-        PUT(w, " & %s)", mask);
-    }
-    PUT(w, ")");
-    return true;
-}
-
-static void write_joined(struct writer *w, const struct expr *expr, const char *op)
-{
-    PUT(w, "(");
-    write_expr(w, expr->a);
-    PUT(w, " %s ", op);
-    write_expr(w, expr->b);
-    PUT(w, ")");
-}
-
-static void write_assign(struct writer *w, const struct expr *expr)
-{
-    bool whole = type_is_integer(expr->type);
-    bool guarded = whole && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER ||
-                             expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT);
-    char op[4];
-    if (guarded) { /* the place has no effects of its own, so it can stand twice */
-        PUT(w, "(");
-        write_expr(w, expr->a);
-        PUT(w, " = ");
-        write_guarded(w, expr);
-        PUT(w, ")");
-        return;
-    }
-    snprintf(op, sizeof op, "%s=", tree_op_text(expr->op));
-    write_joined(w, expr, op);
-}
-
-/* Scalars have no members in all drivers. */
-static void write_swizzle(struct writer *w, const struct expr *expr)
-{
-    char name[TYPE_NAME_BYTES];
-    if (type_is_scalar(expr->a->type)) {
-        bool spread = expr->swizzle_count > 1;
-        PUT(w, "%s(", spread ? type_name(expr->type, name) : "");
-        write_expr(w, expr->a);
-        PUT(w, ")");
-        return;
-    }
-    write_expr(w, expr->a);
-    PUT(w, ".");
-    for (int i = 0; i < expr->swizzle_count; i++) {
-        PUT(w, "%c", "xyzw"[expr->swizzle[i]]);
-    }
-}
-
-static void write_index(struct writer *w, const struct expr *expr)
-{
-    const char *suffix = expr->b->type.base == BASE_UINT ? "u" : "";
-    write_expr(w, expr->a);
-    if (expr->b->value) {
-        PUT(w, "[%.0f]", *expr->b->value);
-        return;
-    }
-    PUT(w, "[clamp(");
-    write_expr(w, expr->b);
-    PUT(w, ", 0%s, %d%s)]", suffix, type_elements(expr->a->type) - 1, suffix);
-}
-
-/* Floats become whole numbers in code_int(), which knows what these hold. */
-static void write_construct(struct writer *w, const struct expr *expr)
-{
-    char name[TYPE_NAME_BYTES];
-    bool whole = type_is_integer(expr->type);
-    PUT(w, "%s(", type_name(expr->type, name));
-    for (const struct expr *arg = expr->args; arg; arg = arg->next) {
-        bool guarded = whole && arg->type.base == BASE_FLOAT;
-        PUT(w, "%s", !guarded ? "" : expr->type.base == BASE_UINT ? "code_uint(" : "code_int(");
-        write_expr(w, arg);
-        PUT(w, "%s%s", guarded ? ")" : "", arg->next ? ", " : "");
-    }
-    PUT(w, ")");
-}
-
-static void write_builtin(struct writer *w, const struct expr *expr)
-{
-    const char *text = expr->builtin->glsl ? expr->builtin->glsl : expr->builtin->name;
-    if (!strchr(text, '$')) {
-        PUT(w, "%s", text);
-        write_arguments(w, expr->args);
-        return;
-    }
-    for (; *text; text++) {
-        if (*text != '$') {
-            PUT(w, "%c", *text);
-            continue;
-        }
-        const struct expr *arg = expr->args;
-        for (int i = *++text - '0'; i > 0; i--) {
-            arg = arg->next;
-        }
-        write_expr(w, arg);
-    }
-}
-
-static void write_field(struct writer *w, const struct expr *expr)
-{
-    PUT(w, "%s_s.%s", w->name, expr->name->text); /* one of five names, which are ours */
-}
-
-static void write_expr(struct writer *w, const struct expr *expr)
-{
-    if (expr->value) {
-        write_value(w, expr);
-        return;
-    }
-    switch (expr->kind) {
-    case EXPR_VARIABLE:
-        write_variable(w, expr->variable);
-        break;
-    case EXPR_UNARY:
-        PUT(w, "(%s", tree_op_text(expr->op));
-        write_expr(w, expr->a);
-        PUT(w, ")");
-        break;
-    case EXPR_STEP: {
-        const char *op = expr->op == OP_ADD ? "++" : "--";
-        PUT(w, "(%s", expr->postfix ? "" : op);
-        write_expr(w, expr->a);
-        PUT(w, "%s)", expr->postfix ? op : "");
-        break;
-    }
-    case EXPR_BINARY:
-        if (!write_guarded(w, expr)) {
-            write_joined(w, expr, tree_op_text(expr->op));
-        }
-        break;
-    case EXPR_ASSIGN:
-        write_assign(w, expr);
-        break;
-    case EXPR_CHOICE:
-        PUT(w, "(");
-        write_expr(w, expr->a);
-        PUT(w, " ? ");
-        write_expr(w, expr->b);
-        PUT(w, " : ");
-        write_expr(w, expr->c);
-        PUT(w, ")");
-        break;
-    case EXPR_COMMA:
-        write_joined(w, expr, ",");
-        break;
-    case EXPR_CALL:
-        PUT(w, "%s_f%d", w->name, expr->function->number);
-        write_arguments(w, expr->args);
-        break;
-    case EXPR_BUILTIN:
-        write_builtin(w, expr);
-        break;
-    case EXPR_CONSTRUCT:
-        write_construct(w, expr);
-        break;
-    case EXPR_INDEX:
-        write_index(w, expr);
-        break;
-    case EXPR_SWIZZLE:
-        write_swizzle(w, expr);
-        break;
-    case EXPR_FIELD:
-        write_field(w, expr);
-        break;
-    case EXPR_DATA:
-        PUT(w, "%s_data", w->name);
-        break;
-    default:
-        assert(!"an expression that was checked");
-    }
-}
-
 /* --- statements --- */
 
 /* "vec3 NAME_v2", "float NAME_v3[4]" */
@@ -312,14 +25,14 @@ static void write_declared(struct writer *w, const struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
     PUT(w, "%s ", type_name(variable->type, name));
-    write_variable(w, variable);
+    writer_variable(w, variable);
 }
 
 static void write_nothing(struct writer *w, struct type type)
 {
     static const double zeros[LIMIT_CODE_ARRAY * 16];
     PUT(w, " = ");
-    write_constant(w, type, zeros);
+    writer_constant(w, type, zeros);
     PUT(w, ";");
     end_line(w);
 }
@@ -333,7 +46,7 @@ static void write_declaration(struct writer *w, const struct stmt *stmt)
         return;
     }
     PUT(w, " = ");
-    write_expr(w, stmt->expr);
+    writer_expr(w, stmt->expr);
     PUT(w, ";");
     end_line(w);
 }
@@ -352,7 +65,7 @@ static void write_if(struct writer *w, const struct stmt *stmt)
 {
     begin_line(w, stmt->at);
     PUT(w, "if (");
-    write_expr(w, stmt->expr);
+    writer_expr(w, stmt->expr);
     PUT(w, ") ");
     write_body(w, stmt->body);
     if (stmt->other) {
@@ -373,11 +86,11 @@ static void write_for(struct writer *w, const struct stmt *stmt)
     end_line(w);
     begin_line(w, stmt->at);
     PUT(w, "%s %s_v%d = ", name, w->name, n);
-    write_number(w, (enum base)variable->type.base, stmt->start);
+    writer_number(w, (enum base)variable->type.base, stmt->start);
     PUT(w, " + %s(%s_n%d) * ", name, w->name, n);
-    write_number(w, (enum base)variable->type.base,
-                 variable->type.base == BASE_UINT && stmt->step < 0 ? stmt->step + 4294967296.0
-                                                                    : stmt->step);
+    writer_number(w, (enum base)variable->type.base,
+                  variable->type.base == BASE_UINT && stmt->step < 0 ? stmt->step + 4294967296.0
+                                                                     : stmt->step);
     PUT(w, ";");
     end_line(w);
     write_statement(w, stmt->body);
@@ -391,7 +104,7 @@ static void write_simple(struct writer *w, const char *word, const struct stmt *
     PUT(w, "%s", word);
     if (stmt->expr) {
         PUT(w, "%s", *word ? " " : "");
-        write_expr(w, stmt->expr);
+        writer_expr(w, stmt->expr);
     }
     PUT(w, ";");
     end_line(w);
@@ -471,7 +184,7 @@ static void write_function(struct writer *w, const struct function *function)
     for (const struct variable *p = function->parameters; p; p = p->next) {
         if (p->direction == DIRECTION_OUT) {
             begin_line(w, function->at);
-            write_variable(w, p);
+            writer_variable(w, p);
             write_nothing(w, p->type);
         }
     }
@@ -492,7 +205,7 @@ static void write_globals(struct writer *w)
                 PUT(w, "const ");
                 write_declared(w, variable);
                 PUT(w, " = ");
-                write_constant(w, variable->type, variable->value);
+                writer_constant(w, variable->type, variable->value);
                 PUT(w, ";");
                 end_line(w);
             }
