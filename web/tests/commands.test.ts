@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 import { expect, test } from "vitest";
+import type { App } from "../src/model/actions.ts";
+import { addNode } from "../src/model/add.ts";
+import { paste } from "../src/model/clipboard.ts";
 import {
-    type App,
-    COMMANDS,
-    type Context,
     commandById,
     commandForKey,
     overlap,
     runCommand,
     searchCommands,
-} from "../src/model/commands.ts";
-import { printDocument } from "../src/model/document.ts";
-import { addNode, moveNodes, paste, wrap } from "../src/model/edits.ts";
+} from "../src/model/commandLookup.ts";
+import { COMMANDS, type Context } from "../src/model/commands.ts";
+import { printDocument } from "../src/model/documentJson.ts";
+import { moveNodes, wrap } from "../src/model/edits.ts";
 import type { KeyPress } from "../src/model/keys.ts";
-import { apply, type Operation } from "../src/model/operations.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { apply } from "../src/model/operations.ts";
 import { createStores } from "../src/model/stores.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 
@@ -133,7 +135,7 @@ test("delete leaves the neighbour selected; the root stays", () => {
 test("duplicate puts a copy with new ids behind the original", () => {
     const { run, stores, children } = page(["neck"]);
     run("node.duplicate");
-    expect(children("root")).toEqual(["neck", "neck-1", "hat"]);
+    expect(children("root")).toEqual(["neck", "neck-1", "hat", "stick"]);
     expect(children("neck-1")).toEqual(["body-1", "head-1"]);
     expect(stores.view.getState().selection).toEqual(["neck-1"]);
 });
@@ -146,7 +148,7 @@ test("copy, cut and paste go through text", async () => {
     stores.view.setState({ selection: ["hat"] });
     run("node.paste");
     await new Promise((resolve) => setTimeout(resolve));
-    expect(children("root")).toEqual(["neck", "hat", "head-1"]);
+    expect(children("root")).toEqual(["neck", "hat", "head-1", "stick"]);
     clipboard.text = "hello";
     run("node.paste");
     await new Promise((resolve) => setTimeout(resolve));
@@ -183,14 +185,16 @@ test("wrap and dissolve are each other's way back", () => {
 });
 
 test("adding goes behind a shape, into an operation, around a selection", () => {
-    expect(addNode(scene(), SCHEMA, "sphere", []).ops).toMatchObject([
+    expect(addNode(scene(), SCHEMA, { type: "sphere" }, []).ops).toMatchObject([
         { into: "/nodes/root", before: null, value: { id: "sphere-1" } },
     ]);
-    expect(addNode(scene(), SCHEMA, "box", ["body"]).ops).toMatchObject([
+    expect(addNode(scene(), SCHEMA, { type: "box" }, ["body"]).ops).toMatchObject([
         { into: "/nodes/neck", before: "head" },
     ]);
-    expect(addNode(scene(), SCHEMA, "box", ["neck"]).ops).toMatchObject([{ into: "/nodes/neck" }]);
-    expect(addNode(scene(), SCHEMA, "union", ["head"]).ops).toMatchObject([
+    expect(addNode(scene(), SCHEMA, { type: "box" }, ["neck"]).ops).toMatchObject([
+        { into: "/nodes/neck" },
+    ]);
+    expect(addNode(scene(), SCHEMA, { type: "union" }, ["head"]).ops).toMatchObject([
         { op: "insert", into: "/nodes/neck" },
         { op: "move", at: "/nodes/head" },
     ]);
@@ -213,7 +217,7 @@ test("hide, hide others, show all", () => {
     run("node.hide");
     expect(hidden()).toEqual(["hat"]);
     run("node.hideOthers");
-    expect(hidden().sort()).toEqual(["body", "hat"]);
+    expect(hidden().sort()).toEqual(["body", "hat", "stick"]);
     run("node.showAll");
     expect(hidden()).toEqual([]);
     expect(run("node.showAll")).not.toBeNull();

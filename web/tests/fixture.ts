@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A small registry, a document, and seeded random edits for the tests of the model. */
-import { preorder, readDocument, type SceneDocument } from "../src/model/document.ts";
+import { everyNode, type SceneDocument } from "../src/model/document.ts";
+import { readDocument } from "../src/model/documentJson.ts";
 import type { Json, JsonObject } from "../src/model/json.ts";
-import type { Operation } from "../src/model/operations.ts";
+import type { Operation } from "../src/model/operation.ts";
 import { readSchema } from "../src/model/schema.ts";
 
 const float = (name: string, more: JsonObject = {}): JsonObject => ({
@@ -21,15 +22,17 @@ const vec3 = (name: string, more: JsonObject = {}): JsonObject => ({
     doc: name,
     ...more,
 });
+const CHILDREN: Record<string, string> = { primitive: "none", shape: "none", modifier: "one" };
 const node = (type: string, group: string, params: JsonObject[], words = ""): JsonObject => ({
     type,
     group,
     exactness: "exact",
     doc: `A ${type}.`,
     words,
-    children: "many",
+    children: CHILDREN[group] ?? "many",
     params,
 });
+const text = (name: string, type: string): JsonObject => ({ name, type, default: "", doc: name });
 const length = { unit: "length" };
 
 export const SCHEMA = readSchema({
@@ -42,7 +45,38 @@ export const SCHEMA = readSchema({
             node("difference", "operation", []),
             node("smooth_union", "operation", [float("k", { default: 0.1 })]),
             node("group", "structure", []),
+            node("circle", "shape", [float("radius", length)], "disc"),
+            node("polygon", "shape", [
+                {
+                    name: "points",
+                    type: "points",
+                    default: [
+                        [0, 0],
+                        [1, 0],
+                        [0, 1],
+                    ],
+                    min: 3,
+                    max: 5,
+                },
+            ]),
+            node("extrude", "modifier", [float("height")]),
+            node("revolve", "modifier", [float("offset")]),
+            node("model", "structure", [text("model", "model")], "instance copy"),
+            node("field", "structure", [
+                text("primitive", "function"),
+                text("code", "code"),
+                float("lipschitz"),
+            ]),
         ],
+        resources: {
+            primitive: [
+                { name: "params", type: "rows", default: [] },
+                text("code", "code"),
+                float("lipschitz"),
+            ],
+            shader: [{ name: "properties", type: "rows", default: [] }, text("code", "code")],
+            declared_types: ["float", "int", "bool", "vec2", "vec3", "vec4", "color"],
+        },
         node: [
             { name: "name", type: "text", default: "" },
             { name: "material", type: "material", default: "" },
@@ -96,6 +130,44 @@ export const SCENE: Json = {
     materials: {
         snow: { shader: "phong", properties: { diffuse: [0.9, 0.9, 0.95] } },
         coal: { shader: "flat", properties: { diffuse: [0, 0, 0], glow: 1 } },
+        stone: { shader: "marble", properties: { glow: 0.5 } },
+    },
+    primitives: {
+        rod: {
+            params: [
+                { name: "radius", type: "float", default: 0.5, range: [0, 10] },
+                { name: "tint", type: "color", default: [1, 1, 1] },
+            ],
+            code: "float sdf(vec3 p) { return length(p.xz) - radius; }",
+        },
+        slab: {
+            params: [
+                { name: "radius", type: "int" },
+                { name: "size", type: "vec2", range: [1, 4] },
+            ],
+            code: "",
+        },
+    },
+    shaders: {
+        marble: {
+            properties: [
+                { name: "_Color", type: "color", default: [1, 0, 0] },
+                { name: "glow", type: "float", range: [0, 1] },
+            ],
+            code: "vec3 shade(FragmentProperties properties) { return _Color; }",
+        },
+    },
+    models: {
+        pawn: {
+            id: "pawn-root",
+            type: "group",
+            children: [{ id: "foot", type: "sphere" }],
+        },
+        rook: {
+            id: "rook-root",
+            type: "group",
+            children: [{ id: "rook-pawn", type: "model", params: { model: "pawn" } }],
+        },
     },
     environment: { type: "sky" },
     render: { samples: 2 },
@@ -119,6 +191,7 @@ export const SCENE: Json = {
                 ],
             },
             { id: "hat", type: "box", name: "Hat", visible: false },
+            { id: "stick", type: "field", params: { primitive: "rod", radius: 0.7 } },
         ],
     },
 };
@@ -144,17 +217,34 @@ export function choose<T>(items: readonly T[], next: () => number): T {
 
 const MISSING = "gone";
 
+/* Declarations that agree and disagree about names, types and ranges. */
+const DECLARATIONS: readonly Json[] = [
+    [],
+    [{ name: "radius", type: "float" }],
+    [{ name: "radius", type: "float", range: [0, 1] }],
+    [
+        { name: "tint", type: "vec3" },
+        { name: "radius", type: "int" },
+        { name: "glow", type: "float" },
+    ],
+];
+
 /* One operation that may or may not fit the document. */
 export function randomOperation(
     document: SceneDocument,
     next: () => number,
     fresh: () => string,
 ): Operation {
-    const ids = [...preorder(document), MISSING];
+    const ids = [...everyNode(document), MISSING];
     const id = choose(ids, next);
     const x = Math.round(next() * 100) / 10;
     const materials = [...document.materials.map(({ name }) => name), MISSING];
     const material = choose(materials, next);
+    const primitives = [...document.primitives.map(({ name }) => name), MISSING];
+    const primitive = choose(primitives, next);
+    const models = [...document.models.map(({ name }) => name), MISSING];
+    const shaders = [...document.shaders.map(({ name }) => name), MISSING];
+    const rows = choose(DECLARATIONS, next);
     const lights = [...document.lights.map(({ name }) => name), MISSING];
     const light = choose(lights, next);
     const children = document.nodes.get(id)?.children ?? [];
@@ -168,7 +258,11 @@ export function randomOperation(
         () => set(`/nodes/${id}/name`, choose(["x", null], next)),
         () => set(`/nodes/${id}/visible`, choose([false, null], next)),
         () => set(`/nodes/${id}/material`, choose([material, null], next)),
-        () => set(`/nodes/${id}/type`, choose(["sphere", "torus", "box", "union", "?"], next)),
+        () =>
+            set(
+                `/nodes/${id}/type`,
+                choose(["sphere", "torus", "field", "union", "model", "?"], next),
+            ),
         () => set("/camera/fov", choose([x + 1, null], next)),
         () => set("/camera", choose([{ fov: 30 }, null], next)),
         () => set("/render/samples", 3),
@@ -176,7 +270,14 @@ export function randomOperation(
         () => set(`/lights/${light}/intensity`, x),
         () => set(`/lights/${light}/type`, choose(["point", "directional"], next)),
         () => set(`/materials/${material}/properties/diffuse`, [x, x, x]),
-        () => set(`/materials/${material}/shader`, choose(["phong", "flat"], next)),
+        () => set(`/materials/${material}/shader`, choose(["phong", "flat", "marble"], next)),
+        () => set(`/materials/${material}/properties/glow`, choose([0.5, null], next)),
+        () => set(`/nodes/${id}/params/primitive`, choose([...primitives, "", null], next)),
+        () => set(`/nodes/${id}/params/tint`, [x, x, x]),
+        () => set(`/nodes/${id}/params/model`, choose([...models, "", null], next)),
+        () => set(`/primitives/${primitive}/params`, rows),
+        () => set(`/primitives/${primitive}/code`, choose(["x", null], next)),
+        () => set(`/shaders/${choose(shaders, next)}/properties`, rows),
         () => ({
             op: "insert",
             into: `/nodes/${id}`,
@@ -200,6 +301,27 @@ export function randomOperation(
             before: choose([null, ...lights], next),
             value: { id: fresh(), type: "point" },
         }),
+        () => ({
+            op: "insert",
+            into: "/models",
+            before: choose([null, ...models], next),
+            name: fresh(),
+            value: {
+                id: fresh(),
+                type: "group",
+                children: [{ id: fresh(), type: "model", params: { model: choose(models, next) } }],
+            },
+        }),
+        () => ({
+            op: "insert",
+            into: "/primitives",
+            before: choose([null, ...primitives], next),
+            name: fresh(),
+            value: { params: rows, code: "" },
+        }),
+        () => ({ op: "remove", at: `/models/${choose(models, next)}` }),
+        () => ({ op: "remove", at: `/primitives/${primitive}` }),
+        () => ({ op: "remove", at: `/shaders/${choose(shaders, next)}` }),
         () => ({ op: "remove", at: `/nodes/${id}` }),
         () => ({ op: "remove", at: `/materials/${material}` }),
         () => ({ op: "remove", at: `/lights/${light}` }),

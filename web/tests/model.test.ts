@@ -2,10 +2,11 @@
 /* Schema, history, selection, notices, looking things up. */
 import { expect, test } from "vitest";
 import {
+    everyNode,
     freeId,
     freeName,
     materialOf,
-    nodeOfPlace,
+    modelOf,
     paramAt,
     preorder,
     topmost,
@@ -20,17 +21,16 @@ import {
     redoTitle,
     undoTitle,
 } from "../src/model/history.ts";
-import {
-    checkValue,
-    clampNumber,
-    type Param,
-    searchNodeTypes,
-    type Value,
-} from "../src/model/schema.ts";
+import { nodeOfPlace, resourceOfPlace } from "../src/model/places.ts";
+import type { Param, Value } from "../src/model/schema.ts";
+import { search } from "../src/model/search.ts";
 import { addNotice, createStores, dismissNotice } from "../src/model/stores.ts";
 import { text } from "../src/model/texts.ts";
+import { checkValue, clampNumber } from "../src/model/values.ts";
 import { select } from "../src/model/view.ts";
 import { SCHEMA, scene } from "./fixture.ts";
+
+const NOT_A_NAME = '"gl_a" is not a name for code: letters, digits and _, no digit first';
 
 const paramOf = (place: string): Param => {
     const found = paramAt(SCHEMA, scene(), place);
@@ -58,6 +58,15 @@ test.each<[string, Value, string | null]>([
     ["/render/samples", 1.5, "1.5 is not a whole number"],
     ["/nodes/body/visible", 1, "true or false is expected"],
     ["/camera/fov", 171, "171 is above the maximum 170"],
+    ["/nodes/stick/params/radius", 0.7, null],
+    ["/nodes/stick/params/radius", 11, "11 is above the maximum 10"],
+    ["/nodes/stick/params/tint", [1, 0, -1], "-1 is below the minimum 0"],
+    ["/nodes/stick/params/primitive", "slab", null],
+    ["/materials/stone/properties/glow", 2, "2 is above the maximum 1"],
+    ["/primitives/rod/params", [], null],
+    ["/primitives/rod/params", [{ name: "a", type: "float" }], null],
+    ["/primitives/rod/params", [{ name: "gl_a", type: "float" }], NOT_A_NAME],
+    ["/primitives/rod/code", 5, "text is expected"],
 ])("%s = %o", (place, value, problem) => {
     expect(checkValue(paramOf(place), value)).toBe(problem);
 });
@@ -72,10 +81,18 @@ test("scrubbing stops at what is allowed", () => {
 });
 
 test("a donut is found under torus", () => {
-    expect(searchNodeTypes(SCHEMA, "donut").map(({ type }) => type)).toEqual(["torus"]);
-    expect(searchNodeTypes(SCHEMA, "union")[0]?.type).toBe("union");
-    expect(searchNodeTypes(SCHEMA, "smooth union")[0]?.type).toBe("smooth_union");
-    expect(searchNodeTypes(SCHEMA, "")).toHaveLength(SCHEMA.nodes.length);
+    const found = (query: string) =>
+        search(SCHEMA.nodes, query, ({ type, words, group, doc }) => ({
+            name: type,
+            words,
+            kind: group,
+            doc,
+        })).map(({ type }) => type);
+    expect(found("donut")).toEqual(["torus"]);
+    expect(found("union")[0]).toBe("union");
+    expect(found("smooth union")[0]).toBe("smooth_union");
+    expect(found("")).toHaveLength(SCHEMA.nodes.length);
+    expect(found("donut xyzzy")).toEqual([]);
 });
 
 test("materials come from the nearest node that names one", () => {
@@ -85,7 +102,11 @@ test("materials come from the nearest node that names one", () => {
 
 test("walks, free names, the node of a place", () => {
     const document = scene();
-    expect(preorder(document)).toEqual(["root", "neck", "body", "head", "hat"]);
+    expect(preorder(document)).toEqual(["root", "neck", "body", "head", "hat", "stick"]);
+    expect(everyNode(document).slice(-4)).toEqual(["pawn-root", "foot", "rook-root", "rook-pawn"]);
+    expect(modelOf(document, "foot")?.name).toBe("pawn");
+    expect(modelOf(document, "head")).toBeNull();
+    expect(topmost(document, ["foot", "head", "pawn-root"])).toEqual(["head", "pawn-root"]);
     expect(topmost(document, ["head", "hat", "neck"])).toEqual(["neck", "hat"]);
     expect(freeId(document, "body")).toBe("body-1");
     expect(freeId(document, "body-1", new Set(["body-1"]))).toBe("body-2");
@@ -93,6 +114,8 @@ test("walks, free names, the node of a place", () => {
     expect(nodeOfPlace("/nodes/body/params/radius")).toBe("body");
     expect(nodeOfPlace("/3/nodes/body")).toBe("body");
     expect(nodeOfPlace("/camera/fov")).toBeNull();
+    expect(resourceOfPlace("/primitives/rod/code")).toEqual({ list: "primitives", name: "rod" });
+    expect(resourceOfPlace("/nodes/body")).toBeNull();
 });
 
 test("one group is one step, and the server's counts win", () => {

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 import { expect, test } from "vitest";
-import { printDocument, readDocument, type SceneDocument } from "../src/model/document.ts";
+import type { SceneDocument } from "../src/model/document.ts";
+import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { equalJson } from "../src/model/json.ts";
-import { type Applied, apply, join, type Operation } from "../src/model/operations.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { type Applied, apply, join } from "../src/model/operations.ts";
+import { LIST_NAMES } from "../src/model/places.ts";
 import { random, randomOperation, SCENE, SCHEMA, scene } from "./fixture.ts";
 
 function applied(document: SceneDocument, ops: readonly Operation[]) {
@@ -15,9 +18,10 @@ function applied(document: SceneDocument, ops: readonly Operation[]) {
 
 const problem = (result: Applied) => (result.ok ? null : result.problem);
 
-/* Order of materials is part of a document, which equality of JSON objects does not see. */
+/* Order of resources is part of a document, which equality of JSON objects does not see. */
 function same(a: SceneDocument, b: SceneDocument): boolean {
-    const names = (d: SceneDocument) => d.materials.map(({ name }) => name).join();
+    const names = (d: SceneDocument) =>
+        LIST_NAMES.map((list) => d[list].map(({ name }) => name).join()).join("; ");
     return equalJson(printDocument(a), printDocument(b)) && names(a) === names(b);
 }
 
@@ -141,7 +145,7 @@ test("move orders siblings and keeps the subtree", () => {
         { op: "move", at: "/nodes/neck", into: "/nodes/root", before: null },
     ]);
     expect(document.nodes.get("neck")?.children).toEqual(["head", "body"]);
-    expect(document.nodes.get("root")?.children).toEqual(["hat", "neck"]);
+    expect(document.nodes.get("root")?.children).toEqual(["hat", "stick", "neck"]);
 });
 
 test("joined edits do what both did, with one set per place", () => {
@@ -151,9 +155,9 @@ test("joined edits do what both did, with one set per place", () => {
         value,
     });
     const hide: Operation = { op: "set", at: "/nodes/hat/visible", value: false };
-    expect(join([set(1), hide], [set(2)])).toEqual([set(2), hide]);
+    expect(join(SCHEMA, [set(1), hide], [set(2)])).toEqual([set(2), hide]);
     const type: Operation = { op: "set", at: "/nodes/body/type", value: "box" };
-    expect(join([set(1), type], [set(2)])).toHaveLength(3);
+    expect(join(SCHEMA, [set(1), type], [set(2)])).toHaveLength(3);
     for (let seed = 0; seed < 200; seed++) {
         const next = random(seed);
         const fresh = () => `n${seed}`;
@@ -162,7 +166,7 @@ test("joined edits do what both did, with one set per place", () => {
         const one = apply(scene(), [first], SCHEMA);
         const two = one.ok ? apply(one.document, [second], SCHEMA) : one;
         if (two.ok) {
-            const both = applied(scene(), join([first], [second]));
+            const both = applied(scene(), join(SCHEMA, [first], [second]));
             expect(same(both.document, two.document)).toBe(true);
         }
     }

@@ -14,9 +14,11 @@ import {
     readMessage,
     readPacket,
 } from "../src/link/protocol.ts";
-import { parsePlace, printDocument, readDocument } from "../src/model/document.ts";
+import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { equalJson, isObject, type Json } from "../src/model/json.ts";
-import { apply, type Operation } from "../src/model/operations.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { apply } from "../src/model/operations.ts";
+import { parsePlace } from "../src/model/places.ts";
 import { readSchema } from "../src/model/schema.ts";
 import { random } from "./fixture.ts";
 

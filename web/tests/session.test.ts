@@ -2,9 +2,11 @@
 /* Three clients and a model of the server with random delays, refusals, lost connections and
  * restarts: all end with the server's document, and nothing acknowledged is lost. */
 import { expect, test } from "vitest";
-import { printDocument, readDocument, type SceneDocument } from "../src/model/document.ts";
+import type { SceneDocument } from "../src/model/document.ts";
+import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { equalJson, type Json } from "../src/model/json.ts";
-import { apply, type Operation } from "../src/model/operations.ts";
+import type { Operation } from "../src/model/operation.ts";
+import { apply } from "../src/model/operations.ts";
 import {
     askHistory,
     cancelGroup,

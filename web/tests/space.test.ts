@@ -16,7 +16,7 @@ import {
     unitsPerPixel,
     viewFrom,
 } from "../src/model/camera.ts";
-import { readDocument } from "../src/model/document.ts";
+import { readDocument } from "../src/model/documentJson.ts";
 import {
     add,
     anglesOf,

@@ -2,7 +2,7 @@
 /* The page's side of a live scene: connects, edits, picks, shows. Keeps the stores up to date.
  * Socket, decoding and presentation run in a worker where the browser allows it. */
 import { cameraOf, equalCamera, printCamera } from "../model/camera.ts";
-import { nodeOfPlace, paramAt } from "../model/document.ts";
+import { paramAt } from "../model/document.ts";
 import {
     EMPTY_HISTORY,
     fitHistory,
@@ -11,8 +11,17 @@ import {
     recordStep,
     recordUndo,
 } from "../model/history.ts";
-import type { Operation, Problem } from "../model/operations.ts";
-import { checkValue, type Schema, type Value, type Values } from "../model/schema.ts";
+import type { Operation, Problem } from "../model/operation.ts";
+import {
+    addProblem,
+    COMPILE,
+    COMPILED,
+    dropGone,
+    dropShown,
+    endProblem,
+    settleProblems,
+} from "../model/problems.ts";
+import type { Schema, Value, Values } from "../model/schema.ts";
 import * as sessions from "../model/session.ts";
 import {
     addNotice,
@@ -22,6 +31,7 @@ import {
     type Stores,
 } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
+import { checkValue } from "../model/values.ts";
 import type { Report, ViewState } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
 import { mountPicture, type PictureSize } from "./picture.ts";
@@ -180,6 +190,9 @@ class SceneLink implements Link {
                 break;
             case "frame":
                 this.#stores.link.setState({ frame: report.frame });
+                this.#stores.document.setState(({ problems, schema, document }) => ({
+                    problems: dropShown(problems, report.frame, schema, document),
+                }));
                 break;
             case "statistics":
                 this.#stores.link.setState({ statistics: report.statistics });
@@ -285,19 +298,15 @@ class SceneLink implements Link {
     }
 
     #done({ kind, ops }: sessions.PendingEdit): void {
-        this.#stores.document.setState(({ history, problems }) => {
-            const touched = new Set(ops.map((op) => nodeOfPlace("at" in op ? op.at : op.into)));
-            const left = [...problems].filter(([id]) => !touched.has(id));
-            return {
-                problems: left.length < problems.size ? new Map(left) : problems,
-                history:
-                    kind === "undo"
-                        ? recordUndo(history)
-                        : kind === "redo"
-                          ? recordRedo(history)
-                          : history,
-            };
-        });
+        this.#stores.document.setState(({ history, problems }) => ({
+            problems: settleProblems(problems, ops),
+            history:
+                kind === "undo"
+                    ? recordUndo(history)
+                    : kind === "redo"
+                      ? recordRedo(history)
+                      : history,
+        }));
     }
 
     #rejected(pending: sessions.PendingEdit | null, problem: Problem): void {
@@ -308,19 +317,28 @@ class SceneLink implements Link {
     }
 
     #problemAt(problem: Problem): void {
-        const node = nodeOfPlace(problem.place);
-        if (node !== null) {
-            this.#stores.document.setState(({ problems }) => ({
-                problems: new Map(problems).set(node, problem),
+        if (problem.place !== "") {
+            this.#stores.document.setState((now) => ({
+                problems: addProblem(now.problems, problem, now),
             }));
         }
     }
 
-    #serverNotice({ level, code, message, place = "" }: NoticeMessage): void {
-        if (level === "error") {
-            this.#problemAt({ code, place, message });
+    /* Broken code is marked where it stands, again and again while somebody types. */
+    #serverNotice({ type: _type, ...notice }: NoticeMessage): void {
+        const { level, code, message, place = "" } = notice;
+        if (code === COMPILED) {
+            this.#stores.document.setState(({ problems }) => ({
+                problems: endProblem(problems, place),
+            }));
+            return;
         }
-        this.#notice(level, code, message, place);
+        if (level === "error") {
+            this.#problemAt({ ...notice, place });
+        }
+        if (code !== COMPILE || place === "") {
+            this.#notice(level, code, message, place);
+        }
     }
 
     #notice(level: "info" | "warning" | "error", code: string, message: string, place = ""): void {
@@ -448,6 +466,7 @@ class SceneLink implements Link {
             saved: sessions.isSaved(session),
             canUndo: editing || session.undo > 0,
             canRedo: !editing && session.redo > 0,
+            problems: dropGone(before.problems, session.schema, session.shown),
             history: settled
                 ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)
                 : before.history,

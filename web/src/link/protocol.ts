@@ -71,6 +71,9 @@ export interface NoticeMessage {
     readonly code: string;
     readonly message: string;
     readonly place?: string;
+    /* In the text at `place`, from 1. */
+    readonly line?: number;
+    readonly column?: number;
 }
 
 export interface ByeMessage {

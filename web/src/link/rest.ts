@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The REST side of the server: scenes, examples, pictures, schema, files. */
 import { isObject, type Json, listOf, numberOf, textOf } from "../model/json.ts";
-import type { Operation } from "../model/operations.ts";
+import type { Operation } from "../model/operation.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
 
 export interface SceneEntry {
@@ -25,12 +25,24 @@ export class RestError extends Error {
     readonly status: number;
     readonly code: string;
     readonly place: string;
-    constructor(status: number, code: string, place: string, message: string) {
+    /* In the text at `place`, from 1; null: not in a text. */
+    readonly line: number | null;
+    readonly column: number | null;
+    constructor(
+        status: number,
+        code: string,
+        place: string,
+        message: string,
+        line: number | null = null,
+        column: number | null = null,
+    ) {
         super(message);
         this.name = "RestError";
         this.status = status;
         this.code = code;
         this.place = place;
+        this.line = line;
+        this.column = column;
     }
 }
 
@@ -38,6 +50,10 @@ export interface Rest {
     listScenes(): Promise<readonly SceneEntry[]>;
     /* Each answers the new scene's id. */
     createScene(document: Json): Promise<string>;
+    /* Of a text that the server reads itself, so that it can say where it is wrong. */
+    createFromText(text: string): Promise<string>;
+    /* Of files in the other format, their texts by path. */
+    importScene(files: Readonly<Record<string, string>>, name: string): Promise<string>;
     createFromExample(example: string): Promise<string>;
     createFromScene(scene: string): Promise<string>;
     deleteScene(id: string): Promise<void>;
@@ -50,6 +66,8 @@ export interface Rest {
     /* Addresses for <img> and links. */
     imageUrl(id: string, width: number, height: number, format?: "jpg" | "png"): string;
     exampleImageUrl(id: string): string;
+    /* A picture of a node type; there may be none. */
+    referenceImageUrl(type: string): string;
     /* The picture as an object URL, with the token where there is one; the caller revokes it. */
     fetchImage(url: string): Promise<string>;
     readonly token: string | null;
@@ -69,6 +87,8 @@ async function problemOf(response: Response): Promise<RestError> {
         textOf(problem.code, "unknown"),
         textOf(problem.place),
         textOf(problem.detail, title),
+        typeof problem.line === "number" ? problem.line : null,
+        typeof problem.column === "number" ? problem.column : null,
     );
 }
 
@@ -96,11 +116,9 @@ export function createRest(base: string, token: string | null): Rest {
         return response;
     };
     const get = async (path: string): Promise<Json> => (await (await request(path)).json()) as Json;
-    const create = async (body: Json): Promise<string> => {
-        const response = await request("/v1/scenes", {
-            method: "POST",
-            body: JSON.stringify(body),
-        });
+    const create = async (body: Json | string, path = "/v1/scenes"): Promise<string> => {
+        const text = typeof body === "string" ? body : JSON.stringify(body);
+        const response = await request(path, { method: "POST", body: text });
         const location = response.headers.get("Location") ?? "";
         return decodeURIComponent(location.split("/").at(-1) ?? "");
     };
@@ -120,7 +138,10 @@ export function createRest(base: string, token: string | null): Rest {
                     typeof scene.modified === "number" ? scene.modified : textOf(scene.modified),
                 viewers: numberOf(scene.viewers),
             })),
-        createScene: create,
+        createScene: (document) => create(document),
+        createFromText: (text) => create(text),
+        importScene: (files, name) =>
+            create({ ...(name === "" ? {} : { name }), files }, "/v1/import"),
         createFromExample: (example) => create({ from: `example:${example}` }),
         createFromScene: (scene) => create({ from: `scene:${scene}` }),
         deleteScene: async (id) => {
@@ -149,6 +170,7 @@ export function createRest(base: string, token: string | null): Rest {
         imageUrl: (id, width, height, format = "jpg") =>
             `${base}/v1/scenes/${segment(id)}/image.${format}?width=${width}&height=${height}`,
         exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
+        referenceImageUrl: (type) => `${base}/v1/reference/${segment(type)}.jpg`,
         fetchImage: async (url) => {
             const path = url.startsWith(base) ? url.slice(base.length) : url;
             return URL.createObjectURL(await (await request(path)).blob());
@@ -177,9 +199,4 @@ export function download(name: string, json: Json): void {
     anchor.download = `${name.replace(/[^\w.-]+/g, "-") || "scene"}.json`;
     anchor.click();
     setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
-}
-
-/* Reads a file as JSON; throws SyntaxError where it is none. */
-export async function upload(file: Blob): Promise<Json> {
-    return JSON.parse(await file.text()) as Json;
 }

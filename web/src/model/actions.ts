@@ -12,9 +12,12 @@ import {
     type ViewName,
     viewFrom,
 } from "./camera.ts";
-import { preorder, type SceneDocument } from "./document.ts";
-import { clip, type Edit, movable, othersOf, paste, reorder, setVisible } from "./edits.ts";
-import type { Operation } from "./operations.ts";
+import { clip, paste } from "./clipboard.ts";
+import { everyNode, type SceneDocument } from "./document.ts";
+import { type Edit, movable, othersOf, reorder, setVisible } from "./edits.ts";
+import { modelNamed } from "./models.ts";
+import type { Operation } from "./operation.ts";
+import type { Schema } from "./schema.ts";
 import { addNotice, type Stores } from "./stores.ts";
 import { text } from "./texts.ts";
 
@@ -82,6 +85,13 @@ export function canReorder(direction: -1 | 1): Reason {
     };
 }
 
+export const needsInstance: Reason = (app) => {
+    const { document, schema } = app.stores.document.getState();
+    const node = document?.nodes.get(selectionOf(app)[0] ?? "");
+    const instance = document !== null && modelNamed(schema, document, node) !== null;
+    return needsOne(app) ?? (instance ? null : text("why.noInstance"));
+};
+
 export const canDissolve: Reason = (app) => {
     const document = documentOf(app);
     const node = document?.nodes.get(selectionOf(app)[0] ?? "");
@@ -90,7 +100,7 @@ export const canDissolve: Reason = (app) => {
 };
 
 export function hiddenNodes(document: SceneDocument): string[] {
-    return preorder(document).filter((id) => document.nodes.get(id)?.common.visible === false);
+    return everyNode(document).filter((id) => document.nodes.get(id)?.common.visible === false);
 }
 
 /* --- what commands do --- */
@@ -105,11 +115,11 @@ export function perform(app: App, edit: Edit): boolean {
 }
 
 export function onDocument(
-    build: (document: SceneDocument, ids: readonly string[]) => Edit | null,
+    build: (document: SceneDocument, ids: readonly string[], schema: Schema) => Edit | null,
 ) {
     return (app: App): void => {
-        const document = documentOf(app);
-        const edit = document && build(document, selectionOf(app));
+        const { document, schema } = app.stores.document.getState();
+        const edit = document && build(document, selectionOf(app), schema);
         if (edit) {
             perform(app, edit);
         }
@@ -130,9 +140,9 @@ export function frameNodes(app: App, ids?: readonly string[]): void {
 }
 
 export function copyNodes(app: App): void {
-    const document = documentOf(app);
+    const { document, schema } = app.stores.document.getState();
     if (document) {
-        app.writeClipboard(clip(document, selectionOf(app)));
+        app.writeClipboard(clip(schema, document, selectionOf(app)));
     }
 }
 
@@ -168,6 +178,16 @@ export function hideOthers(app: App): void {
     const others = document ? othersOf(document, selectionOf(app)) : [];
     if (document && others.length > 0) {
         app.edit(setVisible(document, others, false).ops, { label: "hide others" });
+    }
+}
+
+/* From an instance to the tree that it shows. */
+export function editModel(app: App): void {
+    const { document, schema } = app.stores.document.getState();
+    const node = document?.nodes.get(selectionOf(app)[0] ?? "");
+    const model = document && modelNamed(schema, document, node);
+    if (model) {
+        app.stores.view.setState({ selection: [model.root], subject: { kind: "nodes" } });
     }
 }
 

@@ -3,7 +3,7 @@
  * its length parameters, so it needs no knowledge of any node type. */
 import type { Ball } from "./camera.ts";
 import { isVisible, type SceneDocument, type SceneNode } from "./document.ts";
-import { nodeType, numbersOf, type Schema, valueIn } from "./schema.ts";
+import { nodeType, type Schema, valueIn } from "./schema.ts";
 import {
     add,
     length,
@@ -14,6 +14,7 @@ import {
     type Vector,
     vectorOf,
 } from "./transform.ts";
+import { numbersOf } from "./values.ts";
 
 /* A node without lengths and children still fills some of the view. */
 const UNKNOWN_RADIUS = 1;

@@ -2,7 +2,7 @@
 /* Camera moves as pure functions of the camera before: orbit, pan, dolly, frame, fixed views.
  * Right-handed, +Y up unless the camera's `up` says else; `fov` is vertical, in degrees. */
 import type { JsonObject } from "./json.ts";
-import { numbersOf, type Values } from "./schema.ts";
+import type { Values } from "./schema.ts";
 import {
     add,
     cross,
@@ -14,6 +14,7 @@ import {
     type Vector,
     vectorOf,
 } from "./transform.ts";
+import { numbersOf } from "./values.ts";
 
 export interface Camera {
     readonly position: Vector;

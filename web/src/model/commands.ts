@@ -8,11 +8,13 @@ import {
     copyNodes,
     documentOf,
     dollyBy,
+    editModel,
     frameNodes,
     hiddenNodes,
     hideNodes,
     hideOthers,
     lookFrom,
+    needsInstance,
     needsMovable,
     needsOne,
     needsScene,
@@ -29,12 +31,10 @@ import {
     showAll,
 } from "./actions.ts";
 import { dissolve, duplicate, removeNodes, reorder, wrap } from "./edits.ts";
-import { isSingleKey, type KeyPress, nameOfPress } from "./keys.ts";
-import { setPreferences } from "./stores.ts";
+import { makeModel, unpackModel } from "./models.ts";
+import { type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
 import { AOVS, peel, type Theme, type View } from "./view.ts";
-
-export { type App, moveCamera, perform } from "./actions.ts";
 
 /* Where a key works: `anywhere` outside of text fields, or only with the focus in that region. */
 export type Context = "anywhere" | "view" | "tree";
@@ -75,6 +75,12 @@ const show =
     (app: App): void =>
         app.stores.view.setState(part);
 
+/* What help is asked about: the type of the selected node. */
+function topicOf({ document, view }: Stores): string | null {
+    const active = view.getState().selection.at(-1) ?? "";
+    return document.getState().document?.nodes.get(active)?.type ?? null;
+}
+
 export const COMMANDS: readonly Command[] = [
     row({
         id: "palette.open",
@@ -88,7 +94,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.add",
-        title: "Add a shape",
+        title: "Add …",
         group: "edit",
         keys: ["Shift+A"],
         run: show({ popup: "add" }),
@@ -192,6 +198,36 @@ export const COMMANDS: readonly Command[] = [
             run: onDocument((document, ids) => wrap(document, ids, type)),
         }),
     ),
+    row({
+        id: "node.wrap",
+        title: "Wrap in …",
+        group: "edit",
+        keys: ["W"],
+        whyNot: needsMovable(1),
+        run: show({ popup: "wrap" }),
+    }),
+    row({
+        id: "model.make",
+        title: "Make a model of it",
+        group: "edit",
+        keys: ["Ctrl+Alt+K"],
+        whyNot: needsMovable(1),
+        run: onDocument((document, ids, schema) => makeModel(document, schema, ids)),
+    }),
+    row({
+        id: "model.edit",
+        title: "Edit its model",
+        group: "edit",
+        whyNot: needsInstance,
+        run: editModel,
+    }),
+    row({
+        id: "model.unpack",
+        title: "Unpack the instance",
+        group: "edit",
+        whyNot: needsInstance,
+        run: onDocument((document, ids, schema) => unpackModel(document, schema, ids[0] ?? "")),
+    }),
     row({
         id: "node.up",
         title: "Move up among its siblings",
@@ -420,6 +456,14 @@ export const COMMANDS: readonly Command[] = [
         run: (app) => app.upload(),
     }),
     row({
+        id: "help.reference",
+        title: "Reference of all types",
+        group: "help",
+        keys: ["F1"],
+        whyNot: never,
+        run: ({ stores }) => stores.view.setState({ popup: "reference", topic: topicOf(stores) }),
+    }),
+    row({
         id: "help.keys",
         title: "Keys and gestures",
         group: "help",
@@ -428,54 +472,3 @@ export const COMMANDS: readonly Command[] = [
         run: show({ popup: "help" }),
     }),
 ];
-
-/* --- looking commands up --- */
-
-const BY_ID = new Map(COMMANDS.map((command) => [command.id, command]));
-
-export function commandById(id: string): Command | null {
-    return BY_ID.get(id) ?? null;
-}
-
-/* Do two contexts overlap: could one key press mean both? */
-export function overlap(a: Context, b: Context): boolean {
-    return a === b || a === "anywhere" || b === "anywhere";
-}
-
-/* The command for a key press with the focus in `where`; null: none. `typing`: the focus is in
- * something that takes text. `singleKeys` false: keys without Ctrl or Alt do nothing. */
-export function commandForKey(
-    press: KeyPress,
-    where: Context,
-    typing: boolean,
-    singleKeys: boolean,
-): Command | null {
-    const name = nameOfPress(press);
-    const command = COMMANDS.find(
-        ({ keys, when }) => keys.includes(name) && (when === "anywhere" || when === where),
-    );
-    if (!command || (typing && !command.inFields)) {
-        return null;
-    }
-    return isSingleKey(name) && !singleKeys ? null : command;
-}
-
-/* Runs a command unless something speaks against it; answers the reason or null. */
-export function runCommand(app: App, command: Command): string | null {
-    const reason = command.whyNot(app);
-    if (reason === null) {
-        command.run(app);
-    }
-    return reason;
-}
-
-/* Commands for the palette, best match first: every word of the query must occur. */
-export function searchCommands(query: string): Command[] {
-    const words = query.toLowerCase().split(/\s+/).filter(Boolean);
-    const rank = ({ title }: Command): number =>
-        words[0] !== undefined && title.toLowerCase().startsWith(words[0]) ? 0 : 1;
-    return COMMANDS.filter(({ keyOnly, title, group, id }) => {
-        const hay = `${title} ${group} ${id}`.toLowerCase();
-        return !keyOnly && words.every((word) => hay.includes(word));
-    }).sort((a, b) => rank(a) - rank(b));
-}

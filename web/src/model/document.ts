@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A scene as the editor holds it: flat maps of nodes and resources, immutable, shared between
- * versions. Reading and printing of the document, walks, places and ids. */
-import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
-import type { Param, Schema, Value, Values } from "./schema.ts";
+ * versions. Walks, names, and which row describes a value. Its JSON is documentJson.ts. */
+import { declaredParams } from "./declared.ts";
+import { LISTS, type ListName, parsePlace } from "./places.ts";
+import type { Param, Schema, Values } from "./schema.ts";
 import { findParam, lightType, nodeType, shaderType } from "./schema.ts";
 
 export interface SceneNode {
@@ -11,120 +12,126 @@ export interface SceneNode {
     readonly common: Values /* name, material, visible */;
     readonly transform: Values;
     readonly params: Values;
+    /* Null for the root, and for the root of a model. */
     readonly parent: string | null;
     readonly children: readonly string[];
 }
 
-/* A light or a material. `type` is a light's type, a material's shader. */
+/* Something with a name of its own beside the tree. */
 export interface Resource {
     readonly name: string;
+    /* A light's type, a material's shader; "" for others. */
     readonly type: string;
     readonly values: Values;
+    /* A model's root node; "" for others. */
+    readonly root: string;
 }
 
-export interface SceneDocument {
+export type ResourceLists = { readonly [list in ListName]: readonly Resource[] };
+
+export interface SceneDocument extends ResourceLists {
     readonly info: Values /* name */;
     readonly camera: Values;
     readonly environment: Values;
     readonly render: Values;
-    readonly lights: readonly Resource[];
-    readonly materials: readonly Resource[];
+    /* Of the tree and of all models. */
     readonly nodes: ReadonlyMap<string, SceneNode>;
     readonly root: string;
 }
 
-export type ListName = "lights" | "materials";
-export type RecordName = "camera" | "environment" | "render";
+/* --- rows --- */
 
-/* --- places --- */
-
-/* What a path in an edit names. `name` null: the whole record. */
-export type Place =
-    | { kind: "info"; name: string }
-    | { kind: "record"; record: RecordName; name: string | null }
-    | { kind: "node"; id: string }
-    | { kind: "node-type"; id: string }
-    | { kind: "node-value"; id: string; group: "common" | "params"; name: string }
-    | { kind: "transform"; id: string; name: string | null }
-    | { kind: "resource"; list: ListName; resource: string }
-    | { kind: "resource-type"; list: ListName; resource: string }
-    | { kind: "resource-value"; list: ListName; resource: string; name: string }
-    | { kind: "list"; list: ListName };
-
-export const ID_PATTERN = /^[A-Za-z0-9_.-]{1,64}$/;
-
-function parseNodePlace(id: string, rest: readonly string[]): Place | null {
-    const [group, name] = rest;
-    if (group === undefined) {
-        return { kind: "node", id };
-    }
-    if (group === "transform" && rest.length <= 2) {
-        return { kind: "transform", id, name: name ?? null };
-    }
-    if (group === "params" && rest.length === 2 && name) {
-        return { kind: "node-value", id, group: "params", name };
-    }
-    if (rest.length !== 1) {
-        return null;
-    }
-    return group === "type"
-        ? { kind: "node-type", id }
-        : { kind: "node-value", id, group: "common", name: group };
+/* What a distance function or a shader of the document declares. */
+export function declaredBy(
+    schema: Schema,
+    list: "primitives" | "shaders",
+    resource: Resource | null,
+): readonly Param[] {
+    const rows = schema[list === "primitives" ? "primitive" : "shader"];
+    const declaring = rows.find((param) => param.type === "rows");
+    return declaredParams(declaring && resource?.values[declaring.name]);
 }
 
-function parseResourcePlace(list: ListName, rest: readonly string[]): Place | null {
-    const [resource, group, name] = rest;
-    if (resource === undefined) {
-        return { kind: "list", list };
+const joined = new WeakMap<readonly Param[], WeakMap<readonly Param[], readonly Param[]>>();
+
+/* Both lists in one; the same one for the same two. */
+function join(first: readonly Param[], second: readonly Param[]): readonly Param[] {
+    if (second.length === 0) {
+        return first;
     }
-    if (group === undefined) {
-        return { kind: "resource", list, resource };
+    let known = joined.get(first);
+    if (known === undefined) {
+        known = new WeakMap();
+        joined.set(first, known);
     }
-    if (list === "lights" && rest.length === 2) {
-        return group === "type"
-            ? { kind: "resource-type", list, resource }
-            : { kind: "resource-value", list, resource, name: group };
+    let both = known.get(second);
+    if (both === undefined) {
+        both = [...first, ...second];
+        known.set(second, both);
     }
-    if (list === "materials" && group === "shader" && rest.length === 2) {
-        return { kind: "resource-type", list, resource };
-    }
-    if (list === "materials" && group === "properties" && rest.length === 3 && name) {
-        return { kind: "resource-value", list, resource, name };
-    }
-    return null;
+    return both;
 }
 
-/* The parts of a path such as /nodes/body/params/radius; null where no edit could name it. */
-export function parsePlace(path: string): Place | null {
-    if (!path.startsWith("/")) {
-        return null;
-    }
-    const [first, ...rest] = path.slice(1).split("/");
-    if (rest.some((part) => part === "")) {
-        return null;
-    }
-    switch (first) {
-        case "name":
-            return rest.length === 0 ? { kind: "info", name: "name" } : null;
-        case "camera":
-        case "environment":
-        case "render":
-            return rest.length <= 1
-                ? { kind: "record", record: first, name: rest[0] ?? null }
-                : null;
-        case "nodes":
-            return rest[0] === undefined ? null : parseNodePlace(rest[0], rest.slice(1));
+/* The distance function that a node names, or null. */
+export function functionOf(
+    schema: Schema,
+    document: SceneDocument,
+    node: Pick<SceneNode, "type" | "params">,
+): Resource | null {
+    const row = nodeType(schema, node.type)?.params.find((param) => param.type === "function");
+    const name = row && node.params[row.name];
+    return typeof name === "string" ? findResource(document, "primitives", name) : null;
+}
+
+/* The rows of a node's parameters: its type's, then those of the distance function it names. */
+export function nodeParams(
+    schema: Schema,
+    document: SceneDocument,
+    node: Pick<SceneNode, "type" | "params">,
+): readonly Param[] {
+    const own = nodeType(schema, node.type)?.params ?? [];
+    return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
+}
+
+/* The rows of a resource's values. */
+export function resourceParams(
+    schema: Schema,
+    document: SceneDocument,
+    list: ListName,
+    type: string,
+): readonly Param[] {
+    switch (list) {
         case "lights":
+            return lightType(schema, type)?.params ?? [];
         case "materials":
-            return parseResourcePlace(first, rest);
-        default:
-            return null;
+            return (
+                shaderType(schema, type)?.params ??
+                declaredBy(schema, "shaders", findResource(document, "shaders", type))
+            );
+        case "primitives":
+            return schema.primitive;
+        case "shaders":
+            return schema.shader;
+        case "models":
+            return [];
     }
 }
 
-/* The node that a path lies in, or null: where an error is shown. */
-export function nodeOfPlace(path: string): string | null {
-    return /\/nodes\/([A-Za-z0-9_.-]{1,64})(\/|$)/.exec(path)?.[1] ?? null;
+/* Is there such a type of light, such a shader? Others have none. */
+export function knowsType(
+    schema: Schema,
+    document: SceneDocument,
+    list: ListName,
+    type: string,
+): boolean {
+    if (list === "lights") {
+        return lightType(schema, type) !== null;
+    }
+    return (
+        list !== "materials" ||
+        shaderType(schema, type) !== null ||
+        findResource(document, "shaders", type) !== null
+    );
 }
 
 /* The row that describes a place, and the values it stands in. */
@@ -137,8 +144,8 @@ export function paramAt(
     if (place === null || !("name" in place) || place.name === null) {
         return null;
     }
-    const found = (params: readonly Param[] | undefined, values: Values | undefined) => {
-        const param = findParam(params ?? [], place.name ?? "");
+    const found = (params: readonly Param[], values: Values | undefined) => {
+        const param = findParam(params, place.name ?? "");
         return param && values ? { param, values } : null;
     };
     switch (place.kind) {
@@ -150,24 +157,19 @@ export function paramAt(
             return found(schema.transform, document.nodes.get(place.id)?.transform);
         case "node-value": {
             const node = document.nodes.get(place.id);
-            return place.group === "common"
-                ? found(schema.node, node?.common)
-                : found(nodeType(schema, node?.type ?? "")?.params, node?.params);
+            if (node === undefined || place.group === "common") {
+                return found(schema.node, node?.common);
+            }
+            return found(nodeParams(schema, document, node), node.params);
         }
         case "resource-value": {
             const resource = findResource(document, place.list, place.resource);
-            return found(
-                resourceType(schema, place.list, resource?.type ?? "")?.params,
-                resource?.values,
-            );
+            const type = resource?.type ?? "";
+            return found(resourceParams(schema, document, place.list, type), resource?.values);
         }
         default:
             return null;
     }
-}
-
-export function resourceType(schema: Schema, list: ListName, type: string) {
-    return list === "lights" ? lightType(schema, type) : shaderType(schema, type);
 }
 
 /* --- looking things up --- */
@@ -202,12 +204,6 @@ export function materialOf(
         }
     }
     return null;
-}
-
-export function materialUsers(document: SceneDocument, name: string): string[] {
-    return [...document.nodes.values()]
-        .filter((node) => node.common.material === name)
-        .map((node) => node.id);
 }
 
 export function parentOf(document: SceneDocument, node: SceneNode): SceneNode | undefined {
@@ -253,13 +249,28 @@ export function preorder(document: SceneDocument, id: string = document.root): s
     return order;
 }
 
+/* The root of the scene, then those of the models. */
+export function rootsOf(document: SceneDocument): string[] {
+    return [document.root, ...document.models.map((model) => model.root)];
+}
+
+/* Pre-order ids of the scene and of all models. */
+export function everyNode(document: SceneDocument): string[] {
+    return rootsOf(document).flatMap((root) => preorder(document, root));
+}
+
+/* The model in whose tree a node is; null: it is in the scene's own. */
+export function modelOf(document: SceneDocument, id: string): Resource | null {
+    const top = pathTo(document, id)[0]?.id;
+    return document.models.find((model) => model.root === top) ?? null;
+}
+
 /* Those ids that have no ancestor among them, in document order. */
 export function topmost(document: SceneDocument, ids: Iterable<string>): string[] {
     const chosen = new Set(ids);
-    return preorder(document).filter((id) => {
-        const path = pathTo(document, id);
-        return chosen.has(id) && !path.slice(0, -1).some((node) => chosen.has(node.id));
-    });
+    const above = (id: string): boolean =>
+        pathTo(document, id).some((node) => node.id !== id && chosen.has(node.id));
+    return everyNode(document).filter((id) => chosen.has(id) && !above(id));
 }
 
 /* The first free id `stem-1`, `stem-2`, …; `taken` names further ids that are in use. */
@@ -277,137 +288,13 @@ export function freeId(
     }
 }
 
+/* The first free name of a list; what no name can hold becomes "-". */
 export function freeName(document: SceneDocument, list: ListName, stem: string): string {
-    const base = stem.replace(/-\d+$/, "").slice(0, 56) || "item";
+    const plain = stem.replace(/[^A-Za-z0-9_.-]+/g, "-").replace(/^-+|-+$|-\d+$/g, "");
+    const base = plain.slice(0, 56) || LISTS[list].one;
     for (let n = 1; ; n++) {
         if (findResource(document, list, `${base}-${n}`) === null) {
             return `${base}-${n}`;
         }
     }
-}
-
-/* --- reading and printing --- */
-
-function readValues(json: Json | undefined): Values {
-    const values: Record<string, Value> = {};
-    for (const [name, value] of Object.entries(isObject(json) ? json : {})) {
-        if (value !== undefined && value !== null) {
-            values[name] = value as Value;
-        }
-    }
-    return values;
-}
-
-function pick(json: JsonObject, names: readonly string[]): Values {
-    return readValues(Object.fromEntries(names.map((name) => [name, json[name]])));
-}
-
-function omit(json: JsonObject, names: readonly string[]): Values {
-    return readValues(
-        Object.fromEntries(Object.entries(json).filter(([name]) => !names.includes(name))),
-    );
-}
-
-/* Adds a node with its subtree to `nodes`; returns its id. Nodes without an id get a free one. */
-export function readNode(
-    json: JsonObject,
-    parent: string | null,
-    nodes: Map<string, SceneNode>,
-): string {
-    const type = textOf(json.type);
-    let id = textOf(json.id);
-    for (let n = 1; id === ""; n++) {
-        id = nodes.has(`${type}-${n}`) ? "" : `${type}-${n}`;
-    }
-    const node = {
-        id,
-        type,
-        common: pick(json, ["name", "material", "visible"]),
-        transform: readValues(json.transform),
-        params: readValues(json.params),
-        parent,
-        children: [] as string[],
-    };
-    nodes.set(id, node);
-    for (const child of listOf(json.children)) {
-        if (isObject(child)) {
-            node.children.push(readNode(child, id, nodes));
-        }
-    }
-    return id;
-}
-
-export function readLight(json: JsonObject): Resource {
-    return {
-        name: textOf(json.id),
-        type: textOf(json.type),
-        values: omit(json, ["id", "type"]),
-    };
-}
-
-export function readMaterial(name: string, json: JsonObject): Resource {
-    return { name, type: textOf(json.shader), values: readValues(json.properties) };
-}
-
-/* Reads a document that the server has checked. */
-export function readDocument(json: Json): SceneDocument {
-    const object = isObject(json) ? json : {};
-    const nodes = new Map<string, SceneNode>();
-    const root = readNode(isObject(object.root) ? object.root : { type: "union" }, null, nodes);
-    const materials = isObject(object.materials) ? object.materials : {};
-    return {
-        info: pick(object, ["name"]),
-        camera: readValues(object.camera),
-        environment: readValues(object.environment),
-        render: readValues(object.render),
-        lights: listOf(object.lights).filter(isObject).map(readLight),
-        materials: Object.entries(materials).map(([name, value]) =>
-            readMaterial(name, isObject(value) ? value : {}),
-        ),
-        nodes,
-        root,
-    };
-}
-
-/* The JSON of a node with its subtree: what `insert` and the clipboard carry. */
-export function printNode(document: SceneDocument, id: string): JsonObject {
-    const node = document.nodes.get(id);
-    if (!node) {
-        throw new Error(`no node ${id}`);
-    }
-    const full = <T extends object>(value: T) => Object.keys(value).length > 0;
-    return {
-        id: node.id,
-        type: node.type,
-        ...node.common,
-        ...(full(node.transform) ? { transform: node.transform } : {}),
-        ...(full(node.params) ? { params: node.params } : {}),
-        ...(node.children.length > 0
-            ? { children: node.children.map((child) => printNode(document, child)) }
-            : {}),
-    };
-}
-
-export function printResource(list: ListName, resource: Resource): JsonObject {
-    return list === "lights"
-        ? { id: resource.name, type: resource.type, ...resource.values }
-        : { shader: resource.type, properties: resource.values };
-}
-
-export function printDocument(document: SceneDocument): JsonObject {
-    return {
-        format: "fieldcast/1",
-        ...document.info,
-        camera: document.camera,
-        lights: document.lights.map((light) => printResource("lights", light)),
-        materials: Object.fromEntries(
-            document.materials.map((material) => [
-                material.name,
-                printResource("materials", material),
-            ]),
-        ),
-        environment: document.environment,
-        render: document.render,
-        root: printNode(document, document.root),
-    };
 }

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Builders of the edits that menus, keys, palette and tree share: add, wrap, duplicate, reorder,
- * move elsewhere, dissolve, paste. Each answers operations, the undo label, what to select. */
+/* Builders of the edits that menus, keys, palette and tree share: wrap, duplicate, reorder, move
+ * elsewhere, dissolve. Each answers operations, the undo label, what to select. */
 import {
     freeId,
     nodeLabel,
     parentOf,
+    pathTo,
     preorder,
-    printNode,
     type SceneDocument,
     type SceneNode,
     siblingAfter,
     topmost,
 } from "./document.ts";
-import { isObject, type Json, type JsonObject, listOf } from "./json.ts";
-import type { Operation } from "./operations.ts";
-import { nodeType, type Schema } from "./schema.ts";
-import { transformOf, transformUnder, type Vector } from "./transform.ts";
+import { printNode } from "./documentJson.ts";
+import { isObject, type JsonObject, listOf } from "./json.ts";
+import type { Operation } from "./operation.ts";
+import { transformOf, transformUnder } from "./transform.ts";
 import { tidy } from "./units.ts";
 
 export interface Edit {
@@ -34,66 +34,24 @@ export interface Spot {
 const wordsOf = (type: string): string => type.replaceAll("_", " ");
 
 /* "head", or "3 nodes". */
-function nameAll(document: SceneDocument, ids: readonly string[]): string {
+export function nameAll(document: SceneDocument, ids: readonly string[]): string {
     const node = document.nodes.get(ids[0] ?? "");
     return ids.length === 1 && node ? nodeLabel(node) : `${ids.length} nodes`;
 }
 
 /* Those of `ids` that an edit can move or remove: no root, no node inside another of them. */
 export function movable(document: SceneDocument, ids: readonly string[]): string[] {
-    return topmost(document, ids).filter((id) => id !== document.root);
+    return topmost(document, ids).filter((id) => document.nodes.get(id)?.parent !== null);
 }
 
-/* Next to the active node: inside where it is a container, else behind it. */
-export function spotFor(
-    document: SceneDocument,
-    schema: Schema,
-    selection: readonly string[],
-): Spot {
-    const active = document.nodes.get(selection.at(-1) ?? "");
-    if (!active || active.parent === null) {
-        return { into: document.root, before: null };
-    }
-    const row = nodeType(schema, active.type);
-    const holds = row !== null && row.group !== "primitive" && row.children === "many";
-    return holds
-        ? { into: active.id, before: null }
-        : { into: active.parent, before: siblingAfter(document, active.id) };
-}
-
-function freshIds(document: SceneDocument): (stem: string) => string {
+/* Names ids that are free, each once. */
+export function freshIds(document: SceneDocument): (stem: string) => string {
     const taken = new Set<string>();
     return (stem) => {
         const id = freeId(document, stem, taken);
         taken.add(id);
         return id;
     };
-}
-
-/* A new node of `type`. What combines or changes others goes around the selection, if any.
- * `at` is a point in the parent's space. */
-export function addNode(
-    document: SceneDocument,
-    schema: Schema,
-    type: string,
-    selection: readonly string[],
-    at?: Vector,
-): Edit {
-    const row = nodeType(schema, type);
-    const around = movable(document, selection);
-    if (row && row.group !== "primitive" && around.length > 0) {
-        return wrap(document, around, type);
-    }
-    const spot = spotFor(document, schema, selection);
-    const id = freshIds(document)(type);
-    const transform = at ? { transform: { translation: at.map(tidy) } } : {};
-    const insert: Operation = {
-        op: "insert",
-        into: `/nodes/${spot.into}`,
-        before: spot.before,
-        value: { id, type, ...transform },
-    };
-    return { ops: [insert], label: `add ${wordsOf(type)}`, select: [id] };
 }
 
 /* Puts a new node of `type` around the given ones, at the place of the first. */
@@ -119,12 +77,13 @@ export function wrap(document: SceneDocument, ids: readonly string[], type: stri
     return { ops: [insert, ...moves], label, select: [id] };
 }
 
-function moveTo(id: string, spot: Spot): Operation {
+/* Puts a node elsewhere. */
+export function moveTo(id: string, spot: Spot): Operation {
     return { op: "move", at: `/nodes/${id}`, into: `/nodes/${spot.into}`, before: spot.before };
 }
 
 /* Sets the transform so that the node stays where it is in the world under a new parent. */
-function keepPlace(document: SceneDocument, id: string, parent: string): Operation[] {
+export function keepPlace(document: SceneDocument, id: string, parent: string): Operation[] {
     const node = document.nodes.get(id);
     const wanted = node && node.parent !== parent ? transformUnder(document, id, parent) : null;
     if (!node || !wanted) {
@@ -171,7 +130,7 @@ export function reorder(document: SceneDocument, id: string, direction: -1 | 1):
 }
 
 /* A node's JSON with new ids throughout. */
-function renamed(json: JsonObject, fresh: (stem: string) => string): JsonObject {
+export function renamed(json: JsonObject, fresh: (stem: string) => string): JsonObject {
     const stem = typeof json.id === "string" ? json.id : String(json.type);
     const children = listOf(json.children)
         .filter(isObject)
@@ -180,7 +139,8 @@ function renamed(json: JsonObject, fresh: (stem: string) => string): JsonObject 
     return { ...own, id: fresh(stem), ...(children.length > 0 ? { children } : {}) };
 }
 
-function copyInto(
+/* Copies with ids of their own. */
+export function copyInto(
     nodes: readonly JsonObject[],
     spotOf: (index: number) => Spot,
     fresh: (stem: string) => string,
@@ -210,47 +170,6 @@ export function duplicate(document: SceneDocument, ids: readonly string[]): Edit
     return { ...copies, label: `duplicate ${nameAll(document, originals)}` };
 }
 
-/* What the clipboard holds: nodes as scene JSON. */
-export function clip(document: SceneDocument, ids: readonly string[]): string {
-    const nodes = movable(document, ids).map((id) => printNode(document, id));
-    return JSON.stringify({ format: "fieldcast/1", nodes }, null, 1);
-}
-
-/* Nodes from the clipboard; materials that this scene lacks are left out. Null: no nodes in it. */
-export function paste(
-    document: SceneDocument,
-    schema: Schema,
-    selection: readonly string[],
-    text: string,
-): Edit | null {
-    let json: Json;
-    try {
-        json = JSON.parse(text) as Json;
-    } catch {
-        return null;
-    }
-    const nodes = isObject(json) ? listOf(json.nodes).filter(isObject) : [];
-    if (nodes.length === 0) {
-        return null;
-    }
-    const known = new Set(document.materials.map((material) => material.name));
-    const fitting = (node: JsonObject): JsonObject => {
-        const { material, children, ...own } = node;
-        const inner = listOf(children).filter(isObject).map(fitting);
-        return {
-            ...own,
-            ...(typeof material === "string" && known.has(material) ? { material } : {}),
-            ...(inner.length > 0 ? { children: inner } : {}),
-        };
-    };
-    const spot = spotFor(document, schema, selection);
-    const copies = copyInto(nodes.map(fitting), () => spot, freshIds(document));
-    return {
-        ...copies,
-        label: copies.select.length === 1 ? "paste" : `paste ${nodes.length} nodes`,
-    };
-}
-
 /* Removes nodes; selects the neighbour, so that Delete can be pressed again. */
 export function removeNodes(document: SceneDocument, ids: readonly string[]): Edit {
     const gone = movable(document, ids);
@@ -264,7 +183,7 @@ export function removeNodes(document: SceneDocument, ids: readonly string[]): Ed
     return {
         ops: gone.map((id) => ({ op: "remove", at: `/nodes/${id}` })),
         label: `delete ${nameAll(document, gone)}`,
-        select: next === null || next === document.root ? [] : [next],
+        select: next === null || document.nodes.get(next)?.parent === null ? [] : [next],
     };
 }
 
@@ -313,8 +232,10 @@ export function setVisible(
     };
 }
 
-/* Nodes to hide so that only `ids` (with what they hold and hang from) remain visible. */
+/* Nodes to hide so that of their trees only `ids` (with what they hold and hang from) remain
+ * visible. */
 export function othersOf(document: SceneDocument, ids: readonly string[]): string[] {
+    const tops = new Set(ids.map((id) => pathTo(document, id)[0]?.id ?? document.root));
     const keep = new Set<string>();
     for (const id of ids) {
         for (const inner of preorder(document, id)) {
@@ -327,6 +248,6 @@ export function othersOf(document: SceneDocument, ids: readonly string[]): strin
     }
     return topmost(
         document,
-        preorder(document).filter((id) => !keep.has(id)),
+        [...tops].flatMap((top) => preorder(document, top)).filter((id) => !keep.has(id)),
     );
 }

@@ -3,9 +3,11 @@
  * the document to show, which is the one with the other on top. Pure functions on an immutable
  * state; sending, time and sockets are the link's. */
 
-import { readDocument, type SceneDocument } from "./document.ts";
+import type { SceneDocument } from "./document.ts";
+import { readDocument } from "./documentJson.ts";
 import type { Json } from "./json.ts";
-import { apply, join, type Operation, type Problem } from "./operations.ts";
+import type { Operation, Problem } from "./operation.ts";
+import { apply, join } from "./operations.ts";
 import type { Schema } from "./schema.ts";
 
 export type Epoch = string | number;
@@ -76,6 +78,8 @@ export type SessionMessage =
           readonly code: string;
           readonly place: string;
           readonly message: string;
+          readonly line?: number;
+          readonly column?: number;
       };
 
 /* What else a message meant. `resync`: the state does not fit the server's; ask for the document
@@ -156,7 +160,11 @@ export function edit(
     const last = session.pending.at(-1);
     const shown = { ...session, shown: result.document };
     if (last && !last.sent && last.kind === "edit" && group !== "" && last.group === group) {
-        const joined = { ...last, ops: join(last.ops, ops), label: label || last.label };
+        const joined = {
+            ...last,
+            ops: join(session.schema, last.ops, ops),
+            label: label || last.label,
+        };
         const pending = [...session.pending.slice(0, -1), joined];
         return { session: { ...shown, pending }, problem: null };
     }
@@ -342,14 +350,21 @@ function rejected(
     message: Extract<SessionMessage, { type: "rejected" }>,
 ): Outcome {
     const pending = session.pending.find((entry) => entry.edit === message.edit) ?? null;
-    const { code, place, message: text } = message;
+    const { code, place, message: text, line, column } = message;
+    const problem: Problem = {
+        code,
+        place,
+        message: text,
+        ...(line === undefined ? {} : { line }),
+        ...(column === undefined ? {} : { column }),
+    };
     let next = without(session, message.edit);
     if (pending && pending.kind !== "edit") {
         next = { ...next, [pending.kind]: 0 }; /* there was nothing left */
     }
     return {
         session: rebase(next),
-        events: [{ kind: "rejected", pending, problem: { code, place, message: text } }],
+        events: [{ kind: "rejected", pending, problem }],
     };
 }
 

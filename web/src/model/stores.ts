@@ -6,7 +6,7 @@ import type { Camera } from "./camera.ts";
 import { DEFAULT_CAMERA } from "./camera.ts";
 import type { SceneDocument } from "./document.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
-import type { Problem } from "./operations.ts";
+import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
 import { INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
 
@@ -24,8 +24,7 @@ export interface DocumentState {
     readonly canUndo: boolean;
     readonly canRedo: boolean;
     readonly history: History;
-    /* Errors that belong to a node, by its id. */
-    readonly problems: ReadonlyMap<string, Problem>;
+    readonly problems: Problems;
 }
 
 export const EMPTY_DOCUMENT_STATE: DocumentState = {
@@ -38,7 +37,7 @@ export const EMPTY_DOCUMENT_STATE: DocumentState = {
     canUndo: false,
     canRedo: false,
     history: EMPTY_HISTORY,
-    problems: new Map(),
+    problems: NO_PROBLEMS,
 };
 
 /* --- link: the connection and the picture --- */

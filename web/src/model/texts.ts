@@ -17,6 +17,7 @@ const TEXTS = {
     "why.noSelection": "Nothing is selected.",
     "why.onlyRoot": "The root node stays.",
     "why.oneOnly": "Select one node.",
+    "why.noInstance": "It is no instance of a model.",
     "why.twoNeeded": "Select two or more nodes.",
     "why.noParentStep": "It is already the first or last.",
     "why.noChildren": "The node has no children to keep.",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Vectors, rotations R = Rz·Ry·Rx and back, and the step between a node's space and the world's. */
 import { pathTo, type SceneDocument, type SceneNode } from "./document.ts";
-import { numbersOf } from "./schema.ts";
+import { numbersOf } from "./values.ts";
 
 export type Vector = readonly [number, number, number];
 /* Rows of a 3 × 3 matrix. */

@@ -183,15 +183,15 @@ export function printInUnit(x: number, unit: Unit | null): string {
     return isAngle(unit) ? `${printNumber(toShown(x, unit))}°` : printNumber(x);
 }
 
-/* Three numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]"; null where there are not three. */
-export function parseVector(text: string): Vector | null {
+/* Numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]"; null where there are not `count`. */
+export function parseVector(text: string, count = 3): readonly number[] | null {
     const inner = text
         .trim()
         .replace(/^[[(]|[\])]$/g, "")
         .trim();
     const parts = /[;\s]/.test(inner) ? inner.split(/[;,]?\s+|;/) : inner.split(",");
-    const [x, y, z, ...more] = parts.map((part) => evaluate(part));
-    return x != null && y != null && z != null && more.length === 0 ? [x, y, z] : null;
+    const numbers = parts.map((part) => evaluate(part)).filter((x) => x !== null);
+    return parts.length === count && numbers.length === count ? numbers : null;
 }
 
 /* How much one pixel of scrubbing changes `x`: a hundredth of its decade. */

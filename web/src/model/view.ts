@@ -2,14 +2,22 @@
 /* What one user's page looks like: selection, panels, theme, hints. Pure state and its changes;
  * never part of a document, never sent to others. */
 
+import type { ListName, RecordName } from "./places.ts";
+
 export type Theme = "auto" | "light" | "dark";
 export type Aov = "color" | "depth" | "normal" | "id";
 export type Quality = "auto" | "smooth" | "sharp";
 export type Pointing = "mouse" | "trackpad";
-export type Drawer = "history" | "problems";
-/* What covers the page; one at a time, Esc closes it. */
-export type Popup = "commands" | "add" | "scenes" | "help" | "statistics" | null;
-export type Sheet = "none" | "add" | "edit" | "tree" | "view";
+/* What covers the page; one at a time, Esc closes it. `wrap`: what can go around the selection. */
+export type Popup =
+    | "commands"
+    | "add"
+    | "wrap"
+    | "scenes"
+    | "help"
+    | "reference"
+    | "statistics"
+    | null;
 
 export const AOVS: readonly Aov[] = ["color", "depth", "normal", "id"];
 export const QUALITIES: readonly Quality[] = ["auto", "smooth", "sharp"];
@@ -41,9 +49,8 @@ export const PREFERENCES: Preferences = {
 /* What the inspector shows when no node is selected or a resource is. */
 export type Subject =
     | { readonly kind: "nodes" }
-    | { readonly kind: "light"; readonly name: string }
-    | { readonly kind: "material"; readonly name: string }
-    | { readonly kind: "camera" | "environment" | "render" };
+    | { readonly kind: "resource"; readonly list: ListName; readonly name: string }
+    | { readonly kind: RecordName };
 
 export interface View {
     /* Selected node ids, the active one last. */
@@ -54,8 +61,10 @@ export interface View {
     /* The node whose name is being typed. */
     readonly renaming: string | null;
     readonly popup: Popup;
-    readonly drawer: Drawer | null;
-    readonly sheet: Sheet;
+    /* The place of the code that is being edited; null: the editor of code is closed. */
+    readonly code: string | null;
+    /* The type at which the reference opens. */
+    readonly topic: string | null;
     /* Ctrl+\ hides all but the picture. */
     readonly chromeHidden: boolean;
     readonly aov: Aov;
@@ -69,8 +78,8 @@ export const INITIAL_VIEW: View = {
     collapsed: new Set(),
     renaming: null,
     popup: null,
-    drawer: null,
-    sheet: "none",
+    code: null,
+    topic: null,
     chromeHidden: false,
     aov: "color",
     preferences: PREFERENCES,

@@ -5,17 +5,18 @@ import type { Editor } from "./editor.ts";
 import { EditorPage } from "./frame/Editor.tsx";
 import { useKeys } from "./frame/keys.ts";
 import { Notices } from "./frame/Notices.tsx";
-import { CommandPalette } from "./palettes/Commands.tsx";
-import { Keys } from "./palettes/Keys.tsx";
+import { later, loadLater } from "./later.tsx";
 import { Button } from "./parts/Button.tsx";
 import { TipProvider } from "./parts/Tip.tsx";
 import { goTo, useRoute } from "./route.ts";
-import { ScenesPage } from "./scenes/Scenes.tsx";
 import { EditorContext, useView } from "./state.ts";
 import { t } from "./texts.ts";
 import { useTheme } from "./theme.ts";
 import "./parts/theme.css";
 import "./parts/base.css";
+
+const ScenesPage = later(() => import("./scenes/Scenes.tsx"));
+const Palettes = later(() => import("./palettes/index.tsx"));
 
 export function App({ editor }: { editor: Editor }) {
     return (
@@ -34,6 +35,7 @@ function Pages({ editor }: { editor: Editor }) {
     const popup = useView((view) => view.popup);
     useTheme();
     useKeys(editor);
+    useEffect(loadLater, []);
     useEffect(() => {
         editor.open(scene);
     }, [editor, scene]);
@@ -46,8 +48,7 @@ function Pages({ editor }: { editor: Editor }) {
     return (
         <>
             {scene === null ? <ScenesPage /> : <EditorPage />}
-            <CommandPalette />
-            <Keys />
+            <Palettes />
             <Notices />
         </>
     );

@@ -1,144 +1,169 @@
 /* SPDX-License-Identifier: MIT */
-/* What people do with materials, lights and new nodes, as one edit each. Acts on selected nodes
- * are commands (model/commands.ts). */
+/* What people do with new nodes, resources and code, as one edit each. Acts on selected nodes are
+ * commands (model/commands.ts). */
 
-import { perform } from "../model/commands.ts";
+import { perform } from "../model/actions.ts";
+import { type Addition, addNode as buildNode } from "../model/add.ts";
+import { findResource, type Resource, type SceneDocument } from "../model/document.ts";
+import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import {
-    findResource,
-    freeName,
-    ID_PATTERN,
-    type ListName,
-    materialUsers,
-    printResource,
-    type Resource,
-} from "../model/document.ts";
-import { addNode as buildNode } from "../model/edits.ts";
-import type { JsonObject } from "../model/json.ts";
-import type { Operation } from "../model/operations.ts";
+    duplicateResource,
+    newLight,
+    newMaterialOf,
+    newResource,
+    type ResourceEdit,
+    removeResource,
+    renameResource,
+    uniqueMaterial,
+} from "../model/resources.ts";
+import { type Schema, shaderType } from "../model/schema.ts";
 import { setPreferences } from "../model/stores.ts";
 import type { Editor } from "./editor.ts";
 import { t } from "./texts.ts";
 
 const MOST_RECENT = 8;
 
-export function addNode(editor: Editor, type: string): void {
+export function addNode(editor: Editor, addition: Addition): void {
     const { stores } = editor;
     const { document, schema } = stores.document.getState();
     const { selection, preferences } = stores.view.getState();
-    if (document && perform(editor, buildNode(document, schema, type, selection))) {
-        const others = preferences.recent.filter((old) => old !== type);
-        setPreferences(stores.view, { recent: [type, ...others].slice(0, MOST_RECENT) });
+    if (document && perform(editor, buildNode(document, schema, addition, selection))) {
+        const others = preferences.recent.filter((old) => old !== addition.type);
+        setPreferences(stores.view, { recent: [addition.type, ...others].slice(0, MOST_RECENT) });
     }
 }
 
-function insertResource(
-    list: ListName,
-    name: string,
-    value: JsonObject,
-    before: string | null,
-): Operation {
-    return list === "lights"
-        ? { op: "insert", into: "/lights", before, value: { ...value, id: name } }
-        : { op: "insert", into: "/materials", before, name, value };
+export function selectNode(editor: Editor, id: string): void {
+    editor.stores.view.setState({ selection: [id], subject: { kind: "nodes" } });
 }
 
-/* A new material, given to `node` where one is named. */
-export function addMaterial(editor: Editor, node: string | null): void {
-    const { document, schema } = editor.stores.document.getState();
-    const shader = schema.shaders[0]?.type;
-    if (document === null || shader === undefined) {
-        return;
-    }
-    const name = freeName(document, "materials", "material");
-    const ops = [insertResource("materials", name, { shader, properties: {} }, null)];
+/* --- code --- */
+
+export function openCode(editor: Editor, place: string): void {
+    editor.stores.view.setState({ code: place });
+}
+
+/* Shows whatever a place lies in, and the code there. */
+export function showPlace(editor: Editor, place: string, code: boolean): void {
+    const node = nodeOfPlace(place);
+    const resource = resourceOfPlace(place);
     if (node !== null) {
-        ops.push({ op: "set", at: `/nodes/${node}/material`, value: name });
+        selectNode(editor, node);
+    } else if (resource !== null) {
+        editor.show({ kind: "resource", ...resource });
     }
-    if (editor.link.edit(ops, { label: t("edit.add", { name }) }) && node === null) {
-        editor.show({ kind: "material", name });
+    if (code) {
+        openCode(editor, place);
     }
 }
 
-/* A copy of a shared material, for one node alone. */
-export function makeMaterialUnique(editor: Editor, node: string, name: string): void {
-    const { document } = editor.stores.document.getState();
-    const material = document && findResource(document, "materials", name);
-    if (document && material) {
-        const copy = freeName(document, "materials", name);
-        const ops: Operation[] = [
-            insertResource("materials", copy, printResource("materials", material), null),
-            { op: "set", at: `/nodes/${node}/material`, value: copy },
-        ];
-        editor.link.edit(ops, { label: t("edit.unique", { name }) });
+/* The place of the code of a resource, or null where it has none. */
+export function codePlace(schema: Schema, list: ListName, name: string): string | null {
+    const params =
+        list === "primitives" ? schema.primitive : list === "shaders" ? schema.shader : [];
+    const code = params.find((param) => param.type === "code");
+    return code ? `/${list}/${name}/${code.name}` : null;
+}
+
+/* --- resources --- */
+
+/* Sends an edit and shows what it is about. */
+function performOn(
+    editor: Editor,
+    build: (document: SceneDocument, schema: Schema) => ResourceEdit,
+    show: (edit: ResourceEdit) => void,
+): void {
+    const { document, schema } = editor.stores.document.getState();
+    const edit = document && build(document, schema);
+    if (edit && editor.link.edit(edit.ops, { label: edit.label })) {
+        show(edit);
     }
+}
+
+const showIt =
+    (editor: Editor, list: ListName) =>
+    ({ name }: ResourceEdit) =>
+        editor.show({ kind: "resource", list, name });
+
+/* A new one; `use` is the place that is to name it. */
+export function addResource(editor: Editor, list: ListName, use: string | null): void {
+    const { selection } = editor.stores.view.getState();
+    performOn(
+        editor,
+        (document, schema) => newResource(document, schema, list, use, selection),
+        ({ name, select }) => {
+            const { schema } = editor.stores.document.getState();
+            const code = codePlace(schema, list, name);
+            if (list === "models" && use === null) {
+                editor.stores.view.setState({ selection: select });
+            } else if (use === null || code !== null) {
+                editor.show({ kind: "resource", list, name });
+            }
+            if (code !== null) {
+                openCode(editor, code);
+            }
+        },
+    );
 }
 
 export function addLight(editor: Editor, type: string): void {
+    performOn(editor, (document) => newLight(document, type), showIt(editor, "lights"));
+}
+
+export function addMaterialOf(editor: Editor, shader: string): void {
+    performOn(editor, (document) => newMaterialOf(document, shader), showIt(editor, "materials"));
+}
+
+export function makeMaterialUnique(editor: Editor, node: string, name: string): void {
     const { document } = editor.stores.document.getState();
-    if (document === null) {
-        return;
-    }
-    const name = freeName(document, "lights", type);
-    const ops = [insertResource("lights", name, { type }, null)];
-    if (editor.link.edit(ops, { label: t("edit.add", { name }) })) {
-        editor.show({ kind: "light", name });
+    const material = document && findResource(document, "materials", name);
+    if (material) {
+        performOn(
+            editor,
+            (scene) => uniqueMaterial(scene, node, material),
+            () => undefined,
+        );
     }
 }
 
-const kinds = { lights: "light", materials: "material" } as const;
-
-export function duplicateResource(editor: Editor, list: ListName, resource: Resource): void {
-    const { document } = editor.stores.document.getState();
-    if (document === null) {
-        return;
-    }
-    const name = freeName(document, list, resource.name);
-    const at = document[list].findIndex((one) => one.name === resource.name);
-    const before = document[list][at + 1]?.name ?? null;
-    const ops = [insertResource(list, name, printResource(list, resource), before)];
-    if (editor.link.edit(ops, { label: t("edit.duplicate", { name: resource.name }) })) {
-        editor.show({ kind: kinds[list], name });
-    }
+export function duplicate(editor: Editor, list: ListName, resource: Resource): void {
+    performOn(
+        editor,
+        (document) => duplicateResource(document, list, resource),
+        showIt(editor, list),
+    );
 }
 
-/* Nodes that use a material that goes take what their parents have. */
-export function removeResource(editor: Editor, list: ListName, name: string): void {
-    const { document } = editor.stores.document.getState();
-    if (document === null) {
-        return;
-    }
-    const users = list === "materials" ? materialUsers(document, name) : [];
-    const ops: Operation[] = [
-        ...users.map((id): Operation => ({ op: "set", at: `/nodes/${id}/material`, value: null })),
-        { op: "remove", at: `/${list}/${name}` },
-    ];
-    if (editor.link.edit(ops, { label: t("edit.remove", { name }) })) {
-        editor.show({ kind: "nodes" });
-    }
+export function remove(editor: Editor, list: ListName, name: string): void {
+    performOn(
+        editor,
+        (document, schema) => removeResource(document, schema, list, name),
+        () => editor.show({ kind: "nodes" }),
+    );
 }
 
 /* Why a resource cannot have this name, or null. */
 export function whyNotName(editor: Editor, list: ListName, name: string): string | null {
-    const { document } = editor.stores.document.getState();
+    const { document, schema } = editor.stores.document.getState();
     if (!ID_PATTERN.test(name)) {
         return t("name.pattern");
     }
-    return document && findResource(document, list, name) ? t("name.taken", { name }) : null;
+    const builtIn = list === "shaders" && shaderType(schema, name) !== null;
+    const taken = document !== null && findResource(document, list, name) !== null;
+    return builtIn || taken ? t("name.taken", { name }) : null;
 }
 
-/* A name is an id here: the resource is put in again under the new one and its users follow. */
-export function renameResource(editor: Editor, list: ListName, resource: Resource, name: string) {
-    const { document } = editor.stores.document.getState();
-    if (document === null) {
-        return;
-    }
-    const users = list === "materials" ? materialUsers(document, resource.name) : [];
-    const ops: Operation[] = [
-        insertResource(list, name, printResource(list, resource), resource.name),
-        ...users.map((id): Operation => ({ op: "set", at: `/nodes/${id}/material`, value: name })),
-        { op: "remove", at: `/${list}/${resource.name}` },
-    ];
-    if (editor.link.edit(ops, { label: t("edit.rename", { name: resource.name }) })) {
-        editor.show({ kind: kinds[list], name });
-    }
+export function rename(editor: Editor, list: ListName, resource: Resource, name: string): void {
+    const { code } = editor.stores.view.getState();
+    performOn(
+        editor,
+        (document, schema) => renameResource(document, schema, list, resource, name),
+        (edit) => {
+            showIt(editor, list)(edit);
+            const old = `/${list}/${resource.name}/`;
+            if (code?.startsWith(old)) {
+                openCode(editor, `/${list}/${name}/${code.slice(old.length)}`);
+            }
+        },
+    );
 }

@@ -2,11 +2,12 @@
 /* The page's one set of stores, link and REST, and what commands may ask of the page. */
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
-import type { App } from "../model/commands.ts";
+import type { App } from "../model/actions.ts";
 import { EMPTY_SCHEMA } from "../model/schema.ts";
 import { createStores, type Stores } from "../model/stores.ts";
 import { INITIAL_VIEW, type Subject } from "../model/view.ts";
-import { chooseFile, saveDocument, uploadFile } from "./files.ts";
+import { chooseFiles, saveDocument } from "./files.ts";
+import { openFiles, readFiles } from "./import.ts";
 
 export interface Editor extends App {
     readonly stores: Stores;
@@ -37,7 +38,8 @@ export function createEditor(): Editor {
         writeClipboard: (text) => void navigator.clipboard?.writeText(text).catch(() => undefined),
         readClipboard: () => navigator.clipboard.readText(),
         download: () => void saveDocument(editor),
-        upload: () => chooseFile((file) => void uploadFile(editor, file)),
+        upload: () =>
+            chooseFiles(false, async (files) => openFiles(editor, await readFiles(files))),
         open: (scene) => void openScene(editor, scene),
         show: (subject) =>
             stores.view.setState(

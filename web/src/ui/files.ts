@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes as files: down as JSON or a picture, up by a chooser or a drop. */
-import { download, RestError, upload } from "../link/rest.ts";
-import { printDocument } from "../model/document.ts";
+/* Scenes as files: down as JSON or a picture, up by a chooser; import.ts makes scenes of them. */
+import { download, RestError } from "../link/rest.ts";
+import { printDocument } from "../model/documentJson.ts";
 import { addNotice } from "../model/stores.ts";
 import type { Editor } from "./editor.ts";
-import { goTo } from "./route.ts";
-import { t } from "./texts.ts";
 
 /* The server's own bytes where it can be reached, else what this page holds. */
 export async function saveDocument(editor: Editor): Promise<void> {
@@ -45,26 +43,22 @@ export async function savePicture(editor: Editor): Promise<void> {
     }
 }
 
-export function chooseFile(onFile: (file: File) => void): void {
+/* Opens the chooser for files, or for a folder. */
+export function chooseFiles(folder: boolean, onFiles: (files: readonly File[]) => void): void {
     const input = window.document.createElement("input");
     input.type = "file";
-    input.accept = ".json,application/json";
+    input.multiple = true;
+    input.webkitdirectory = folder;
+    if (!folder) {
+        input.accept = ".json,application/json";
+    }
     input.addEventListener("change", () => {
-        const file = input.files?.[0];
-        if (file) {
-            onFile(file);
+        const files = [...(input.files ?? [])];
+        if (files.length > 0) {
+            onFiles(files);
         }
     });
     input.click();
-}
-
-/* Makes a scene of a file and opens it. */
-export async function uploadFile(editor: Editor, file: File): Promise<void> {
-    try {
-        goTo(await editor.rest.createScene(await upload(file)));
-    } catch (error) {
-        report(editor, error, t("files.refused", { name: file.name }));
-    }
 }
 
 /* Says what went wrong with a request. */

@@ -3,10 +3,13 @@
  * which field a type gets; a type it does not know gets checked JSON, never nothing. */
 import { memo, type ReactNode, useEffect, useId, useRef, useState } from "react";
 import type { Gesture } from "../link/link.ts";
-import { paramAt } from "../model/document.ts";
+import { paramAt, type SceneDocument } from "../model/document.ts";
 import { equalJson } from "../model/json.ts";
-import type { Operation } from "../model/operations.ts";
-import { type Param, type Value, valueIn } from "../model/schema.ts";
+import type { Operation } from "../model/operation.ts";
+import { problemIn } from "../model/problems.ts";
+import { type DeclaredRow, type Param, type Value, valueIn } from "../model/schema.ts";
+import { spread } from "../model/spread.ts";
+import { CodeField } from "./fields/Code.tsx";
 import { ColourField } from "./fields/Colour.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { FlagField, FlagsField } from "./fields/Flag.tsx";
@@ -16,6 +19,7 @@ import { ReferenceField } from "./fields/Reference.tsx";
 import { TextField } from "./fields/Text.tsx";
 import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
+import { later } from "./later.tsx";
 import { paramTitle } from "./names.ts";
 import { useDocument, useEditor } from "./state.ts";
 import { t } from "./texts.ts";
@@ -29,19 +33,39 @@ const number: Make = (param, props) => <NumberField param={param} {...as<number>
 const vector: Make = (param, props) => (
     <VectorField param={param} {...as<number | readonly number[]>(props)} />
 );
+const reference: Make = (param, props, place) => (
+    <ReferenceField param={param} place={place} {...as<string>(props)} />
+);
+
+const PointsField = later(() => import("./fields/Points.tsx"));
+const RowsField = later(() => import("./fields/Rows.tsx"));
 
 const fields: Record<string, Make> = {
     float: number,
     int: number,
+    vec2: vector,
     vec3: vector,
+    vec4: vector,
     ivec3: vector,
     bool: (_param, props) => <FlagField {...as<boolean>(props)} />,
     bvec3: (_param, props) => <FlagsField {...as<readonly boolean[]>(props)} />,
     color: (_param, props) => <ColourField {...as<readonly number[]>(props)} />,
     enum: (param, props) => <EnumField choices={param.choices} {...as<string>(props)} />,
     text: (_param, props) => <TextField {...as<string>(props)} />,
-    material: (_param, props, place) => <ReferenceField place={place} {...as<string>(props)} />,
+    material: reference,
+    model: reference,
+    function: reference,
+    code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
+    points: (param, props) => (
+        <PointsField param={param} {...as<readonly (readonly number[])[]>(props)} />
+    ),
+    rows: (_param, props, place) => (
+        <RowsField place={place} fieldFor={fieldFor} {...as<readonly DeclaredRow[]>(props)} />
+    ),
 };
+
+/* Fields that take the whole width, below their name. */
+const WIDE = ["code", "points", "rows"];
 
 const unknown: Make = (_param, props) => <JsonField {...as<Value>(props)} />;
 
@@ -81,7 +105,10 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
         const found = state.document && paramAt(state.schema, state.document, place);
         return found?.values[param.name];
     });
-    const problem = useDocument((state) => problemAt(state.problems, place));
+    const problem = useDocument((state) => {
+        const found = problemIn(state.problems, place);
+        return found && sentence(found);
+    });
     const [refused, setRefused] = useState<string | null>(null);
     const { onInput, onCommit, onCancel, onReset } = useGesture(place, param, owner);
     const value = valueIn(values === undefined ? {} : { [param.name]: values }, param);
@@ -96,6 +123,7 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
             className="form-row"
             ref={row}
             data-param={param.name}
+            data-wide={WIDE.includes(param.type) || undefined}
             data-changed={changed || undefined}
             data-shake={problem ? "" : undefined}
         >
@@ -137,27 +165,30 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
     );
 });
 
-function problemAt(
-    problems: ReadonlyMap<string, { readonly place: string; readonly message: string }>,
-    place: string,
-): string | null {
-    for (const problem of problems.values()) {
-        if (problem.place === place) {
-            return problem.message;
-        }
-    }
-    return null;
+/* With the line, where it is about a text. */
+export function sentence({ line, message }: { line?: number; message: string }): string {
+    return line === undefined ? message : t("code.at", { line, message });
 }
 
 /* One gesture is one undo step; a cancelled one leaves none. */
 function useGesture(place: string, param: Param, owner: string) {
-    const { link } = useEditor();
+    const { link, stores } = useEditor();
     const gesture = useRef<Gesture | null>(null);
+    const start = useRef<SceneDocument | null>(null);
     const label = t("edit.set", { owner, name: paramTitle(param) });
-    const set = (value: Value | null): Operation[] => [{ op: "set", at: place, value }];
+    /* All selected nodes that have such a value take part. */
+    const set = (value: Value | null): Operation[] => {
+        const { schema, document } = stores.document.getState();
+        const before = gesture.current === null ? document : start.current;
+        const { selection } = stores.view.getState();
+        return before ? spread(schema, before, selection, place, value) : [];
+    };
     return {
         onInput: (value: Value): void => {
-            gesture.current ??= link.gesture(label);
+            if (gesture.current === null) {
+                start.current = stores.document.getState().document;
+                gesture.current = link.gesture(label);
+            }
             gesture.current.edit(set(value));
         },
         onCommit: (value: Value): void => {

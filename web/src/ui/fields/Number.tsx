@@ -2,15 +2,16 @@
 /* A number: drag to scrub, click to type (expressions allowed), arrows to step. Shows the value in
  * the unit that people think in; the document keeps its own. */
 import { memo, useRef, useState } from "react";
-import { checkValue, clampNumber, type Param } from "../../model/schema.ts";
+import type { Param } from "../../model/schema.ts";
+import { checkNumber, clampNumber } from "../../model/values.ts";
 import { t } from "../texts.ts";
-import { displayOf } from "./display.ts";
+import { displayOf, sliderRange } from "./display.ts";
 import { type ScrubKeys, useScrub } from "./scrub.ts";
 import type { FieldProps } from "./types.ts";
 
 import "./fields.css";
 
-export type Axis = "x" | "y" | "z";
+export type Axis = "x" | "y" | "z" | "w";
 
 interface Props extends FieldProps<number> {
     param: Param;
@@ -146,20 +147,8 @@ export const NumberField = memo(function NumberField(props: Props) {
     );
 });
 
-function checkNumber(param: Param, x: number): string | null {
-    const single: Param = { ...param, type: isWhole(param) ? "int" : "float" };
-    return checkValue(single, x);
-}
-
-function isWhole(param: Param): boolean {
-    return param.type === "int" || param.type === "ivec3";
-}
-
-/* How much of its range a value fills; null where the range is open or too wide to mean much. */
+/* How much of its range a value fills; null where it is no slider. */
 function fraction(param: Param, value: number): number | null {
-    const { min, max } = param;
-    if (min === null || max === null || max - min > 1000 || max <= min) {
-        return null;
-    }
-    return Math.min(1, Math.max(0, (value - min) / (max - min)));
+    const range = sliderRange(param);
+    return range && Math.min(1, Math.max(0, (value - range.min) / (range.max - range.min)));
 }

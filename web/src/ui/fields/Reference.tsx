@@ -1,56 +1,49 @@
 /* SPDX-License-Identifier: MIT */
-/* A material of the scene: choose, make a new one, or make a shared one this node's own. */
-import { CopyPlus, Palette, Plus } from "lucide-react";
+/* Something of the scene by its name: a material, a model, a distance function. Choose it, go to
+ * it, make a new one, or make a shared material this node's own. */
+import { CopyPlus, type LucideIcon, Plus, SquarePen } from "lucide-react";
 import { useMemo } from "react";
-import { materialOf, materialUsers, nodeOfPlace } from "../../model/document.ts";
-import { addMaterial, makeMaterialUnique } from "../acts.ts";
+import { materialOf } from "../../model/document.ts";
+import { LISTS, nodeOfPlace } from "../../model/places.ts";
+import type { Param } from "../../model/schema.ts";
+import { listNamedBy, modelsFor, type NamedList, usersOf } from "../../model/usage.ts";
+import { addResource, makeMaterialUnique } from "../acts.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
-import { Swatch } from "../parts/Swatch.tsx";
+import { ResourceIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor } from "../state.ts";
-import { t } from "../texts.ts";
+import { type TextKey, t } from "../texts.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
 interface Props extends FieldProps<string> {
+    param: Param;
     place: string;
 }
 
-/* The option that stands for "the parent's". */
-const INHERIT = "";
+const nothings: Partial<Record<Param["type"], TextKey>> = {
+    function: "reference.code",
+    model: "reference.nothing",
+};
 
-export function ReferenceField({ label, value, place, describedBy, onCommit }: Props) {
+/* The option that stands for nothing, or for "the parent's". */
+const NOTHING = "";
+
+export function ReferenceField({ param, label, value, place, describedBy, onCommit }: Props) {
     const editor = useEditor();
-    const materials = useDocument((state) => state.document?.materials);
+    const list = listNamedBy(param.type) ?? "materials";
+    const { one } = LISTS[list];
     const node = nodeOfPlace(place);
-    const inherited = useDocument((state) => {
-        const parent = node === null ? null : state.document?.nodes.get(node)?.parent;
-        const found = parent && state.document ? materialOf(state.document, parent) : null;
-        return found?.material ?? null;
-    });
-    const shared = useDocument((state) =>
-        state.document && value !== "" ? materialUsers(state.document, value).length > 1 : false,
-    );
-    const options = useMemo<Option[]>(
-        () => [
-            {
-                value: INHERIT,
-                label:
-                    inherited === null
-                        ? t("material.none")
-                        : t("material.inherited", { name: inherited }),
-                icon: <Palette size={14} />,
-            },
-            ...(materials ?? []).map((material) => ({
-                value: material.name,
-                label: material.name,
-                icon: <Swatch name={material.name} />,
-            })),
-        ],
-        [materials, inherited],
+    const options = useOptions(param, list, node);
+    const shared = useDocument(
+        ({ document, schema }) =>
+            document !== null &&
+            list === "materials" &&
+            value !== NOTHING &&
+            usersOf(schema, document, list, value).length > 1,
     );
     return (
-        <div className="reference">
+        <div className="named">
             <Select
                 value={value}
                 label={label}
@@ -58,31 +51,68 @@ export function ReferenceField({ label, value, place, describedBy, onCommit }: P
                 options={options}
                 onChange={onCommit}
             />
-            {value !== "" && (
-                <IconButton
-                    title={t("material.edit", { name: value })}
-                    data-size="s"
-                    onClick={() => editor.show({ kind: "material", name: value })}
-                >
-                    <Palette size={14} />
-                </IconButton>
+            {value !== NOTHING && (
+                <Act
+                    title={t("reference.edit", { name: value })}
+                    icon={SquarePen}
+                    onClick={() => editor.show({ kind: "resource", list, name: value })}
+                />
             )}
             {shared && node !== null && (
-                <IconButton
+                <Act
                     title={t("material.unique")}
-                    data-size="s"
+                    icon={CopyPlus}
                     onClick={() => makeMaterialUnique(editor, node, value)}
-                >
-                    <CopyPlus size={14} />
-                </IconButton>
+                />
             )}
-            <IconButton
-                title={t("material.new")}
-                data-size="s"
-                onClick={() => addMaterial(editor, node)}
-            >
-                <Plus size={14} />
-            </IconButton>
+            <Act
+                title={t("reference.new", { what: one })}
+                icon={Plus}
+                onClick={() => addResource(editor, list, place)}
+            />
         </div>
+    );
+}
+
+function useOptions(param: Param, list: NamedList, node: string | null) {
+    const resources = useDocument((state) => state.document?.[list]);
+    /* As texts, so that numbers that change do not make new options. */
+    const nothing = useDocument(({ document }) => {
+        const parent = node === null ? null : document?.nodes.get(node)?.parent;
+        const found = list === "materials" && parent && document && materialOf(document, parent);
+        return found
+            ? t("material.inherited", { name: found.material })
+            : t(nothings[param.type] ?? "reference.none");
+    });
+    const allowed = useDocument(({ document, schema }) =>
+        list === "models" && document && node !== null
+            ? modelsFor(schema, document, node).join(" ")
+            : null,
+    );
+    return useMemo<Option[]>(() => {
+        const names = (resources ?? []).map(({ name }) => name);
+        const fitting = names.filter((name) => allowed?.split(" ").includes(name) ?? true);
+        return [
+            { value: NOTHING, label: nothing },
+            ...fitting.map((name) => ({
+                value: name,
+                label: name,
+                icon: <ResourceIcon list={list} name={name} />,
+            })),
+        ];
+    }, [resources, allowed, nothing, list]);
+}
+
+interface ActProps {
+    title: string;
+    icon: LucideIcon;
+    onClick: () => void;
+}
+
+function Act({ title, icon: Icon, onClick }: ActProps) {
+    return (
+        <IconButton title={title} data-size="s" onClick={onClick}>
+            <Icon size={14} />
+        </IconButton>
     );
 }

@@ -1,40 +1,44 @@
 /* SPDX-License-Identifier: MIT */
-/* Three numbers in the colours of their axes; a pasted "1 2 3" fills all. Scales can be linked. */
+/* Two to four numbers in the colours of their axes; a pasted "1 2 3" fills all. Scales can be
+ * linked. */
 import { Link2, Link2Off } from "lucide-react";
 import { useState } from "react";
-import { numbersOf, type Param } from "../../model/schema.ts";
+import { components, type Param } from "../../model/schema.ts";
 import { parseVector } from "../../model/units.ts";
+import { numbersOf } from "../../model/values.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { t } from "../texts.ts";
 import { type Axis, NumberField } from "./Number.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
-const axes: readonly Axis[] = ["x", "y", "z"];
+const allAxes: readonly Axis[] = ["x", "y", "z", "w"];
 
 interface Props extends FieldProps<number | readonly number[]> {
     param: Param;
 }
 
 export function VectorField({ param, label, value, fallback, ...rest }: Props) {
-    const numbers = numbersOf(value);
-    const defaults = numbersOf(fallback);
+    const count = components(param.type);
+    const axes = allAxes.slice(0, count);
+    const numbers = numbersOf(value, count);
+    const defaults = numbersOf(fallback, count);
     const even = numbers.every((x) => x === numbers[0]);
     const mayLink = param.uniform;
     const [linked, setLinked] = useState(mayLink && even);
     const one = mayLink && linked && even;
     const put = (send: (value: readonly number[]) => void, axis: number) => (x: number) =>
-        send(one ? [x, x, x] : numbers.map((old, i) => (i === axis ? x : old)));
+        send(one ? axes.map(() => x) : numbers.map((old, i) => (i === axis ? x : old)));
     const paste = (text: string): boolean => {
-        const numbers = parseVector(text);
-        if (numbers !== null) {
-            rest.onCommit(numbers);
+        const pasted = parseVector(text, count);
+        if (pasted !== null) {
+            rest.onCommit(pasted);
         }
-        return numbers !== null;
+        return pasted !== null;
     };
     return (
         // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
-        <div className="vector" role="group" aria-label={label}>
+        <div className="vector" data-count={one ? 1 : count} role="group" aria-label={label}>
             {(one ? axes.slice(0, 1) : axes).map((axis, i) => (
                 <NumberField
                     key={axis}
@@ -60,7 +64,7 @@ export function VectorField({ param, label, value, fallback, ...rest }: Props) {
                         setLinked(!one);
                         if (!one && !even) {
                             const x = numbers[0] ?? 1;
-                            rest.onCommit([x, x, x]);
+                            rest.onCommit(axes.map(() => x));
                         }
                     }}
                 >

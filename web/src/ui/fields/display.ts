@@ -11,12 +11,17 @@ import {
     tidy,
     toShown,
 } from "../../model/units.ts";
+import { isWhole } from "../../model/values.ts";
 import type { ScrubKeys } from "./scrub.ts";
 
 /* Degrees per pixel, and pixels per whole number. */
 const DEGREES_PER_PIXEL = 0.5;
 const PIXELS_PER_WHOLE = 8;
 const FINE = 0.1;
+/* A range wider than this is a limit rather than a slider. */
+const WIDEST_SLIDER = 1000;
+/* About the width of a field: a drag along it goes through the whole range. */
+const SLIDER_PIXELS = 180;
 const SNAP_DEGREES = 15;
 const ANGLE_DIGITS = 8;
 
@@ -35,9 +40,16 @@ export interface Display {
     arrow(value: number, direction: number, keys: ArrowKeys): number;
 }
 
+/* The range that a value slides in; null where it is open or too wide to mean much. */
+export function sliderRange({ min, max }: Param): { min: number; max: number } | null {
+    const closed = min !== null && max !== null && max > min && max - min <= WIDEST_SLIDER;
+    return closed ? { min, max } : null;
+}
+
 export function displayOf(param: Param): Display {
     const { unit } = param;
-    const whole = param.type === "int" || param.type === "ivec3";
+    const whole = isWhole(param.type);
+    const range = sliderRange(param);
     /* Radians need two digits more than the degrees shown, or 90° would come back as 90.0002°. */
     const round = (value: number): number =>
         unit === "angle" ? Number(value.toPrecision(ANGLE_DIGITS)) : tidy(value);
@@ -45,6 +57,9 @@ export function displayOf(param: Param): Display {
     const stepPerPixel = (shown: number): number => {
         if (whole) {
             return 1 / PIXELS_PER_WHOLE;
+        }
+        if (range !== null && !isAngle(unit)) {
+            return (range.max - range.min) / SLIDER_PIXELS;
         }
         return isAngle(unit) ? DEGREES_PER_PIXEL : scrubStep(shown);
     };

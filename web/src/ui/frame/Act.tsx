@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A command as an icon button or a menu item: title, key and reason come from the table. */
 import type { ReactNode } from "react";
-import { commandById, runCommand } from "../../model/commands.ts";
-import { IconButton } from "../parts/Button.tsx";
+import { commandById, runCommand } from "../../model/commandLookup.ts";
+import { Button, IconButton } from "../parts/Button.tsx";
 import { MenuItem } from "../parts/Menu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { keyText } from "./keys.ts";
@@ -37,6 +37,21 @@ export function ActButton({ id, children }: Props) {
             >
                 {children}
             </IconButton>
+        )
+    );
+}
+
+/* With its words; left out while it cannot run. */
+export function CommandButton({ id }: Props) {
+    const editor = useEditor();
+    const command = commandById(id);
+    const reason = useReason(id);
+    return (
+        command &&
+        reason === null && (
+            <Button look="outline" data-command={id} onClick={() => runCommand(editor, command)}>
+                {command.title}
+            </Button>
         )
     );
 }

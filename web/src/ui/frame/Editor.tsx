@@ -4,8 +4,8 @@
 
 import { useState } from "react";
 import { Group, Panel, Separator, useDefaultLayout } from "react-resizable-panels";
+import { CodePanel } from "../code/index.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
-import { Add } from "../palettes/Add.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
 import { useDocument, useView } from "../state.ts";
@@ -35,7 +35,6 @@ export function EditorPage() {
                 <Middle hidden={hidden} layout={narrow ? "sheet" : wide ? "columns" : "stack"} />
             </main>
             {hidden || narrow ? <span /> : <Status />}
-            <Add />
         </div>
     );
 }
@@ -47,20 +46,44 @@ function Heading() {
 }
 
 function Middle({ hidden, layout }: { hidden: boolean; layout: "columns" | "stack" | "sheet" }) {
+    const picture = (
+        <Region name={t("region.view")} context="view">
+            <View />
+        </Region>
+    );
     if (hidden) {
-        return <Picture />;
+        return picture;
     }
     if (layout === "sheet") {
-        return <Sheet picture={<Picture />} />;
+        return <Sheet picture={picture} />;
     }
     return layout === "columns" ? <Columns /> : <Stack />;
 }
 
+/* The picture, and below it the code that is being written, if any. */
 function Picture() {
+    const code = useView((view) => view.code);
+    const saved = useDefaultLayout({
+        id: "picture-code",
+        panelIds: code === null ? ["panel-picture"] : ["panel-picture", "panel-code"],
+        storage: localStorage,
+    });
     return (
-        <Region name={t("region.view")} context="view">
-            <View />
-        </Region>
+        <Group id="picture-code" orientation="vertical" {...saved}>
+            <Panel id="panel-picture" minSize={120}>
+                <Region name={t("region.view")} context="view">
+                    <View />
+                </Region>
+            </Panel>
+            {code !== null && (
+                <Separator className="separator" aria-label={t("region.resizeCode")} />
+            )}
+            {code !== null && (
+                <Panel id="panel-code" minSize={140} defaultSize="46%">
+                    <CodePanel place={code} />
+                </Panel>
+            )}
+        </Group>
     );
 }
 

@@ -3,8 +3,10 @@
  * themselves. */
 import { CircleAlert, Info, TriangleAlert, X } from "lucide-react";
 import { memo, useEffect } from "react";
-import { nodeOfPlace } from "../../model/document.ts";
+import { findResource } from "../../model/document.ts";
+import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import { dismissNotice, type Notice } from "../../model/stores.ts";
+import { showPlace } from "../acts.ts";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { useDocument, useEditor, useNotices } from "../state.ts";
 import { t } from "../texts.ts";
@@ -28,10 +30,18 @@ export function Notices() {
 }
 
 const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
-    const { stores } = useEditor();
+    const editor = useEditor();
+    const { stores } = editor;
     const { id, level, message, place, count, code } = notice;
     const node = nodeOfPlace(place);
-    const known = useDocument((state) => node !== null && state.document?.nodes.has(node) === true);
+    const resource = resourceOfPlace(place);
+    const known = useDocument(
+        ({ document }) =>
+            document !== null &&
+            (document.nodes.has(node ?? "") ||
+                (resource !== null &&
+                    findResource(document, resource.list, resource.name) !== null)),
+    );
     useEffect(() => {
         if (level === "error") {
             return;
@@ -40,11 +50,6 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
         return () => clearTimeout(timer);
     }, [stores, id, level]);
     const Icon = icons[level];
-    const select = (): void => {
-        if (node !== null) {
-            stores.view.setState({ selection: [node], subject: { kind: "nodes" } });
-        }
-    };
     return (
         <div className="notice popup" data-level={level} data-code={code}>
             <Icon size={16} aria-hidden="true" />
@@ -53,7 +58,9 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
                 {count > 1 && ` (${t("notices.times", { count })})`}
                 {place !== "" && <div className="notice-place">{place}</div>}
             </div>
-            {known && <Button onClick={select}>{t("notices.show")}</Button>}
+            {known && (
+                <Button onClick={() => showPlace(editor, place, false)}>{t("notices.show")}</Button>
+            )}
             <IconButton
                 title={t("dismiss")}
                 data-size="s"

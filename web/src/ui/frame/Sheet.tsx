@@ -1,16 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* On a phone: the picture above, one sheet below with three heights. */
-import { type ReactNode, useRef, useState } from "react";
+import { type ReactNode, useEffect, useRef, useState } from "react";
+import { CodePanel } from "../code/index.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
+import { useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Region } from "./Region.tsx";
 import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
 
-const tabs = ["scene", "inspector", "setup"] as const;
-type Tab = (typeof tabs)[number];
+type Tab = "scene" | "inspector" | "setup" | "code";
+const always: readonly Tab[] = ["scene", "inspector", "setup"];
+
+const names = {
+    scene: "region.scene",
+    inspector: "region.inspector",
+    setup: "region.scene",
+    code: "code.title",
+} as const;
 
 const heights = ["76px", "46%", "82%"] as const;
 
@@ -18,6 +27,13 @@ export function Sheet({ picture }: { picture: ReactNode }) {
     const [tab, setTab] = useState<Tab>("scene");
     const [height, setHeight] = useState(1);
     const from = useRef<number | null>(null);
+    const code = useView((view) => view.code);
+    const tabs: readonly Tab[] = code === null ? always : [...always, "code"];
+    /* Code that is opened is shown, and what was there before when it is closed. */
+    useEffect(() => {
+        setTab((old) => (code !== null ? "code" : old === "code" ? "inspector" : old));
+        setHeight((now) => (code === null ? now : 2));
+    }, [code]);
     const show = (next: Tab): void => {
         setTab(next);
         setHeight((now) => Math.max(1, now));
@@ -60,14 +76,12 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                     aria-label={t(`tab.${tab}`)}
                     className="sheet-body"
                 >
-                    <Region
-                        name={t(tab === "inspector" ? "region.inspector" : "region.scene")}
-                        context={tab === "scene" ? "tree" : "anywhere"}
-                    >
+                    <Region name={t(names[tab])} context={tab === "scene" ? "tree" : "anywhere"}>
                         {tab === "scene" && <Scene />}
                         {tab === "inspector" && <Inspector />}
                         {tab === "setup" && <Resources />}
                         {tab === "setup" && <Setup />}
+                        {tab === "code" && code !== null && <CodePanel place={code} />}
                     </Region>
                 </div>
             </div>

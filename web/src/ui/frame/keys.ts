@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Keys of the page: finds the command for a press where the focus is, and F6 between regions. */
 import { useEffect } from "react";
-import { type Context, commandForKey, runCommand } from "../../model/commands.ts";
+import { commandForKey, runCommand } from "../../model/commandLookup.ts";
+import type { Context } from "../../model/commands.ts";
 import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 

@@ -11,10 +11,10 @@ export function Inspector() {
     const subject = useView((view) => view.subject);
     const active = useView((view) => view.selection.at(-1) ?? null);
     switch (subject.kind) {
-        case "light":
-            return <ResourceInspector key={subject.name} list="lights" name={subject.name} />;
-        case "material":
-            return <ResourceInspector key={subject.name} list="materials" name={subject.name} />;
+        case "resource": {
+            const { list, name } = subject;
+            return <ResourceInspector key={`${list}/${name}`} list={list} name={name} />;
+        }
         case "camera":
         case "environment":
         case "render":

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* The forms of a node: its own parameters, where it stands, what it is made of. */
+import { CircleQuestionMark } from "lucide-react";
 import { useMemo } from "react";
-import { nodeLabel } from "../../model/document.ts";
+import { functionOf, modelOf, nodeLabel, nodeParams } from "../../model/document.ts";
 import { rename } from "../../model/edits.ts";
-import { findParam, nodeType } from "../../model/schema.ts";
+import { modelNamed } from "../../model/models.ts";
+import { findParam, nodeType, type Param } from "../../model/schema.ts";
+import { usersOf } from "../../model/usage.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
+import { CommandButton } from "../frame/Act.tsx";
 import { typeTitle } from "../names.ts";
+import { IconButton } from "../parts/Button.tsx";
 import { Glyph } from "../parts/Glyph.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -23,7 +28,8 @@ export function NodeInspector({ id }: { id: string }) {
         const node = state.document?.nodes.get(id);
         return node ? nodeLabel(node) : id;
     });
-    const row = useDocument((state) => nodeType(state.schema, type ?? ""));
+    const group = useDocument((state) => nodeType(state.schema, type ?? "")?.group ?? "structure");
+    const params = useParams(id);
     const transform = useDocument((state) => state.schema.transform);
     const common = useDocument((state) => state.schema.node);
     const selected = useView((view) => view.selection.length);
@@ -34,17 +40,17 @@ export function NodeInspector({ id }: { id: string }) {
     if (type === null) {
         return <Nothing />;
     }
-    const group = row?.group ?? "structure";
     return (
         <div className="panel-scroll" data-testid="inspector">
             <Head id={id} type={type} label={label} />
             {selected > 1 && (
                 <p className="empty-note">{t("inspector.many", { count: selected })}</p>
             )}
-            {row && row.params.length > 0 && (
+            {params.length > 0 && (
                 <Section title={t(`inspector.${group}` as TextKey)}>
                     <div className="section-body">
-                        <Form params={row.params} base={`/nodes/${id}/params`} owner={label} />
+                        <Form params={params} base={`/nodes/${id}/params`} owner={label} />
+                        <InstanceActs id={id} />
                     </div>
                 </Section>
             )}
@@ -62,10 +68,50 @@ export function NodeInspector({ id }: { id: string }) {
     );
 }
 
+const NO_PARAMS: readonly Param[] = [];
+
+/* A node that names a distance function has its name and what that declares; its own code, and
+ * what belongs to it, is of no use then. */
+function useParams(id: string): readonly Param[] {
+    const all = useDocument(({ document, schema }) => {
+        const node = document?.nodes.get(id);
+        return document && node ? nodeParams(schema, document, node) : NO_PARAMS;
+    });
+    const own = useDocument(({ document, schema }) => {
+        const node = document?.nodes.get(id);
+        const named = document && node ? functionOf(schema, document, node) : null;
+        return named && node ? (nodeType(schema, node.type)?.params ?? null) : null;
+    });
+    return useMemo(
+        () => all.filter((row) => row.type === "function" || !own?.includes(row)),
+        [all, own],
+    );
+}
+
+/* What can be done with an instance of a model. */
+function InstanceActs({ id }: { id: string }) {
+    const instance = useDocument(
+        ({ document, schema }) =>
+            document !== null && modelNamed(schema, document, document.nodes.get(id)) !== null,
+    );
+    if (!instance) {
+        return null;
+    }
+    return (
+        <div className="form-acts">
+            <CommandButton id="model.edit" />
+            <CommandButton id="model.unpack" />
+        </div>
+    );
+}
+
 function Head({ id, type, label }: { id: string; type: string; label: string }) {
     const { link, stores } = useEditor();
     const name = useDocument((state) => state.document?.nodes.get(id)?.common.name);
-    const problem = useDocument((state) => state.problems.get(id));
+    const problem = useDocument(({ problems }) => {
+        const found = problems.get(`/nodes/${id}`) ?? problems.get(`/nodes/${id}/type`);
+        return found?.message ?? null;
+    });
     const row = useDocument((state) => nodeType(state.schema, type));
     const send = (text: string): void => {
         const { document } = stores.document.getState();
@@ -93,15 +139,47 @@ function Head({ id, type, label }: { id: string; type: string; label: string }) 
                 />
                 <div className="inspector-sub">
                     <TypeSelect id={id} type={type} />
+                    <IconButton
+                        title={t("reference.about", { name: typeTitle(type) })}
+                        data-size="s"
+                        onClick={() => stores.view.setState({ popup: "reference", topic: type })}
+                    >
+                        <CircleQuestionMark size={14} />
+                    </IconButton>
                 </div>
             </div>
             {row?.doc && <p className="inspector-doc">{row.doc}</p>}
+            <PartOf id={id} />
             {problem && (
                 <p className="form-error" role="alert">
-                    {problem.message}
+                    {problem}
                 </p>
             )}
         </header>
+    );
+}
+
+/* That a change here changes every instance of a model. */
+function PartOf({ id }: { id: string }) {
+    const editor = useEditor();
+    const model = useDocument(({ document }) => document && (modelOf(document, id)?.name ?? null));
+    const count = useDocument(({ document, schema }) =>
+        document && model !== null ? usersOf(schema, document, "models", model).length : 0,
+    );
+    if (model === null) {
+        return null;
+    }
+    return (
+        <p className="inspector-doc part-of">
+            <button
+                type="button"
+                className="link-button"
+                onClick={() => editor.show({ kind: "resource", list: "models", name: model })}
+            >
+                {t("inspector.partOf", { name: model })}
+            </button>{" "}
+            {t(count === 0 ? "inspector.noInstance" : "inspector.instances", { count })}
+        </p>
     );
 }
 

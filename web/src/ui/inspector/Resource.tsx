@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The forms of a material or a light. */
+/* The forms of a resource: a material or a light with its values, a distance function or a shader
+ * with what it declares and its code, a model. */
 import { useMemo, useState } from "react";
-import { findResource, type ListName, materialUsers, resourceType } from "../../model/document.ts";
-import { renameResource, whyNotName } from "../acts.ts";
+import { findResource, resourceParams } from "../../model/document.ts";
+import { LISTS, type ListName, resourcePlace, valuesPlace } from "../../model/places.ts";
+import { problemIn } from "../../model/problems.ts";
+import { type User, usersOf } from "../../model/usage.ts";
+import { rename, selectNode, whyNotName } from "../acts.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
 import { typeTitle } from "../names.ts";
+import { Button } from "../parts/Button.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
-import { Swatch } from "../parts/Swatch.tsx";
-import { LightIcon } from "../scene/Resources.tsx";
+import { ResourceIcon } from "../scene/ResourceIcon.tsx";
+import { ResourceMenu } from "../scene/ResourceMenu.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Nothing } from "./Inspector.tsx";
@@ -17,59 +22,59 @@ import "./inspector.css";
 
 const ignore = (): void => undefined;
 
-export function ResourceInspector({ list, name }: { list: ListName; name: string }) {
-    const type = useDocument((state) =>
-        state.document ? (findResource(state.document, list, name)?.type ?? null) : null,
+interface Props {
+    list: ListName;
+    name: string;
+}
+
+export function ResourceInspector({ list, name }: Props) {
+    const type = useDocument(({ document }) =>
+        document ? (findResource(document, list, name)?.type ?? null) : null,
     );
-    const row = useDocument((state) => resourceType(state.schema, list, type ?? ""));
-    if (type === null) {
+    const params = useDocument(({ document, schema }) =>
+        document && type !== null ? resourceParams(schema, document, list, type) : null,
+    );
+    if (type === null || params === null) {
         return <Nothing />;
     }
-    const base = list === "lights" ? `/lights/${name}` : `/materials/${name}/properties`;
     return (
         <div className="panel-scroll" data-testid="inspector">
-            <Head list={list} name={name} type={type} doc={row?.doc ?? ""} />
-            <Section title={t(list === "lights" ? "inspector.light" : "inspector.material")}>
-                <div className="section-body">
-                    {row && <Form params={row.params} base={base} owner={name} />}
-                </div>
-            </Section>
+            <Head list={list} name={name} type={type} />
+            {params.length > 0 && (
+                <Section title={t(`${list}.values`)}>
+                    <div className="section-body">
+                        <Form params={params} base={valuesPlace(list, name)} owner={name} />
+                    </div>
+                </Section>
+            )}
+            {list !== "lights" && <Users list={list} name={name} />}
         </div>
     );
 }
 
-interface HeadProps {
-    list: ListName;
-    name: string;
-    type: string;
-    doc: string;
-}
-
-function Head({ list, name, type, doc }: HeadProps) {
+function Head({ list, name, type }: Props & { type: string }) {
     const editor = useEditor();
     const [refused, setRefused] = useState<string | null>(null);
-    const users = useDocument((state) =>
-        state.document && list === "materials" ? materialUsers(state.document, name).length : 0,
-    );
-    const types = useDocument((state) => state.schema[list === "lights" ? "lights" : "shaders"]);
-    const options = useMemo<Option[]>(
-        () => types.map((row) => ({ value: row.type, label: typeTitle(row.type) })),
-        [types],
-    );
-    const rename = (text: string): void => {
-        const { document } = editor.stores.document.getState();
-        const resource = document && findResource(document, list, name);
+    const resource = useDocument(({ document }) => document && findResource(document, list, name));
+    const doc = useDocument(({ schema }) => {
+        const rows = list === "lights" ? schema.lights : list === "materials" ? schema.shaders : [];
+        return rows.find((row) => row.type === type)?.doc ?? t(`${list}.doc`);
+    });
+    const problem = useDocument(({ problems }) => {
+        const found = problemIn(problems, resourcePlace(list, name));
+        return found?.place === resourcePlace(list, name) ? found.message : null;
+    });
+    const change = (text: string): void => {
         const reason = whyNotName(editor, list, text);
         setRefused(reason);
         if (resource && reason === null) {
-            renameResource(editor, list, resource, text);
+            rename(editor, list, resource, text);
         }
     };
-    const place = list === "lights" ? `/lights/${name}/type` : `/materials/${name}/shader`;
     return (
         <header className="inspector-head">
             <span className="inspector-badge">
-                {list === "lights" ? <LightIcon type={type} size={18} /> : <Swatch name={name} />}
+                <ResourceIcon list={list} name={name} size={18} />
             </span>
             <div className="inspector-name">
                 <TextField
@@ -80,33 +85,92 @@ function Head({ list, name, type, doc }: HeadProps) {
                     onInput={ignore}
                     onCancel={ignore}
                     onRefuse={ignore}
-                    onCommit={rename}
+                    onCommit={change}
                 />
                 <div className="inspector-sub">
-                    <Select
-                        quiet
-                        value={type}
-                        label={t(list === "lights" ? "inspector.type" : "inspector.shader")}
-                        options={options}
-                        onChange={(value) =>
-                            editor.link.edit([{ op: "set", at: place, value }], {
-                                label: t("edit.set", { owner: name, name: t("inspector.type") }),
-                            })
-                        }
-                    />
+                    {LISTS[list].type === null ? (
+                        <span className="only-choice">{typeTitle(LISTS[list].one)}</span>
+                    ) : (
+                        <TypeSelect list={list} name={name} type={type} />
+                    )}
                 </div>
             </div>
-            {refused && (
+            {resource && <ResourceMenu list={list} resource={resource} />}
+            {(refused ?? problem) && (
                 <p className="form-error" role="alert">
-                    {refused}
+                    {refused ?? problem}
                 </p>
             )}
-            {doc && <p className="inspector-doc">{doc}</p>}
-            {list === "materials" && (
-                <p className="form-note">
-                    {users === 0 ? t("inspector.unused") : t("inspector.usedBy", { count: users })}
-                </p>
-            )}
+            <p className="inspector-doc">{doc}</p>
         </header>
+    );
+}
+
+/* A material's shader may be one of the document's; those come last. */
+function TypeSelect({ list, name, type }: Props & { type: string }) {
+    const { link } = useEditor();
+    const rows = useDocument(({ schema }) => schema[list === "lights" ? "lights" : "shaders"]);
+    const own = useDocument((state) => (list === "materials" ? state.document?.shaders : null));
+    const options = useMemo<Option[]>(
+        () => [
+            ...rows.map((row) => ({ value: row.type, label: typeTitle(row.type) })),
+            ...(own ?? []).map((shader) => ({ value: shader.name, label: shader.name })),
+        ],
+        [rows, own],
+    );
+    const place = `${resourcePlace(list, name)}/${LISTS[list].type}`;
+    return (
+        <Select
+            quiet
+            value={type}
+            label={t(list === "lights" ? "inspector.type" : "inspector.shader")}
+            options={options}
+            onChange={(value) =>
+                link.edit([{ op: "set", at: place, value }], {
+                    label: t("edit.set", { owner: name, name: t("inspector.type") }),
+                })
+            }
+        />
+    );
+}
+
+const MOST_USERS = 8;
+
+/* Who names it, each a way there. */
+function Users({ list, name }: Props) {
+    const editor = useEditor();
+    /* A text, so that numbers that change do not draw the list anew. */
+    const text = useDocument(({ document, schema }) =>
+        JSON.stringify(document ? usersOf(schema, document, list, name) : []),
+    );
+    const users = useMemo(() => JSON.parse(text) as User[], [text]);
+    const count = users.length;
+    return (
+        <Section title={t("inspector.users")} count={count}>
+            {count === 0 && <p className="empty-note">{t("inspector.unused")}</p>}
+            <div className="user-list">
+                {users.slice(0, MOST_USERS).map((user, i) => (
+                    <Button
+                        // biome-ignore lint/suspicious/noArrayIndexKey: one may name it twice
+                        key={`${user.name}-${i}`}
+                        look="outline"
+                        onClick={() =>
+                            user.kind === "node"
+                                ? selectNode(editor, user.name)
+                                : editor.show({
+                                      kind: "resource",
+                                      list: "materials",
+                                      name: user.name,
+                                  })
+                        }
+                    >
+                        {user.name}
+                    </Button>
+                ))}
+                {count > MOST_USERS && (
+                    <span>{t("inspector.more", { count: count - MOST_USERS })}</span>
+                )}
+            </div>
+        </Section>
     );
 }

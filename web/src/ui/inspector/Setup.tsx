@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The forms of the camera, the environment and the render settings. */
-import { commandById, runCommand } from "../../model/commands.ts";
+import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { Form } from "../form.tsx";
 import { Button } from "../parts/Button.tsx";
 import { setups } from "../scene/Resources.tsx";

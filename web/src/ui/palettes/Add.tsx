@@ -1,150 +1,111 @@
 /* SPDX-License-Identifier: MIT */
-/* Add: every node type of the schema as a small drawing, found by name or synonym. */
-import { useMemo, useRef, useState } from "react";
-import { type NodeType, searchNodeTypes } from "../../model/schema.ts";
+/* Add: everything that a scene can hold, with its picture and a line of help, found by name or
+ * synonym. Wrap: the part of it that goes around what is selected. */
+import { useCallback, useMemo } from "react";
+import { whatAdding } from "../../model/add.ts";
+import type { SceneDocument } from "../../model/document.ts";
+import { nodeType } from "../../model/schema.ts";
 import { addNode } from "../acts.ts";
-import { typeTitle } from "../names.ts";
-import { Dialog } from "../parts/Dialog.tsx";
-import { Glyph } from "../parts/Glyph.tsx";
+import { ListIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
-import { type TextKey, t } from "../texts.ts";
-import { useListbox } from "./listbox.ts";
-import { Foot, Search } from "./Search.tsx";
-import "./palettes.css";
+import { t } from "../texts.ts";
+import { groupTitle, type Offer, offersOf, searchOffers, wrappersOf } from "./additions.ts";
+import { type Face, type Group, Palette } from "./Palette.tsx";
+import { TypePicture } from "./TypePicture.tsx";
 
-interface Group {
-    title: string;
-    rows: readonly NodeType[];
+/* Offers under the titles of their groups. */
+function grouped(offers: readonly Offer[]): Group<Offer>[] {
+    const groups = [...new Set(offers.map(({ group }) => group))];
+    return groups.map((group) => ({
+        title: groupTitle(group),
+        items: offers.filter((offer) => offer.group === group),
+    }));
+}
+
+/* The document as far as palettes show it: names that instances can have. */
+function useNames(): SceneDocument | null {
+    const document = useDocument((state) => state.document);
+    const models = useDocument((state) => state.document?.models);
+    const primitives = useDocument((state) => state.document?.primitives);
+    // biome-ignore lint/correctness/useExhaustiveDependencies: the same one while only numbers change
+    return useMemo(() => document, [models, primitives]);
 }
 
 export function Add() {
-    const { stores } = useEditor();
-    const open = useView((view) => view.popup === "add");
-    const field = useRef<HTMLInputElement>(null);
-    const close = (): void => stores.view.setState({ popup: null });
-    return (
-        <Dialog
-            open={open}
-            title={t("add.title")}
-            bare
-            wide
-            first={field}
-            closeLabel={t("close")}
-            onClose={close}
-        >
-            <Palette field={field} onClose={close} />
-        </Dialog>
-    );
-}
-
-interface PaletteProps {
-    field: React.RefObject<HTMLInputElement | null>;
-    onClose: () => void;
-}
-
-function Palette({ field, onClose }: PaletteProps) {
     const editor = useEditor();
+    const popup = useView((view) => view.popup);
+    const wrapping = popup === "wrap";
+    const open = popup === "add" || wrapping;
     const schema = useDocument((state) => state.schema);
+    const document = useNames();
     const recent = useView((view) => view.preferences.recent);
-    const [query, setQuery] = useState("");
-    const groups = useMemo<Group[]>(() => {
-        const found = searchNodeTypes(schema, query);
-        if (query.trim() !== "") {
-            return [{ title: t("add.results"), rows: found }];
-        }
-        const named = [...new Set(found.map((row) => row.group))].map((group) => ({
-            title: t(`group.${group}` as TextKey),
-            rows: found.filter((row) => row.group === group),
-        }));
-        const last = recent.flatMap((type) => found.filter((row) => row.type === type));
-        return last.length > 0 ? [{ title: t("add.recent"), rows: last }, ...named] : named;
-    }, [schema, query, recent]);
-    const all = groups.flatMap((group) => group.rows);
-    const take = (index: number): void => {
-        const row = all[index];
-        if (row) {
-            onClose();
-            addNode(editor, row.type);
-        }
+    const find = useCallback(
+        (query: string): readonly Group<Offer>[] => {
+            if (document === null || !open) {
+                return [];
+            }
+            const offers = wrapping ? wrappersOf(schema) : offersOf(schema, document);
+            if (query.trim() !== "") {
+                return [{ title: t("add.results"), items: searchOffers(offers, query) }];
+            }
+            const last = recent.flatMap((type) =>
+                offers.filter((offer) => offer.type === type && offer.named === undefined),
+            );
+            const groups = grouped(offers);
+            return last.length > 0 && !wrapping
+                ? [{ title: t("add.recent"), items: last }, ...groups]
+                : groups;
+        },
+        [schema, document, recent, wrapping, open],
+    );
+    const footOf = (offer: Offer): string => {
+        const { document: now } = editor.stores.document.getState();
+        const { selection } = editor.stores.view.getState();
+        const what = now && whatAdding(now, schema, offer, selection);
+        return what === null ? offer.doc : `${what} ${offer.doc}`;
     };
-    const box = useListbox(all.length, query, take);
-    let index = -1;
     return (
-        <>
-            <Search
-                ref={field}
-                label={t("add.title")}
-                placeholder={t("add.search")}
-                value={query}
-                listId={box.listId}
-                activeId={all.length > 0 ? box.optionId(box.active) : undefined}
-                onChange={setQuery}
-                onKeyDown={box.onKeyDown}
-            />
-            <div
-                className="palette-list"
-                role="listbox"
-                id={box.listId}
-                ref={box.list}
-                data-grid=""
-                aria-label={t("add.title")}
-                tabIndex={-1}
-            >
-                {groups.map(({ title, rows }) => (
-                    // biome-ignore lint/a11y/useSemanticElements: a fieldset cannot hold options
-                    <div key={title} role="group" aria-label={title}>
-                        <div className="palette-group" aria-hidden="true">
-                            {title}
-                        </div>
-                        <div className="tile-grid" role="presentation">
-                            {rows.map((row) => {
-                                index += 1;
-                                const here = index;
-                                return (
-                                    <Tile
-                                        key={row.type}
-                                        id={box.optionId(here)}
-                                        row={row}
-                                        active={here === box.active}
-                                        onHover={() => box.hover(here)}
-                                        onTake={() => take(here)}
-                                    />
-                                );
-                            })}
-                        </div>
-                    </div>
-                ))}
-            </div>
-            {all.length === 0 && <p className="empty-note">{t("add.nothing", { query })}</p>}
-            <Foot>{all[box.active]?.doc}</Foot>
-        </>
+        <Palette
+            open={open}
+            title={t(wrapping ? "wrap.title" : "add.title")}
+            placeholder={t(wrapping ? "wrap.search" : "add.search")}
+            grid
+            find={find}
+            faceOf={faceOf}
+            footOf={footOf}
+            onTake={(offer) => addNode(editor, offer)}
+            onClose={() => editor.stores.view.setState({ popup: null })}
+        />
     );
 }
 
-interface TileProps {
-    id: string;
-    row: NodeType;
-    active: boolean;
-    onHover: () => void;
-    onTake: () => void;
+function faceOf(offer: Offer): Face {
+    const { type, named, title, doc } = offer;
+    return {
+        key: named === undefined ? type : `${type}/${named}`,
+        className: "tile",
+        tip: doc,
+        data: { "data-type": type, ...(named === undefined ? {} : { "data-named": named }) },
+        content: (
+            <>
+                <TilePicture offer={offer} />
+                <span className="tile-text">
+                    <span className="tile-name ellipsis">{title}</span>
+                    <span className="tile-doc">{doc}</span>
+                </span>
+            </>
+        ),
+    };
 }
 
-function Tile({ id, row, active, onHover, onTake }: TileProps) {
-    return (
-        // biome-ignore lint/a11y/useKeyWithClickEvents: the search field has the focus and the keys
-        <div
-            id={id}
-            className="tile"
-            role="option"
-            tabIndex={-1}
-            aria-selected={active}
-            data-type={row.type}
-            title={row.doc}
-            onPointerMove={onHover}
-            onClick={onTake}
-        >
-            <Glyph type={row.type} group={row.group} size={34} />
-            <span>{typeTitle(row.type)}</span>
-        </div>
-    );
+function TilePicture({ offer: { type, group, named } }: { offer: Offer }) {
+    const row = useDocument((state) => nodeType(state.schema, type));
+    if (named !== undefined) {
+        return (
+            <span className="type-picture">
+                <ListIcon list={group === "models" ? "models" : "primitives"} size={26} />
+            </span>
+        );
+    }
+    return <TypePicture type={type} group={row?.group} />;
 }

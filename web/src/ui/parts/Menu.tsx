@@ -69,6 +69,11 @@ export function MenuItem({ icon, keys, danger, disabled, onSelect, children }: I
     );
 }
 
+/* A remark below an item: why it cannot be chosen. */
+export function MenuNote({ children }: { children: ReactNode }) {
+    return <p className="menu-note">{children}</p>;
+}
+
 export function MenuLine() {
     return <Base.Separator className="menu-line" />;
 }

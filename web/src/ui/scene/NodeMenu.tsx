@@ -19,8 +19,10 @@ const parts: readonly (readonly string[])[] = [
         "node.wrap.union",
         "node.wrap.difference",
         "node.wrap.smooth_union",
+        "node.wrap",
         "node.dissolve",
     ],
+    ["model.edit", "model.make", "model.unpack"],
     ["node.up", "node.down", "node.hide", "node.hideOthers", "node.showAll", "camera.frame"],
 ];
 

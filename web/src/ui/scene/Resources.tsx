@@ -1,158 +1,137 @@
 /* SPDX-License-Identifier: MIT */
-/* Below the tree: materials, lights, and the camera, environment and render settings. */
-import {
-    Camera,
-    Copy,
-    Ellipsis,
-    Image,
-    Lightbulb,
-    type LucideIcon,
-    Plus,
-    SlidersHorizontal,
-    Sun,
-    Trash2,
-} from "lucide-react";
-import { type ListName, materialUsers, type Resource } from "../../model/document.ts";
-import { addLight, addMaterial, duplicateResource, removeResource } from "../acts.ts";
+/* Below the tree: models, materials, lights, distance functions, shaders, each list in the same
+ * way; and the camera, environment and render settings. */
+import { Camera, CircleAlert, Image, type LucideIcon, Plus, SlidersHorizontal } from "lucide-react";
+import type { Resource } from "../../model/document.ts";
+import { LIST_NAMES, type ListName, type RecordName, resourcePlace } from "../../model/places.ts";
+import { problemIn } from "../../model/problems.ts";
+import { usersOf } from "../../model/usage.ts";
+import { addLight, addResource } from "../acts.ts";
+import { sentence } from "../form.tsx";
 import { Section } from "../inspector/Section.tsx";
 import { typeTitle } from "../names.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem } from "../parts/Menu.tsx";
-import { Swatch } from "../parts/Swatch.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { LightIcon, ResourceIcon } from "./ResourceIcon.tsx";
+import { ResourceMenu } from "./ResourceMenu.tsx";
 import "../inspector/inspector.css";
 
 export function Resources() {
     return (
         <div className="resources">
-            <Materials />
-            <Lights />
+            {LIST_NAMES.map((list) => (
+                <List key={list} list={list} />
+            ))}
         </div>
     );
 }
 
-function Materials() {
-    const editor = useEditor();
-    const materials = useDocument((state) => state.document?.materials);
+function List({ list }: { list: ListName }) {
+    const resources = useDocument((state) => state.document?.[list]);
     return (
         <Section
-            title={t("materials.title")}
-            count={materials?.length ?? 0}
-            action={
-                <IconButton
-                    title={t("materials.add")}
-                    data-size="s"
-                    onClick={() => addMaterial(editor, null)}
-                >
+            title={t(`${list}.title`)}
+            count={resources?.length ?? 0}
+            action={list === "lights" ? <AddLight /> : <AddButton list={list} />}
+        >
+            {resources?.length === 0 && <p className="empty-note">{t(`${list}.empty`)}</p>}
+            <ul className="resource-list">
+                {resources?.map((resource) => (
+                    <ResourceRow key={resource.name} list={list} resource={resource} />
+                ))}
+            </ul>
+        </Section>
+    );
+}
+
+function AddButton({ list }: { list: Exclude<ListName, "lights"> }) {
+    const editor = useEditor();
+    return (
+        <IconButton
+            title={t(`${list}.add`)}
+            data-size="s"
+            onClick={() => addResource(editor, list, null)}
+        >
+            <Plus size={14} />
+        </IconButton>
+    );
+}
+
+function AddLight() {
+    const editor = useEditor();
+    const types = useDocument((state) => state.schema.lights);
+    return (
+        <Menu
+            align="end"
+            trigger={
+                <IconButton title={t("lights.add")} data-size="s">
                     <Plus size={14} />
                 </IconButton>
             }
         >
-            {materials?.length === 0 && <p className="empty-note">{t("materials.empty")}</p>}
-            <ul className="resource-list">
-                {materials?.map((material) => (
-                    <ResourceRow key={material.name} list="materials" resource={material} />
-                ))}
-            </ul>
-        </Section>
-    );
-}
-
-function Lights() {
-    const editor = useEditor();
-    const lights = useDocument((state) => state.document?.lights);
-    const types = useDocument((state) => state.schema.lights);
-    return (
-        <Section
-            title={t("lights.title")}
-            count={lights?.length ?? 0}
-            action={
-                <Menu
-                    align="end"
-                    trigger={
-                        <IconButton title={t("lights.add")} data-size="s">
-                            <Plus size={14} />
-                        </IconButton>
-                    }
+            {types.map(({ type }) => (
+                <MenuItem
+                    key={type}
+                    icon={<LightIcon type={type} />}
+                    onSelect={() => addLight(editor, type)}
                 >
-                    {types.map(({ type }) => (
-                        <MenuItem
-                            key={type}
-                            icon={<LightIcon type={type} />}
-                            onSelect={() => addLight(editor, type)}
-                        >
-                            {typeTitle(type)}
-                        </MenuItem>
-                    ))}
-                </Menu>
-            }
-        >
-            {lights?.length === 0 && <p className="empty-note">{t("lights.empty")}</p>}
-            <ul className="resource-list">
-                {lights?.map((light) => (
-                    <ResourceRow key={light.name} list="lights" resource={light} />
-                ))}
-            </ul>
-        </Section>
+                    {typeTitle(type)}
+                </MenuItem>
+            ))}
+        </Menu>
     );
-}
-
-export function LightIcon({ type, size = 15 }: { type: string; size?: number }) {
-    const Icon = type === "directional" ? Sun : Lightbulb;
-    return <Icon size={size} aria-hidden="true" />;
 }
 
 function ResourceRow({ list, resource }: { list: ListName; resource: Resource }) {
     const editor = useEditor();
     const { name } = resource;
-    const kind = list === "lights" ? "light" : "material";
     const selected = useView(
-        ({ subject }) => subject.kind === kind && "name" in subject && subject.name === name,
+        ({ subject }) =>
+            subject.kind === "resource" && subject.list === list && subject.name === name,
     );
-    const users = useDocument((state) =>
-        state.document && list === "materials" ? materialUsers(state.document, name).length : 0,
+    const users = useDocument(({ document, schema }) =>
+        document ? usersOf(schema, document, list, name).length : 0,
     );
+    const problem = useDocument(({ problems }) => {
+        const found = problemIn(problems, resourcePlace(list, name));
+        return found && sentence(found);
+    });
     return (
         <li className="resource-row" data-selected={selected || undefined} data-resource={name}>
             <button
                 type="button"
                 className="resource-pick"
                 aria-pressed={selected}
-                onClick={() => editor.show({ kind, name })}
+                onClick={() => editor.show({ kind: "resource", list, name })}
             >
-                {list === "lights" ? <LightIcon type={resource.type} /> : <Swatch name={name} />}
+                <ResourceIcon list={list} name={name} />
                 <span className="ellipsis">{name}</span>
-                {users > 0 && <span className="resource-meta">{users}×</span>}
+                {problem !== null && (
+                    <span
+                        className="tree-error"
+                        role="img"
+                        title={problem}
+                        aria-label={t("scene.problem", { message: problem })}
+                    >
+                        <CircleAlert size={14} />
+                    </span>
+                )}
+                {users > 0 && (
+                    <span
+                        className="resource-meta"
+                        title={t("resource.users", { count: users })}
+                    >{`${users}×`}</span>
+                )}
             </button>
-            <Menu
-                align="end"
-                trigger={
-                    <IconButton title={t("resource.more", { name })} data-size="s">
-                        <Ellipsis size={14} />
-                    </IconButton>
-                }
-            >
-                <MenuItem
-                    icon={<Copy size={14} />}
-                    onSelect={() => duplicateResource(editor, list, resource)}
-                >
-                    {t("resource.duplicate")}
-                </MenuItem>
-                <MenuItem
-                    icon={<Trash2 size={14} />}
-                    danger
-                    onSelect={() => removeResource(editor, list, name)}
-                >
-                    {t("resource.remove")}
-                </MenuItem>
-            </Menu>
+            <ResourceMenu list={list} resource={resource} />
         </li>
     );
 }
 
 export const setups: readonly {
-    kind: "camera" | "environment" | "render";
+    kind: RecordName;
     title: TextKey;
     icon: LucideIcon;
 }[] = [

@@ -2,13 +2,17 @@
 /* One row of the tree. */
 import type { ItemInstance } from "@headless-tree/core";
 import { ChevronRight, CircleAlert, Eye, EyeOff } from "lucide-react";
-import { isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
+import { functionOf, isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
+import { modelNamed } from "../../model/models.ts";
+import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
+import { sentence } from "../form.tsx";
 import { Glyph } from "../parts/Glyph.tsx";
 import { Swatch } from "../parts/Swatch.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { ListIcon } from "./ResourceIcon.tsx";
 import "./scene.css";
 
 interface Props {
@@ -24,14 +28,30 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
     const { stores } = useEditor();
     const id = item.getId();
     const group = useDocument((state) => nodeType(state.schema, node?.type ?? "")?.group);
-    const problem = useDocument((state) => state.problems.get(id)?.message ?? null);
+    const problem = useDocument((state) => {
+        const found = problemIn(state.problems, `/nodes/${id}`);
+        return found && sentence(found);
+    });
+    /* The root of a model bears the model's name; an instance says of what. */
+    const model = useDocument(({ document }) =>
+        node?.parent === null
+            ? (document?.models.find(({ root }) => root === id)?.name ?? null)
+            : null,
+    );
+    const of = useDocument(({ document, schema }) =>
+        document && node
+            ? (modelNamed(schema, document, node)?.name ??
+              functionOf(schema, document, node)?.name ??
+              null)
+            : null,
+    );
     const hovered = useView((view) => view.hovered === id);
     const renaming = useView((view) => view.renaming === id);
     if (!node) {
         return null;
     }
     const { onClick: _click, ...props } = item.getProps();
-    const name = nodeLabel(node);
+    const name = model ?? nodeLabel(node);
     const own = node.common.material;
     const level = item.getItemMeta().level;
     const foldable = node.children.length > 0;
@@ -66,7 +86,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                 item.setFocused();
                 item.getElement()?.focus();
             }}
-            onDoubleClick={() => stores.view.setState({ renaming: id })}
+            onDoubleClick={() => model === null && stores.view.setState({ renaming: id })}
             onContextMenu={(event) => {
                 event.preventDefault();
                 if (!item.isSelected()) {
@@ -76,8 +96,15 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             }}
         >
             <Twist item={item} foldable={foldable} name={name} />
-            <Glyph type={node.type} group={group} />
-            {renaming ? <Rename node={node} /> : <span className="tree-name ellipsis">{name}</span>}
+            {model === null ? <Glyph type={node.type} group={group} /> : <ListIcon list="models" />}
+            {renaming ? (
+                <Rename node={node} />
+            ) : (
+                <span className="tree-name ellipsis">
+                    {name}
+                    {of !== null && of !== name && <span className="tree-of">{of}</span>}
+                </span>
+            )}
             {problem && (
                 <span
                     className="tree-error"
@@ -90,6 +117,36 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             )}
             {typeof own === "string" && own !== "" && <Swatch name={own} className="tree-swatch" />}
             <EyeButton node={node} name={name} />
+        </div>
+    );
+}
+
+interface ModelsProps {
+    item: Props["item"];
+    count: number;
+    top: number;
+    height: number;
+}
+
+/* The heading above the roots of the models. */
+export function ModelsRow({ item, count, top, height }: ModelsProps) {
+    const title = t("models.title");
+    const { onClick: _click, ...props } = item.getProps();
+    const fold = (): void => (item.isExpanded() ? item.collapse() : item.expand());
+    return (
+        // biome-ignore lint/a11y/noStaticElementInteractions: getProps makes it a treeitem
+        // biome-ignore lint/a11y/useKeyWithClickEvents: the tree's own keys do it
+        <div
+            {...props}
+            className="tree-row tree-heading"
+            style={{ insetBlockStart: top, blockSize: height }}
+            data-heading="models"
+            onClick={fold}
+        >
+            <Twist item={item} foldable={true} name={title} />
+            <span className="tree-name">
+                {title} <span className="section-count">{count}</span>
+            </span>
         </div>
     );
 }

@@ -13,7 +13,8 @@ import {
 import { AssistiveTreeDescription, useTree } from "@headless-tree/react";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useEffect, useMemo, useRef, useState } from "react";
-import { perform } from "../../model/commands.ts";
+import { perform } from "../../model/actions.ts";
+import { isContainer } from "../../model/add.ts";
 import {
     isInside,
     nodeLabel,
@@ -23,16 +24,19 @@ import {
 } from "../../model/document.ts";
 import { moveNodes } from "../../model/edits.ts";
 import { nodeType } from "../../model/schema.ts";
+import { modelsHeldBy } from "../../model/usage.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
 import { filterNodes } from "./filter.ts";
 import { NodeMenu } from "./NodeMenu.tsx";
-import { Row } from "./Row.tsx";
+import { ModelsRow, Row } from "./Row.tsx";
 import "./scene.css";
 
-/* The tree's own root is not shown; the scene's root node is its only child. */
+/* The tree's own root is not shown; it holds the scene's root node and, where there are models,
+ * their heading, which holds their roots. Neither is a node. */
 const TOP = "/";
+const MODELS = "/models";
 const INDENT = 14;
 const ROW = 26;
 const TOUCH_ROW = 36;
@@ -45,14 +49,18 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
     const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
     const kept = useMemo(() => filterNodes(document, query), [document, query]);
     const childrenOf = (id: string): string[] => {
-        const ids = id === TOP ? [document.root] : (document.nodes.get(id)?.children ?? []);
-        return kept === null ? [...ids] : ids.filter((child) => kept.has(child));
+        const ids = childIds(document, id);
+        return kept === null
+            ? ids
+            : ids.filter((child) => kept.has(child) || (child === MODELS && anyModel));
     };
+    const anyModel = kept === null || document.models.some((model) => kept.has(model.root));
     const expanded = useMemo(() => {
         const open = [...document.nodes.values()].filter(
             (node) => node.children.length > 0 && (kept !== null || !collapsed.has(node.id)),
         );
-        return [TOP, ...open.map((node) => node.id)];
+        const models = kept !== null || !collapsed.has(MODELS) ? [MODELS] : [];
+        return [TOP, ...models, ...open.map((node) => node.id)];
     }, [document, collapsed, kept]);
 
     const tree = useTree<SceneNode | null>({
@@ -82,13 +90,14 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
         setSelectedItems: (update) => {
             const old = [...view.getState().selection];
             const next = typeof update === "function" ? update(old) : update;
-            view.setState({ selection: next, subject: { kind: "nodes" } });
+            const nodes = next.filter((id) => document.nodes.has(id));
+            view.setState({ selection: nodes, subject: { kind: "nodes" } });
         },
         hotkeys: {
             focusNextItem: stepKey("ArrowDown", 1),
             focusPreviousItem: stepKey("ArrowUp", -1),
         },
-        canDrag: (items) => items.every((item) => item.getId() !== document.root),
+        canDrag: (items) => items.every((item) => item.getItemData()?.parent != null),
         canDrop: (items, target) => canDrop(editor, document, items, target),
         onDrop: (items, target) => drop(editor, items, target),
     });
@@ -99,7 +108,9 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
     }, [document, kept, collapsed]);
     const bounds = useRef<HTMLDivElement>(null);
     const height = useMedia("(pointer: coarse)") ? TOUCH_ROW : ROW;
-    const items = tree.getItems().filter((item) => document.nodes.has(item.getId()));
+    const items = tree
+        .getItems()
+        .filter((item) => document.nodes.has(item.getId()) || item.getId() === MODELS);
     const rows = useVirtualizer({
         count: items.length,
         getScrollElement: () => bounds.current,
@@ -125,14 +136,18 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
             >
                 {rows.getVirtualItems().map((row) => {
                     const item = items[row.index];
+                    const place = { top: row.start + 2, height };
+                    if (item?.getId() === MODELS) {
+                        const count = document.models.length;
+                        return <ModelsRow key={row.key} item={item} count={count} {...place} />;
+                    }
                     return (
                         item && (
                             <Row
                                 key={row.key}
                                 item={item}
                                 node={document.nodes.get(item.getId())}
-                                top={row.start + 2}
-                                height={height}
+                                {...place}
                                 indent={INDENT}
                                 onMenu={setMenu}
                             />
@@ -177,10 +192,20 @@ function labelOf(item: Item): string {
     return node ? nodeLabel(node) : "";
 }
 
+/* What a row of the tree has below it. */
+function childIds(document: SceneDocument, id: string): string[] {
+    if (id === TOP) {
+        return document.models.length > 0 ? [document.root, MODELS] : [document.root];
+    }
+    return id === MODELS
+        ? document.models.map((model) => model.root)
+        : [...(document.nodes.get(id)?.children ?? [])];
+}
+
 function mayHold(editor: ReturnType<typeof useEditor>, item: Item): boolean {
     const { schema } = editor.stores.document.getState();
     const row = nodeType(schema, item.getItemData()?.type ?? "");
-    return row !== null && row.group !== "primitive";
+    return row !== null && isContainer(row);
 }
 
 function canDrop(
@@ -191,9 +216,13 @@ function canDrop(
 ): boolean {
     const into = target.item.getId();
     const { schema } = editor.stores.document.getState();
-    const node = document.nodes.get(into);
-    const holds = node && nodeType(schema, node.type)?.children !== "none";
-    return holds === true && !items.some((item) => isInside(document, into, item.getId()));
+    const row = nodeType(schema, document.nodes.get(into)?.type ?? "");
+    return (
+        row !== null &&
+        isContainer(row) &&
+        !items.some((item) => isInside(document, into, item.getId())) &&
+        !items.some((item) => modelsHeldBy(schema, document, item.getId(), into))
+    );
 }
 
 function drop(
@@ -227,9 +256,13 @@ function useReveal(
             return;
         }
         const { collapsed } = view.getState();
-        const above = pathTo(document, id).slice(0, -1);
-        if (above.some((node) => collapsed.has(node.id))) {
-            const open = new Set(above.map((node) => node.id));
+        const above = pathTo(document, id).map((node) => node.id);
+        above.pop();
+        if (document.models.some((model) => isInside(document, id, model.root))) {
+            above.push(MODELS);
+        }
+        if (above.some((one) => collapsed.has(one))) {
+            const open = new Set(above);
             view.setState({ collapsed: new Set([...collapsed].filter((one) => !open.has(one))) });
             return;
         }

@@ -9,7 +9,8 @@ export function filterNodes(document: SceneDocument, query: string): ReadonlySet
     }
     const kept = new Set<string>();
     for (const node of document.nodes.values()) {
-        const text = `${nodeLabel(node)} ${node.id} ${node.type.replaceAll("_", " ")}`;
+        const model = document.models.find(({ root }) => root === node.id)?.name ?? "";
+        const text = `${nodeLabel(node)} ${node.id} ${node.type.replaceAll("_", " ")} ${model}`;
         if (text.toLowerCase().includes(word)) {
             for (const above of pathTo(document, node.id)) {
                 kept.add(above.id);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The start page: own scenes, examples, a new scene, files dropped anywhere. */
-import { CircleHelp, Plus, Upload } from "lucide-react";
+import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
-import { report, uploadFile } from "../files.ts";
+import { chooseFiles, report } from "../files.ts";
 import { ThemeButton } from "../frame/Bar.tsx";
+import { type ImportProblem, openFiles, readFiles, type TextFile } from "../import.ts";
+import { later } from "../later.tsx";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { Logo } from "../parts/Logo.tsx";
 import { goTo } from "../route.ts";
@@ -14,8 +16,9 @@ import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
 import { useDrop } from "./drop.ts";
 import "./scenes.css";
 
-/* What a new scene starts with: nothing but a root. */
-/* No shapes yet, but the first one will stand in the light. */
+const ImportFault = later(() => import("./ImportFault.tsx"));
+
+/* What a new scene starts with. No shapes yet, but the first one will stand in the light. */
 const EMPTY_SCENE = {
     format: "fieldcast/1",
     name: t("bar.untitled"),
@@ -94,11 +97,15 @@ export function timeOf({ modified }: SceneEntry): number {
     return Number.isFinite(time) ? time : 0;
 }
 
-export function ScenesPage() {
+export default function ScenesPage() {
     const editor = useEditor();
     const { scenes, examples, failed, reload } = useLists();
     const { leaving, leave, stay, remove } = useLeaving(reload);
-    const dropping = useDrop((file) => void uploadFile(editor, file));
+    const [problem, setProblem] = useState<ImportProblem | null>(null);
+    const take = (files: readonly TextFile[]): void => void openFiles(editor, files, setProblem);
+    const dropping = useDrop(take);
+    const choose = (folder: boolean) => (): void =>
+        chooseFiles(folder, async (files) => take(await readFiles(files)));
     const start = async (make: () => Promise<string>): Promise<void> => {
         try {
             goTo(await make());
@@ -109,7 +116,11 @@ export function ScenesPage() {
     const shown = scenes?.filter((scene) => !leaving.some(({ id }) => id === scene.id)) ?? [];
     return (
         <div className="scenes">
-            <Head onNew={() => void start(() => editor.rest.createScene(EMPTY_SCENE))} />
+            <Head
+                onNew={() => void start(() => editor.rest.createScene(EMPTY_SCENE))}
+                onFiles={choose(false)}
+                onFolder={choose(true)}
+            />
             <main className="scenes-body" data-region={t("scenes.title")} tabIndex={-1}>
                 {failed !== null && (
                     <p className="page-note" role="alert">
@@ -169,12 +180,19 @@ export function ScenesPage() {
                     />
                 ))}
             </div>
+            <ImportFault problem={problem} onClose={() => setProblem(null)} />
             {dropping && <div className="drop-cover">{t("scenes.drop")}</div>}
         </div>
     );
 }
 
-function Head({ onNew }: { onNew: () => void }) {
+interface HeadProps {
+    onNew: () => void;
+    onFiles: () => void;
+    onFolder: () => void;
+}
+
+function Head({ onNew, onFiles, onFolder }: HeadProps) {
     const editor = useEditor();
     return (
         <header className="scenes-bar" data-region={t("region.bar")} tabIndex={-1}>
@@ -196,10 +214,13 @@ function Head({ onNew }: { onNew: () => void }) {
                 <Button
                     look="outline"
                     icon={<Upload size={14} aria-hidden="true" />}
-                    onClick={() => editor.upload()}
+                    onClick={onFiles}
                 >
                     {t("scenes.upload")}
                 </Button>
+                <IconButton title={t("scenes.folder")} onClick={onFolder}>
+                    <FolderUp size={16} />
+                </IconButton>
                 <Button
                     className="wide-only"
                     look="primary"

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What is honest about the picture on screen: moving, still, lossless, compiling, by which
  * renderer. */
-import { Cpu } from "lucide-react";
+import { CircleAlert, Cpu } from "lucide-react";
+import { brokenCode } from "../../model/problems.ts";
+import { showPlace } from "../acts.ts";
 import { Tip } from "../parts/Tip.tsx";
-import { useLink } from "../state.ts";
+import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
 import "./view.css";
 
@@ -22,6 +24,31 @@ export function StatePill() {
             <span className="pill-dot" />
             {t(`state.${state}`, { percent })}
         </span>
+    );
+}
+
+/* The picture is that of the last code that compiled; a press leads to what does not. */
+export function BrokenPill() {
+    const editor = useEditor();
+    const problem = useDocument(({ problems }) => brokenCode(problems)[0] ?? null);
+    const count = useDocument(({ problems }) => brokenCode(problems).length);
+    if (problem === null) {
+        return null;
+    }
+    return (
+        <Tip text={problem.message} note={problem.place} side="top">
+            <button
+                type="button"
+                className="glass pill pill-bad"
+                data-testid="broken"
+                onClick={() => showPlace(editor, problem.place, true)}
+            >
+                <CircleAlert size={14} aria-hidden="true" />
+                {problem.line === undefined
+                    ? t("state.broken", { count })
+                    : t("state.brokenLine", { line: problem.line })}
+            </button>
+        </Tip>
     );
 }
 

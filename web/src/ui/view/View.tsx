@@ -10,7 +10,7 @@ import { t } from "../texts.ts";
 import { Crumbs } from "./Crumbs.tsx";
 import { inputActions } from "./input.ts";
 import { Outputs } from "./Outputs.tsx";
-import { SoftwareChip, StatePill } from "./State.tsx";
+import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { StatisticsPill } from "./Statistics.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
@@ -30,6 +30,7 @@ export function View() {
                 <Hint />
                 <div className="view-pills">
                     <StatePill />
+                    <BrokenPill />
                     <StatisticsPill />
                     <SoftwareChip />
                 </div>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What pointing at the picture does to the stores: the camera, the selection, the menu. */
 
-import { commandById, moveCamera, runCommand } from "../../model/commands.ts";
+import { moveCamera } from "../../model/actions.ts";
+import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf } from "../../model/document.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import type { InputActions } from "../../overlay/input.ts";

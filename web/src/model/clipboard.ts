@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+/* Nodes as text, with what they name, so that they can be pasted into another scene too. */
+import { spotFor } from "./add.ts";
+import { findResource, type SceneDocument, type SceneNode } from "./document.ts";
+import { printNode, printResource } from "./documentJson.ts";
+import { copyInto, type Edit, freshIds, movable, renamed } from "./edits.ts";
+import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import type { Operation } from "./operation.ts";
+import type { ListName } from "./places.ts";
+import { nodeType, type Schema } from "./schema.ts";
+import { listNamedBy } from "./usage.ts";
+
+interface Named {
+    readonly list: ListName;
+    readonly name: string;
+}
+
+/* What a node of either form names. */
+function namesOf(schema: Schema, common: JsonObject, type: string, params: JsonObject): Named[] {
+    const rows = [
+        ...schema.node.map((param) => ({ param, value: common[param.name] })),
+        ...(nodeType(schema, type)?.params ?? []).map((param) => ({
+            param,
+            value: params[param.name],
+        })),
+    ];
+    return rows.flatMap(({ param, value }) => {
+        const list = listNamedBy(param.type);
+        return list !== null && typeof value === "string" && value !== ""
+            ? [{ list, name: value }]
+            : [];
+    });
+}
+
+/* Resources that nodes need, each after those that it needs itself. */
+function needed(schema: Schema, document: SceneDocument, ids: readonly string[]): Named[] {
+    const found = new Map<string, Named>();
+    const seen = new Set<string>();
+    const need = (named: Named): void => {
+        const key = `/${named.list}/${named.name}`;
+        const resource = findResource(document, named.list, named.name);
+        if (seen.has(key) || resource === null) {
+            return;
+        }
+        seen.add(key);
+        if (named.list === "materials") {
+            need({ list: "shaders", name: resource.type });
+        }
+        visit(document.nodes.get(resource.root));
+        found.set(key, named);
+    };
+    const visit = (node: SceneNode | undefined): void => {
+        if (node) {
+            for (const named of namesOf(schema, node.common, node.type, node.params)) {
+                need(named);
+            }
+            for (const child of node.children) {
+                visit(document.nodes.get(child));
+            }
+        }
+    };
+    for (const id of ids) {
+        visit(document.nodes.get(id));
+    }
+    return [...found.values()];
+}
+
+/* What the clipboard holds: nodes as scene JSON, and the resources that they name. */
+export function clip(schema: Schema, document: SceneDocument, ids: readonly string[]): string {
+    const own = movable(document, ids);
+    const resources = needed(schema, document, own).flatMap(({ list, name }) => {
+        const resource = findResource(document, list, name);
+        return resource ? [{ list, name, value: printResource(document, list, resource) }] : [];
+    });
+    const nodes = own.map((id) => printNode(document, id));
+    return JSON.stringify({ format: "fieldcast/1", nodes, resources }, null, 1);
+}
+
+function readClip(text: string): { nodes: JsonObject[]; resources: JsonObject[] } | null {
+    try {
+        const json = JSON.parse(text) as Json;
+        const nodes = isObject(json) ? listOf(json.nodes).filter(isObject) : [];
+        const resources = isObject(json) ? listOf(json.resources).filter(isObject) : [];
+        return nodes.length > 0 ? { nodes, resources } : null;
+    } catch {
+        return null;
+    }
+}
+
+/* Nodes from the clipboard. Resources that this scene has under the same name are its own; others
+ * come along, and what names anything else loses the name. Null: there is no node in it. */
+export function paste(
+    document: SceneDocument,
+    schema: Schema,
+    selection: readonly string[],
+    text: string,
+): Edit | null {
+    const content = readClip(text);
+    if (content === null) {
+        return null;
+    }
+    const fresh = freshIds(document);
+    const known = new Set<string>();
+    const inserts = content.resources.flatMap((json): Operation[] => {
+        const list = textOf(json.list) as ListName;
+        const name = textOf(json.name);
+        if (!isObject(json.value) || (document[list] ?? []).some((one) => one.name === name)) {
+            return [];
+        }
+        known.add(`/${list}/${name}`);
+        const value = list === "models" ? renamed(json.value, fresh) : json.value;
+        return [{ op: "insert", into: `/${list}`, before: null, name, value }];
+    });
+    const holds = ({ list, name }: Named): boolean =>
+        known.has(`/${list}/${name}`) || findResource(document, list, name) !== null;
+    const spot = spotFor(document, schema, selection);
+    const fitting = content.nodes.map((node) => withoutStrangers(schema, node, holds));
+    const copies = copyInto(fitting, () => spot, fresh);
+    return {
+        ops: [...inserts, ...copies.ops],
+        select: copies.select,
+        label: copies.select.length === 1 ? "paste" : `paste ${fitting.length} nodes`,
+    };
+}
+
+/* A node without names of what is not there; a distance function that is missing takes the values
+ * that it declared along. */
+function withoutStrangers(
+    schema: Schema,
+    node: JsonObject,
+    holds: (named: Named) => boolean,
+): JsonObject {
+    const params = isObject(node.params) ? node.params : {};
+    const type = textOf(node.type);
+    const strange = namesOf(schema, node, type, params).filter((named) => !holds(named));
+    const gone = (list: ListName) => strange.some((named) => named.list === list);
+    const { material, children, ...own } = node;
+    const inner = listOf(children).filter(isObject);
+    return {
+        ...own,
+        ...(gone("models") || gone("primitives") ? { params: {} } : {}),
+        ...(material === undefined || gone("materials") ? {} : { material }),
+        ...(inner.length > 0
+            ? { children: inner.map((child) => withoutStrangers(schema, child, holds)) }
+            : {}),
+    };
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT */
+/* Code beside the picture: what is typed goes into the document after a pause, the picture keeps
+ * the last that compiled, and what does not is marked where it stands. */
+import { CircleAlert, CircleCheck, X } from "lucide-react";
+import { useEffect, useRef, useState } from "react";
+import type { Gesture } from "../../link/link.ts";
+import { declaredBy, findResource, nodeLabel, paramAt } from "../../model/document.ts";
+import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
+import type { Standing } from "../../model/problems.ts";
+import type { Param } from "../../model/schema.ts";
+import { NEW_NODE_CODE } from "../../model/templates.ts";
+import { showPlace } from "../acts.ts";
+import { Button, IconButton } from "../parts/Button.tsx";
+import { Tip } from "../parts/Tip.tsx";
+import { useDocument, useEditor } from "../state.ts";
+import { t } from "../texts.ts";
+import type { CodeEditor } from "./mount.ts";
+import "./code.css";
+
+/* A pause in typing after which the text is sent, and one after which a new undo step begins. */
+const SEND_MS = 300;
+const STEP_MS = 2000;
+
+export default function CodePanel({ place }: { place: string }) {
+    const editor = useEditor();
+    const known = useDocument(
+        ({ document, schema }) => document === null || paramAt(schema, document, place) !== null,
+    );
+    useEffect(() => {
+        if (!known) {
+            editor.stores.view.setState({ code: null });
+        }
+    }, [editor, known]);
+    return <Panel key={place} place={place} />;
+}
+
+function useText(place: string): string {
+    return useDocument(({ document, schema }) => {
+        const found = document && paramAt(schema, document, place);
+        const value = found?.values[found.param.name];
+        return typeof value === "string" ? value : "";
+    });
+}
+
+const NO_PARAMS: readonly Param[] = [];
+
+/* What the code may name besides its own. */
+function useDeclared(place: string): readonly Param[] {
+    return useDocument(({ document, schema }) => {
+        const owner = resourceOfPlace(place);
+        if (document === null || (owner?.list !== "primitives" && owner?.list !== "shaders")) {
+            return NO_PARAMS;
+        }
+        const resource = findResource(document, owner.list, owner.name);
+        return declaredBy(schema, owner.list, resource);
+    });
+}
+
+function Panel({ place }: { place: string }) {
+    const { stores } = useEditor();
+    const text = useText(place);
+    const declared = useDeclared(place);
+    const problem = useDocument(({ problems }) => problems.get(place) ?? null);
+    const { element, code, waiting } = useCode(place, text);
+    useEffect(() => code?.setNames(declared.map(({ name }) => name)), [code, declared]);
+    useEffect(() => {
+        const { line = 1, column = 1, message = "" } = problem ?? {};
+        code?.setMark(problem ? { line, column, message } : null);
+    }, [code, problem]);
+    return (
+        <section
+            className="code-panel"
+            aria-label={t("code.title")}
+            data-testid="code"
+            data-place={place}
+            data-waiting={waiting || undefined}
+            data-region={t("code.title")}
+            tabIndex={-1}
+            onKeyDown={(event) => {
+                /* Escape lets Tab leave the editor; it closes nothing here. */
+                if (event.key === "Escape") {
+                    event.stopPropagation();
+                }
+            }}
+        >
+            <header className="code-head">
+                <Title place={place} />
+                <State problem={problem} waiting={waiting} onShow={code} />
+                <span className="bar-space" />
+                <IconButton
+                    title={t("close")}
+                    data-size="s"
+                    onClick={() => stores.view.setState({ code: null })}
+                >
+                    <X size={15} />
+                </IconButton>
+            </header>
+            <Names declared={declared} place={place} />
+            <div ref={element} className="code-text" data-loading={code === null || undefined} />
+            {text === "" && code !== null && !waiting && (
+                <div className="code-start">
+                    <Button look="outline" onClick={() => start(code)}>
+                        {t("code.template")}
+                    </Button>
+                </div>
+            )}
+            {problem && <Fault problem={problem} code={code} />}
+        </section>
+    );
+}
+
+/* An example to begin with, as if it had been typed. */
+function start(code: CodeEditor): void {
+    code.insert(NEW_NODE_CODE);
+    code.focus();
+}
+
+function Title({ place }: { place: string }) {
+    const editor = useEditor();
+    const name = useDocument(({ document }) => {
+        const node = document?.nodes.get(nodeOfPlace(place) ?? "");
+        return node ? nodeLabel(node) : (resourceOfPlace(place)?.name ?? "");
+    });
+    const list = resourceOfPlace(place)?.list;
+    return (
+        <h2 className="code-title">
+            <button
+                type="button"
+                className="link-button ellipsis"
+                onClick={() => showPlace(editor, place, false)}
+            >
+                {name}
+            </button>
+            <span className="code-kind">
+                {t(list === "shaders" ? "code.shader" : "code.function")}
+            </span>
+        </h2>
+    );
+}
+
+interface StateProps {
+    problem: Standing | null;
+    waiting: boolean;
+    onShow: CodeEditor | null;
+}
+
+function State({ problem, waiting, onShow }: StateProps) {
+    if (waiting) {
+        return <span className="code-state">{t("code.typing")}</span>;
+    }
+    if (problem === null) {
+        return (
+            <span className="code-state" data-good="">
+                <CircleCheck size={14} aria-hidden="true" />
+                {t("code.good")}
+            </span>
+        );
+    }
+    return (
+        <Tip text={problem.message}>
+            <button
+                type="button"
+                className="code-state"
+                data-bad=""
+                onClick={() => onShow?.goTo(problem.line ?? 1, problem.column ?? 1)}
+            >
+                <CircleAlert size={14} aria-hidden="true" />
+                {t("code.errorLine", { line: problem.line ?? 1 })}
+            </button>
+        </Tip>
+    );
+}
+
+/* What the code has besides what it makes itself. */
+function Names({ declared, place }: { declared: readonly Param[]; place: string }) {
+    const given = resourceOfPlace(place)?.list === "shaders" ? ["properties"] : ["p"];
+    return (
+        <p className="code-names">
+            <span>{t("code.has")}</span>
+            {given.map((name) => (
+                <code key={name}>{name}</code>
+            ))}
+            {declared.map(({ name, type, doc }) => (
+                <code key={name} className="code-declared" title={doc || type}>
+                    {name}
+                </code>
+            ))}
+            <span className="code-keys">{t("code.keys")}</span>
+        </p>
+    );
+}
+
+function Fault({ problem, code }: { problem: Standing; code: CodeEditor | null }) {
+    const { line, column, message } = problem;
+    return (
+        <div className="code-fault" role="status">
+            <CircleAlert size={14} aria-hidden="true" />
+            {line !== undefined && (
+                <button
+                    type="button"
+                    className="link-button"
+                    onClick={() => code?.goTo(line, column ?? 1)}
+                >
+                    {t("code.place", { line, column: column ?? 1 })}
+                </button>
+            )}
+            <span>{message}</span>
+        </div>
+    );
+}
+
+/* The editor, its text kept equal to the document's; `waiting`: something was not sent yet. */
+function useCode(place: string, text: string) {
+    const { link } = useEditor();
+    const element = useRef<HTMLDivElement>(null);
+    const [code, setCode] = useState<CodeEditor | null>(null);
+    const [waiting, setWaiting] = useState(false);
+    const latest = useRef(text);
+    latest.current = text;
+    useEffect(() => {
+        const parent = element.current;
+        if (parent === null) {
+            return;
+        }
+        let gone = false;
+        let mounted: CodeEditor | null = null;
+        let stop: () => void = () => undefined;
+        import("./mount.ts").then(({ mountCode }) => {
+            if (gone) {
+                return;
+            }
+            const sender = sendSlowly(
+                () => mounted?.text() ?? latest.current,
+                (value, gesture) => gesture.edit([{ op: "set", at: place, value }]),
+                () => link.gesture(t("edit.code")),
+                setWaiting,
+            );
+            stop = sender.stop;
+            mounted = mountCode(parent, {
+                text: latest.current,
+                label: t("code.label"),
+                onChange: sender.changed,
+                onSend: sender.now,
+                onLeave: sender.now,
+            });
+            setCode(mounted);
+        });
+        return () => {
+            gone = true;
+            stop();
+            mounted?.destroy();
+        };
+    }, [link, place]);
+    useEffect(() => {
+        if (code !== null && !waiting && code.text() !== text) {
+            code.setText(text);
+        }
+    }, [code, waiting, text]);
+    return { element, code, waiting };
+}
+
+/* Sends a text after a pause, or when told to; what follows soon is the same undo step. */
+function sendSlowly(
+    read: () => string,
+    send: (text: string, gesture: Gesture) => void,
+    begin: () => Gesture,
+    onWaiting: (waiting: boolean) => void,
+) {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    let ending: ReturnType<typeof setTimeout> | undefined;
+    let gesture: Gesture | null = null;
+    const end = (): void => {
+        clearTimeout(ending);
+        gesture?.end();
+        gesture = null;
+    };
+    const now = (): void => {
+        if (timer === undefined) {
+            return;
+        }
+        clearTimeout(timer);
+        timer = undefined;
+        gesture ??= begin();
+        send(read(), gesture);
+        clearTimeout(ending);
+        ending = setTimeout(end, STEP_MS);
+        onWaiting(false);
+    };
+    return {
+        changed: (): void => {
+            clearTimeout(timer);
+            clearTimeout(ending);
+            timer = setTimeout(now, SEND_MS);
+            onWaiting(true);
+        },
+        now: (): void => {
+            now();
+            end();
+        },
+        stop: (): void => {
+            now();
+            end();
+        },
+    };
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* Everything that floats over the page: palettes, keys, the reference. One part, loaded later. */
+import { ReferenceDialog } from "../reference/ReferenceDialog.tsx";
+import { Add } from "./Add.tsx";
+import { CommandPalette } from "./Commands.tsx";
+import { Keys } from "./Keys.tsx";
+
+export default function Palettes() {
+    return (
+        <>
+            <Add />
+            <CommandPalette />
+            <Keys />
+            <ReferenceDialog />
+        </>
+    );
+}

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* What can be done with a resource, where its row and its form stand. */
+import { Copy, Ellipsis, PackagePlus, Palette, SquareCode, Trash2 } from "lucide-react";
+import { typeNaming } from "../../model/add.ts";
+import type { Resource } from "../../model/document.ts";
+import type { ListName } from "../../model/places.ts";
+import { whyNotRemoved } from "../../model/usage.ts";
+import { addMaterialOf, addNode, codePlace, duplicate, openCode, remove } from "../acts.ts";
+import { IconButton } from "../parts/Button.tsx";
+import { Menu, MenuItem, MenuLine, MenuNote } from "../parts/Menu.tsx";
+import { useDocument, useEditor } from "../state.ts";
+import { t } from "../texts.ts";
+
+interface Props {
+    list: ListName;
+    resource: Resource;
+}
+
+export function ResourceMenu({ list, resource }: Props) {
+    const { name } = resource;
+    return (
+        <Menu
+            align="end"
+            trigger={
+                <IconButton title={t("resource.more", { name })} data-size="s">
+                    <Ellipsis size={14} />
+                </IconButton>
+            }
+        >
+            <Uses list={list} name={name} />
+            <Common list={list} resource={resource} />
+        </Menu>
+    );
+}
+
+/* What makes something of it. */
+function Uses({ list, name }: { list: ListName; name: string }) {
+    const editor = useEditor();
+    const schema = useDocument((state) => state.schema);
+    const code = codePlace(schema, list, name);
+    const type = typeNaming(schema, list === "models" ? "model" : "function")?.type;
+    const instanced = (list === "models" || list === "primitives") && type !== undefined;
+    return (
+        <>
+            {instanced && (
+                <MenuItem
+                    icon={<PackagePlus size={14} />}
+                    onSelect={() => addNode(editor, { type, named: name })}
+                >
+                    {t(list === "models" ? "models.instance" : "primitives.instance")}
+                </MenuItem>
+            )}
+            {list === "shaders" && (
+                <MenuItem icon={<Palette size={14} />} onSelect={() => addMaterialOf(editor, name)}>
+                    {t("shaders.instance")}
+                </MenuItem>
+            )}
+            {code !== null && (
+                <MenuItem icon={<SquareCode size={14} />} onSelect={() => openCode(editor, code)}>
+                    {t("code.edit")}
+                </MenuItem>
+            )}
+            {(instanced || list === "shaders") && <MenuLine />}
+        </>
+    );
+}
+
+function Common({ list, resource }: Props) {
+    const editor = useEditor();
+    const { name } = resource;
+    const whyNot = useDocument(({ schema, document }) =>
+        document && list !== "materials" ? whyNotRemoved(schema, document, list, name) : null,
+    );
+    return (
+        <>
+            <MenuItem icon={<Copy size={14} />} onSelect={() => duplicate(editor, list, resource)}>
+                {t("resource.duplicate")}
+            </MenuItem>
+            <MenuItem
+                icon={<Trash2 size={14} />}
+                danger
+                disabled={whyNot !== null}
+                onSelect={() => remove(editor, list, name)}
+            >
+                {t("resource.remove")}
+            </MenuItem>
+            {whyNot !== null && <MenuNote>{t("resource.kept", { reason: whyNot })}</MenuNote>}
+        </>
+    );
+}
