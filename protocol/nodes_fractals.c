@@ -2,8 +2,60 @@
 /* Registry: fractals, minimal surfaces and landscapes. */
 #include "nodes_parts.h"
 
+#define COUNT PARAM_INT, UNIT_NONE, .step = 1, .main = true
+
 /* clang-format off */
 const struct node_type node_fractals[] = {
+    {.record = {"gyroid", "A sponge of two equal mazes with one wall between them, cut by a box.",
+        PARAMS(
+        {"period", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
+         .doc = "Length after which it repeats."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
+         .doc = "Of the wall where it is thinnest; elsewhere up to twice as much."},
+        {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .doc = "Full lengths of the box."})},
+     /* With g = sin x cos y + sin y cos z + sin z cos x, dg/dx = (cos x, sin x) (cos y, -sin z) has
+      * a square of at most cos^2 y + sin^2 z. The three of these add up to 3, so g divided by the
+      * square root of 3 and by 2 pi / period is as slow as the distance. */
+     .number = 70, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
+     .glsl = "sd_gyroid", .words = "minimal surface sponge lattice infill schwarz tpms",
+     .source = "Alan H. Schoen, Infinite periodic minimal surfaces, NASA TN D-5541 (1970)"},
+    {.record = {"mandelbulb", "All points whose orbit under z -> z^power + point stays near the "
+                "origin.", PARAMS(
+        {"power", COUNT, .min = 2, .max = 16, .def = {8},
+         .doc = "By how much a turn about the origin is multiplied."},
+        {"iterations", COUNT, .min = 1, .max = 12, .def = {8}, .doc = "Steps of an orbit."})},
+     .number = 71, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
+     .glsl = "sd_mandelbulb", .words = "fractal mandelbrot broccoli",
+     .source = "Daniel White and Paul Nylander, The unravelling of the real 3D Mandelbulb, "
+               "skytopia.com/project/fractal/mandelbulb.html"},
+    {.record = {"menger", "A cube without its middle, and so on in each of the cubes that are left.",
+        PARAMS(
+        {"size", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Edge of the cube."},
+        {"iterations", COUNT, .min = 1, .max = 8, .def = {4},
+         .doc = "How often the middle is taken out."})},
+     .number = 72, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
+     .glsl = "sd_menger", .words = "fractal sponge cube sierpinski holes",
+     .source = "Karl Menger, Dimensionstheorie (1928); Inigo Quilez, Menger fractal, "
+               "iquilezles.org/articles/menger"},
+    {.record = {"julia", "All points whose orbit under q -> q^2 + c in the quaternions stays near "
+                "the origin.", PARAMS(
+        {"c", PARAM_VEC4, UNIT_NONE, .min = -2, .max = 2, .def = {-0.2, 0.6, 0.2, 0.2},
+         .step = 0.02, .main = true, .doc = "What is added in each step; its first is real."},
+        {"iterations", COUNT, .min = 1, .max = 20, .def = {10}, .doc = "Steps of an orbit."})},
+     .number = 73, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
+     .glsl = "sd_julia", .words = "fractal quaternion",
+     .source = "Hart, Sandin and Kauffman, Ray tracing deterministic 3-D fractals, SIGGRAPH 1989"},
+    {.record = {"terrain", "A landscape on a rectangle. Hills are as wide as a quarter of the "
+                "greater horizontal size; each octave adds some half as wide and half as high.",
+        PARAMS(
+        {"size", PARAM_VEC3, SIZE, .def = {8, 1, 8}, .main = true,
+         .doc = "Full lengths of the box around it; the middle one is from bottom to peaks."},
+        {"octaves", COUNT, .min = 1, .max = 12, .def = {5}, .doc = "Layers of detail."},
+        {"seed", PARAM_INT, UNIT_NONE, .min = 0, .max = 65535, .step = 1,
+         .doc = "Each number gives another landscape."})},
+     .number = 74, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
+     .glsl = "sd_terrain", .words = "landscape mountains hills ground noise height field",
+     .source = "Inigo Quilez, Value noise derivatives, iquilezles.org/articles/morenoise"},
     {.record = {.name = NULL}},
 };
 /* clang-format on */

@@ -2,6 +2,7 @@
 /* What is inside of the shapes with flat sides, of fractals and of noise. */
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "predicates.h"
 
@@ -239,6 +240,114 @@ static bool in_icosahedron(const double p[3], const double *n)
     return in_hull(&hull, p, n[0]);
 }
 
+/* --- fractals, noise --- */
+
+static bool in_gyroid(const double p[3], const double *n)
+{
+    double k = 2 * PI / n[0], x = k * p[0], y = k * p[1], z = k * p[2];
+    double g = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
+    return in_box(p, n + 2) && fabs(g) / (sqrt(3) * k) < n[1] / 2;
+}
+
+/* Numbers between 0 and 1, to the base of three: nowhere have two of them the same digit 1 in the
+ * same place. */
+static bool in_menger(const double p[3], const double *n)
+{
+    double size[3] = {n[0], n[0], n[0]}, q[3];
+    for (int i = 0; i < 3; i++) {
+        q[i] = p[i] / n[0] + 0.5;
+    }
+    for (int level = 0; level < (int)n[1]; level++) {
+        int middle = 0;
+        for (int i = 0; i < 3; i++) {
+            double digit = floor(3 * q[i]);
+            q[i] = 3 * q[i] - digit;
+            middle += digit == 1;
+        }
+        if (middle > 1) {
+            return false;
+        }
+    }
+    return in_box(p, size);
+}
+
+/* The product of quaternions. */
+static void multiply(const double a[4], const double b[4], double out[4])
+{
+    out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    out[2] = a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3];
+    out[3] = a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1];
+}
+
+static double norm4(const double q[4])
+{
+    return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+}
+
+/* Beyond the edge, where r^2 = r + |c|, orbits only grow. */
+static bool in_julia(const double p[3], const double *n)
+{
+    double q[4] = {p[0], p[1], p[2], 0}, next[4], edge = 0.5 + sqrt(0.25 + norm4(n));
+    for (int i = 0; i < (int)n[4] && norm4(q) < edge; i++) {
+        multiply(q, q, next);
+        for (int j = 0; j < 4; j++) {
+            q[j] = next[j] + n[j];
+        }
+    }
+    return norm4(q) < edge;
+}
+
+/* Beyond the edge, where r^power = 2 r, orbits only grow. */
+static bool in_mandelbulb(const double p[3], const double *n)
+{
+    double z[3] = {p[0], p[1], p[2]}, edge = pow(2, 1 / (n[0] - 1)), r = sqrt(dot(z, z));
+    for (int i = 0; i < (int)n[1] && r < edge; i++) {
+        double down = n[0] * atan2(hypot(z[0], z[2]), z[1]), around = n[0] * atan2(z[0], z[2]);
+        double length = pow(r, n[0]);
+        z[0] = length * sin(down) * sin(around) + p[0];
+        z[1] = length * cos(down) + p[1];
+        z[2] = length * sin(down) * cos(around) + p[2];
+        r = sqrt(dot(z, z));
+    }
+    return r < edge;
+}
+
+/* A corner's height, from 0 to 1: it is the landscape, so it is the same numbers here. */
+static double corner_height(double x, double z, uint32_t seed)
+{
+    uint32_t h = 0x9e3779b1u * (uint32_t)(int32_t)x + 0x85ebca77u * (uint32_t)(int32_t)z;
+    h += 0xc2b2ae3du * seed;
+    h ^= h >> 16;
+    h *= 0x7feb352du;
+    h ^= h >> 15;
+    h *= 0x846ca68bu;
+    h ^= h >> 16;
+    return (h >> 8) / (pow(2, 24) - 1);
+}
+
+/* The share of a corner that is `t` away, in cells. */
+static double share(double t)
+{
+    return 1 - 3 * t * t + 2 * fabs(t * t * t);
+}
+
+static bool in_terrain(const double p[3], const double *n)
+{
+    double sum = 0, most = 0, x = p[0], z = p[2], cell = fmax(n[0], n[2]) / 4;
+    for (int octave = 0; octave < (int)n[3]; octave++) {
+        double height = pow(0.5, octave), size = cell * height;
+        double u = x / size + 0.37 * (1 / height - 1), v = z / size + 0.61 * (1 / height - 1);
+        for (int k = 0; k < 4; k++) {
+            double i = floor(u) + k % 2, j = floor(v) + k / 2;
+            uint32_t seed = (uint32_t)n[4] + 65536u * (uint32_t)octave;
+            sum += height * share(u - i) * share(v - j) * corner_height(i, j, seed);
+        }
+        most += height;
+    }
+    return in_box(p, n) && p[1] < n[1] * (sum / most - 0.5);
+}
+
 const struct predicate predicates_flat_sided[] = {
     {"box", in_box},
     {"plane", in_plane},
@@ -252,5 +361,10 @@ const struct predicate predicates_flat_sided[] = {
     {"rhombus", in_rhombus},
     {"triangle", in_triangle},
     {"quad", in_quad},
+    {"gyroid", in_gyroid},
+    {"menger", in_menger},
+    {"julia", in_julia},
+    {"mandelbulb", in_mandelbulb},
+    {"terrain", in_terrain},
     {.type = NULL},
 };
