@@ -56,6 +56,15 @@ void builder_add_instruction(struct builder *b, struct field_instruction instruc
     max_slot(&field->point_slots, instruction.out);
 }
 
+void builder_insert_instruction(struct builder *b, size_t position,
+                                struct field_instruction instruction)
+{
+    builder_add_instruction(b, instruction);
+    struct field_instruction *at = b->field->instructions + position;
+    memmove(at + 1, at, (b->field->instruction_count - 1 - position) * sizeof *at);
+    *at = instruction;
+}
+
 struct builder_mark builder_mark(const struct builder *b)
 {
     const struct field *field = b->field;

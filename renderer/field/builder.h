@@ -16,6 +16,8 @@ struct builder_points {
 struct builder {
     struct field *field;
     const struct scene *scene;
+    const struct node_type *union_type; /* of unions that no node asks for by its name */
+    const struct sdf *union_sdf;
     size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
     struct builder_points *points;
     size_t points_count, points_capacity;
@@ -41,6 +43,8 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count);
 /* Room for as many numbers of the C evaluator; returns the first. */
 uint32_t builder_add_arguments(struct builder *b, size_t count);
 void builder_add_instruction(struct builder *b, struct field_instruction instruction);
+void builder_insert_instruction(struct builder *b, size_t position,
+                                struct field_instruction instruction);
 void builder_add_leaf(struct builder *b, uint32_t number, const char *id);
 
 /* Writes `count` numbers to the buffer and, as rounded there, to the arguments. */

@@ -34,6 +34,8 @@ enum field_op {
     FIELD_AFTER,    /* d[a] = after(d[a], p[point]) */
     FIELD_LOOP,     /* d[a] = far away; for each cell around p[point]: p[out] = that cell's point */
     FIELD_LOOP_END, /* d[a] = min(d[a], d[b]) */
+    FIELD_GUARD,    /* g = distance of p[point] to a box; unless 0 = g or g < d[a]: to the end */
+    FIELD_GUARD_END, /* where g > 0: d[a] = max(d[a], g) */
 };
 
 struct field_instruction {
@@ -57,6 +59,12 @@ enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 3 };
  * declares. */
 enum { FIELD_CUT_VEC4S = 1 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
+
+/* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half of it, 0).
+ *
+ * What stands between the guard and its end only lowers d[a] to the distance of what is in the
+ * box: where the box is farther than d[a] that changes nothing, and where it is nearer, so much is
+ * sure to be free. Guards are left out where surfaces are asked for: that happens once. */
 
 /* The first vec4s of a material: (diffuse, shininess), (specular, 0), (emission, shader), (ambient,
  * unlit). Shader i + 1 is field.shaders[i], whose parameters follow; 0 is Blinn-Phong. Of a custom

@@ -22,8 +22,11 @@ static uint32_t subtree_count(const struct node *node)
     return count;
 }
 
+/* Leaves the distance of the subtree in `slot`. `joined`: the slot holds a distance already, whose
+ * place a union with the subtree takes; unions of unions thus are one. The result's box is the
+ * subtree's alone, in the space that `outer` is in. */
 static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
-                          uint16_t slot);
+                          uint16_t slot, bool joined);
 
 /* Nodes that are passed over have their numbers too. Those of models have none of their own. */
 static void skip(struct builder *b, const struct node *node)
@@ -44,32 +47,53 @@ static void add_block(struct builder *b, const struct node *node, const struct s
                        instruction->numbers, 0, instruction->arguments);
 }
 
-/* Folds the children from the left into `slot`, starting from `whole` where that is solid. */
-static struct result emit_children(struct builder *b, const struct node *node,
-                                   struct field_instruction combine, const struct frame *frame,
-                                   uint16_t slot, struct result whole)
+static struct field_instruction union_at(const struct builder *b, uint16_t slot)
+{
+    return (struct field_instruction){
+        .op = FIELD_COMBINE, .type = b->union_type, .sdf = b->union_sdf, .a = slot, .b = slot + 1};
+}
+
+/* The children and, where there is one, the node's own shape, which is in the slot. */
+static struct result emit_union(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot, bool joined,
+                                struct result own)
+{
+    for (size_t i = 0; i < node->child_count; i++) {
+        struct result child = emit(b, node->children[i], frame, slot, joined || own.solid);
+        if (child.solid) {
+            own.box = own.solid ? bounds_union(own.box, child.box) : child.box;
+            own.solid = true;
+        }
+    }
+    return own;
+}
+
+/* Folds the children from the left into `slot`. */
+static struct result emit_folded(struct builder *b, const struct node *node,
+                                 struct field_instruction combine, const struct frame *frame,
+                                 uint16_t slot)
 {
     enum sdf_rule rule = combine.sdf->rule;
-    bool first = !whole.solid, dead = false;
+    struct result whole = {.hidden = false};
+    bool dead = false;
+    combine.a = slot;
+    combine.b = slot + 1;
     for (size_t i = 0; i < node->child_count; i++) {
         if (combine.sdf->operands > 0 && i >= combine.sdf->operands) {
             skip(b, node->children[i]);
             continue;
         }
-        struct result child = emit(b, node->children[i], frame, slot + whole.solid);
+        struct result child = emit(b, node->children[i], frame, slot + whole.solid, false);
         bool leads = rule == SDF_FIRST && i == 0;
         dead =
             dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
         if (!child.solid || dead) {
             continue;
         }
-        if (first) {
+        if (!whole.solid) {
             whole = child;
-            first = false;
             continue;
         }
-        combine.a = slot;
-        combine.b = slot + 1;
         builder_add_instruction(b, combine);
         if (rule == SDF_ANY) {
             whole.box = bounds_union(whole.box, child.box);
@@ -79,17 +103,6 @@ static struct result emit_children(struct builder *b, const struct node *node,
     }
     whole.solid = whole.solid && !dead;
     return whole;
-}
-
-static struct field_instruction union_of(const struct node_type *type)
-{
-    return (struct field_instruction){.op = FIELD_COMBINE, .type = type, .sdf = sdf_find(type)};
-}
-
-static struct result emit_union(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, struct result whole)
-{
-    return emit_children(b, node, union_of(node_type_find("union")), frame, slot, whole);
 }
 
 /* The box after the node changed the field of `count` operands in it. */
@@ -108,7 +121,7 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
     add_block(b, node, sdf, frame->scale, &combine);
-    struct result whole = emit_children(b, node, combine, frame, slot, (struct result){0});
+    struct result whole = emit_folded(b, node, combine, frame, slot);
     if (whole.solid) {
         whole.box = changed_box(node, sdf, whole.box, node->child_count);
     }
@@ -121,7 +134,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
     struct field_instruction change = {
         .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
     add_block(b, node, sdf, frame->scale, &change);
-    struct result whole = emit_union(b, node, frame, slot, (struct result){0});
+    struct result whole = emit_union(b, node, frame, slot, false, (struct result){0});
     if (whole.solid) {
         builder_add_instruction(b, change);
         whole.box = changed_box(node, sdf, whole.box, 1);
@@ -159,7 +172,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     struct frame inside = frame_create(inner, frame->scale, frame->material);
     uint64_t trips_before = b->trips;
     b->trips = 0;
-    struct result whole = emit_union(b, node, &inside, slot + loops, (struct result){0});
+    struct result whole = emit_union(b, node, &inside, slot + loops, false, (struct result){0});
     if (!whole.solid) {
         return whole;
     }
@@ -172,6 +185,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
         next.op = FIELD_LOOP_END, next.b = slot + 1;
         builder_add_instruction(b, next);
     }
+    b->trips += domain->trips ? (uint64_t)domain->trips(params) : 0;
     if (domain->after) {
         next.op = FIELD_AFTER, next.b = slot, next.out = own;
         builder_add_instruction(b, next);
@@ -182,7 +196,8 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
 }
 
 static struct result emit_model(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, uint32_t number)
+                                const struct frame *frame, uint16_t slot, bool joined,
+                                uint32_t number)
 {
     const struct resource *model = node_model(b->scene, node);
     if (!model) {
@@ -193,7 +208,7 @@ static struct result emit_model(struct builder *b, const struct node *node,
         b->instance = number;
         b->instance_node = node;
     }
-    struct result result = emit(b, model->root, frame, slot);
+    struct result result = emit(b, model->root, frame, slot, joined);
     if (outermost) {
         b->instance = 0;
     }
@@ -201,30 +216,89 @@ static struct result emit_model(struct builder *b, const struct node *node,
     return result;
 }
 
-static struct result emit_kind(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, uint32_t number)
+/* Whether a union goes on in a node of this kind: else the node is one of its operands. */
+static bool continues(const struct builder *b, const struct node *node)
 {
-    const struct sdf *sdf = sdf_find(node->type);
-    struct result own = {0};
     switch (node->type->kind) {
     case KIND_SHAPE:
     case KIND_FLAT:
     case KIND_CODE:
-        own = field_emit_shape(b, node, frame, slot, number);
+    case KIND_MODEL:
+    case KIND_GROUP:
+        return true;
+    case KIND_COMBINE:
+        return node->type == b->union_type;
+    case KIND_DISTANCE:
+    case KIND_DOMAIN:
         break;
+    }
+    return false;
+}
+
+static struct result emit_joining(struct builder *b, const struct node *node,
+                                  const struct frame *frame, uint16_t slot, bool joined,
+                                  uint32_t number)
+{
+    struct result own = {.hidden = false};
+    switch (node->type->kind) {
+    case KIND_SHAPE:
+    case KIND_FLAT:
+    case KIND_CODE:
+        own = field_emit_shape(b, node, frame, slot + joined, number);
+        if (own.solid && joined) {
+            builder_add_instruction(b, union_at(b, slot));
+        }
+        break;
+    case KIND_MODEL:
+        own = emit_model(b, node, frame, slot, joined, number);
+        break;
+    default:
+        break;
+    }
+    return emit_union(b, node, frame, slot, joined, own);
+}
+
+static struct result emit_apart(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot)
+{
+    const struct sdf *sdf = sdf_find(node->type);
+    switch (node->type->kind) {
     case KIND_COMBINE:
         return emit_combine(b, node, sdf, frame, slot);
     case KIND_DISTANCE:
         return emit_distance(b, node, sdf, frame, slot);
-    case KIND_DOMAIN:
+    default:
         return emit_domain(b, node, sdf, frame, slot);
-    case KIND_GROUP:
-        break;
-    case KIND_MODEL:
-        own = emit_model(b, node, frame, slot, number);
-        break;
     }
-    return emit_union(b, node, frame, slot, own);
+}
+
+/* Puts a guard around what was emitted since `before` into `slot`, which held a distance already.
+ * It pays where there are loops: llvmpipe runs all else whether it is needed or not. */
+static void guard(struct builder *b, struct builder_mark before, uint16_t slot,
+                  const struct frame *outer, const struct bounds *box)
+{
+    if (b->trips == before.trips) {
+        return;
+    }
+    struct bounds placed = bounds_transform(box, outer->back, 1);
+    double numbers[8] = {0};
+    for (int i = 0; i < 3; i++) {
+        double half = (placed.high[i] - placed.low[i]) / 2;
+        bool ends = half < FIELD_UNCUT;
+        numbers[i] = ends ? placed.low[i] + half : 0;
+        numbers[4 + i] = ends ? half : FIELD_UNCUT;
+    }
+    numbers[3] = outer->slot_scale;
+    struct field_instruction in = {.op = FIELD_GUARD,
+                                   .a = slot,
+                                   .point = outer->point,
+                                   .numbers = builder_add_vec4s(b, 2),
+                                   .arguments = builder_add_arguments(b, 8)};
+    builder_put(b, in.numbers, 0, in.arguments, 8, numbers);
+    builder_insert_instruction(b, before.instructions, in);
+    in.op = FIELD_GUARD_END;
+    builder_add_instruction(b, in);
+    b->trips++;
 }
 
 /* Where a node's numbers, nesting or count leave what can be drawn, with models written out. */
@@ -251,7 +325,7 @@ static void check(struct builder *b, const struct node *node, const struct frame
 }
 
 static struct result emit(struct builder *b, const struct node *node, const struct frame *outer,
-                          uint16_t slot)
+                          uint16_t slot, bool joined)
 {
     if (b->failed || record_number(&node->common, "visible") == 0) {
         skip(b, node);
@@ -267,13 +341,23 @@ static struct result emit(struct builder *b, const struct node *node, const stru
     b->depth++;
     check(b, node, &frame);
     struct builder_mark before = builder_mark(b);
-    struct result result =
-        b->failed ? (struct result){0} : emit_kind(b, node, &frame, slot, number);
+    struct result result = {.hidden = false};
+    if (!b->failed && continues(b, node)) {
+        result = emit_joining(b, node, &frame, slot, joined, number);
+    } else if (!b->failed) {
+        result = emit_apart(b, node, &frame, slot + joined);
+        if (result.solid && joined) {
+            builder_add_instruction(b, union_at(b, slot));
+        }
+    }
     b->depth--;
-    if (result.solid) {
-        result.box = bounds_transform(&result.box, from, ratio);
-    } else {
+    if (!result.solid) {
         builder_rewind(b, before);
+        return result;
+    }
+    result.box = bounds_transform(&result.box, from, ratio);
+    if (joined) {
+        guard(b, before, slot, outer, &result.box);
     }
     return result;
 }
@@ -315,8 +399,10 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     struct field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
     struct builder builder = {.field = field, .scene = scene};
+    builder.union_type = node_type_find("union");
+    builder.union_sdf = sdf_find(builder.union_type);
     struct frame frame = frame_create(0, 1, 0);
-    struct result whole = emit(&builder, scene->root, &frame, 0);
+    struct result whole = emit(&builder, scene->root, &frame, 0, false);
     field_add_materials(&builder);
     if (builder.failed) {
         if (err) {

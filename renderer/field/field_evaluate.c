@@ -173,6 +173,39 @@ static size_t run_loop_end(struct machine *m, const struct field_instruction *in
     return next;
 }
 
+/* To a guard's box, in lengths of the scene; 0 inside. */
+static double box_distance(const double p[3], const double *n)
+{
+    double q[3];
+    for (int i = 0; i < 3; i++) {
+        q[i] = fmax(fabs(p[i] - n[i]) - n[4 + i], 0);
+    }
+    return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) * n[3];
+}
+
+/* Returns where to go on. */
+static size_t run_guard(const struct machine *m, const struct field_instruction *in,
+                        const double *n, size_t next)
+{
+    double distance = m->tints ? 0 : box_distance(m->p[in->point], n);
+    if (distance == 0 || distance < m->d[in->a]) {
+        return next;
+    }
+    for (int depth = 1; depth > 0; next++) {
+        enum field_op op = m->field->instructions[next].op;
+        depth += (op == FIELD_GUARD) - (op == FIELD_GUARD_END);
+    }
+    return next;
+}
+
+static void run_guard_end(struct machine *m, const struct field_instruction *in, const double *n)
+{
+    double distance = m->tints ? 0 : box_distance(m->p[in->point], n);
+    if (distance > 0) {
+        m->d[in->a] = fmax(m->d[in->a], distance);
+    }
+}
+
 static void run(struct machine *m, const double p[3])
 {
     const struct field *field = m->field;
@@ -208,6 +241,12 @@ static void run(struct machine *m, const double p[3])
             break;
         case FIELD_LOOP_END:
             i = run_loop_end(m, in, n, i);
+            break;
+        case FIELD_GUARD:
+            i = run_guard(m, in, n, i);
+            break;
+        case FIELD_GUARD_END:
+            run_guard_end(m, in, n);
             break;
         }
     }

@@ -45,8 +45,10 @@ static void multiply(const double a[12], const double b[12], double out[12])
 
 struct frame frame_create(uint16_t point, double scale, size_t material)
 {
-    struct frame frame = {.scale = scale, .point = point, .material = material};
+    struct frame frame = {
+        .scale = scale, .slot_scale = scale, .point = point, .material = material};
     memcpy(frame.matrix, identity, sizeof identity);
+    memcpy(frame.back, identity, sizeof identity);
     return frame;
 }
 
@@ -57,6 +59,7 @@ struct frame frame_enter(const struct frame *outer, const struct node *node, dou
     double to[12], least, greatest;
     node_matrices(node, to, out_from, &least, &greatest);
     multiply(to, outer->matrix, frame.matrix);
+    multiply(outer->back, out_from, frame.back);
     frame.scale *= least;
     *out_ratio = greatest / least;
     return frame;

@@ -8,8 +8,9 @@
 
 /* A node sees the point in one of the program's point slots: local = matrix * point. */
 struct frame {
-    double matrix[12];
-    double scale; /* from local lengths to the scene's */
+    double matrix[12], back[12]; /* back: from local to the slot's space */
+    double scale;                /* from local lengths to the scene's */
+    double slot_scale;           /* from the slot's lengths to the scene's */
     uint16_t point;
     size_t material; /* the slot that it inherits */
 };

@@ -227,9 +227,28 @@ static void write_empty(struct writer *w, uint16_t slot)
     w->mixed[slot] = false;
 }
 
+/* A loop of at most one round: llvmpipe, which runs both sides of every branch, runs the loops inside
+ * of it but once when no lane is there. */
+static void write_guard(const struct writer *w, const struct field_instruction *in, size_t name)
+{
+    if (!w->surface) {
+        fprintf(w->out,
+                "float g%zu = guard(p%u, N(%u), N(%u));\n"
+                "for (int k%zu = guard_rounds(g%zu, d%u); k%zu > 0; k%zu--) {\n",
+                name, in->point, in->numbers, in->numbers + 1, name, name, in->a, name, name);
+    }
+}
+
+static void write_guard_end(const struct writer *w, const struct field_instruction *in, size_t name)
+{
+    if (!w->surface) {
+        fprintf(w->out, "d%u = guarded(d%u, g%zu);\n}\n", in->a, in->a, name);
+    }
+}
+
 static void write_instructions(struct writer *w)
 {
-    size_t loops[LIMIT_NODE_DEPTH]; /* names of the loops that are open */
+    size_t loops[3 * LIMIT_NODE_DEPTH]; /* names of the loops and guards that are open */
     int depth = 0;
     for (size_t i = 0; i < w->field->instruction_count; i++) {
         const struct field_instruction *in = &w->field->instructions[i];
@@ -264,6 +283,13 @@ static void write_instructions(struct writer *w)
             break;
         case FIELD_LOOP_END:
             write_loop_end(w, in, loops[--depth]);
+            break;
+        case FIELD_GUARD:
+            loops[depth++] = i;
+            write_guard(w, in, i);
+            break;
+        case FIELD_GUARD_END:
+            write_guard_end(w, in, loops[--depth]);
             break;
         }
     }

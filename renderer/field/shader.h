@@ -9,7 +9,8 @@
  * need not be a constant. */
 #define FIELD_GLSL_FILES                                                                           \
     "points.glsl", "shapes.glsl", "solids.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",  \
-        "modifiers.glsl", "code.glsl", "user.glsl", "mixture.glsl"
+        "modifiers.glsl", "noise.glsl", "warps.glsl", "code.glsl", "user.glsl", "guard.glsl",      \
+        "mixture.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *

@@ -336,7 +336,7 @@ static void twisted_planes_end_somewhere(void **state)
     (void)state;
     const char *root = "{\"type\":\"twist\",\"children\":[{\"type\":\"plane\"}]}";
     assert_true(distance_of(root, 0, -1, 0) < 0);
-    assert_true(distance_of(root, SDF_TWIST_RADIUS_MAX + 1, -1, 0) > 0);
+    assert_true(distance_of(root, SDF_TURN_RADIUS_MAX + 1, -1, 0) > 0);
 }
 
 /* --- numbers --- */
@@ -484,8 +484,8 @@ static void structural_changes_change_the_shape(void **state)
         "{\"type\":\"union\",\"children\":[" BOX "," BALL("") "]}",
         "{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "]}",
         "{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "," BALL("") "]}",
-        "{\"type\":\"union\",\"children\":[" BALL("") ",{\"type\":\"union\",\"children\":[" BALL(
-            "") "," BALL("") "]}]}",
+        "{\"type\":\"union\",\"children\":[" BALL(
+            "") ",{\"type\":\"intersection\",\"children\":[" BALL("") "," BALL("") "]}]}",
         "{\"type\":\"mirror\",\"children\":[{\"type\":\"round\"," PAIR "]}",
         "{\"type\":\"round\",\"children\":[{\"type\":\"mirror\"," PAIR "]}",
     };
@@ -508,6 +508,54 @@ static void structural_changes_change_the_shape(void **state)
     assert_true(a.field->shape_hash == hashes[1] && b.field->shape_hash == hashes[1]);
     pair_finish(&a);
     pair_finish(&b);
+    /* Unions of unions are one. */
+    a = pair_of("{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "," BALL("") "]}", "");
+    b = pair_of("{\"type\":\"union\",\"children\":[" BALL(
+                    "") ",{\"type\":\"group\",\"children\":[" BALL("") "," BALL("") "]}]}",
+                "");
+    assert_true(a.field->shape_hash == b.field->shape_hash);
+    pair_finish(&a);
+    pair_finish(&b);
+}
+
+/* --- guards --- */
+
+/* Columns far apart, each with a loop in it: what is skipped changes nothing near a surface, and
+ * nowhere is the field above the true distance. */
+static void guards_change_no_surface(void **state)
+{
+    (void)state;
+    char text[4096] = "{\"type\":\"union\",\"children\":[" BALL("");
+    for (int i = 1; i < 6; i++) {
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used,
+                 ",{\"type\":\"repeat\",\"params\":{\"spacing\":[1,0.8,1],\"count\":[0,3,0]},"
+                 "\"transform\":{\"translation\":[%d,0,%d],\"rotation\":[0,0,0.3]},"
+                 "\"children\":[{\"type\":\"sphere\",\"params\":{\"radius\":0.4}}]}",
+                 2 * i, i % 2);
+    }
+    strcat(text, "]}");
+    struct pair pair = pair_of(text, "");
+    size_t guards = 0;
+    for (size_t i = 0; i < pair.field->instruction_count; i++) {
+        guards += pair.field->instructions[i].op == FIELD_GUARD;
+    }
+    assert_int_equal(guards, 5);
+    struct random random = {31};
+    for (int k = 0; k < 20000; k++) {
+        double p[3] = {random_between(&random, -2, 12), random_between(&random, -2, 2),
+                       random_between(&random, -2, 3)};
+        double want = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1;
+        for (int i = 1; i < 6; i++) {
+            for (int copy = -1; copy <= 1; copy++) {
+                double x = p[0] - 2 * i + 0.8 * copy * sin(0.3), y = p[1] - 0.8 * copy * cos(0.3);
+                double z = p[2] - i % 2;
+                want = fmin(want, sqrt(x * x + y * y + z * z) - 0.4);
+            }
+        }
+        assert_true(fabs(field_distance(pair.field, p) - want) < 1e-6);
+    }
+    pair_finish(&pair);
 }
 
 /* --- surfaces --- */
@@ -662,6 +710,7 @@ int main(void)
         cmocka_unit_test(transforms_that_overflow_are_refused),
         cmocka_unit_test(numeric_edits_keep_the_shape),
         cmocka_unit_test(structural_changes_change_the_shape),
+        cmocka_unit_test(guards_change_no_surface),
         cmocka_unit_test(leaves_are_numbered_in_pre_order),
         cmocka_unit_test(materials_mix_by_the_derivative),
         cmocka_unit_test(materials_are_inherited),
