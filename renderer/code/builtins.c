@@ -118,7 +118,7 @@ static double area_cosine(double x)
 
 static double area_tangent(double x)
 {
-    return atanh(between(x, -0.999999, 0.999999));
+    return atanh(between(x, -0.9999, 0.9999));
 }
 
 static double reciprocal(double x)

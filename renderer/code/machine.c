@@ -124,6 +124,30 @@ static void multiply_matrices(const struct step *s, double *out, const double *a
     memcpy(out, product, (size_t)(rows * columns) * sizeof *out);
 }
 
+/* p.yz = p.xy: source and destination may overlap. */
+static void move(const struct step *s, double *out, const double *from)
+{
+    if (s->flags & SPREAD_A) {
+        double number = *from;
+        for (int i = 0; i < s->n; i++) {
+            out[i] = number;
+        }
+    } else if (s->n == 1) {
+        *out = *from;
+    } else {
+        memmove(out, from, s->n * sizeof *out);
+    }
+}
+
+static void scatter(const struct step *s, double *out, const double *from)
+{
+    double copy[4];
+    memcpy(copy, from, s->n * sizeof *out);
+    for (int i = 0; i < s->n; i++) {
+        out[s->extra >> (2 * i) & 3] = copy[i];
+    }
+}
+
 static double index_of(double at, int count)
 {
     return at <= 0 ? 0 : at >= count ? count - 1 : at;
@@ -178,15 +202,14 @@ static void compute(const struct step *s, double *frame)
     int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B), step_c;
     switch ((enum step_kind)s->kind) {
     case STEP_MOVE:
-        EACH(A);
+        move(s, out, a);
+        break;
     case STEP_ZERO:
         EACH(0);
     case STEP_GATHER:
         EACH(a[s->extra >> (2 * i) & 3]);
     case STEP_SCATTER:
-        for (int i = 0; i < s->n; i++) {
-            out[s->extra >> (2 * i) & 3] = A;
-        }
+        scatter(s, out, a);
         break;
     case STEP_ADD:
         EACH(A + B);

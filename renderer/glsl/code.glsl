@@ -4,21 +4,23 @@
 
 #define CODE_TINY 1e-30
 
-/* Distances and colours of users beyond these are none: glsl/mixture.glsl's FAR, and half floats. */
+/* Distances and colours beyond these are none: the FAR of glsl/mixture.glsl, and half floats. */
 #define CODE_FAR 1e9
 #define CODE_BRIGHT 65504.0
 
-/* One shape of floats; `none` is 1 in the components where something would be divided by 0. */
+/* One shape of floats; `none` is 1 in the components where something would be divided by 0. Some
+ * drivers' own asin() has four digits, their atan() seven. */
 #define CODE_FLOATS(T)                                                                             \
     T code_sqrt(T x) { return sqrt(max(x, 0.0)); }                                                 \
     T code_inversesqrt(T x) { return inversesqrt(max(x, CODE_TINY)); }                             \
     T code_pow(T x, T y) { return pow(max(abs(x), CODE_TINY * step(y, T(0.0))), y); }              \
     T code_log(T x) { return log(max(x, CODE_TINY)); }                                             \
     T code_log2(T x) { return log2(max(x, CODE_TINY)); }                                           \
-    T code_asin(T x) { return asin(clamp(x, -1.0, 1.0)); }                                         \
-    T code_acos(T x) { return acos(clamp(x, -1.0, 1.0)); }                                         \
+    T code_leg(T x) { return sqrt(max((1.0 - x) * (1.0 + x), 0.0)); }                              \
+    T code_asin(T x) { return atan(clamp(x, -1.0, 1.0), code_leg(x)); }                            \
+    T code_acos(T x) { return atan(code_leg(x), clamp(x, -1.0, 1.0)); }                            \
     T code_acosh(T x) { return acosh(max(x, 1.0)); }                                               \
-    T code_atanh(T x) { return atanh(clamp(x, -0.999999, 0.999999)); }                             \
+    T code_atanh(T x) { return atanh(clamp(x, -0.9999, 0.9999)); }                                 \
     T code_atan(T y, T x) { return atan(y, x + step(abs(x) + abs(y), T(0.0))); }                   \
     T code_saturate(T x) { return clamp(x, 0.0, 1.0); }                                            \
     T code_normalize(T x) { return x * inversesqrt(max(dot(x, x), CODE_TINY)); }                   \

@@ -29,6 +29,9 @@ float sdf(vec3 p) { return p.zyx.x + p.xxy.z * p.gbr.x + p.sp.y; }
 float sdf(vec3 p) { vec4 v = vec4(0.0); v.wx = p.xy; v.gb = vec2(p.z); return v.w - v.x + v.y; }
 //! swizzle_swap
 float sdf(vec3 p) { p.xy = p.yx; p.yz *= p.zy; return p.x - p.y + 2.0 * p.z; }
+//! swizzle_overlaps
+float sdf(vec3 p) { vec3 q = p; q.yz = q.xy; p.zyx = p; vec2 b = q.yz; b.yx = b;
+    return dot(p, q) + b.y; }
 //! swizzle_of_swizzle
 float sdf(vec3 p) { vec4 v = vec4(p, 1.0); v.wzyx.xy = vec2(3.0, 4.0); return v.w + v.z + v.x; }
 //! swizzle_of_number

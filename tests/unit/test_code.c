@@ -123,6 +123,7 @@ static double octaves(double x, double y, double z)
     X(swizzle_read, z + y * y + z) \
     X(swizzle_write, x - y + z) \
     X(swizzle_swap, y - x * z + 2 * z * x) \
+    X(swizzle_overlaps, z * x + y * x + x * y + x) \
     X(swizzle_of_swizzle, 7 + x) \
     X(swizzle_of_number, x + 1 + y) \
     X(shared_source, x * x + x * y + x * z) \

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: MIT */
+/* Points in, values of users' code out, through a compute shader. */
+#include "code_gpu.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/limits.h"
+#include "renderer/glsl.h"
+
+enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED, LOG_BYTES = 4096 };
+
+static const char *glsl_text(const char *name)
+{
+    for (const struct glsl_file *file = glsl_files; file->name; file++) {
+        if (strcmp(file->name, name) == 0) {
+            return file->text;
+        }
+    }
+    abort();
+}
+
+bool code_gpu_init(struct code_gpu *gpu, struct error *err)
+{
+    const struct renderer_params params = {.device_index = -1};
+    *gpu = (struct code_gpu){0};
+    if (!egl_init(&gpu->egl, &params, err)) {
+        return false;
+    }
+    if (!gl_load(&gpu->gl, err)) {
+        egl_finish(&gpu->egl);
+        return false;
+    }
+    gpu->gl.GenBuffers(3, gpu->buffers);
+    return gl_check(&gpu->gl, "buffers", err);
+}
+
+void code_gpu_finish(struct code_gpu *gpu)
+{
+    gpu->gl.DeleteBuffers(3, gpu->buffers);
+    egl_finish(&gpu->egl);
+}
+
+struct code_shading code_gpu_shading(const double p[3])
+{
+    return (struct code_shading){{p[0], p[1], p[2]},
+                                 {p[0] / 2, p[1] / 2, p[2] / 2},
+                                 {p[1], p[2], p[0]},
+                                 {-p[2], -p[0], -p[1]},
+                                 p[0] + 8};
+}
+
+static const char head[] =
+    "#version 430 core\n#define GROUP %d\n#define POINTS %d\n"
+    "layout(local_size_x = GROUP) in;\n"
+    "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
+    "layout(std430, binding = 1) readonly buffer Numbers { float numbers[]; };\n"
+    "layout(std430, binding = 2) writeonly buffer Values { vec4 values[]; };\n";
+static const char body[] =
+    "void main()\n{\nuint i = gl_GlobalInvocationID.x;\nvec3 p = points[i].xyz;\n"
+    "Shading s = Shading(p, p * 0.5, p.yzx, -p.zxy, p.x + 8.0);\n";
+
+static void write_arguments(FILE *out, const struct param *params)
+{
+    static const char *const names[] = {"", "float", "vec2", "vec3", "vec4"};
+    int next = 0;
+    for (; params->name; params++) {
+        int count = param_components(params->type);
+        fprintf(out, ", %s(", names[count]);
+        for (int i = 0; i < count; i++) {
+            fprintf(out, "%snumbers[%d]", i > 0 ? ", " : "", next++);
+        }
+        fputc(')', out);
+    }
+}
+
+static char *write_program(const struct code_gpu_job *jobs, size_t count)
+{
+    char *text = NULL, name[32];
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    if (!out) {
+        abort();
+    }
+    fprintf(out, head, GROUP, CODE_GPU_POINTS);
+    fprintf(out, "#line 1 1\n%s#line 1 2\n%s", glsl_text("surface.glsl"), glsl_text("code.glsl"));
+    for (size_t i = 0; i < count; i++) {
+        snprintf(name, sizeof name, "job_%zu", i);
+        code_write(jobs[i].code, name, 1000 + (int)i, out);
+    }
+    fprintf(out, "#line 1 3\n%s", body);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(out, "values[%zu * POINTS + i] = vec4(job_%zu(%s", i, i,
+                jobs[i].use == CODE_SHADE ? "s" : "p");
+        write_arguments(out, jobs[i].params);
+        fprintf(out, "));\n");
+    }
+    fprintf(out, "}\n");
+    if (fclose(out) != 0) {
+        abort();
+    }
+    return text;
+}
+
+static GLuint link_program(const struct gl *gl, const char *text, struct error *err)
+{
+    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram();
+    GLint ok = 0;
+    char log[LOG_BYTES] = "";
+    gl->ShaderSource(shader, 1, &text, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok) {
+        gl->AttachShader(program, shader);
+        gl->LinkProgram(program);
+        gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
+        gl->GetProgramInfoLog(program, sizeof log, NULL, log);
+    } else {
+        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
+    }
+    gl->DeleteShader(shader);
+    if (!ok) {
+        error_set(err, ERROR_COMPILE, "", "%.300s", log);
+        gl->DeleteProgram(program);
+        return 0;
+    }
+    return program;
+}
+
+static void set_buffer(const struct code_gpu *gpu, GLuint binding, const void *data, size_t bytes)
+{
+    const struct gl *gl = &gpu->gl;
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, gpu->buffers[binding]);
+    gl->BufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gpu->buffers[binding]);
+}
+
+bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t count,
+                  const float (*points)[4], const float *numbers, float (*out)[4],
+                  struct error *err)
+{
+    const struct gl *gl = &gpu->gl;
+    size_t bytes = count * CODE_GPU_POINTS * sizeof *out;
+    char *text = write_program(jobs, count);
+    GLuint program = link_program(gl, text, err);
+    free(text);
+    if (program == 0) {
+        return false;
+    }
+    set_buffer(gpu, 0, points, CODE_GPU_POINTS * sizeof *points);
+    set_buffer(gpu, 1, numbers, NUMBERS * sizeof *numbers);
+    set_buffer(gpu, 2, NULL, bytes);
+    gl->UseProgram(program);
+    gl->DispatchCompute(CODE_GPU_POINTS / GROUP, 1, 1);
+    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    void *values =
+        gl->MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)bytes, GL_MAP_READ_BIT);
+    if (values) {
+        memcpy(out, values, bytes);
+        gl->UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+    }
+    gl->DeleteProgram(program);
+    return gl_check(gl, "running code", err);
+}
