@@ -8,7 +8,8 @@
 /* The full width of a line. */
 #define WIDTH SIZE, .main = true, .doc = "Full width of the line, half on each side."
 
-static const double corners[] = {-0.5, -0.5, 0.5, -0.5, 0.5, -0.1, -0.1, -0.1, -0.1, 0.5, -0.5, 0.5};
+static const double corners[] = {-0.5, -0.5, 0.5,  -0.5, 0.5,  -0.1,
+                                 -0.1, -0.1, -0.1, 0.5,  -0.5, 0.5};
 
 /* clang-format off */
 const struct node_type node_flat[] = {

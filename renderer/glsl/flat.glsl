@@ -113,7 +113,7 @@ float sd2_vesica(vec2 p, float radius, float between)
                                             : length(q + vec2(centre, 0.0)) - radius;
 }
 
-/* Two equal bars: in an eighth of the plane, the end of a bar, its side, the corner between them. */
+/* Two equal bars: in an eighth of the plane, a bar's end, its side, the corner between them. */
 float sd2_cross(vec2 p, float size, float thickness)
 {
     vec2 q = abs(p);

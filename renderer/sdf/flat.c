@@ -175,8 +175,9 @@ static void arc_prepare(double *n)
     n[1] = radius * cos(angle);
 }
 
-/* What bounds the line on the side of +X, from its inside: two circles around the origin, and beyond
- * the end the end's circle, as far as it does not meet the one of the other end on the Y axis. */
+/* What bounds the line on the side of +X, from its inside: two circles around the origin, and
+ * beyond the end the end's circle, as far as it does not meet the one of the other end on the Y
+ * axis. */
 static double arc_depth(double x, double y, const double *n, bool beyond)
 {
     double half = n[2] / 2, radius = hypot(n[0], n[1]), r = hypot(x, y);

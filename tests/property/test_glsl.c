@@ -17,7 +17,8 @@
 #define SIZE 4.0
 #define TOLERANCE (1e-4 * SIZE)
 
-enum { FIELDS_MAX = 4, POINTS_MAX = 1024 };
+/* A driver may cut off loops after 65,535 iterations, of map and surface of all fields together. */
+enum { FIELDS_MAX = 4, POINTS_MAX = 1024, LOOPS_MAX = 65535 / 2 / FIELDS_MAX };
 
 static struct probe probe;
 
@@ -25,7 +26,7 @@ static struct probe probe;
 struct batch {
     struct scene *scenes[FIELDS_MAX];
     struct field *fields[FIELDS_MAX];
-    size_t count, loop_trips;
+    size_t count;
     float points[POINTS_MAX][3];
     struct probe_answer answers[FIELDS_MAX * POINTS_MAX];
 };
@@ -38,7 +39,7 @@ static void batch_finish(void)
         field_unref(batch.fields[i]);
         scene_destroy(batch.scenes[i]);
     }
-    batch.count = batch.loop_trips = 0;
+    batch.count = 0;
 }
 
 static void random_points(struct random *random, size_t count)
@@ -117,6 +118,17 @@ struct plan {
     bool surface, in_block; /* as in probe.h */
 };
 
+static void change_numbers(struct random *random, size_t index, const struct random_limits *limits)
+{
+    const uint64_t shape = batch.fields[index]->shape_hash;
+    do {
+        random_numbers(random, batch.scenes[index]->root, limits);
+        field_unref(batch.fields[index]);
+        batch.fields[index] = compile_field(batch.scenes[index]);
+        assert_true(batch.fields[index]->shape_hash == shape);
+    } while (batch.fields[index]->loop_trips > LOOPS_MAX);
+}
+
 /* One program for all. Empties the batch. */
 static void check_batch(struct random *random, const struct random_limits *limits, struct plan plan)
 {
@@ -135,30 +147,35 @@ static void check_batch(struct random *random, const struct random_limits *limit
             if (plan.surface) {
                 compare_surfaces(i, plan.points);
             }
-            const uint64_t shape = batch.fields[i]->shape_hash;
-            random_numbers(random, batch.scenes[i]->root, limits);
-            field_unref(batch.fields[i]);
-            batch.fields[i] = compile_field(batch.scenes[i]);
-            assert_true(batch.fields[i]->shape_hash == shape);
+            change_numbers(random, i, limits);
         }
     }
     probe_program_finish(&program, &probe);
     batch_finish();
 }
 
-/* Adds a scene; false where it needs a program of its own: a driver may cut off loops. */
-static bool batch_add(struct scene *scene)
+static void batch_add(struct scene *scene)
 {
-    struct field *field = compile_field(scene);
-    if (batch.count == FIELDS_MAX ||
-        (batch.count && batch.loop_trips + field->loop_trips > 25000)) {
-        field_unref(field);
-        return false;
-    }
-    batch.loop_trips += field->loop_trips;
     batch.scenes[batch.count] = scene;
-    batch.fields[batch.count++] = field;
-    return true;
+    batch.fields[batch.count++] = compile_field(scene);
+}
+
+/* Adds a scene whose loops no driver cuts off. */
+static void batch_add_random(struct random *random, const struct node_type *type, int choice,
+                             int chosen, const struct random_limits *limits)
+{
+    for (;;) {
+        struct scene *scene = random_scene(random, type, limits);
+        if (choice >= 0) {
+            scene->root->params.values[choice].number[0] = chosen;
+        }
+        batch_add(scene);
+        if (batch.fields[batch.count - 1]->loop_trips <= LOOPS_MAX) {
+            return;
+        }
+        field_unref(batch.fields[--batch.count]);
+        scene_destroy(batch.scenes[batch.count]);
+    }
 }
 
 /* The first parameter with choices; -1: none. */
@@ -186,13 +203,9 @@ static void every_row_agrees(void **state)
         int choice = choice_of(type);
         const char *const *choices = choice < 0 ? NULL : type->record.params[choice].choices;
         for (int k = 0; k == 0 || (choices && choices[k]); k++) {
-            struct scene *scene = random_scene(&random, type, &limits);
-            if (choices) {
-                scene->root->params.values[choice].number[0] = k;
-            }
-            if (!batch_add(scene)) {
+            batch_add_random(&random, type, choice, k, &limits);
+            if (batch.count == FIELDS_MAX) {
                 check_batch(&random, &limits, plan);
-                assert_true(batch_add(scene));
             }
         }
     }
@@ -208,11 +221,10 @@ static void nested_scenes_agree(void **state)
     for (int i = 0; i < 500; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 8;
-        struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
-        if (!batch_add(scene)) {
+        batch_add_random(&random, random_type(&random, kind, &limits), -1, 0, &limits);
+        if (batch.count == FIELDS_MAX) {
             plan.surface = i % 5 == 0; /* it takes more than twice as long to compile */
             check_batch(&random, &limits, plan);
-            assert_true(batch_add(scene));
         }
     }
     check_batch(&random, &limits, plan);
@@ -224,7 +236,7 @@ static void numbers_may_come_from_a_block(void **state)
     (void)state;
     struct random random = {3};
     const struct random_limits limits = {.depth = 3, .lean = true};
-    assert_true(batch_add(random_scene(&random, node_type_find("smooth_union"), &limits)));
+    batch_add_random(&random, node_type_find("smooth_union"), -1, 0, &limits);
     check_batch(&random, &limits,
                 (struct plan){.rounds = 3, .points = 400, .surface = true, .in_block = true});
 }
@@ -234,7 +246,7 @@ static void empty_scenes_compile(void **state)
     (void)state;
     struct error err = {0};
     struct probe_program program;
-    assert_true(batch_add(scene_create_empty()));
+    batch_add(scene_create_empty());
     assert_true(probe_program_init(&program, &probe, batch.fields, 1, true, false, &err));
     probe_run(&probe, &program, batch.fields, 1, batch.points, 1, batch.answers);
     assert_true(batch.answers[0].distance > 1e8f);
