@@ -78,7 +78,8 @@ float sd_capped_torus(vec3 p, float end_x, float tube, float end_y)
     depth = tube > radius ? min(depth, length(vec3(q, abs(p.z) - pole))) : depth;
     float seam = sqrt(max((tube - end.x) * (tube + end.x), 0.0));
     float w = length(vec2(q.y - end.y, p.z));
-    bool seamed = tube > end.x && end.y * w + seam * (q.y - end.y) < 0.0;
+    bool seamed = w > 0.0 ? end.y * w + seam * (q.y - end.y) < 0.0 : end.y < seam;
+    seamed = seamed && tube > end.x;
     depth = seamed ? min(depth, length(vec2(q.x, w - seam))) : depth;
     return ring < tube ? -depth : ring - tube;
 }
@@ -180,7 +181,7 @@ float sd_death_star(vec3 p, float radius1, float radius2, float away)
     rim.y = sqrt(max((radius1 - rim.x) * (radius1 + rim.x), 0.0));
     bool beside = q.x * rim.y > q.y * rim.x && (q.x - away) * rim.y > q.y * (rim.x - away);
     float two = max(length(q) - radius1, radius2 - length(q - vec2(away, 0.0)));
-    return beside && rim.x <= radius1 ? length(q - rim) : two;
+    return beside ? length(q - rim) : two;
 }
 
 /* Everything on one side of a plane; unit normal. */

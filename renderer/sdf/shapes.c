@@ -119,7 +119,7 @@ static double capped_torus_depth(double x, double y, double z, const double *n, 
     }
     if (tube > n[0]) {
         double seam = sqrt((tube - n[0]) * (tube + n[0])), w = hypot(y - n[2], z);
-        if (n[2] * w + seam * (y - n[2]) < 0) {
+        if (w > 0 ? n[2] * w + seam * (y - n[2]) < 0 : n[2] < seam) {
             depth = fmin(depth, hypot(x, w - seam));
         }
     }
@@ -321,21 +321,20 @@ static void death_star_prepare(double *n)
     n[1] = fmin(n[1], n[0] + n[2]);
 }
 
-/* Where the balls' surfaces meet is x = *out_x; false: they do not meet. */
-static bool death_star_rim(const double *n, double *out_x, double *out_r)
+/* Where the balls' surfaces meet: at x = *out_x, or beyond the first ball where they do not. */
+static void death_star_rim(const double *n, double *out_x, double *out_r)
 {
     *out_x = n[2] > 0 ? (n[2] + (n[0] - n[1]) * (n[0] + n[1]) / n[2]) / 2 : INFINITY;
     *out_r = sqrt(fmax((n[0] - *out_x) * (n[0] + *out_x), 0));
-    return *out_x <= n[0];
 }
 
-/* The rim is nearest where the ways from both centres lead to points that are not there: one
- * outside of the first ball within the second, the other the other way round. */
+/* The rim is nearest where the ways from both centres lead to points that are not there: on the
+ * first ball within the second, and on the second outside of the first. */
 static double death_star(const double p[3], const double *n)
 {
     double x = p[0], y = hypot(p[1], p[2]), rim_x, rim_r;
-    if (death_star_rim(n, &rim_x, &rim_r) && x * rim_r > y * rim_x &&
-        (x - n[2]) * rim_r > y * (rim_x - n[2])) {
+    death_star_rim(n, &rim_x, &rim_r);
+    if (x * rim_r > y * rim_x && (x - n[2]) * rim_r > y * (rim_x - n[2])) {
         return hypot(x - rim_x, y - rim_r);
     }
     return fmax(hypot(x, y) - n[0], n[1] - hypot(x - n[2], y));
@@ -344,10 +343,10 @@ static double death_star(const double p[3], const double *n)
 static struct bounds death_star_box(const double *n)
 {
     double rim_x, rim_r;
-    bool meet = death_star_rim(n, &rim_x, &rim_r);
-    double side = meet && rim_x < 0 ? rim_r : n[0];
+    death_star_rim(n, &rim_x, &rim_r);
+    double side = rim_x < 0 ? rim_r : n[0];
     return (struct bounds){
-        .low = {-n[0], -side, -side}, .high = {meet ? rim_x : n[0], side, side}, .stretch = 1};
+        .low = {-n[0], -side, -side}, .high = {fmin(rim_x, n[0]), side, side}, .stretch = 1};
 }
 
 static void plane_prepare(double *n)

@@ -14,6 +14,8 @@ struct predicate {
 
 /* NULL where there is none. */
 const struct predicate *predicate_find(const char *type);
+/* With these numbers the shape is a surface, a line or a point, so that nothing is inside. */
+bool predicate_hollow(const char *type, const double *n);
 
 /* Each ends with a row whose type is NULL. */
 extern const struct predicate predicates_round[], predicates_flat_sided[];

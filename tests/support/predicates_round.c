@@ -29,7 +29,7 @@ static bool in_round_box(const double p[3], const double *n)
         double core = n[i] / 2 - radius;
         sum += pow(p[i] - clamped(p[i], -core, core), 2);
     }
-    return sum < radius * radius;
+    return sum <= radius * radius; /* may be 0 */
 }
 
 /* In the box, and as near to two of its sides as the bars are thick. */
@@ -85,7 +85,7 @@ static bool in_round_cylinder(const double p[3], const double *n)
     double rounding = fmin(n[2], fmin(n[0], n[1] / 2)), r = sqrt(p[0] * p[0] + p[2] * p[2]);
     double half = n[1] / 2 - rounding;
     double aside = r - clamped(r, 0, n[0] - rounding), over = p[1] - clamped(p[1], -half, half);
-    return aside * aside + over * over < rounding * rounding;
+    return aside * aside + over * over <= rounding * rounding; /* may be 0 */
 }
 
 /* In a ball around a point from a to b, whose radius changes evenly on the way. How deep the balls
@@ -193,4 +193,14 @@ const struct predicate *predicate_find(const char *type)
         }
     }
     return NULL;
+}
+
+bool predicate_hollow(const char *type, const double *n)
+{
+    if (strcmp(type, "capped_cone") == 0 || strcmp(type, "round_cone") == 0) {
+        return n[0] == 0 && n[1] == 0;
+    }
+    return (strcmp(type, "solid_angle") == 0 && n[1] == 0) ||
+           (strcmp(type, "cut_sphere") == 0 && n[1] >= n[0]) ||
+           (strcmp(type, "death_star") == 0 && n[1] >= n[0] + n[2]);
 }
