@@ -28,7 +28,7 @@ const struct node_type node_fractals[] = {
      .glsl = "sd_mandelbulb", .words = "fractal mandelbrot broccoli",
      .source = "Daniel White and Paul Nylander, The unravelling of the real 3D Mandelbulb, "
                "skytopia.com/project/fractal/mandelbulb.html"},
-    {.record = {"menger", "A cube without its middle, and so on in each of the cubes that are left.",
+    {.record = {"menger", "A cube without its middle, and so on in each of the cubes left over.",
         PARAMS(
         {"size", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Edge of the cube."},
         {"iterations", COUNT, .min = 1, .max = 8, .def = {4},
