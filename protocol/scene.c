@@ -43,6 +43,7 @@ static struct node *copy_node(struct scene *scene, const struct node *from)
     struct node *to = memory_alloc(1, sizeof *to);
     to->id = memory_text(from->id);
     to->type = from->type;
+    to->height = 1;
     record_copy(&to->common, &from->common);
     record_copy(&to->transform, &from->transform);
     record_copy(&to->params, &from->params);

@@ -19,6 +19,7 @@ struct node {
     struct node *parent;     /* NULL for the root of the scene or of a model */
     struct node **children;
     size_t child_count;
+    size_t height;                /* levels of the subtree; 1: no children */
     const struct resource *model; /* whose root it is; else NULL */
     size_t last_position;         /* private to scene_node.c */
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Nodes and subtrees by themselves. Being part of a scene is scene_tree.c. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "memory.h"
 #include "scene_parts.h"
@@ -9,6 +10,7 @@ struct node *node_create(const struct node_type *type, const struct record_type 
 {
     struct node *node = memory_alloc(1, sizeof *node);
     node->type = type;
+    node->height = 1;
     record_init(&node->common, &node_common_type);
     record_init(&node->transform, &transform_type);
     record_init(&node->params, params);
@@ -38,6 +40,25 @@ void node_add_child(struct node *parent, struct node *child, size_t position)
     parent->child_count++;
     child->parent = parent;
     child->last_position = position;
+    for (; parent && parent->height <= child->height; parent = child->parent) {
+        parent->height = child->height + 1;
+        child = parent;
+    }
+}
+
+/* After a child of `height` has left. Mostly one of the first that stay is as high. */
+static void lower(struct node *node, size_t height)
+{
+    while (node && node->height == height + 1) {
+        size_t highest = 0;
+        for (size_t i = 0; i < node->child_count && highest < height; i++) {
+            size_t child = node->children[i]->height;
+            highest = child > highest ? child : highest;
+        }
+        height = node->height;
+        node->height = highest + 1;
+        node = node->height < height ? node->parent : NULL;
+    }
 }
 
 void node_remove_child(struct node *child)
@@ -46,6 +67,25 @@ void node_remove_child(struct node *child)
     memory_close_slot(parent->children, parent->child_count, node_position(child));
     parent->child_count--;
     child->parent = NULL;
+    lower(parent, child->height);
+}
+
+void node_move(struct node *node, struct node *parent, size_t position)
+{
+    size_t old = node_position(node);
+    if (parent != node->parent) {
+        node_remove_child(node);
+        node_add_child(parent, node, position);
+        return;
+    }
+    struct node **from = parent->children + old, **to = parent->children + position;
+    if (from < to) {
+        memmove(from, from + 1, (position - old) * sizeof *from);
+    } else {
+        memmove(to + 1, to, (old - position) * sizeof *to);
+    }
+    *to = node;
+    node->last_position = position;
 }
 
 /* Siblings that came and went have moved it by a few places: it is looked for around the last. */
@@ -89,16 +129,6 @@ size_t node_count(const struct node *node)
         count++;
     }
     return count;
-}
-
-size_t node_height(const struct node *node)
-{
-    size_t height = 0;
-    for (size_t i = 0; i < node->child_count; i++) {
-        size_t below = node_height(node->children[i]);
-        height = below > height ? below : height;
-    }
-    return height + 1;
 }
 
 size_t node_depth(const struct node *node)

@@ -88,11 +88,12 @@ const struct record_type *node_params_type(const struct scene *scene, const stru
                                            const struct record *params);
 /* Nodes of the subtree. */
 size_t node_count(const struct node *node);
-/* Levels of the subtree (1: no children), and of the node counted from its root (1: the root). */
-size_t node_height(const struct node *node);
+/* The node's level, counted from its root (1: the root). */
 size_t node_depth(const struct node *node);
 void node_add_child(struct node *parent, struct node *child, size_t position);
 void node_remove_child(struct node *child);
+/* To another parent or place, counted without the node. */
+void node_move(struct node *node, struct node *parent, size_t position);
 
 /* --- what is part of a scene (scene.c, scene_tree.c, scene_models.c) --- */
 

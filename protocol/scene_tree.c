@@ -169,7 +169,7 @@ static void count_users(struct scene *scene, const struct node *top, int by)
 static bool check_room(const struct node *parent, const struct node *node, const char *place,
                        struct error *err)
 {
-    size_t depth = (parent ? node_depth(parent) : 0) + node_height(node);
+    size_t depth = (parent ? node_depth(parent) : 0) + node->height;
     if (depth > LIMIT_NODE_DEPTH) {
         return error_set(err, ERROR_LIMIT, place, "%zu levels of nodes are above the maximum %d",
                          depth, LIMIT_NODE_DEPTH);
@@ -254,26 +254,18 @@ void scene_detach(struct scene *scene, struct node *node)
     }
 }
 
-static void move(struct node *node, struct node *parent, size_t position)
-{
-    node_remove_child(node);
-    node_add_child(parent, node, position);
-}
-
 bool scene_move(struct scene *scene, struct node *node, struct node *parent, size_t position,
                 const char *place, struct error *err)
 {
     struct node *home = node->parent;
     size_t old = node_position(node);
-    bool deeper = node_depth(parent) > node_depth(home);
-    if ((deeper || parent->child_count >= LIMIT_CHILDREN) &&
-        !check_room(parent, node, place, err)) {
+    if (!check_room(parent, node, place, err)) {
         return false;
     }
     bool other_tree = node_owner(home) != node_owner(parent);
-    move(node, parent, position);
+    node_move(node, parent, position);
     if (other_tree && !scene_check_models(scene, node, place, err)) {
-        move(node, home, old);
+        node_move(node, home, old);
         return false;
     }
     return true;

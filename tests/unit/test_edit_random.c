@@ -82,6 +82,29 @@ static void assert_same_users(const struct scene *a, const struct scene *b)
     }
 }
 
+static size_t height_of(const struct node *node)
+{
+    size_t height = 1;
+    for (size_t i = 0; i < node->child_count; i++) {
+        size_t child = height_of(node->children[i]);
+        assert_int_equal(node_position(node->children[i]), i);
+        assert_ptr_equal(node->children[i]->parent, node);
+        height = child + 1 > height ? child + 1 : height;
+    }
+    assert_int_equal(node->height, height);
+    return height;
+}
+
+/* What nodes remember of their place is right. */
+static void assert_trees(const struct scene *scene)
+{
+    height_of(scene->root);
+    for (size_t i = 0; i < scene->models.count; i++) {
+        height_of(scene->models.items[i]->root);
+        assert_ptr_equal(node_owner(scene->models.items[i]->root), scene->models.items[i]);
+    }
+}
+
 /* An edit and its inverse leave the document byte for byte as it was; a refused edit changes
  * nothing; the canonical form does what the edit did. */
 static void test_random_edits_have_exact_inverses(void **state)
@@ -120,6 +143,7 @@ static void test_random_edits_have_exact_inverses(void **state)
             assert_non_null(read); /* whatever edits do, the document stays valid */
             assert_int_equal(read->node_count, wild->node_count);
             assert_same_users(read, wild);
+            assert_trees(wild);
             scene_destroy(read);
             scene_destroy(copy);
             free(before);
