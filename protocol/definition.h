@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Parameters that a document declares for its primitives and shaders:
- * [{"name", "type", "default"?, "range"?, "doc"?}, ...]. They become rows of a table, so that values
- * of them are read, checked and printed like all others. */
+ * [{"name", "type", "default"?, "range"?, "doc"?}, ...]. They become rows of a table, so that
+ * values of them are read, checked and printed like all others. */
 #ifndef PROTOCOL_DEFINITION_H
 #define PROTOCOL_DEFINITION_H
 

@@ -41,8 +41,8 @@ static struct record converted_params(const struct scene *scene, const struct re
     return to;
 }
 
-/* Takes `changed`, which the record becomes, and `back`, what undoing so far would make of that. The
- * inverse sets the rest, in the order of the rows: a primitive before what it declares. */
+/* Takes `changed`, which the record becomes, and `back`, what undoing so far would make of that.
+ * The inverse sets the rest, in the order of the rows: a primitive before what it declares. */
 static void change(struct editor *editor, struct record *record, struct record changed,
                    struct record back, const char *values)
 {

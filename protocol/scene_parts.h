@@ -107,8 +107,8 @@ bool scene_index_node(struct scene *scene, struct node *node); /* false: the id 
 
 /* Makes a subtree part of the scene at `position` under `parent`, or with `parent` NULL as the tree
  * of a model that is in its list; or refuses: id in use, unknown name, a limit, models in a circle.
- * Missing ids are filled in. On failure the subtree is the caller's as before, but its filled-in ids
- * stay. `place` is the parent's, for limits. */
+ * Missing ids are filled in. On failure the subtree is the caller's as before, but its filled-in
+ * ids stay. `place` is the parent's, for limits. */
 bool scene_attach(struct scene *scene, struct node *node, struct node *parent, size_t position,
                   const char *place, struct error *err);
 /* The same for all trees of a new scene, that of the scene and those of its models, which stand in

@@ -98,12 +98,42 @@ static cJSON *choices_schema(const struct param *param)
 static cJSON *text_schema(const struct param *param)
 {
     cJSON *schema = typed("string");
-    if (param->type == PARAM_MATERIAL) {
-        cJSON_AddStringToObject(schema, "pattern", "^[A-Za-z0-9_.-]{0,64}$");
+    if (param->type == PARAM_TEXT || param->type == PARAM_CODE) {
+        bool code = param->type == PARAM_CODE;
+        cJSON_AddNumberToObject(schema, "maxLength", code ? LIMIT_CODE_BYTES : LIMIT_NAME_BYTES);
+        cJSON_AddStringToObject(schema, "pattern",
+                                code ? "^[^\x01-\x08\x0b-\x1f\x7f]*$" : "^[^\x01-\x1f\x7f]*$");
     } else {
-        cJSON_AddNumberToObject(schema, "maxLength", LIMIT_NAME_BYTES);
-        cJSON_AddStringToObject(schema, "pattern", "^[^\x01-\x1f\x7f]*$");
+        cJSON_AddStringToObject(schema, "pattern", "^[A-Za-z0-9_.-]{0,64}$");
     }
+    return schema;
+}
+
+static cJSON *points_schema(const struct param *param)
+{
+    static const struct param point = {.type = PARAM_VEC2};
+    cJSON *schema = typed("array");
+    cJSON_AddItemToObject(schema, "items", numbers_schema(&point));
+    cJSON_AddNumberToObject(schema, "minItems", param->min);
+    cJSON_AddNumberToObject(schema, "maxItems", param->max);
+    return schema;
+}
+
+/* Of all resources of a kind; their names are the members. */
+static cJSON *names_schema(const char *definition, double most)
+{
+    cJSON *schema = typed("object");
+    cJSON_AddItemToObject(schema, "propertyNames", name_schema());
+    cJSON_AddItemToObject(schema, "additionalProperties", reference(definition));
+    cJSON_AddNumberToObject(schema, "maxProperties", most);
+    return schema;
+}
+
+static cJSON *list_schema(const char *definition, double most)
+{
+    cJSON *schema = typed("array");
+    cJSON_AddItemToObject(schema, "items", reference(definition));
+    cJSON_AddNumberToObject(schema, "maxItems", most);
     return schema;
 }
 
@@ -131,13 +161,17 @@ static cJSON *param_schema(const struct param *param)
     case PARAM_ENUM:
         schema = choices_schema(param);
         break;
+    case PARAM_POINTS:
+        schema = points_schema(param);
+        break;
+    case PARAM_ROWS:
+        schema = list_schema("declaration", LIMIT_DECLARED);
+        break;
     case PARAM_TEXT:
     case PARAM_MATERIAL:
-    case PARAM_POINTS:
     case PARAM_CODE:
     case PARAM_MODEL:
     case PARAM_FUNCTION:
-    case PARAM_ROWS:
         schema = text_schema(param);
         break;
     }
@@ -179,36 +213,39 @@ static void require(cJSON *schema, const char *name)
     cJSON_AddItemToArray(required, cJSON_CreateString(name));
 }
 
-/* Where `member` is `type`, the member `values` is as the type's row says. */
-static cJSON *condition(const char *member, const char *values, const struct record_type *type)
+/* Where `member` is `type`, the member `values` is as the type's row says, if `open` with more. */
+static cJSON *condition(const char *member, const char *values, const struct record_type *type,
+                        bool open)
 {
     cJSON *rule = cJSON_CreateObject();
     cJSON *properties = cJSON_AddObjectToObject(cJSON_AddObjectToObject(rule, "if"), "properties");
     cJSON_AddItemToObject(properties, member, constant(type->name));
     properties = cJSON_AddObjectToObject(cJSON_AddObjectToObject(rule, "then"), "properties");
-    cJSON_AddItemToObject(properties, values, record_schema(type));
+    cJSON *record = record_schema(type);
+    if (open) {
+        cJSON_DeleteItemFromObject(record, "additionalProperties");
+    }
+    cJSON_AddItemToObject(properties, values, record);
     return rule;
 }
 
 static cJSON *node_schema(void)
 {
     cJSON *properties, *schema = closed_object("A node of the scene.", &properties);
-    cJSON *types, *children, *rules;
+    cJSON *types, *rules;
     cJSON_AddItemToObject(properties, "id", name_schema());
     types = cJSON_AddArrayToObject(cJSON_AddObjectToObject(properties, "type"), "enum");
     add_properties(properties, &node_common_type);
     cJSON_AddItemToObject(properties, "transform", reference("transform"));
     cJSON_AddItemToObject(properties, "params", typed("object"));
-    children = typed("array");
-    cJSON_AddItemToObject(properties, "children", children);
-    cJSON_AddItemToObject(children, "items", reference("node"));
-    cJSON_AddNumberToObject(children, "maxItems", LIMIT_CHILDREN);
+    cJSON_AddItemToObject(properties, "children", list_schema("node", LIMIT_CHILDREN));
     require(schema, "type");
     rules = cJSON_AddArrayToObject(schema, "allOf");
     for (size_t i = 0; i < node_type_count(); i++) {
-        const struct record_type *type = &node_type_at(i)->record;
-        cJSON_AddItemToArray(types, cJSON_CreateString(type->name));
-        cJSON_AddItemToArray(rules, condition("type", "params", type));
+        const struct node_type *type = node_type_at(i);
+        cJSON_AddItemToArray(types, cJSON_CreateString(type->record.name));
+        cJSON_AddItemToArray(rules,
+                             condition("type", "params", &type->record, type->kind == KIND_CODE));
     }
     return schema;
 }
@@ -228,6 +265,22 @@ static cJSON *light_schema(void)
     return schema;
 }
 
+/* A type that the document declares itself: no built-in one, and any values. */
+static cJSON *own_shader_form(void)
+{
+    cJSON *properties,
+        *form = closed_object("A material of a shader of the document.", &properties);
+    cJSON *shader = name_schema(), *names;
+    names = cJSON_AddArrayToObject(cJSON_AddObjectToObject(shader, "not"), "enum");
+    for (const struct record_type *type = shader_types; type->name; type++) {
+        cJSON_AddItemToArray(names, cJSON_CreateString(type->name));
+    }
+    cJSON_AddItemToObject(properties, "shader", shader);
+    cJSON_AddItemToObject(properties, "properties", typed("object"));
+    require(form, "shader");
+    return form;
+}
+
 static cJSON *material_schema(void)
 {
     cJSON *schema = cJSON_CreateObject();
@@ -239,31 +292,46 @@ static cJSON *material_schema(void)
         require(form, "shader");
         cJSON_AddItemToArray(forms, form);
     }
+    cJSON_AddItemToArray(forms, own_shader_form());
+    return schema;
+}
+
+static cJSON *declaration_schema(void)
+{
+    static const struct param doc = {.type = PARAM_TEXT}, number = {.type = PARAM_FLOAT};
+    static const char *const others[] = {"float2", "float3", "float4"};
+    cJSON *properties, *schema = closed_object("A parameter that is declared.", &properties);
+    cJSON *name = typed("string"), *types;
+    cJSON_AddStringToObject(name, "pattern", "^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]{0,63}$");
+    cJSON_AddItemToObject(properties, "name", name);
+    types = cJSON_AddArrayToObject(cJSON_AddObjectToObject(properties, "type"), "enum");
+    for (int i = 0; definition_types[i]; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(definition_types[i]));
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(others[i]));
+    }
+    cJSON_AddTrueToObject(properties, "default");
+    cJSON_AddItemToObject(properties, "range", vector_schema(number_schema(&number), 2));
+    cJSON_AddItemToObject(properties, "doc", text_schema(&doc));
+    require(schema, "name");
+    require(schema, "type");
     return schema;
 }
 
 static void add_document(cJSON *schema, cJSON *properties)
 {
-    static const char *const reserved[] = {"shaders", "primitives", "models"};
     cJSON_AddItemToObject(properties, "format", constant(SCENE_FORMAT));
     add_properties(properties, &scene_info_type);
     cJSON_AddItemToObject(properties, "camera", reference("camera"));
-    cJSON *lights = typed("array");
-    cJSON_AddItemToObject(lights, "items", reference("light"));
-    cJSON_AddNumberToObject(lights, "maxItems", LIMIT_LIGHTS);
-    cJSON_AddItemToObject(properties, "lights", lights);
-    cJSON *materials = typed("object");
-    cJSON_AddItemToObject(materials, "propertyNames", name_schema());
-    cJSON_AddItemToObject(materials, "additionalProperties", reference("material"));
-    cJSON_AddNumberToObject(materials, "maxProperties", LIMIT_MATERIALS);
-    cJSON_AddItemToObject(properties, "materials", materials);
+    for (const struct resource_kind *kind = resource_kinds; kind->list; kind++) {
+        const char *definition = kind->table == &model_type ? "node" : kind->item;
+        cJSON_AddItemToObject(properties, kind->list,
+                              kind->array ? list_schema(definition, (double)kind->limit)
+                                          : names_schema(definition, (double)kind->limit));
+    }
     cJSON_AddItemToObject(properties, "environment", reference("environment"));
     cJSON_AddItemToObject(properties, "render", reference("render"));
-    for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++) {
-        cJSON *empty = typed("object");
-        cJSON_AddNumberToObject(empty, "maxProperties", 0);
-        cJSON_AddItemToObject(properties, reserved[i], empty);
-    }
     cJSON_AddItemToObject(properties, "root", reference("node"));
     require(schema, "format");
     require(schema, "root");
@@ -271,12 +339,14 @@ static void add_document(cJSON *schema, cJSON *properties)
 
 static void add_definitions(cJSON *schema)
 {
-    const struct record_type *const records[] = {&transform_type, &camera_type, &environment_type,
-                                                 &render_type};
+    const struct record_type *const records[] = {&transform_type,   &camera_type,
+                                                 &environment_type, &render_type,
+                                                 &primitive_type,   &shader_type};
     cJSON *definitions = cJSON_AddObjectToObject(schema, "$defs");
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         cJSON_AddItemToObject(definitions, records[i]->name, record_schema(records[i]));
     }
+    cJSON_AddItemToObject(definitions, "declaration", declaration_schema());
     cJSON_AddItemToObject(definitions, "light", light_schema());
     cJSON_AddItemToObject(definitions, "material", material_schema());
     cJSON_AddItemToObject(definitions, "node", node_schema());
@@ -294,13 +364,13 @@ static cJSON *describe_params(const struct record_type *type)
 }
 
 /* Every type takes children; this says what it is made for. */
-static const char *children_word(enum node_group group)
+static const char *children_word(const struct node_type *type)
 {
     static const char *const words[] = {
         [GROUP_PRIMITIVE] = "none", [GROUP_SHAPE] = "none",     [GROUP_OPERATION] = "many",
         [GROUP_MODIFIER] = "one",   [GROUP_STRUCTURE] = "many",
     };
-    return words[group];
+    return type->kind == KIND_MODEL || type->kind == KIND_CODE ? "none" : words[type->group];
 }
 
 static cJSON *describe_nodes(void)
@@ -315,7 +385,7 @@ static cJSON *describe_nodes(void)
         cJSON_AddStringToObject(row, "doc", type->record.doc);
         cJSON_AddStringToObject(row, "words", type->words);
         cJSON_AddStringToObject(row, "source", type->source);
-        cJSON_AddStringToObject(row, "children", children_word(type->group));
+        cJSON_AddStringToObject(row, "children", children_word(type));
         cJSON_AddItemToObject(row, "params", describe_params(&type->record));
         cJSON_AddItemToArray(list, row);
     }
@@ -333,6 +403,19 @@ static cJSON *describe_types(const struct record_type *type)
         cJSON_AddItemToArray(list, row);
     }
     return list;
+}
+
+/* What a document declares, and by what types. */
+static cJSON *describe_resources(void)
+{
+    cJSON *resources = cJSON_CreateObject();
+    cJSON_AddItemToObject(resources, "primitive", describe_params(&primitive_type));
+    cJSON_AddItemToObject(resources, "shader", describe_params(&shader_type));
+    cJSON *types = cJSON_AddArrayToObject(resources, "declared_types");
+    for (int i = 0; definition_types[i]; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(definition_types[i]));
+    }
+    return resources;
 }
 
 static cJSON *describe_limits(void)
@@ -378,6 +461,7 @@ static cJSON *describe_registry(void)
     cJSON_AddItemToObject(registry, "transform", describe_params(&transform_type));
     cJSON_AddItemToObject(registry, "lights", describe_types(light_types));
     cJSON_AddItemToObject(registry, "shaders", describe_types(shader_types));
+    cJSON_AddItemToObject(registry, "resources", describe_resources());
     cJSON_AddItemToObject(registry, "camera", describe_params(&camera_type));
     cJSON_AddItemToObject(registry, "environment", describe_params(&environment_type));
     cJSON_AddItemToObject(registry, "render", describe_params(&render_type));

@@ -113,7 +113,8 @@ const struct record_type shader_types[] = {
     {.name = NULL},
 };
 
-const struct record_type primitive_type = {"primitive", "A distance function of the document.", PARAMS(
+const struct record_type primitive_type = {
+    "primitive", "A distance function of the document.", PARAMS(
     {"params", PARAM_ROWS, .doc = "Parameters that nodes give it."},
     {"code", PARAM_CODE, .main = true,
      .doc = "GLSL with a function float sdf(vec3 p): the distance, negative inside."},

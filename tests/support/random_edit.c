@@ -196,7 +196,8 @@ static cJSON *random_insert(struct random *random, const struct scene *scene)
     return op;
 }
 
-/* The place of something to be removed or moved, at times of nobody. Returns its kind, -1: a node. */
+/* The place of something to be removed or moved, at times of nobody. Returns its kind, -1: a
+ * node. */
 static int random_thing(struct random *random, const struct scene *scene, char place[100])
 {
     int kind = (int)random_below(random, 2 * RANDOM_KINDS);

@@ -178,8 +178,8 @@ static void test_groups_with_more_than_values_keep_all(void **state)
     free(after);
 }
 
-/* Of several sets of one place only the oldest counts: but not where another value was possible only
- * in between. Each list is one group; undone, it gives back the first byte. */
+/* Of several sets of one place only the oldest counts: but not where another value was possible
+ * only in between. Each list is one group; undone, it gives back the first byte. */
 static void test_groups_keep_what_values_depend_on(void **state)
 {
     (void)state;

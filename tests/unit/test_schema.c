@@ -113,6 +113,29 @@ static void test_every_node_has_a_rule(void **state)
     assert_int_equal(cJSON_GetArraySize(at(rule_for("plane"), "properties/normal/not/const")), 3);
 }
 
+static void test_what_documents_declare(void **state)
+{
+    (void)state;
+    static const char *const lists[] = {"primitives", "shaders", "materials", "models"};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        const cJSON *list = at(at(schema, "properties"), lists[i]);
+        assert_true(at(list, "maxProperties")->valuedouble > 1);
+        at(list, "additionalProperties/$ref");
+    }
+    assert_string_equal(at(schema, "$defs/primitive/properties/params/items/$ref")->valuestring,
+                        "#/$defs/declaration");
+    assert_float_equal(at(schema, "$defs/shader/properties/code/maxLength")->valuedouble,
+                       LIMIT_CODE_BYTES, 0);
+    assert_null(cJSON_GetObjectItem(rule_for("field"), "additionalProperties"));
+    assert_true(cJSON_IsFalse(at(rule_for("model"), "additionalProperties")));
+    assert_float_equal(at(rule_for("polygon"), "properties/points/minItems")->valuedouble, 3, 0);
+    int forms = cJSON_GetArraySize(at(schema, "$defs/material/oneOf")), built_in = 0;
+    while (shader_types[built_in].name) {
+        built_in++;
+    }
+    assert_int_equal(forms, built_in + 1);
+}
+
 static void assert_described(const cJSON *rows, const struct record_type *type)
 {
     assert_int_equal(cJSON_GetArraySize(rows), (int)record_type_count(type));
@@ -151,6 +174,9 @@ static void test_registry(void **state)
         const cJSON *row = cJSON_GetArrayItem(at(registry, "shaders"), i);
         assert_described(at(row, "params"), &shader_types[i]);
     }
+    assert_described(at(registry, "resources/primitive"), &primitive_type);
+    assert_described(at(registry, "resources/shader"), &shader_type);
+    assert_string_equal(at(registry, "resources/declared_types")->child->valuestring, "float");
     size_t limits;
     limits_table(&limits);
     assert_int_equal(cJSON_GetArraySize(at(registry, "limits")), (int)limits);
@@ -164,6 +190,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_is_a_schema, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_every_node_has_a_rule, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_what_documents_declare, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
