@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/limits.h"
 #include "tests/support/edits.h"
 
 static const char rich[] =
@@ -262,6 +263,33 @@ static void test_no_circles(void **state)
                        ERROR_CONFLICT, "/nodes/q1/params/model", circle);
 }
 
+/* As many as allowed, and one more. */
+static void test_counts_hold_in_edits(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list, *value;
+        size_t limit, there;
+    } lists[] = {{"primitives", "{}", LIMIT_PRIMITIVES, 3},
+                 {"shaders", "{}", LIMIT_SHADERS, 2},
+                 {"models", "{\"type\":\"box\"}", LIMIT_MODELS, 3}};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        char text[200], place[40], message[80];
+        for (size_t n = lists[i].there; n <= lists[i].limit; n++) {
+            snprintf(text, sizeof text,
+                     "[{\"op\":\"insert\",\"into\":\"/%s\",\"name\":\"n%zu\",\"value\":%s}]",
+                     lists[i].list, n, lists[i].value);
+            if (n < lists[i].limit) {
+                edits_apply(scene, text);
+            }
+        }
+        snprintf(place, sizeof place, "/%s", lists[i].list);
+        snprintf(message, sizeof message, "%zu %s are above the maximum %zu", lists[i].limit + 1,
+                 lists[i].list, lists[i].limit);
+        edits_assert_fails(scene, text, ERROR_LIMIT, place, message);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +300,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_primitives_and_models_come_and_go, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_what_is_used_stays, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_circles, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_counts_hold_in_edits, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("edit_resources", tests, NULL, NULL);
 }

@@ -293,6 +293,70 @@ static void test_limits_of_the_tree(void **state)
     assert_limit(wide(11, 9090), 0, "more nodes than the maximum 100000");
 }
 
+/* `count` of the list, each `value`. */
+static char *listed(const char *list, size_t count, const char *value)
+{
+    bool array = strcmp(list, "lights") == 0;
+    char *text = malloc(count * (strlen(value) + 20) + 200), *at = text;
+    assert_non_null(text);
+    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"%s\":%c", list, array ? '[' : '{');
+    for (size_t i = 0; i < count; i++) {
+        at += sprintf(at, i ? "," : "");
+        at += array ? sprintf(at, "%s", value) : sprintf(at, "\"n%zu\":%s", i, value);
+    }
+    sprintf(at, "%c,\"root\":{\"type\":\"union\"}}", array ? ']' : '}');
+    return text;
+}
+
+static void test_limits_of_lists(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list, *value;
+        size_t limit, nodes; /* nodes of each */
+    } lists[] = {
+        {"lights", "{\"type\":\"point\"}", LIMIT_LIGHTS, 0},
+        {"primitives", "{}", LIMIT_PRIMITIVES, 0},
+        {"shaders", "{}", LIMIT_SHADERS, 0},
+        {"materials", "{\"shader\":\"phong\"}", LIMIT_MATERIALS, 0},
+        {"models", "{\"type\":\"box\"}", LIMIT_MODELS, 1},
+    };
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        char message[80];
+        snprintf(message, sizeof message, "more %s than the maximum %zu", lists[i].list,
+                 lists[i].limit);
+        assert_limit(listed(lists[i].list, lists[i].limit, lists[i].value),
+                     1 + lists[i].limit * lists[i].nodes, NULL);
+        assert_limit(listed(lists[i].list, lists[i].limit + 1, lists[i].value), 0, message);
+    }
+}
+
+/* The tree of `document`, which is freed, as the only model beside a root with `children`. */
+static char *beside(char *document, size_t children)
+{
+    static const char root[] = "\"root\":";
+    char *tree = strstr(document, root) + strlen(root);
+    char *text = malloc(strlen(tree) + children * 20 + 100), *at = text;
+    assert_non_null(text);
+    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"union\",\"children\":[");
+    for (size_t i = 0; i < children; i++) {
+        at += sprintf(at, "%s{\"type\":\"sphere\"}", i ? "," : "");
+    }
+    sprintf(at, "]},\"models\":{\"m\":%s}", tree);
+    free(document);
+    return text;
+}
+
+static void test_limits_hold_in_models(void **state)
+{
+    (void)state;
+    assert_limit(beside(nested(LIMIT_NODE_DEPTH), 0), LIMIT_NODE_DEPTH + 1, NULL);
+    assert_limit(beside(nested(LIMIT_NODE_DEPTH + 1), 0), 0,
+                 "65 levels of nodes are above the maximum 64");
+    assert_limit(beside(wide(11, 9089), 8), LIMIT_NODES, NULL);
+    assert_limit(beside(wide(11, 9089), 9), 0, "100001 nodes are above the maximum 100000");
+}
+
 static void test_long_places_keep_their_end(void **state)
 {
     (void)state;
@@ -426,6 +490,8 @@ int main(void)
         cmocka_unit_test(test_ids_are_shared_by_all_trees),
         cmocka_unit_test(test_models_in_a_circle),
         cmocka_unit_test(test_limits_of_the_tree),
+        cmocka_unit_test(test_limits_of_lists),
+        cmocka_unit_test(test_limits_hold_in_models),
         cmocka_unit_test(test_long_places_keep_their_end),
         cmocka_unit_test(test_tree_questions),
         cmocka_unit_test(test_empty_scene),
