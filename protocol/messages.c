@@ -39,6 +39,10 @@ static const char *const levels[] = {"info", "warning", "error", NULL};
 /* clang-format off */
 #define EDIT_NUMBER {.param = {"edit", PARAM_INT, .min = 1, .max = EXACT_MAX, \
                       .doc = "Counts the edits, undos and redos of this client."}, .required = true}
+/* Where in a text an error is. */
+#define TEXT_PLACE \
+    {.param = {"line", COUNT, .doc = "Line in the text at the place, from 1."}}, \
+    {.param = {"column", COUNT, .doc = "Column in it, from 1."}}
 #define REVISION {.param = {"revision", COUNT, .doc = "Revision of the scene."}, .required = true}
 
 static const struct message_type client_messages[MESSAGE_COUNT] = {
@@ -107,7 +111,8 @@ static const struct message_type server_messages[] = {
         EDIT_NUMBER,
         {.param = {"code", PARAM_TEXT, .doc = "Kind of error."}, .required = true},
         {.param = {"place", PARAM_TEXT, .doc = "Where."}, .required = true},
-        {.param = {"message", PARAM_TEXT, .doc = "Why, with value and limit."}, .required = true})},
+        {.param = {"message", PARAM_TEXT, .doc = "Why, with value and limit."}, .required = true},
+        TEXT_PLACE)},
     {"picked", "What is under the pointer; null where nothing is.", FIELDS(
         {.param = {"pick", SMALL, .doc = "Number of the question."}, .required = true},
         REVISION,
@@ -120,7 +125,8 @@ static const struct message_type server_messages[] = {
          .required = true},
         {.param = {"code", PARAM_TEXT, .doc = "What it is, for programs."}, .required = true},
         {.param = {"message", PARAM_TEXT, .doc = "What it is, for people."}, .required = true},
-        {.param = {"place", PARAM_TEXT, .doc = "Where in the document."}})},
+        {.param = {"place", PARAM_TEXT, .doc = "Where in the document."}},
+        TEXT_PLACE)},
     {"bye", "The last message.", FIELDS(
         {.param = {"reason", PARAM_TEXT, .doc = "Why the connection ends."}, .required = true},
         {.param = {"retry_ms", COUNT, .doc = "When to come back; absent: never."}})},
