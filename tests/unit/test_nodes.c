@@ -92,7 +92,7 @@ static void test_rows_are_complete(void **state)
                      type->kind == KIND_GROUP ? "union" : type->record.name);
             assert_string_equal(type->glsl, name);
         }
-        assert_true(type->number > 0);
+        assert_true(type->number > 0 && type->number < NODE_NUMBERS);
         assert_true(type->lipschitz >= 0);
         assert_true(*type->words && *type->source);
         assert_true(*node_group_name(type->group));
@@ -146,7 +146,8 @@ static void test_tables_hold_their_defaults(void **state)
         check_table(&node_type_at(i)->record);
     }
     const struct record_type *const records[] = {&node_common_type, &scene_info_type, &camera_type,
-                                                 &environment_type};
+                                                 &environment_type, &primitive_type,  &shader_type,
+                                                 &model_type};
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         check_table(records[i]);
     }
