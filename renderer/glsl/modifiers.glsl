@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers of
- * dom_ functions are computed in C (renderer/sdf/modifiers.c tells how, and why bounds hold). */
+ * dom_ functions are computed in C (renderer/sdf/ tells how, and why bounds hold). */
 
 /* Grows outwards. */
 float mod_round(float d, float radius)
@@ -99,18 +99,17 @@ vec3 cell_next(vec3 cell, vec3 first, vec3 last)
     return cell;
 }
 
-/* Turns the section at each height back, inside the children's cylinder (rate, radius, ...). */
-vec3 dom_twist(vec3 p, vec4 twist)
+/* The point before the middle was pulled apart: (size, scale). */
+vec3 dom_elongate(vec3 p, vec4 elongate)
 {
-    vec2 q = p.xz * min(twist.y / max(length(p.xz), 1e-30), 1.0);
-    float c = cos(twist.x * p.y), s = sin(twist.x * p.y);
-    return vec3(c * q.x - s * q.y, p.y, s * q.x + c * q.y);
+    return p - clamp(p, -elongate.xyz, elongate.xyz);
 }
 
-/* Makes the children's distance a bound outside them: (rate, radius, 1 / Lipschitz, scale). */
-float dom_twist_after(float d, vec3 p, vec4 twist)
+/* Adds the way to the faces of the block in the middle, where that is inside. */
+float dom_elongate_after(float d, vec3 p, vec4 elongate)
 {
-    return corner(d * twist.z, (length(p.xz) - twist.y) * twist.w);
+    vec3 face = abs(p) - elongate.xyz;
+    return d < 0.0 ? d + min(max(face.x, max(face.y, face.z)), 0.0) * elongate.w : d;
 }
 
 /* The section's point: all of them are at z = 0. */

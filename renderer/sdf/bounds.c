@@ -85,10 +85,19 @@ struct bounds bounds_transform(const struct bounds *box, const double matrix[12]
     return out;
 }
 
+static double reach(const struct bounds *box, int axis)
+{
+    return fmax(fabs(box->low[axis]), fabs(box->high[axis]));
+}
+
 double bounds_radius_y(const struct bounds *box)
 {
-    return hypot(fmax(fabs(box->low[0]), fabs(box->high[0])),
-                 fmax(fabs(box->low[2]), fabs(box->high[2])));
+    return hypot(reach(box, 0), reach(box, 2));
+}
+
+double bounds_radius_z(const struct bounds *box)
+{
+    return hypot(reach(box, 0), reach(box, 1));
 }
 
 double bounds_sphere(const struct bounds *box, double out_centre[3])

@@ -27,8 +27,9 @@ struct bounds bounds_grow(struct bounds box, double delta);
 /* The box of the image under p -> matrix * p, three rows of (x, y, z, translation). `ratio` is
  * greatest by least scale of the matrix, by which the field lags behind the distance. */
 struct bounds bounds_transform(const struct bounds *box, const double matrix[12], double ratio);
-/* The greatest distance of the box from the Y axis; INFINITY where there is none. */
+/* The greatest distance of the box from the Y or Z axis; INFINITY where there is none. */
 double bounds_radius_y(const struct bounds *box);
+double bounds_radius_z(const struct bounds *box);
 /* The sphere around the box; its radius is INFINITY where the box is not finite. */
 double bounds_sphere(const struct bounds *box, double out_centre[3]);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What changes the distance or the space of its children. */
+/* What changes the distance or the space of its children, and lengthens none. */
 #include <string.h>
 
 #include "tools.h"
@@ -51,58 +51,38 @@ static void mirror_map(const double p[3], const double *n, double out[3])
     }
 }
 
-/* twist: n = rate, radius of the children's cylinder, 1 / Lipschitz constant, scale.
- *
- * Inside the cylinder the twist shears by at most a = |rate| * radius, and the greatest singular
- * value of [[1, a], [0, 1]] is (a + sqrt(a^2 + 4)) / 2 (Hart, section 3: the Jacobian's norm bounds
- * the constant). Outside, the nearest point of the cylinder stands in: projecting on a convex set
- * lengthens no distance; what is missing is added at a right angle. */
-enum { RATE, RADIUS, PER_LIPSCHITZ, SCALE };
-
-static double twist_radius(const struct bounds *child)
+/* elongate: n = size, scale. Where the child holds the origin, what is pulled apart has a block in
+ * it whose points all see the origin: the way to the block's faces is added to their depth. Where
+ * it does not, the block is outside and stays as it is. */
+static void elongate_prepare(const double *params, const struct bounds *child, double scale,
+                             double *out_n)
 {
-    double radius = bounds_radius_y(child);
-    return isfinite(radius) ? radius * 1.0001 : SDF_TWIST_RADIUS_MAX;
+    (void)child;
+    memcpy(out_n, params, 3 * sizeof *params);
+    out_n[3] = scale;
 }
 
-static double twist_lipschitz(double rate, double radius)
-{
-    double a = fabs(rate) * radius;
-    return (a + sqrt(a * a + 4)) / 2;
-}
-
-static void twist_prepare(const double *params, const struct bounds *child, double scale,
-                          double *out_n)
-{
-    out_n[RATE] = params[0];
-    out_n[RADIUS] = twist_radius(child);
-    out_n[PER_LIPSCHITZ] = 1 / twist_lipschitz(params[0], out_n[RADIUS]);
-    out_n[SCALE] = scale;
-}
-
-static struct bounds twist_box(const double *params, const struct bounds *child)
+static struct bounds elongate_box(const double *params, const struct bounds *child)
 {
     struct bounds out = *child;
-    double radius = twist_radius(child);
-    out.low[0] = out.low[2] = -radius;
-    out.high[0] = out.high[2] = radius;
-    out.stretch *= twist_lipschitz(params[0], radius);
+    for (int i = 0; i < 3; i++) {
+        out.low[i] -= params[i];
+        out.high[i] += params[i];
+    }
     return out;
 }
 
-static void twist_map(const double p[3], const double *n, double out[3])
+static void elongate_map(const double p[3], const double *n, double out[3])
 {
-    double inward = fmin(n[RADIUS] / fmax(hypot(p[0], p[2]), 1e-30), 1);
-    double x = p[0] * inward, z = p[2] * inward;
-    double c = cos(n[RATE] * p[1]), s = sin(n[RATE] * p[1]);
-    out[0] = c * x - s * z;
-    out[1] = p[1];
-    out[2] = s * x + c * z;
+    for (int i = 0; i < 3; i++) {
+        out[i] = p[i] - clamp(p[i], -n[i], n[i]);
+    }
 }
 
-static double twist_after(double d, const double p[3], const double *n)
+static double elongate_after(double d, const double p[3], const double *n)
 {
-    return corner(d * n[PER_LIPSCHITZ], (hypot(p[0], p[2]) - n[RADIUS]) * n[SCALE]);
+    double face = fmax(fabs(p[0]) - n[0], fmax(fabs(p[1]) - n[1], fabs(p[2]) - n[2]));
+    return d < 0 ? d + fmin(face, 0) * n[3] : d;
 }
 
 /* extrude: n = half height, scale, rounding times scale. The section, drawn in by the rounding and
@@ -165,6 +145,11 @@ static void revolve_map(const double p[3], const double *n, double out[3])
 
 static const struct sdf_domain mirror = {
     .vec4s = 1, .prepare = mirror_prepare, .box = mirror_box, .map = mirror_map};
+static const struct sdf_domain elongate = {.vec4s = 1,
+                                           .prepare = elongate_prepare,
+                                           .box = elongate_box,
+                                           .map = elongate_map,
+                                           .after = elongate_after};
 static const struct sdf_domain extrude = {.vec4s = 1,
                                           .prepare = extrude_prepare,
                                           .box = extrude_box,
@@ -172,14 +157,12 @@ static const struct sdf_domain extrude = {.vec4s = 1,
                                           .after = extrude_after};
 static const struct sdf_domain revolve = {
     .vec4s = 1, .prepare = revolve_prepare, .box = revolve_box, .map = revolve_map};
-static const struct sdf_domain twist = {
-    .vec4s = 1, .prepare = twist_prepare, .box = twist_box, .map = twist_map, .after = twist_after};
 
 const struct sdf sdf_modifiers[] = {
     {"round", .change = change_round, .lowered = whole_lowered},
     {"shell", .change = change_shell, .lowered = whole_lowered},
     {"mirror", .domain = &mirror},
-    {"twist", .domain = &twist},
+    {"elongate", .domain = &elongate},
     {"extrude", .domain = &extrude},
     {"revolve", .domain = &revolve},
     {.type = NULL},

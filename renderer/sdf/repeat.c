@@ -85,10 +85,10 @@ static void repeat_cell(const double p[3], const double cell[3], const double *n
     }
 }
 
-/* repeat_polar: n = radius, angle from copy to copy, middle of the child's angle, reach, then copies
- * all around, slack, 1 / (1 + slack), scale.
+/* repeat_polar: n = radius, angle from copy to copy, middle of the child's angle, reach, then how
+ * many copies there are, slack, 1 / (1 + slack), scale.
  *
- * Seen from the axis, a part of the child at angle v is nearest in the copy round((phi - v) / step).
+ * Seen from the axis, a part of the child at angle v is nearest in the copy round((phi - v)/step).
  * As v lies within `half` of the middle of the box's angle, looking at round(x - reach) to
  * round(x + reach) misses none, where x = (phi - middle) / step and reach = half / step. A box
  * around the axis lies at all angles, so all copies are looked at.

@@ -5,8 +5,8 @@
 #include <assert.h>
 #include <string.h>
 
-static const struct sdf *const tables[] = {sdf_shapes,     sdf_solids,    sdf_flat,   sdf_fractals,
-                                           sdf_operations, sdf_modifiers, sdf_repeats};
+static const struct sdf *const tables[] = {sdf_shapes,     sdf_solids,    sdf_flat,    sdf_fractals,
+                                           sdf_operations, sdf_modifiers, sdf_repeats, sdf_warps};
 enum { TABLE_COUNT = sizeof tables / sizeof tables[0] };
 
 const struct sdf *sdf_at(size_t index)

@@ -21,9 +21,9 @@ enum {
     SDF_REPEAT_CELLS_MAX = 125, /* that one repeat looks at for one point */
 };
 
-/* A twisted child without an end is cut off at this distance from the axis: the bound of a twist
- * falls with the radius, so there is none without an end. */
-#define SDF_TWIST_RADIUS_MAX 32.0
+/* A twisted or bent child without an end is cut off at this distance from the axis: the bound falls
+ * with the radius, so there is none without an end. */
+#define SDF_TURN_RADIUS_MAX 32.0
 
 /* What an operation makes of its operands. */
 enum sdf_rule {
@@ -44,6 +44,8 @@ struct sdf_domain {
     void (*map)(const double p[3], const double *n, double out[3]);
     /* What makes the children's distance one of the whole; NULL where it is one already. */
     double (*after)(double d, const double p[3], const double *n);
+    /* Loop iterations in the GLSL function of `after`, from the parameters; NULL: no loops. */
+    int (*trips)(const double *params);
     /* Only where children are evaluated in several cells: `first` and `last` cell, steps of 1 per
      * axis; `map` is NULL and `cell` gives the point in a cell; `cells` the most there can be. */
     void (*range)(const double p[3], const double *n, double out_first[3], double out_last[3]);
@@ -96,6 +98,6 @@ int sdf_numbers(const struct param *params, const struct value *values,
 
 /* Each ends with a row whose type is NULL. */
 extern const struct sdf sdf_shapes[], sdf_solids[], sdf_flat[], sdf_fractals[], sdf_operations[],
-    sdf_modifiers[], sdf_repeats[];
+    sdf_modifiers[], sdf_repeats[], sdf_warps[];
 
 #endif

@@ -211,8 +211,8 @@ static void repetition_is_copies(void **state)
         double spacing[3];
         int count[3], window[3] = {9, 9, 9};
         for (int i = 0; i < 3; i++) {
-            spacing[i] = random_between(&random, 0.9, 3);
             count[i] = (int)random_below(&random, 6) - 1;
+            spacing[i] = random_between(&random, count[i] < 0 ? 1.5 : 0.9, 3);
         }
         char *child, *repeat;
         size_t length;
@@ -231,7 +231,7 @@ static void repetition_is_copies(void **state)
         bool all = a.field->loop_trips < SDF_REPEAT_CELLS_MAX - 25;
         checked += all;
         for (int k = 0; k < 200 && all; k++) {
-            double p[3], limit = 2; /* well inside the window of endless axes */
+            double p[3], limit = 1.5; /* well inside the window of endless axes */
             for (int i = 0; i < 3; i++) {
                 p[i] = random_between(&random, -limit, limit);
             }
