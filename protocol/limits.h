@@ -30,6 +30,7 @@
     X(CODE_DEPTH, "code_depth", 64, "levels", "nesting of code, and of its calls")                 \
     X(CODE_SIZE, "code_size", 4096, "operations", "code, with every call written out")             \
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
+    X(CODE_WORK, "code_work", 65536, "operations", "one call of code, with its loops run through") \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling one pass of a scene")            \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

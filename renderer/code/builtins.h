@@ -40,6 +40,7 @@ struct builtin {
     const char *name;
     enum family family;
     int arguments;
+    int weight; /* operations that it counts for in each component; 0: one */
     /* A name to call, or a text where $0, $1, $2 are arguments, each at most once. NULL: `name`. */
     const char *glsl;
     /* One of these; NULL for the others. The first three go component by component. */

@@ -23,14 +23,22 @@ static long most(long a, long b)
     return a > b ? a : b;
 }
 
+static bool spend_work(struct bounds_walk *walk, struct cost *cost, long work, struct at at)
+{
+    cost->work += work;
+    return cost->work <= LIMIT_CODE_WORK ||
+           tree_fail_limit(walk->tree, at, "operations of one call, with its loops run through,",
+                           LIMIT_CODE_WORK, "code_work");
+}
+
 /* Adds operations, and refuses when they become too many. */
 static bool spend(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
 {
     cost->size += size;
-    cost->work += size;
-    return cost->size <= LIMIT_CODE_SIZE ||
-           tree_fail_limit(walk->tree, at, "operations, with every call written out,",
-                           LIMIT_CODE_SIZE, "code_size");
+    return spend_work(walk, cost, size, at) &&
+           (cost->size <= LIMIT_CODE_SIZE ||
+            tree_fail_limit(walk->tree, at, "operations, with every call written out,",
+                            LIMIT_CODE_SIZE, "code_size"));
 }
 
 /* --- calls --- */
@@ -68,17 +76,27 @@ static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct 
     for (const struct variable *p = to->parameters; p; p = p->next) {
         arguments += type_components(p->type);
     }
-    cost->work += to->work - to->size;
     cost->trips += to->trips;
-    return spend(walk, cost, 1 + arguments + to->size, expr->at);
+    return spend(walk, cost, 1 + arguments + to->size, expr->at) &&
+           spend_work(walk, cost, to->work - to->size, expr->at);
 }
 
 /* --- expressions --- */
 
-/* Of the expression itself, without what is in it. */
+static long size_of_builtin(const struct expr *expr)
+{
+    long count = most(type_components(expr->type), type_components(expr->args->type));
+    return expr->builtin->weight > 0 ? count * expr->builtin->weight : count;
+}
+
+/* Of the expression itself, without what is in it. Drivers make much of whole numbers' divisions,
+ * and of indices that are not constant. */
 static long size_of(const struct expr *expr)
 {
+    enum { HEAVY = 8 };
     long count = type_components(expr->type);
+    bool divides =
+        type_is_integer(expr->type) && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER);
     if (expr->value) {
         return count > 1 ? count : 0;
     }
@@ -89,17 +107,16 @@ static long size_of(const struct expr *expr)
     case EXPR_DATA:
         return 0;
     case EXPR_INDEX:
-        return expr->b->value ? 0 : count + 1;
+        return expr->b->value ? 0 : count + HEAVY;
     case EXPR_BINARY:
         if (type_is_matrix(expr->a->type) && !type_is_scalar(expr->b->type)) {
             return count * expr->a->type.columns;
         }
-        return most(count, type_components(expr->a->type));
+        return divides ? HEAVY * count : most(count, type_components(expr->a->type));
     case EXPR_ASSIGN:
-        return expr->op == OP_NONE ? count : 2 * count;
+        return divides ? HEAVY * count : expr->op == OP_NONE ? count : 2 * count;
     case EXPR_BUILTIN:
-        count = most(count, type_components(expr->args->type));
-        return type_is_matrix(expr->args->type) ? 4 * count : count;
+        return size_of_builtin(expr);
     default:
         return count;
     }
@@ -147,9 +164,11 @@ static bool walk_for(struct bounds_walk *walk, struct cost *cost, const struct s
     if (!walk_statement(walk, &body, stmt->body)) {
         return false;
     }
-    cost->work += stmt->trips * (1 + body.work);
     cost->trips += stmt->trips * (1 + body.trips);
     cost->size = body.size;
+    if (!spend_work(walk, cost, stmt->trips * (1 + body.work), stmt->at)) {
+        return false;
+    }
     return cost->trips <= LIMIT_CODE_TRIPS ||
            tree_fail_limit(walk->tree, stmt->at, "iterations of loops", LIMIT_CODE_TRIPS,
                            "code_trips");

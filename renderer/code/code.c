@@ -77,44 +77,80 @@ static void set_numbers(const struct code *code, const double *n, double *frame)
     }
 }
 
-static void run(const struct code *code, const double *n, double *frame, struct code_fault *fault)
+/* Frames are not cleared: whatever is read was written before. */
+#if __has_attribute(uninitialized)
+#define UNSET __attribute__((uninitialized))
+#else
+#define UNSET
+#endif
+
+/* What goes into the frame before a run, and what comes out. */
+struct code_call {
+    const double *p, *numbers;
+    const struct code_shading *shading;
+    struct code_fault *fault;
+    double out[4];
+};
+
+static void run(const struct code *code, struct code_call *call, double *frame)
 {
-    if (fault) {
-        *fault = (struct code_fault){0};
+    const struct function *entry = code->tree.entry;
+    if (call->p) {
+        memcpy(frame + entry->parameters->at_frame, call->p, 3 * sizeof *call->p);
+    }
+    if (code->tree.shading_used) {
+        memcpy(frame + code->machine.shading, call->shading, sizeof *call->shading);
     }
     machine_prepare(&code->machine, frame);
-    set_numbers(code, n, frame);
-    machine_run(&code->machine, code->tree.entry->entry, frame, fault);
+    set_numbers(code, call->numbers, frame);
+    machine_run(&code->machine, entry->entry, frame, call->fault);
+    memcpy(call->out, frame + code->machine.result, entry->result.rows * sizeof *call->out);
+}
+
+static __attribute__((noinline)) void run_small(const struct code *code, struct code_call *call)
+{
+    double frame[MACHINE_FRAME_SMALL] UNSET;
+    run(code, call, frame);
+}
+
+static __attribute__((noinline)) void run_large(const struct code *code, struct code_call *call)
+{
+    double frame[MACHINE_FRAME] UNSET;
+    run(code, call, frame);
+}
+
+static void run_any(const struct code *code, struct code_call *call)
+{
+    if (call->fault) {
+        *call->fault = (struct code_fault){0};
+    }
+    if (machine_frame_size(&code->machine) <= MACHINE_FRAME_SMALL) {
+        run_small(code, call);
+    } else {
+        run_large(code, call);
+    }
 }
 
 double code_distance(const struct code *code, const double p[3], const double *n,
                      struct code_fault *fault)
 {
-    double frame[MACHINE_FRAME] MACHINE_UNSET;
-    memcpy(frame + code->tree.entry->parameters->at_frame, p, 3 * sizeof *p);
-    run(code, n, frame, fault);
-    double d = frame[code->machine.result];
-    return fabs(d) < CODE_FAR ? d : CODE_FAR;
+    struct code_call call = {.p = p, .numbers = n, .fault = fault};
+    run_any(code, &call);
+    return fabs(call.out[0]) < CODE_FAR ? call.out[0] : CODE_FAR;
 }
 
 void code_shade(const struct code *code, const struct code_shading *at, const double *n,
                 double out_rgba[4], struct code_fault *fault)
 {
     static const double magenta[4] = {1, 0, 1, 1};
-    double frame[MACHINE_FRAME] MACHINE_UNSET;
-    int components = code->tree.entry->result.rows;
-    if (code->tree.shading_used) {
-        memcpy(frame + code->machine.shading, at, sizeof *at);
-    }
-    run(code, n, frame, fault);
-    const double *color = frame + code->machine.result;
+    struct code_call call = {.shading = at, .numbers = n, .fault = fault, .out = {0, 0, 0, 1}};
     bool is_color = true;
+    run_any(code, &call);
     for (int i = 0; i < 4; i++) {
-        out_rgba[i] = i < components ? color[i] : 1;
-        is_color = is_color && fabs(out_rgba[i]) < CODE_FAR;
+        is_color = is_color && fabs(call.out[i]) < CODE_FAR;
     }
     for (int i = 0; i < 4; i++) {
         double most = i < 3 ? CODE_BRIGHT : 1;
-        out_rgba[i] = is_color ? fmin(fmax(out_rgba[i], 0), most) : magenta[i];
+        out_rgba[i] = is_color ? fmin(fmax(call.out[i], 0), most) : magenta[i];
     }
 }

@@ -3,6 +3,7 @@
 #include "lower.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "protocol/memory.h"
 
@@ -192,6 +193,24 @@ static void lower_function(struct lower *lower, struct function *function)
     lower_step(lower, (struct step){.kind = STEP_RETURN});
 }
 
+/* Constants move down to where the values end. */
+static void close_up(const struct lower *lower)
+{
+    struct machine_code *code = lower->code;
+    uint16_t by = (uint16_t)(MACHINE_VALUES - lower->peak);
+    for (size_t i = 0; i < code->step_count; i++) {
+        struct step *s = &code->steps[i];
+        uint16_t *const places[] = {&s->a, &s->b, &s->c, &s->out};
+        int count = s->kind >= STEP_JUMP ? 3 : 4; /* where they jump is no place */
+        for (int k = 0; k < count; k++) {
+            if (*places[k] >= MACHINE_VALUES && *places[k] != MACHINE_NOWHERE) {
+                *places[k] = (uint16_t)(*places[k] - by);
+            }
+        }
+    }
+    code->value_count = lower->peak;
+}
+
 bool lower_tree(struct tree *tree, struct machine_code *out)
 {
     enum { SHADING_NUMBERS = 13 };
@@ -205,13 +224,14 @@ bool lower_tree(struct tree *tree, struct machine_code *out)
         }
     }
     out->result = tree->entry->result_at;
+    close_up(&lower);
     return !lower.full ||
            tree_fail_limit(tree, tree->entry->at, "values in use", MACHINE_VALUES, "code_size");
 }
 
 bool lower_constant(const struct expr *expr, struct machine_code *scratch, double *out)
 {
-    int count = type_components(expr->type);
+    size_t bytes = (size_t)type_components(expr->type) * sizeof *out;
     struct lower lower = {.code = scratch};
     scratch->step_count = scratch->constant_count = 0;
     uint16_t at = lower_value(&lower, expr);
@@ -219,11 +239,12 @@ bool lower_constant(const struct expr *expr, struct machine_code *scratch, doubl
     if (lower.full) {
         return false;
     }
-    double frame[MACHINE_FRAME] MACHINE_UNSET;
+    close_up(&lower);
+    at = (uint16_t)(at >= MACHINE_VALUES ? at - MACHINE_VALUES + lower.peak : at);
+    double *frame = memory_alloc(machine_frame_size(scratch), sizeof *frame);
     machine_prepare(scratch, frame);
     machine_run(scratch, 0, frame, NULL);
-    for (int i = 0; i < count; i++) {
-        out[i] = frame[at + i];
-    }
+    memcpy(out, frame + at, bytes);
+    free(frame);
     return true;
 }

@@ -18,10 +18,15 @@ void machine_code_finish(struct machine_code *code)
     *code = (struct machine_code){0};
 }
 
-void machine_prepare(const struct machine_code *code, double frame[MACHINE_FRAME])
+size_t machine_frame_size(const struct machine_code *code)
+{
+    return code->value_count + code->constant_count;
+}
+
+void machine_prepare(const struct machine_code *code, double *frame)
 {
     if (code->constant_count > 0) {
-        memcpy(frame + MACHINE_VALUES, code->constants, code->constant_count * sizeof(double));
+        memcpy(frame + code->value_count, code->constants, code->constant_count * sizeof(double));
     }
 }
 
@@ -265,7 +270,7 @@ static void compute(const struct step *s, double *frame)
     }
 }
 
-void machine_run(const struct machine_code *code, size_t first, double frame[MACHINE_FRAME],
+void machine_run(const struct machine_code *code, size_t first, double *frame,
                  struct code_fault *fault)
 {
     const struct step *returns[LIMIT_CODE_DEPTH + 1];

@@ -10,12 +10,13 @@
 #include "code.h"
 #include "tree.h"
 
-/* The frame: values, then constants. */
+/* The frame: values, then constants, so many at most. */
 enum {
     MACHINE_VALUES = 8192,
     MACHINE_CONSTANTS = 8192,
     MACHINE_FRAME = MACHINE_VALUES + MACHINE_CONSTANTS,
-    MACHINE_NOWHERE = 0xffff, /* no place in the frame */
+    MACHINE_FRAME_SMALL = 400, /* does for most code, and fits into a page of the stack */
+    MACHINE_NOWHERE = 0xffff,  /* no place in the frame */
 };
 
 /* `n` components each. An operand whose bit of `flags` is set is one number, for all of them. */
@@ -50,13 +51,6 @@ enum step_kind {
     STEP_RETURN,
 };
 
-/* Frames are not cleared: whatever is read was written before. */
-#if __has_attribute(uninitialized)
-#define MACHINE_UNSET __attribute__((uninitialized))
-#else
-#define MACHINE_UNSET
-#endif
-
 enum { SPREAD_A = 1, SPREAD_B = 2, SPREAD_C = 4, STEP_UNSIGNED = 8 };
 
 struct step {
@@ -77,15 +71,18 @@ struct machine_code {
     size_t step_count, step_capacity;
     double *constants;
     size_t constant_count, constant_capacity;
+    size_t value_count;                /* the constants lie behind them */
     uint16_t numbers, shading, result; /* in the frame: what the code is given, what it gives */
 };
 
 void machine_code_finish(struct machine_code *code);
-/* The constants, into the end of a frame. */
-void machine_prepare(const struct machine_code *code, double frame[MACHINE_FRAME]);
+/* Numbers in a frame of the code. */
+size_t machine_frame_size(const struct machine_code *code);
+/* The constants, into their places. */
+void machine_prepare(const struct machine_code *code, double *frame);
 /* From this step to the RETURN that belongs to it. With a `fault`, numbers that no float holds
  * become infinite, as in a driver, and the first that is none or infinite is noted. */
-void machine_run(const struct machine_code *code, size_t first, double frame[MACHINE_FRAME],
+void machine_run(const struct machine_code *code, size_t first, double *frame,
                  struct code_fault *fault);
 
 #endif

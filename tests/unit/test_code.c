@@ -630,6 +630,19 @@ static void trips_are_limited(void **state)
     assert_parts(head, " + f(p)", "", "", "; }", 4, words);
 }
 
+static void work_is_limited(void **state)
+{
+    (void)state;
+    const char *words = "with its loops run through, above the maximum 65536 (code_work)";
+    /* 255 times 256 operations: the pass itself, 36 statements of 7, and three of one. */
+    const char *head = "float sdf(vec3 p) { for (int i = 0; i < 255; i++) {";
+    assert_parts(head, "p += p;", "1;1;1;", "", "} return p.x; }", 36, words);
+    assert_parts("float f(vec3 p) { for (int i = 0; i < 16; i++) {", "p += p;", "", "",
+                 "} return p.x; } float sdf(vec3 p) { float s = 0.0;\n"
+                 "for (int i = 0; i < 15; i++) s += f(p); return s; }",
+                 38, words);
+}
+
 static void arrays_and_parameters_are_limited(void **state)
 {
     (void)state;
@@ -920,6 +933,7 @@ int main(void)
         cmocka_unit_test(calls_are_limited),
         cmocka_unit_test(size_is_limited),
         cmocka_unit_test(trips_are_limited),
+        cmocka_unit_test(work_is_limited),
         cmocka_unit_test(arrays_and_parameters_are_limited),
         cmocka_unit_test(faults_name_the_place),
         cmocka_unit_test(probes_find_what_is_wrong),
