@@ -68,7 +68,7 @@ static void both_tables_have_the_same_rows(void **state)
 
 static const struct {
     const char *type;
-    double n[8];
+    double n[13];
     double p[3];
     double distance;
 } known[] = {
@@ -152,6 +152,30 @@ static const struct {
     {"death_star", {2, 1, 9}, {0, 0, 0}, -2},
     {"death_star", {1, 9, 1}, {2, 4, 0}, 5}, /* a point */
     {"death_star", {1, 9, 0}, {0, 0, 0}, 1}, /* the surface of a ball */
+    {"hex_prism", {1, 2}, {0, 3, 0}, 2},
+    {"hex_prism", {1, 2}, {2, 0, 0}, 0.84529946162074843}, /* an edge is 2 / sqrt(3) away */
+    {"tri_prism", {1, 2}, {0, 4, 0}, 2},
+    {"tri_prism", {1, 2}, {0, -3, 0}, 2},
+    {"octahedron", {3}, {5, 0, 0}, 2},
+    {"octahedron", {3}, {3, 3, 3}, 3.4641016151377544},
+    {"tetrahedron", {1.7320508075688772}, {3, 3, 3}, 3.4641016151377544},
+    {"tetrahedron", {1.7320508075688772}, {-1, -1, -1}, 1.1547005383792515}, /* over a face */
+    {"dodecahedron", {1.7320508075688772}, {2, -2, 2}, 1.7320508075688772},
+    {"icosahedron", {1.9021130325903071}, {0, -2, 3.2360679774997898}, 1.9021130325903071},
+    {"pyramid", {2, 1}, {0, 3, 0}, 2},
+    {"pyramid", {2, 1}, {0, 0.25, 0}, -0.25},
+    {"pyramid", {2, 1}, {3, 0, 3}, 2.8284271247461903}, /* beside a corner */
+    {"rhombus", {2, 2, 2, 0.5}, {3, 0, 0}, 1.5},
+    {"triangle", {0, 0, 0, 2, 0, 0, 1, 0, 0, 0.5}, {1, 2, 0}, 1.5}, /* a segment */
+    {"triangle", {0, 0, 0, 2, 0, 0, 1, 0, 0, 0.5}, {5, 4, 0}, 4.5},
+    {"triangle", {1, 1, 1, 1, 1, 1, 1, 1, 1, 0.5}, {1, 1, 3}, 1.5}, /* a point */
+    {"quad", {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 0.5}, {1.5, 1, 2}, 1.5},
+    {"quad", {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 0.5}, {0.5, 1, 0}, -0.5},
+    {"menger", {3, 1}, {0.2, 0, 0}, 0.5},     /* in the bars that are taken out */
+    {"julia", {0, 0, 0, 0, 8}, {3, 0, 0}, 2}, /* without c it is the unit ball */
+    {"julia", {0, 0, 0, 0, 8}, {0, 0.5, 0}, -0.5},
+    {"mandelbulb", {2, 8}, {3, 4, 0}, 3},
+    {"terrain", {2, 2, 2, 3, 0}, {0, 5, 0}, 4},
 };
 
 static void known_distances(void **state)
@@ -159,7 +183,7 @@ static void known_distances(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         const struct sdf *sdf = sdf_find(node_type_find(known[i].type));
-        double n[8];
+        double n[13];
         memcpy(n, known[i].n, sizeof n);
         if (sdf->prepare) {
             sdf->prepare(n);
