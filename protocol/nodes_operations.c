@@ -67,7 +67,7 @@ const struct node_type node_structure[] = {
      .number = 303, .group = GROUP_STRUCTURE, .kind = KIND_MODEL, .exactness = BOUND,
      .lipschitz = 1, .glsl = "", .words = "instance copy prefab symbol component reference use",
      .source = HART},
-    {.record = {"field", "A distance function written in GLSL, here or among the primitives.", PARAMS(
+    {.record = {"field", "A distance function written in GLSL.", PARAMS(
         {"primitive", PARAM_FUNCTION, .main = true,
          .doc = "Name of a primitive of the document; empty: the code below."},
         {"code", PARAM_CODE,

@@ -60,7 +60,7 @@ enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 3 };
 enum { FIELD_CUT_VEC4S = 1 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
 
-/* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half of it, 0).
+/* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half, 0).
  *
  * What stands between the guard and its end only lowers d[a] to the distance of what is in the
  * box: where the box is farther than d[a] that changes nothing, and where it is nearer, so much is
@@ -134,7 +134,7 @@ void field_unref(struct field *field); /* NULL: nothing */
 const char *field_leaf_id(const struct field *field, uint32_t number);
 
 /* The places of parameters (ending with a row whose name is NULL) behind the head of a block.
- * `used` components of the first vec4 are taken. Returns how many vec4s the block has from there. */
+ * `used` components of the first vec4 are taken. Returns how many vec4s it has from there. */
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
 
 /* Tries out users' code at many points, with the numbers of its first shape or material. False and

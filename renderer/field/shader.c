@@ -227,8 +227,8 @@ static void write_empty(struct writer *w, uint16_t slot)
     w->mixed[slot] = false;
 }
 
-/* A loop of at most one round: llvmpipe, which runs both sides of every branch, runs the loops inside
- * of it but once when no lane is there. */
+/* A loop of at most one round: llvmpipe, which runs both sides of every branch, runs the loops
+ * inside of it but once when no lane is there. */
 static void write_guard(const struct writer *w, const struct field_instruction *in, size_t name)
 {
     if (!w->surface) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Third pass: light on what march.glsl and matter.glsl found. Blinn-Phong, shadows, ambient occlusion, sky. */
+/* Third pass: light on what march.glsl and matter.glsl found. Blinn-Phong, shadows, ambient
+ * occlusion, sky. */
 
 layout(binding = 0) uniform sampler2D geometry;
 layout(binding = 1) uniform usampler2D matter;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* First pass: where each ray meets the field, and its normal. It runs twice: coarsely at first, with
- * a cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
+/* First pass: where each ray meets the field, and its normal. It runs twice: coarsely at first,
+ * with a cone for BLOCK x BLOCK samples, which tells how far all their rays are free. */
 
 layout(rgba32f, binding = 0) writeonly uniform image2D out_geometry;
 layout(r32f, binding = 4) uniform image2D starts; /* one value for each block */
