@@ -91,16 +91,18 @@ float sd2_arc(vec2 p, float end_x, float end_y, float thickness)
 {
     vec2 end = vec2(end_x, end_y), q = vec2(abs(p.x), p.y), w = q - end;
     float half_width = 0.5 * thickness, radius = length(end), r = length(q), l = length(w);
+    float pore = 1e-6 * radius;
     bool beyond = cross2(q, end) > 0.0;
     float line = beyond ? l : abs(r - radius);
     float depth = beyond ? 1e9 : radius + half_width - r;
-    depth = !beyond && half_width < radius ? min(depth, half_width - radius + r) : depth;
+    bool hole = !beyond && half_width < radius - pore;
+    depth = hole ? min(depth, half_width - radius + r) : depth;
     vec2 rim = end + w * (half_width / max(l, 1e-30));
     depth = rim.x >= 0.0 && cross2(rim, end) >= 0.0 ? min(depth, half_width - l) : depth;
     float root = sqrt(max((half_width - end.x) * (half_width + end.x), 0.0));
     float low = end.y - root, high = end.y + root;
-    depth = half_width >= end.x && low < 0.0 ? min(depth, length(q - vec2(0.0, low))) : depth;
-    depth = half_width >= end.x && high < 0.0 ? min(depth, length(q - vec2(0.0, high))) : depth;
+    depth = half_width >= end.x && low < pore ? min(depth, length(q - vec2(0.0, low))) : depth;
+    depth = half_width >= end.x && high < -pore ? min(depth, length(q - vec2(0.0, high))) : depth;
     return line > half_width ? line - half_width : -depth;
 }
 

@@ -179,6 +179,7 @@ float sd_death_star(vec3 p, float radius1, float radius2, float away)
     vec2 q = vec2(p.x, length(p.yz)), rim;
     rim.x = away > 0.0 ? 0.5 * (away + (radius1 - radius2) * (radius1 + radius2) / away) : 1e9;
     rim.y = sqrt(max((radius1 - rim.x) * (radius1 + rim.x), 0.0));
+    rim.y = radius2 < 0.999999 * (radius1 + away) ? rim.y : 0.0;
     bool beside = q.x * rim.y > q.y * rim.x && (q.x - away) * rim.y > q.y * (rim.x - away);
     float two = max(length(q) - radius1, radius2 - length(q - vec2(away, 0.0)));
     return beside ? length(q - rim) : two;

@@ -177,14 +177,14 @@ static void arc_prepare(double *n)
 
 /* What bounds the line on the side of +X, from its inside: two circles around the origin, and
  * beyond the end the end's circle, as far as it does not meet the one of the other end on the Y
- * axis. */
+ * axis. A hole as small as the rounding of numbers is none. */
 static double arc_depth(double x, double y, const double *n, bool beyond)
 {
-    double half = n[2] / 2, radius = hypot(n[0], n[1]), r = hypot(x, y);
+    double half = n[2] / 2, radius = hypot(n[0], n[1]), r = hypot(x, y), pore = 1e-6 * radius;
     double end = hypot(x - n[0], y - n[1]), out = half / fmax(end, 1e-30);
     double qx = n[0] + (x - n[0]) * out, qy = n[1] + (y - n[1]) * out;
     double nearest = beyond ? INFINITY : radius + half - r;
-    if (!beyond && half < radius) {
+    if (!beyond && half < radius - pore) {
         nearest = fmin(nearest, half - radius + r);
     }
     if (qx >= 0 && cross2(qx, qy, n[0], n[1]) >= 0) {
@@ -193,7 +193,7 @@ static double arc_depth(double x, double y, const double *n, bool beyond)
     double root = sqrt(fmax((half - n[0]) * (half + n[0]), 0));
     for (int i = 0; i < 2 && half >= n[0]; i++) {
         double meet = n[1] + (i ? root : -root);
-        nearest = meet < 0 ? fmin(nearest, hypot(x, y - meet)) : nearest;
+        nearest = meet < (i ? -pore : pore) ? fmin(nearest, hypot(x, y - meet)) : nearest;
     }
     return nearest;
 }

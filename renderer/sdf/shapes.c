@@ -321,11 +321,12 @@ static void death_star_prepare(double *n)
     n[1] = fmin(n[1], n[0] + n[2]);
 }
 
-/* Where the balls' surfaces meet: at x = *out_x, or beyond the first ball where they do not. */
+/* Where the balls' surfaces meet: at x = *out_x, or beyond the first ball where they do not. What a
+ * limited radius leaves is a point also after its numbers were rounded. */
 static void death_star_rim(const double *n, double *out_x, double *out_r)
 {
     *out_x = n[2] > 0 ? (n[2] + (n[0] - n[1]) * (n[0] + n[1]) / n[2]) / 2 : INFINITY;
-    *out_r = sqrt(fmax((n[0] - *out_x) * (n[0] + *out_x), 0));
+    *out_r = n[1] < 0.999999 * (n[0] + n[2]) ? sqrt(fmax((n[0] - *out_x) * (n[0] + *out_x), 0)) : 0;
 }
 
 /* The rim is nearest where the ways from both centres lead to points that are not there: on the

@@ -38,7 +38,7 @@ static bool in_round_rectangle(const double p[2], const double *n)
         double nearest = p[i] < -core ? -core : p[i] > core ? core : p[i];
         sum += (p[i] - nearest) * (p[i] - nearest);
     }
-    return sum < radius * radius;
+    return sum <= radius * radius; /* may be 0 */
 }
 
 /* Barycentric coordinates above 0. */
