@@ -138,6 +138,7 @@ static bool start(struct server *server, const struct serve_params *params, cons
         .data_dir = params->data_dir,
         .web_dir = params->web_dir,
         .worker_argv = server->worker_argv,
+        .code_refused = params->code_refused,
         .worker_silence_ms = params->worker_silence_ms ? params->worker_silence_ms : SILENCE_MS,
     };
 

@@ -21,6 +21,7 @@ struct serve_params {
     const char *const *allowed_origins; /* besides the server's own: "https://example.org" */
     const char *const *allowed_hosts;   /* besides localhost, when bound to loopback */
     int worker_silence_ms;              /* a worker silent for longer is killed; 0: 5000 */
+    bool code_refused;                  /* no code of users is taken, nor compiled */
     const char *log_level;              /* "error" "warning" "info" "debug"; NULL: "info" */
 };
 

@@ -98,6 +98,7 @@ int command_serve(const struct options *options)
         .device = (enum device_kind)option_int(options, OPTION_DEVICE),
         .token = token,
         .worker_silence_ms = option_int(options, OPTION_WORKER_SILENCE),
+        .code_refused = option_int(options, OPTION_CODE) == 0,
         .log_level = option_text(options, OPTION_LOG_LEVEL),
     };
     int status = run(options, &params);

@@ -39,6 +39,12 @@ static const char *device_choice(size_t index)
     return word_of(words, 3, index);
 }
 
+static const char *switch_choice(size_t index)
+{
+    static const char *const words[] = {"off", "on"};
+    return word_of(words, 2, index);
+}
+
 static const char *log_level_choice(size_t index)
 {
     static const char *const words[] = {"error", "warning", "info", "debug"};
@@ -70,6 +76,10 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_WEB] = {"web", 0, "DIR", OPTION_PATH,
         .commands = FOR(SERVE), .stored = true,
         .doc = "Serve the page from this directory instead of the one built in."},
+    [OPTION_CODE] = {"code", 0, "WORD", OPTION_CHOICE, .choice = switch_choice, .fallback = "on",
+        .commands = FOR(SERVE), .stored = true,
+        .doc = "Whether scenes may hold GLSL. With `off` none is taken, and none compiled of what "
+               "is stored."},
     [OPTION_LOG_LEVEL] = {"log-level", 0, "LEVEL", OPTION_CHOICE, .choice = log_level_choice,
         .fallback = "info", .commands = FOR(SERVE), .stored = true,
         .doc = "What is written to stderr."},

@@ -268,7 +268,8 @@ static void send_frame(struct session *session, const struct packet *answer)
 {
     struct frames *frames = &session->frames;
     const cJSON *json = answer->json;
-    bool newest = json_member_bool(json, "newest", true);
+    const struct room *room = session->room;
+    bool newest = json_member_bool(json, "newest", true) && room->sent == room->revision;
     struct frame_header header = {
         .codec =
             strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG : FRAME_JPEG,
@@ -305,6 +306,7 @@ static void send_frame(struct session *session, const struct packet *answer)
         frames->flight[slot].sent_ms = clock_ms();
     }
     frames->stale = !newest;
+    frames->revision = header.revision;
     session->wake(session->connection);
 }
 
@@ -325,7 +327,7 @@ static void on_picture(void *data, const struct packet *answer, const struct err
         learn(frames);
     }
     send_frame(session, answer);
-    if (frames->stale && session->room->shown >= session->room->revision) {
+    if (frames->stale && session->room->shown > frames->revision) {
         frames_changed(session);
     }
 }

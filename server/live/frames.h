@@ -48,6 +48,7 @@ struct frames {
     int64_t changed_at;     /* clock_ms of the last change that shows */
     enum frames_level done; /* best picture asked for since then */
     bool stale;             /* the newest picture is older than the document */
+    uint64_t revision;      /* of the newest picture */
 
     uint32_t job; /* asked of the worker; 0: none */
     enum frames_level job_level;

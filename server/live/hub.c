@@ -7,11 +7,14 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include "problem.h"
+#include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "protocol/schema.h"
 #include "room.h"
+#include "room_worker.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
@@ -54,14 +57,7 @@ static void remove_room(struct hub *hub, struct room *room)
     }
     *link = room->next;
     metric_add(&hub->metrics, METRIC_ROOMS, -1);
-    if (room->resident) {
-        cJSON *packet = cJSON_CreateObject();
-
-        cJSON_AddStringToObject(packet, "type", "drop");
-        cJSON_AddStringToObject(packet, "scene", room->id);
-        supervisor_send(hub->supervisor, packet);
-        cJSON_Delete(packet);
-    }
+    room_worker_close(room);
 }
 
 static struct room *load_room(struct hub *hub, const char *id, struct error *err)
@@ -86,6 +82,26 @@ bool hub_id_is_valid(const char *id)
 
     return length > 0 && length <= LIMIT_ID_BYTES &&
            strspn(id, "abcdefghijklmnopqrstuvwxyz0123456789-") == length;
+}
+
+static bool refuse_code(const char *place, struct error *err)
+{
+    return error_set(err, ERROR_FORBIDDEN, place, "this server takes no code (option `code`)");
+}
+
+bool hub_accepts_scene(const struct hub *hub, const struct scene *scene, struct error *err)
+{
+    char place[ERROR_PLACE_BYTES];
+
+    return !hub->code_refused || !code_text_in_scene(scene) ||
+           refuse_code(code_text_changed(scene, NULL, place), err);
+}
+
+bool hub_accepts_edit(const struct hub *hub, const cJSON *ops, struct error *err)
+{
+    char place[ERROR_PLACE_BYTES];
+
+    return !hub->code_refused || !code_text_find(ops, place) || refuse_code(place, err);
 }
 
 bool hub_has_scene(struct hub *hub, const char *id)
@@ -228,11 +244,12 @@ static void on_ready(void *data, const cJSON *ready)
             room_tell_all(room, "info", "worker_ready", "", "The render process is back.");
         }
     }
+    quarantine_worker_ready(hub);
     renders_worker_ready(hub);
     hub_unlock(hub);
 }
 
-static void on_down(void *data, const char *reason)
+static void on_down(void *data, const char *reason, bool hung)
 {
     struct hub *hub = data;
 
@@ -243,6 +260,7 @@ static void on_down(void *data, const char *reason)
                       "The render process ended and is started again.");
     }
     log_debug("hub", "worker down: %s", reason);
+    quarantine_worker_down(hub, hung);
     renders_worker_down(hub);
     hub_unlock(hub);
 }
@@ -255,25 +273,41 @@ static void on_hopeless(void *data)
     kill(getpid(), SIGTERM); /* the main thread waits for it */
 }
 
-/* The newest shape of a scene can be drawn, or cannot. */
-static void compiled(struct hub *hub, const cJSON *packet, bool broken)
+/* A revision of a scene can be drawn, or cannot. */
+static void compiled(struct hub *hub, const struct packet *packet, bool broken)
 {
-    struct room *room = find_room(hub, json_member_text(packet, "scene", ""));
-    uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
+    struct room *room = find_room(hub, json_member_text(packet->json, "scene", ""));
+    const uint64_t revision = (uint64_t)json_member_number(packet->json, "revision", 0);
+    struct error err = {0};
 
     if (!room) {
         return;
     }
-    if (revision > room->shown) {
-        room->shown = revision;
+    if (revision > room->settled) {
+        room->settled = revision;
     }
     if (broken) {
-        room_tell_all(room, "error", "compile_failed", json_member_text(packet, "place", ""),
-                      json_member_text(packet, "message", ""));
-        return;
+        renders_read_error(packet->json, &err);
+        problem_set(room, &err, revision);
+    } else {
+        room->shown = revision;
+        fallback_proven(room, revision);
+        problem_cure(room, revision);
+        for (struct session *session = room->sessions; session; session = session->next) {
+            frames_shown(session);
+        }
     }
-    for (struct session *session = room->sessions; session; session = session->next) {
-        frames_shown(session);
+    room_worker_done(room, revision);
+}
+
+/* Nothing that keeps it from being drawn. */
+static void warned(struct hub *hub, const struct packet *packet)
+{
+    struct room *room = find_room(hub, json_member_text(packet->json, "scene", ""));
+
+    if (room) {
+        room_tell_all(room, "warning", "lipschitz", json_member_text(packet->json, "place", ""),
+                      json_member_text(packet->json, "message", ""));
     }
 }
 
@@ -283,9 +317,13 @@ static void on_packet(void *data, const char *type, const struct packet *packet)
 
     hub_lock(hub);
     if (strcmp(type, "shown") == 0) {
-        compiled(hub, packet->json, false);
+        compiled(hub, packet, false);
     } else if (strcmp(type, "broken") == 0) {
-        compiled(hub, packet->json, true);
+        compiled(hub, packet, true);
+    } else if (strcmp(type, "warned") == 0) {
+        warned(hub, packet);
+    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "drawing") == 0) {
+        quarantine_named(hub, packet);
     } else {
         renders_answer(hub, packet);
     }
@@ -360,6 +398,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     renders_init(&hub->renders);
     hub->access = params->access;
     hub->web_dir = params->web_dir;
+    hub->code_refused = params->code_refused;
     build_schema(hub);
     hub->store = store_open(params->data_dir, &hub->metrics, err);
     if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err)) {

@@ -13,6 +13,7 @@
 
 #include "catalog.h"
 #include "protocol/scene.h"
+#include "quarantine.h"
 #include "renders.h"
 #include "server/metrics.h"
 #include "server/net/access.h"
@@ -32,11 +33,13 @@ struct hub {
     struct supervisor *supervisor;
     struct ws *ws; /* set before its thread starts */
     const char *web_dir;
+    bool code_refused;            /* no code of users is taken, nor compiled */
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */
 
     struct catalog catalog;
     struct room *rooms;
     struct renders renders;
+    struct quarantine quarantine;
     struct pictures pictures;
     struct renderer_info renderer; /* of the newest worker; name "" before the first */
     bool worker_was_lost;
@@ -51,6 +54,7 @@ struct hub_params {
     const char *web_dir;
     const char *const *worker_argv;
     int worker_silence_ms;
+    bool code_refused;
 };
 
 /* Opens the store, reads the list of scenes, starts the worker. */
@@ -74,6 +78,10 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
                                void (*then)(void *data), void *data, struct error *err);
 /* Under the lock: forgets and deletes the scene; the room is gone afterwards. */
 void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data), void *data);
+/* Whether code of users may come in: refuses (ERROR_FORBIDDEN, with its place) a scene, or
+ * operations, that have some where the server takes none. */
+bool hub_accepts_scene(const struct hub *hub, const struct scene *scene, struct error *err);
+bool hub_accepts_edit(const struct hub *hub, const cJSON *ops, struct error *err);
 /* `[a-z0-9-]{1,64}` */
 bool hub_id_is_valid(const char *id);
 

@@ -7,10 +7,12 @@
 #include <string.h>
 
 #include "hub.h"
+#include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "room.h"
+#include "room_worker.h"
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -101,10 +103,7 @@ static void send_simple(struct hub *hub, const char *type, const struct render *
 static void send_scene(struct hub *hub, const struct render *render)
 {
     if (render->order.room) {
-        if (!render->order.room->resident) {
-            send_and_delete(hub, room_scene_packet(render->order.room));
-            render->order.room->resident = true;
-        }
+        room_worker_open(render->order.room);
         return;
     }
     char name[LIMIT_ID_BYTES + 16];
@@ -115,6 +114,9 @@ static void send_scene(struct hub *hub, const struct render *render)
     cJSON_AddNumberToObject(packet, "revision", 1);
     cJSON_AddItemToObject(packet, "document",
                           json_parse(render->document, strlen(render->document), NULL));
+    if (hub->code_refused) {
+        code_text_remove(packet);
+    }
     send_and_delete(hub, packet);
 }
 
@@ -176,6 +178,10 @@ uint32_t renders_submit(struct hub *hub, const struct render_order *order, struc
         error_set(err, ERROR_UNAVAILABLE, order->room->id,
                   "drawing this scene ended the render process %d times; edit it to try again",
                   RENDER_DEATHS);
+    } else if (order->room && order->room->problem.kind != ERROR_NONE &&
+               order->priority == RENDER_IMAGE &&
+               order->room->problem_revision == order->room->revision) {
+        *err = order->room->problem; /* an older state would be the wrong picture */
     } else if (order->priority == RENDER_IMAGE && renders->images >= LIMIT_IMAGE_QUEUE) {
         error_set(err, ERROR_UNAVAILABLE, "", "%d pictures wait already; the limit is %d",
                   renders->images, LIMIT_IMAGE_QUEUE);
@@ -300,6 +306,14 @@ static enum error_kind kind_of(const char *code)
     return ERROR_INTERNAL;
 }
 
+void renders_read_error(const cJSON *packet, struct error *out)
+{
+    error_set_at(out, kind_of(json_member_text(packet, "code", "")),
+                 json_member_text(packet, "place", ""), (int)json_member_number(packet, "line", 0),
+                 (int)json_member_number(packet, "column", 0), "%s",
+                 json_member_text(packet, "message", ""));
+}
+
 void renders_answer(struct hub *hub, const struct packet *packet)
 {
     const cJSON *json = packet->json;
@@ -313,8 +327,7 @@ void renders_answer(struct hub *hub, const struct packet *packet)
     if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
         struct error err = {0};
 
-        error_set(&err, kind_of(json_member_text(json, "code", "")),
-                  json_member_text(json, "place", ""), "%s", json_member_text(json, "message", ""));
+        renders_read_error(json, &err);
         metric_add(&hub->metrics, METRIC_RENDERS_FAILED, 1);
         finish(hub, render, NULL, &err);
     } else {
@@ -339,14 +352,13 @@ void renders_worker_ready(struct hub *hub)
 static void blame(struct hub *hub)
 {
     for (struct room *room = hub->rooms; room; room = room->next) {
-        bool asked = room->resident && room->shown < room->revision;
+        bool asked = room->sent && room->settled < room->revision;
 
         for (struct render *r = hub->renders.first; r && !asked; r = r->next) {
             asked = r->sent && r->order.room == room;
         }
-        room->resident = false;
-        room->shown = 0;
-        if (!asked || room->left_out) {
+        room->sent = room->shown = room->settled = 0;
+        if (!quarantine_blames(hub, room->id, asked) || room->left_out) {
             continue;
         }
         if (++room->deaths >= RENDER_DEATHS) {
@@ -378,7 +390,10 @@ void renders_worker_down(struct hub *hub)
         if (!render->sent) {
             continue;
         }
-        render->deaths++;
+        char name[LIMIT_ID_BYTES + 16];
+
+        scene_name(render, name);
+        render->deaths += quarantine_blames(hub, name, true);
         render->sent = false;
         if (gives_up(render)) {
             finish(hub, render, NULL, &err);

@@ -60,6 +60,8 @@ void renders_worker_ready(struct hub *hub);
 void renders_worker_down(struct hub *hub);
 /* A packet of type frame, failed or picked. */
 void renders_answer(struct hub *hub, const struct packet *packet);
+/* What a packet says of an error. */
+void renders_read_error(const cJSON *packet, struct error *out);
 /* Fails what is too old; returns the next deadline or 0. */
 int64_t renders_tick(struct hub *hub, int64_t now_ms);
 

@@ -7,8 +7,11 @@
 #include <sys/random.h>
 
 #include "hub.h"
+#include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "room_log.h"
+#include "room_worker.h"
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -46,18 +49,9 @@ struct room *room_create(struct hub *hub, const char *id, struct scene *scene, u
     room->history = history_create();
     room->revision = room->durable = room->log_from = revision;
     room->idle_since = clock_ms();
+    room->fallback.code = code_text_in_scene(scene);
     make_epoch(room->epoch);
     return room;
-}
-
-static void log_clear(struct room *room)
-{
-    for (size_t i = 0; i < ROOM_LOG; i++) {
-        free(room->log[i].ops);
-    }
-    memset(room->log, 0, sizeof(room->log));
-    room->log_bytes = 0;
-    room->log_from = room->revision;
 }
 
 void room_destroy(struct room *room)
@@ -65,7 +59,8 @@ void room_destroy(struct room *room)
     if (!room) {
         return;
     }
-    log_clear(room);
+    room_log_clear(room);
+    fallback_finish(room);
     while (room->authors) {
         struct room_author *author = room->authors;
 
@@ -142,51 +137,6 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
     return room;
 }
 
-/* --- the log in memory --- */
-
-static struct room_entry *log_entry(const struct room *room, uint64_t revision)
-{
-    return (struct room_entry *)&room->log[revision % ROOM_LOG];
-}
-
-static void log_forget_oldest(struct room *room)
-{
-    struct room_entry *entry = log_entry(room, ++room->log_from);
-
-    room->log_cut = true;
-    room->log_bytes -= strlen(entry->ops);
-    free(entry->ops);
-    memset(entry, 0, sizeof(*entry));
-}
-
-static void log_add(struct room *room, const struct room_change *change, const char *ops)
-{
-    size_t length = strlen(ops);
-
-    while (room->log_from + 1 < room->revision && (room->revision - room->log_from > ROOM_LOG ||
-                                                   room->log_bytes + length > ROOM_LOG_BYTES)) {
-        log_forget_oldest(room);
-    }
-    struct room_entry *entry = log_entry(room, room->revision);
-    *entry = (struct room_entry){
-        .revision = room->revision, .edit = change->edit, .ops = memory_text(ops)};
-    snprintf(entry->author, sizeof(entry->author), "%s", change->author);
-    room->log_bytes += length;
-}
-
-static const struct room_entry *log_find_edit(const struct room *room, const char *author,
-                                              int64_t edit)
-{
-    for (uint64_t r = room->revision; r > room->log_from; r--) {
-        const struct room_entry *entry = log_entry(room, r);
-
-        if (entry->edit == edit && strcmp(entry->author, author) == 0) {
-            return entry;
-        }
-    }
-    return NULL;
-}
-
 int64_t room_last_edit(const struct room *room, const char *author)
 {
     const struct room_author *known = find_author(room, author);
@@ -203,7 +153,7 @@ static enum room_outcome check_number(const struct room *room, const struct room
     if (!author || change->edit > author->last_edit) {
         return ROOM_APPLIED;
     }
-    const struct room_entry *entry = log_find_edit(room, change->author, change->edit);
+    const struct room_entry *entry = room_log_find(room, change->author, change->edit);
     if (!entry && change->edit > author->loaded_edit && !room->log_cut) {
         error_set(err, ERROR_CONFLICT, "/edit",
                   "numbers count up: %" PRId64 " is not above %" PRId64, change->edit,
@@ -297,21 +247,11 @@ void room_snapshot(struct room *room)
                scene_print(room->scene, false));
 }
 
-static void forward_to_worker(struct room *room, const cJSON *ops)
+/* An edit may have helped. */
+static void draw_again(struct room *room)
 {
-    if (room->left_out) {
-        room->left_out = false;
-        room->deaths = 0;
-    }
-    if (!room->resident) {
-        return;
-    }
-    cJSON *packet = say_begin("edit");
-    cJSON_AddStringToObject(packet, "scene", room->id);
-    cJSON_AddNumberToObject(packet, "revision", (double)room->revision);
-    cJSON_AddItemReferenceToObject(packet, "ops", (cJSON *)ops);
-    supervisor_send(room->hub->supervisor, packet);
-    cJSON_Delete(packet);
+    room->left_out = false;
+    room->deaths = 0;
 }
 
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
@@ -336,9 +276,10 @@ static void commit_change(struct room *room, const struct room_change *change, c
     if (change->edit) {
         add_author(room, change->author)->last_edit = change->edit;
     }
-    log_add(room, change, text);
+    room_log_add(room, change, text);
     tell_others(room, change, text);
-    forward_to_worker(room, ops);
+    draw_again(room);
+    room_worker_edit(room, ops);
     push_write(room, STORE_EDIT, change, text);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
@@ -361,7 +302,9 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
-    if (!check_open(room, err) || !edit_apply(room->scene, ops, &applied, &inverse, err)) {
+    fallback_before_edit(room, ops);
+    if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
+        !edit_apply(room->scene, ops, &applied, &inverse, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }
@@ -381,6 +324,7 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
+    fallback_before_edit(room, NULL);
     bool ok = check_open(room, err) &&
               (redo ? history_redo : history_undo)(room->history, room->scene, change->author,
                                                    &applied, err);
@@ -396,22 +340,18 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
 
 void room_replace(struct room *room, struct scene *scene, const struct room_change *change)
 {
-    scene_destroy(room->scene);
+    if (!fallback_before_replace(room, scene)) {
+        scene_destroy(room->scene);
+    }
     room->scene = scene;
     history_destroy(room->history);
     room->history = history_create();
     room->revision++;
     room->edits_since_snapshot = 0;
-    room->left_out = false;
-    room->deaths = 0;
-    log_clear(room);
+    draw_again(room);
+    room_log_clear(room);
     room->log_cut = true;
-    if (room->resident) {
-        cJSON *packet = room_scene_packet(room);
-
-        supervisor_send(room->hub->supervisor, packet);
-        cJSON_Delete(packet);
-    }
+    room_worker_replace(room);
     struct blob *message = room_document_message(room);
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
@@ -435,20 +375,10 @@ struct blob *room_document_message(const struct room *room)
 
 struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client)
 {
-    const struct room_entry *entry = log_entry(room, revision);
+    const struct room_entry *entry = room_log_entry(room, revision);
     bool own = strcmp(entry->author, client) == 0;
 
     return say_changed(revision, entry->author, entry->ops, own ? entry->edit : 0);
-}
-
-cJSON *room_scene_packet(const struct room *room)
-{
-    cJSON *packet = say_begin("scene");
-
-    cJSON_AddStringToObject(packet, "scene", room->id);
-    cJSON_AddNumberToObject(packet, "revision", (double)room->revision);
-    cJSON_AddItemToObject(packet, "document", scene_to_json(room->scene));
-    return packet;
 }
 
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,

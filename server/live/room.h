@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "fallback.h"
 #include "protocol/edit.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
@@ -58,10 +59,14 @@ struct room {
     int64_t idle_since; /* clock_ms; 0: in use */
 
     /* What the worker has of it. */
-    bool resident;
-    uint64_t shown; /* newest revision that it can draw */
-    int deaths;     /* workers lost while they had to do with this scene, since its last picture */
-    bool left_out;  /* too many: not rendered until it is edited */
+    uint64_t sent;    /* newest revision that it was told of; 0: it does not hold the scene */
+    uint64_t shown;   /* newest revision that it can draw */
+    uint64_t settled; /* newest of which it is known whether it can */
+    int deaths;       /* workers lost while they drew this scene, since its last picture */
+    bool left_out;    /* too many: not drawn until it is edited */
+    struct fallback fallback;
+    struct error problem; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
+    uint64_t problem_revision; /* that it is about */
 };
 
 /* Takes `scene`. */
@@ -100,8 +105,6 @@ struct blob *room_document_message(const struct room *room);
  * Caller unrefs. */
 struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client);
 void room_snapshot(struct room *room);
-/* The worker's packet that makes the scene resident. Caller deletes. */
-cJSON *room_scene_packet(const struct room *room);
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
                    const char *text);
 

@@ -75,26 +75,43 @@ struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t u
     return say(message);
 }
 
+/* Line and column only where the error is in a text. */
+static void add_error(cJSON *message, const struct error *err)
+{
+    cJSON_AddStringToObject(message, "place", err->place);
+    cJSON_AddStringToObject(message, "message", err->message);
+    if (err->line > 0) {
+        cJSON_AddNumberToObject(message, "line", err->line);
+        cJSON_AddNumberToObject(message, "column", err->column);
+    }
+}
+
 struct blob *say_rejected(int64_t edit, const struct error *err)
 {
     cJSON *message = say_begin("rejected");
 
     cJSON_AddNumberToObject(message, "edit", (double)edit);
     cJSON_AddStringToObject(message, "code", error_kind_name(err->kind));
-    cJSON_AddStringToObject(message, "place", err->place);
-    cJSON_AddStringToObject(message, "message", err->message);
+    add_error(message, err);
     return say(message);
 }
 
-struct blob *say_notice(const char *level, const char *code, const char *place, const char *text)
+struct blob *say_fault(const char *level, const char *code, const struct error *err)
 {
     cJSON *message = say_begin("notice");
 
     cJSON_AddStringToObject(message, "level", level);
     cJSON_AddStringToObject(message, "code", code);
-    cJSON_AddStringToObject(message, "place", place);
-    cJSON_AddStringToObject(message, "message", text);
+    add_error(message, err);
     return say(message);
+}
+
+struct blob *say_notice(const char *level, const char *code, const char *place, const char *text)
+{
+    struct error err = {0};
+
+    error_set(&err, ERROR_NONE, place, "%s", text);
+    return say_fault(level, code, &err);
 }
 
 struct blob *say_bye(const char *reason, int retry_ms)

@@ -20,6 +20,8 @@ struct blob *say_changed(uint64_t revision, const char *author, const char *ops,
 struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo);
 struct blob *say_rejected(int64_t edit, const struct error *err);
 struct blob *say_notice(const char *level, const char *code, const char *place, const char *text);
+/* A notice of something that is wrong, perhaps in a text. */
+struct blob *say_fault(const char *level, const char *code, const struct error *err);
 /* `retry_ms` < 0: do not come back. */
 struct blob *say_bye(const char *reason, int retry_ms);
 

@@ -7,6 +7,7 @@
 #include <sys/random.h>
 
 #include "hub.h"
+#include "problem.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "room.h"
@@ -112,7 +113,7 @@ void session_close(struct session *session, int code, const char *reason, int re
 
 static void say_error(struct session *session, const struct error *err)
 {
-    session_say(session, say_notice("error", error_kind_name(err->kind), err->place, err->message));
+    session_say(session, say_fault("error", error_kind_name(err->kind), err));
 }
 
 static void say_edit_state(struct session *session, int64_t edit, uint64_t revision)
@@ -236,6 +237,12 @@ static void hello(struct session *session, const char *scene, const cJSON *messa
                   "this scene ended the render process repeatedly; "
                   "it is not drawn again before it is edited");
         session_say(session, say_notice("error", "scene_left_out", "", err.message));
+    }
+    problem_tell(session, room);
+    if (!hub_accepts_scene(hub, room->scene, &err)) {
+        error_set(&err, ERROR_FORBIDDEN, err.place,
+                  "this server runs no code: what has some is not shown as it is meant");
+        session_say(session, say_fault("warning", "code_off", &err));
     }
     log_debug("session", "%s entered %s as %s", session->id, room->id, session->client);
 }

@@ -239,7 +239,7 @@ static void take_down(struct supervisor *supervisor, const char *reason)
     metric_add(supervisor->params.metrics, METRIC_WORKER_RESTARTS, 1);
     log_warning("worker", "%s; another one is started", text);
     plan_restart(supervisor);
-    supervisor->params.on_down(supervisor->params.data, text);
+    supervisor->params.on_down(supervisor->params.data, text, reason != NULL);
 }
 
 /* --- receiving --- */

@@ -19,7 +19,7 @@ struct supervisor_params {
     /* All are called on the supervisor's thread, holding nothing. */
     void (*on_ready)(void *data, const cJSON *ready);
     void (*on_packet)(void *data, const char *type, const struct packet *packet);
-    void (*on_down)(void *data, const char *reason);
+    void (*on_down)(void *data, const char *reason, bool hung /* it was silent */);
     /* The first worker ended by itself before it was ready: here nothing can be drawn. No other is
      * started. */
     void (*on_hopeless)(void *data);

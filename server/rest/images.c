@@ -466,7 +466,8 @@ static void order_of_document(struct request *request, const struct wish *wish, 
 {
     cJSON *camera = NULL;
 
-    if (!scene || !build_camera(scene, wish, whole_camera, &camera, err)) {
+    if (!scene || !hub_accepts_scene(request->hub, scene, err) ||
+        !build_camera(scene, wish, whole_camera, &camera, err)) {
         request_reply_error(request, err);
     } else {
         char *document = scene_print(scene, false);

@@ -158,9 +158,14 @@ static void create(struct request *request, const char *id, struct scene *scene,
 {
     struct error err = {0};
     struct waiting *waiting = wait_for(request, 201, id);
+    struct room *room = NULL;
 
     waiting->notes = notes;
-    struct room *room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
+    if (hub_accepts_scene(request->hub, scene, &err)) {
+        room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
+    } else {
+        scene_destroy(scene);
+    }
     if (!room) {
         cJSON_Delete(notes);
         free(waiting);
@@ -313,7 +318,8 @@ void scenes_replace(struct request *request)
     struct scene *scene =
         scene_parse(request->body ? request->body : "", request->body_length, &err);
 
-    if (!scene) {
+    if (!scene || !hub_accepts_scene(hub, scene, &err)) {
+        scene_destroy(scene);
         request_reply_error(request, &err);
         return;
     }

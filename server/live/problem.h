@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* Why the newest state of a scene cannot be drawn, kept as room->problem for all who edit it, later
+ * ones too. Every function is called under the hub's lock. */
+#ifndef SERVER_PROBLEM_H
+#define SERVER_PROBLEM_H
+
+#include <stdint.h>
+
+#include "protocol/error.h"
+
+struct room;
+struct session;
+
+/* Tells it, unless it is what was told before. */
+void problem_set(struct room *room, const struct error *err, uint64_t revision);
+/* The scene can be drawn as of this revision: tells that the problem of an older one is over. */
+void problem_cure(struct room *room, uint64_t revision);
+/* For somebody who has just come; nothing where there is none. */
+void problem_tell(struct session *session, const struct room *room);
+
+#endif

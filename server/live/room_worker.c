@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "room_worker.h"
+
+#include "hub.h"
+#include "protocol/code_text.h"
+#include "room_log.h"
+#include "say.h"
+
+/* Takes `packet`. Where code is not allowed, none reaches the worker. */
+static void send_and_delete(struct room *room, cJSON *packet)
+{
+    if (room->hub->code_refused) {
+        code_text_remove(packet);
+    }
+    supervisor_send(room->hub->supervisor, packet);
+    cJSON_Delete(packet);
+}
+
+static cJSON *packet_of(const struct room *room, const char *type, uint64_t revision)
+{
+    cJSON *packet = say_begin(type);
+
+    cJSON_AddStringToObject(packet, "scene", room->id);
+    cJSON_AddNumberToObject(packet, "revision", (double)revision);
+    return packet;
+}
+
+static void send_scene(struct room *room, const struct scene *scene, uint64_t revision)
+{
+    cJSON *packet = packet_of(room, "scene", revision);
+
+    cJSON_AddItemToObject(packet, "document", scene_to_json(scene));
+    room->sent = revision;
+    send_and_delete(room, packet);
+}
+
+void room_worker_open(struct room *room)
+{
+    uint64_t revision = 0;
+    const struct scene *good =
+        room->problem.kind != ERROR_NONE ? fallback_state(room, &revision) : NULL;
+
+    if (room->sent == 0) {
+        send_scene(room, good ? good : room->scene, good ? revision : room->revision);
+    }
+}
+
+void room_worker_done(struct room *room, uint64_t revision)
+{
+    if (room->sent == 0 || room->sent >= room->revision || revision < room->sent) {
+        return;
+    }
+    if (room->sent < room->log_from) {
+        send_scene(room, room->scene, room->revision);
+        return;
+    }
+    cJSON *packet = packet_of(room, "edit", room->revision);
+    cJSON_AddItemToObject(packet, "ops", room_log_since(room, room->sent));
+    room->sent = room->revision;
+    send_and_delete(room, packet);
+}
+
+void room_worker_edit(struct room *room, const cJSON *ops)
+{
+    if (room->sent == 0 || room->sent + 1 != room->revision) {
+        return; /* room_worker_done sends all at once */
+    }
+    cJSON *packet = packet_of(room, "edit", room->revision);
+    cJSON_AddItemToObject(packet, "ops", cJSON_Duplicate(ops, true));
+    room->sent = room->revision;
+    send_and_delete(room, packet);
+}
+
+void room_worker_replace(struct room *room)
+{
+    if (room->sent > 0 && room->sent + 1 == room->revision) {
+        send_scene(room, room->scene, room->revision);
+    }
+}
+
+void room_worker_close(struct room *room)
+{
+    if (room->sent > 0) {
+        cJSON *packet = say_begin("drop");
+
+        cJSON_AddStringToObject(packet, "scene", room->id);
+        supervisor_send(room->hub->supervisor, packet);
+        cJSON_Delete(packet);
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* What the worker is told of a room. A scene whose newest state has a problem is told in its last
+ * good state first, so that there is something to show. Every function is called under the hub's
+ * lock. */
+#ifndef SERVER_ROOM_WORKER_H
+#define SERVER_ROOM_WORKER_H
+
+#include <cjson/cJSON.h>
+#include <stdint.h>
+
+struct room;
+
+/* Before the first order of a worker that does not hold the scene. */
+void room_worker_open(struct room *room);
+/* The worker has come to an end with this revision: it can draw it, or never will. */
+void room_worker_done(struct room *room, uint64_t revision);
+/* After an edit gave the room a new revision. */
+void room_worker_edit(struct room *room, const cJSON *ops);
+/* After another document did. */
+void room_worker_replace(struct room *room);
+/* The room goes. */
+void room_worker_close(struct room *room);
+
+#endif
