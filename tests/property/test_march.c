@@ -12,7 +12,7 @@
 #include "tests/support/compiled.h"
 #include "tests/support/random_scene.h"
 
-enum { WIDTH = 24, HEIGHT = 18, STEPS_MAX = 2000 };
+enum { WIDTH = 20, HEIGHT = 15, STEPS_MAX = 2000 };
 
 #define REACH 14.0     /* rays end here */
 #define TOLERANCE 1e-5 /* so near is on the surface */
@@ -138,7 +138,7 @@ static void no_row_oversteps(void **state)
         if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
             continue;
         }
-        for (int round = 0; round < 40; round++) {
+        for (int round = 0; round < 30; round++) {
             const struct random_limits limits = {.depth = 1, .bounded = true};
             struct scene *scene = random_scene(&random, type, &limits);
             check_picture(&random, &tally, scene, WIDTH / 2, HEIGHT / 2);
