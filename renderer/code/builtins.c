@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* As in glsl/code.glsl. */
-#define TINY 1e-30
-
 /* --- component by component --- */
 
 static double from_degrees(double x)
@@ -73,27 +70,27 @@ static double root(double x)
 
 static double inverse_root(double x)
 {
-    return 1 / sqrt(most(x, TINY));
+    return 1 / sqrt(most(x, BUILTIN_TINY));
 }
 
 static double power(double x, double y)
 {
-    return pow(most(fabs(x), y > 0 ? 0 : TINY), y);
+    return pow(most(fabs(x), y > 0 ? 0 : BUILTIN_TINY), y);
 }
 
 static double log_natural(double x)
 {
-    return log(most(x, TINY));
+    return log(most(x, BUILTIN_TINY));
 }
 
 static double log_two(double x)
 {
-    return log2(most(x, TINY));
+    return log2(most(x, BUILTIN_TINY));
 }
 
 static double log_ten(double x)
 {
-    return log10(most(x, TINY));
+    return log10(most(x, BUILTIN_TINY));
 }
 
 static double arc_sine(double x)
@@ -108,7 +105,7 @@ static double arc_cosine(double x)
 
 static double arc_of(double y, double x)
 {
-    return x == 0 && y == 0 ? 0 : atan2(y, x);
+    return x == 0 && y == 0 ? 0 : atan2(y + 0.0, x); /* no -0, which is -pi with x < 0 */
 }
 
 static double area_cosine(double x)
@@ -123,7 +120,7 @@ static double area_tangent(double x)
 
 static double reciprocal(double x)
 {
-    return 1 / x;
+    return 1 / builtin_nonzero(x);
 }
 
 static double multiplied_added(double a, double b, double c)
@@ -378,7 +375,7 @@ const struct builtin builtin_table[] = {
     {"sqrt", FAMILY_FLOAT, 1, .glsl = "code_sqrt", .one = root},
     {"inversesqrt", FAMILY_FLOAT, 1, .glsl = "code_inversesqrt", .one = inverse_root},
     {"rsqrt", FAMILY_FLOAT, 1, .glsl = "code_inversesqrt", .one = inverse_root},
-    {"rcp", FAMILY_FLOAT, 1, .glsl = "(1.0 / $0)", .one = reciprocal},
+    {"rcp", FAMILY_FLOAT, 1, .glsl = "(1.0 / code_nonzero($0))", .one = reciprocal},
     {"abs", FAMILY_SIGNED, 1, .one = fabs},
     {"sign", FAMILY_SIGNED, 1, .one = sign_of},
     {"floor", FAMILY_FLOAT, 1, .one = floor},

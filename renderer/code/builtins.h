@@ -4,8 +4,8 @@
  * Both evaluators agree also where GLSL says nothing. What is outside of a function's domain is
  * moved to its nearest end (glsl/code.glsl): sqrt(-1) is 0, acos(2) is 0, log(0) is log(1e-30),
  * normalize of nothing is nothing, atan(0, 0) is 0. pow() takes the magnitude of its first
- * argument. A division by 0 inside of mod(), or of whole numbers, gives 0; one by / is infinite, as
- * everywhere.
+ * argument. What is divided by 0 is divided by 1e-30, but gives 0 inside of mod() and for whole
+ * numbers.
  */
 #ifndef RENDERER_CODE_BUILTINS_H
 #define RENDERER_CODE_BUILTINS_H
@@ -35,6 +35,15 @@ enum family {
 };
 
 enum { BUILTIN_ARGUMENTS = 3 };
+
+/* As in glsl/code.glsl. */
+#define BUILTIN_TINY 1e-30
+
+/* What stands for a divisor. */
+static inline double builtin_nonzero(double divisor)
+{
+    return divisor == 0 ? BUILTIN_TINY : divisor;
+}
 
 struct builtin {
     const char *name;

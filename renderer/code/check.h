@@ -35,6 +35,8 @@ bool check_call(struct checker *checker, struct expr *expr);
 bool check_construct(struct checker *checker, struct expr *expr);
 /* a op b, whose types are known. `keep`: the result must have the type of a. */
 bool check_operator(struct checker *checker, struct expr *expr, bool keep);
+/* Whether no part of it, whose parts have been checked, assigns to what another part uses. */
+bool check_order(struct checker *checker, const struct expr *expr);
 /* Whether it can be assigned to. */
 bool check_place(struct checker *checker, const struct expr *expr);
 /* {a, b} or [] take their type from what they are for. */

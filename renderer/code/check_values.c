@@ -355,7 +355,7 @@ static bool check_parts(struct checker *checker, struct expr *expr)
     return true;
 }
 
-bool check_value(struct checker *checker, struct expr *expr)
+static bool check_kind(struct checker *checker, struct expr *expr)
 {
     if (expr->kind == EXPR_CALL) {
         return check_call(checker, expr);
@@ -393,4 +393,9 @@ bool check_value(struct checker *checker, struct expr *expr)
         assert(!"an expression of the parser");
         return false;
     }
+}
+
+bool check_value(struct checker *checker, struct expr *expr)
+{
+    return check_kind(checker, expr) && check_order(checker, expr);
 }

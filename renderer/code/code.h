@@ -45,9 +45,11 @@ void code_write(const struct code *code, const char *name, int source_number, FI
 /* Loop iterations of one call, at most. */
 int code_trips(const struct code *code);
 
-/* Where a number that is none (or infinite) first came up while running. */
+/* Where something first went wrong while running: a division by 0, which gives a very large number,
+ * or a value that is no number, or infinite in a float. */
 struct code_fault {
     int line, column; /* 0: nothing was wrong */
+    bool infinite;    /* only that: what is made of it may well be a number */
     char message[80];
 };
 
@@ -62,9 +64,9 @@ void code_shade(const struct code *code, const struct code_shading *at, const do
                 double out_rgba[4], struct code_fault *fault);
 
 /* Runs the function at points all over the box, and along short ways there. False and `err`, with
- * line and column, where it gives no number, or where it changes faster than `lipschitz` allows
- * (column and line 0 then; the message names the greatest slope seen). For CODE_SHADE: only
- * numbers. */
+ * line and column, where it divides by 0 or gives no number; or where it changes faster than
+ * `lipschitz` allows (line and column 0 then; the message names the greatest slope seen). For
+ * CODE_SHADE: only numbers. */
 bool code_probe(const struct code *code, const double *n, const double low[3], const double high[3],
                 double lipschitz, struct error *err);
 

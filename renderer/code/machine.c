@@ -168,12 +168,23 @@ static bool all_equal(const struct step *s, const double *a, const double *b)
     return true;
 }
 
-static void note(struct code_fault *fault, const struct origin *origin, double number)
+static void note(struct code_fault *fault, const struct origin *origin, const char *what)
 {
-    fault->line = origin->at.line;
-    fault->column = origin->at.column;
-    snprintf(fault->message, sizeof fault->message, "%.40s gives %s", origin->what,
-             isnan(number) ? "something that is not a number" : "an infinite number");
+    if (fault->line == 0) {
+        fault->line = origin->at.line;
+        fault->column = origin->at.column;
+        snprintf(fault->message, sizeof fault->message, "%.40s %s", origin->what, what);
+    }
+}
+
+static void watch_divisor(const struct step *s, const struct origin *origin, const double *b,
+                          struct code_fault *fault)
+{
+    for (int i = 0; i < (s->flags & SPREAD_B ? 1 : s->n); i++) {
+        if (b[i] == 0) {
+            note(fault, origin, "divides by 0");
+        }
+    }
 }
 
 static void watch(const struct step *s, const struct origin *origin, double *out,
@@ -183,8 +194,11 @@ static void watch(const struct step *s, const struct origin *origin, double *out
         if (fabs(out[i]) > (double)FLT_MAX) {
             out[i] = copysign(INFINITY, out[i]);
         }
-        if (!isfinite(out[i]) && fault->line == 0) {
-            note(fault, origin, out[i]);
+        if (isnan(out[i])) {
+            note(fault, origin, "gives something that is not a number");
+        } else if (isinf(out[i])) {
+            fault->infinite |= fault->line == 0;
+            note(fault, origin, "gives an infinite number");
         }
     }
 }
@@ -223,7 +237,7 @@ static void compute(const struct step *s, double *frame)
     case STEP_MULTIPLY:
         EACH(A * B);
     case STEP_DIVIDE:
-        EACH(A / B);
+        EACH(A / builtin_nonzero(B));
     case STEP_NEGATE:
         EACH(-A);
     case STEP_LESS:
@@ -300,6 +314,9 @@ void machine_run(const struct machine_code *code, size_t first, double *frame,
             s = returns[--calls];
             break;
         default:
+            if (fault && s->kind == STEP_DIVIDE) {
+                watch_divisor(s, code->origins + (s - code->steps), frame + s->b, fault);
+            }
             compute(s, frame);
             if (fault) {
                 watch(s, code->origins + (s - code->steps), frame + s->out, fault);

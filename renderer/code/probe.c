@@ -24,14 +24,15 @@ struct probe {
 };
 
 /* Points that fill a cube evenly, however many of them are taken: multiples of powers of the root
- * of x^4 = x + 1 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). */
+ * of x^4 = x + 1 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). None is
+ * in the middle or on an axis, where honest code may divide by 0. */
 static void point_of(const struct probe *probe, int index, double out[3])
 {
     const double root = 1.2207440846057596;
     double power = 1;
     for (int i = 0; i < 3; i++) {
         power /= root;
-        out[i] = probe->low[i] + probe->size[i] * fmod(0.5 + index * power, 1);
+        out[i] = probe->low[i] + probe->size[i] * fmod(0.5 + (index + 1) * power, 1);
     }
 }
 
@@ -61,7 +62,8 @@ static bool ask(const struct probe *probe, const double p[3], double *out)
 {
     struct code_fault fault;
     *out = code_distance(probe->code, p, probe->numbers, &fault);
-    return *out < CODE_FAR || fault.line == 0 || refuse(probe, &fault, p);
+    bool fine = fault.line == 0 || (fault.infinite && *out < CODE_FAR);
+    return fine || refuse(probe, &fault, p);
 }
 
 /* Between two points `between` apart. What is too far is no measure of anything. */
@@ -138,7 +140,8 @@ static bool probe_shade(const struct probe *probe, int points)
         direction_of(i, at.world_normal);
         direction_of(i + points, at.ray_direction);
         code_shade(probe->code, &at, probe->numbers, color, &fault);
-        if (fault.line > 0 && memcmp(color, magenta, sizeof color) == 0) {
+        bool none = memcmp(color, magenta, sizeof color) == 0;
+        if (fault.line > 0 && (none || !fault.infinite)) {
             return refuse(probe, &fault, at.world_position);
         }
     }

@@ -88,6 +88,15 @@ static void write_arguments(struct writer *w, const struct expr *args)
     PUT(w, "%s)", *before == '(' ? "(" : "");
 }
 
+/* What is divided by, if it may be 0. */
+static void write_divisor(struct writer *w, const struct expr *expr)
+{
+    bool guarded = !expr->value && !type_is_matrix(expr->type);
+    PUT(w, guarded ? "code_nonzero(" : "");
+    writer_expr(w, expr);
+    PUT(w, guarded ? ")" : "");
+}
+
 /* code_div(a, b), or (a << (b & 31)): what GLSL leaves open. */
 static bool write_guarded(struct writer *w, const struct expr *expr)
 {
@@ -113,7 +122,11 @@ static void write_joined(struct writer *w, const struct expr *expr, const char *
     PUT(w, "(");
     writer_expr(w, expr->a);
     PUT(w, " %s ", op);
-    writer_expr(w, expr->b);
+    if (expr->op == OP_DIVIDE) {
+        write_divisor(w, expr->b);
+    } else {
+        writer_expr(w, expr->b);
+    }
     PUT(w, ")");
 }
 

@@ -11,6 +11,7 @@
 /* One shape of floats; `none` is 1 in the components where something would be divided by 0. Some
  * drivers' own asin() has four digits, their atan() seven. */
 #define CODE_FLOATS(T)                                                                             \
+    T code_nonzero(T x) { return x + CODE_TINY * step(abs(x), T(0.0)); }                           \
     T code_sqrt(T x) { return sqrt(max(x, 0.0)); }                                                 \
     T code_inversesqrt(T x) { return inversesqrt(max(x, CODE_TINY)); }                             \
     T code_pow(T x, T y) { return pow(max(abs(x), CODE_TINY * step(y, T(0.0))), y); }              \

@@ -181,7 +181,8 @@ float sdf(vec3 p)
 //! index_of_value
 float sdf(vec3 p) { return (p * 2.0)[1] + p.zyx[0] + vec4(p, 1.0).wz[0] + p[1u]; }
 //! index_that_assigns
-float sdf(vec3 p) { float a[2] = float[2](1.0, 2.0); int i = 0; return a[i++] + a[i] * 10.0 + p.x; }
+float sdf(vec3 p) { float a[2] = float[2](1.0, 2.0); int i; float b = a[i++];
+    return b + a[i] * 10.0 + p.x; }
 //! choice
 float sdf(vec3 p) { return p.x > 0.0 ? p.y : p.z > 0.0 ? 1.0 : -1.0; }
 //! choice_of_vectors
@@ -427,7 +428,7 @@ float sdf(vec3 p)
 }
 //! out_is_zero_at_first
 float f(out float a) { return a; }
-float sdf(vec3 p) { float a = 3.0; return f(a) + a + p.x; }
+float sdf(vec3 p) { float a = 3.0, b = f(a); return a + b + p.x; }
 //! parameters_are_copies
 float f(vec3 q) { q *= 2.0; return q.x; }
 float sdf(vec3 p) { return f(p) + f(f(p) * p) + p.x; }

@@ -370,3 +370,9 @@ float sdf(vec3 p) { return Primitive3D(); }
 float sdf(vec3 p) { in = 1.0; return 1.0; }
 //! 1:13 expected a type, not }
 void f() { }} void main() { }
+//! 1:44 i is used and changed in one expression; make two statements of it
+float sdf(vec3 p) { int i = 1; int j = i++ + i; return 1.0; }
+//! 1:34 i is used and changed
+float sdf(vec3 p) { int i = 1; i = i++; return 1.0; }
+//! 1:72 x is used and changed
+float f(out float x) { return x; } float sdf(vec3 p) { float x; return max(x, f(x)); }

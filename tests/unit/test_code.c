@@ -531,13 +531,34 @@ static void depth_is_limited(void **state)
     assert_parts(head, "- ", "1.0", "", tail, 63, words);
     assert_parts(head, "p[int(", "0", ")]", tail, 31, words);
     assert_parts(head, "true ? 1.0 : ", "1.0", "", tail, 63, words);
-    assert_parts("float sdf(vec3 p) { float a; ", "a = ", "1.0", "", "; return a; }", 63, words);
     assert_parts("float sdf(vec3 p) ", "{", "return 1.0;", "}", "", 64, words);
     assert_parts("float sdf(vec3 p) {", "if (p.x > 1.0) ", ";", "", "return 1.0; }", 63, words);
     assert_parts("float sdf(vec3 p) {", "if (p.x > 1.0) ; else ", ";", "", "return 1.0; }", 63,
                  words);
     assert_parts("float sdf(vec3 p) {", "for (int i = 0; i < 1; i++) ", ";", "", "return 1.0; }",
                  63, words);
+}
+
+static void assignments_in_a_row_are_limited(void **state)
+{
+    (void)state;
+    for (int last = 63; last <= 64; last++) {
+        char *text = NULL;
+        size_t length;
+        FILE *out = open_memstream(&text, &length);
+        fprintf(out, "float sdf(vec3 p) { float a0");
+        for (int i = 1; i < last; i++) {
+            fprintf(out, ", a%d", i);
+        }
+        fprintf(out, "; ");
+        for (int i = 0; i < last; i++) {
+            fprintf(out, "a%d = ", i);
+        }
+        fprintf(out, "1.0; return a0; }");
+        fclose(out);
+        assert_limit(text, last == 63, "nesting above the maximum 64 (code_depth)");
+        free(text);
+    }
 }
 
 static void rows_of_operators_are_limited(void **state)
@@ -665,16 +686,18 @@ static void faults_name_the_place(void **state)
         const char *words;
     } rows[] = {
         {"float sdf(vec3 p) { return p.x; }", 0, 0, ""},
-        {"float sdf(vec3 p) {\n  float a = p.x / (p.y - p.y);\n  return a - a; }", 2, 17,
-         "/ gives an infinite number"},
-        {"float sdf(vec3 p) {\n  vec3 a = p.yyy - p.y;\n  return (a / a).x; }", 3, 13,
-         "/ gives something that is not a number"},
+        {"float sdf(vec3 p) {\n  float a = p.x / (p.y - p.y);\n  return a; }", 2, 17,
+         "/ divides by 0"},
+        {"float sdf(vec3 p) {\n  vec3 a = p.yyy - p.y;\n  return 1e9 + (a / a).x; }", 3, 19,
+         "/ divides by 0"},
+        {"float sdf(vec3 p) { float a = exp(p.x * 90.0);\n  return a - a; }", 1, 31,
+         "exp gives an infinite number"},
         {"float sdf(vec3 p) { return exp(p.x * 1000.0); }", 1, 28, "exp gives an infinite"},
         {"float sdf(vec3 p) { float a = p.x;\nfor (int i = 0; i < 30; i++)\n a *= 1e3;\n"
          "return a; }",
          3, 4, "* gives an infinite number"},
         {"float f(float x) {\n return 1.0 / x; }\nfloat sdf(vec3 p) { return f(p.x) + f(0.0); }", 2,
-         13, "/ gives an infinite number"},
+         13, "/ divides by 0"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -723,16 +746,20 @@ static void probes_find_what_is_wrong(void **state)
     /* Not a number in one corner of the box. */
     probe("float sdf(vec3 p) {\n  float a = 1.0;\n"
           "  if (p.x > 1.0 && p.y > 2.0)\n    a = (p.x - p.x) / (p.y - p.y);\n  return a; }",
-          CODE_DISTANCE, 1, "/ gives something that is not a number at the point (", 4);
-    /* Infinite on the way, but not in the end; and far away. */
-    probe("float sdf(vec3 p) { return min(1.0 / (p.x - p.x), length(p)); }", CODE_DISTANCE, 1, NULL,
-          0);
+          CODE_DISTANCE, 1, "/ divides by 0 at the point (", 4);
+    probe("float sdf(vec3 p) {\n  float a = exp(200.0 + p.x);\n  return a - a; }", CODE_DISTANCE, 1,
+          "exp gives an infinite number at the point (", 2);
+    /* Infinite on the way, but not in the end; 0 / 0 in the middle alone; and far away. */
+    probe("float sdf(vec3 p) { return 1.0 / (1.0 + exp(p.x * 1000.0)); }", CODE_DISTANCE, 1000,
+          NULL, 0);
+    probe("float sdf(vec3 p) { vec3 d = p / length(p - vec3(0, 1, 0)); return length(d); }",
+          CODE_DISTANCE, 1000, NULL, 0);
     probe("float sdf(vec3 p) { return 1e10; }", CODE_DISTANCE, 1, NULL, 0);
     probe("vec3 shade(FragmentProperties f) { return f.world_normal * 9.0; }", CODE_SHADE, 0, NULL,
           0);
     probe("vec3 shade(FragmentProperties f) {\n return f.world_normal / dot(vec3(0), "
           "f.world_normal); }",
-          CODE_SHADE, 0, "/ gives", 2);
+          CODE_SHADE, 0, "/ divides by 0", 2);
 }
 
 /* --- hostile texts --- */
@@ -929,6 +956,7 @@ int main(void)
         cmocka_unit_test(refused_code_says_why_and_where),
         cmocka_unit_test(bytes_are_limited),
         cmocka_unit_test(depth_is_limited),
+        cmocka_unit_test(assignments_in_a_row_are_limited),
         cmocka_unit_test(rows_of_operators_are_limited),
         cmocka_unit_test(calls_are_limited),
         cmocka_unit_test(size_is_limited),
