@@ -10,7 +10,6 @@ import { problemIn } from "../model/problems.ts";
 import { type DeclaredRow, type Param, type Value, valueIn } from "../model/schema.ts";
 import { spread } from "../model/spread.ts";
 import { CodeField } from "./fields/Code.tsx";
-import { ColourField } from "./fields/Colour.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { FlagField, FlagsField } from "./fields/Flag.tsx";
 import { JsonField } from "./fields/Json.tsx";
@@ -37,6 +36,7 @@ const reference: Make = (param, props, place) => (
     <ReferenceField param={param} place={place} {...as<string>(props)} />
 );
 
+const ColourField = later(() => import("./fields/Colour.tsx"));
 const PointsField = later(() => import("./fields/Points.tsx"));
 const RowsField = later(() => import("./fields/Rows.tsx"));
 

@@ -10,6 +10,7 @@ const loads: (() => Promise<unknown>)[] = [];
 export function later<P extends object>(load: Load<P>): ComponentType<P> {
     const Part = lazy(load);
     loads.push(load);
+    // biome-ignore lint/correctness/noComponentHookFactories: called once for each part, by its file
     return function Later(props: P) {
         return (
             <Suspense fallback={null}>

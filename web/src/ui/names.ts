@@ -8,6 +8,12 @@ const spoken: Record<string, string> = {
     k: "smoothness",
     a: "point A",
     b: "point B",
+    c: "point C",
+    d: "point D",
+    t: "share",
+    params: "parameters",
+    lipschitz: "steepness",
+    doc: "help",
 };
 
 export function words(name: string): string {

@@ -102,6 +102,7 @@ const texts = {
     "inspector.shader": "Shader",
     "inspector.exact": "exact distance",
     "inspector.bound": "distance bound",
+    "inspector.acts": "More actions",
     "inspector.users": "Used by",
     "inspector.more": "and {count} more",
     "inspector.unused": "Nothing uses it yet.",

@@ -2,22 +2,17 @@
 /* A colour: linear in the document, sRGB for the eye. What is brighter than white is a colour
  * times a strength. */
 import { useRef, useState } from "react";
+import { HexColorPicker } from "react-colorful";
 import type { Param } from "../../model/schema.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { fromHex, printNumber, splitStrength, tidy, toHex } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
-import { later } from "../later.tsx";
 import { Popover } from "../parts/Popover.tsx";
 import { t } from "../texts.ts";
 import { NumberField } from "./Number.tsx";
 import { TextField } from "./Text.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
-
-const Picker = later(async () => {
-    const { HexColorPicker } = await import("react-colorful");
-    return { default: HexColorPicker };
-});
 
 const MOST_STRENGTH = 1000;
 
@@ -38,7 +33,7 @@ const strengthParam: Param = {
     doc: "",
 };
 
-export function ColourField(props: FieldProps<readonly number[]>) {
+export default function ColourField(props: FieldProps<readonly number[]>) {
     const { label, value, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
     const { base, strength } = splitStrength(vectorOf(numbersOf(value)));
     const hex = toHex(base);
@@ -83,7 +78,7 @@ export function ColourField(props: FieldProps<readonly number[]>) {
         >
             {/* biome-ignore lint/a11y/noStaticElementInteractions: hears the end of a drag inside */}
             <div className="colour-sheet" onPointerUp={settle} onKeyUp={settle}>
-                <Picker color={shown ?? hex} onChange={pick} />
+                <HexColorPicker color={shown ?? hex} onChange={pick} />
                 <div className="colour-row">
                     <span>{t("field.hex")}</span>
                     <TextField

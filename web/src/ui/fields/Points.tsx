@@ -212,6 +212,7 @@ function Plane(props: PlaneProps) {
         }
     };
     return (
+        // biome-ignore lint/a11y/useSemanticElements: there are no fieldsets in a drawing
         <svg
             ref={plane}
             className="points-plane"
@@ -271,6 +272,7 @@ function Grid({ frame }: { frame: Frame }) {
     const { width, height } = frame;
     const [zeroX, zeroY] = toView(frame, [0, 0]);
     return (
+        // biome-ignore lint/a11y/noAriaHiddenOnFocusable: nothing in it can have the focus
         <g aria-hidden="true">
             {ticksOf(frame, 0).map((x) => (
                 <line key={`x${x}`} className="points-line" x1={x} x2={x} y1={0} y2={height} />

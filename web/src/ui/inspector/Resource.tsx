@@ -95,7 +95,9 @@ function Head({ list, name, type }: Props & { type: string }) {
                     )}
                 </div>
             </div>
-            {resource && <ResourceMenu list={list} resource={resource} />}
+            {resource && (
+                <ResourceMenu title={t("inspector.acts")} list={list} resource={resource} />
+            )}
             {(refused ?? problem) && (
                 <p className="form-error" role="alert">
                     {refused ?? problem}

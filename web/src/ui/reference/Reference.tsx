@@ -18,6 +18,8 @@ export default function Reference({ field }: { field: RefObject<HTMLInputElement
     const { stores } = useEditor();
     const schema = useDocument((state) => state.schema);
     const wanted = useView((view) => view.topic);
+    /* The dialog has opened before this was loaded. */
+    useEffect(() => field.current?.focus(), [field]);
     const [query, setQuery] = useState("");
     const all = useMemo(() => topicsOf(schema), [schema]);
     const found = useMemo(

@@ -16,13 +16,13 @@ interface Props {
     resource: Resource;
 }
 
-export function ResourceMenu({ list, resource }: Props) {
+export function ResourceMenu({ title, list, resource }: Props & { title: string }) {
     const { name } = resource;
     return (
         <Menu
             align="end"
             trigger={
-                <IconButton title={t("resource.more", { name })} data-size="s">
+                <IconButton title={title} data-size="s">
                     <Ellipsis size={14} />
                 </IconButton>
             }

@@ -125,7 +125,7 @@ function ResourceRow({ list, resource }: { list: ListName; resource: Resource })
                     >{`${users}×`}</span>
                 )}
             </button>
-            <ResourceMenu list={list} resource={resource} />
+            <ResourceMenu title={t("resource.more", { name })} list={list} resource={resource} />
         </li>
     );
 }

@@ -15,8 +15,13 @@ import { t } from "../texts.ts";
 import { ListIcon } from "./ResourceIcon.tsx";
 import "./scene.css";
 
+/* What the tree keeps of a row; the heading of the models is no node. */
+export interface TreeItem {
+    node: SceneNode | null;
+}
+
 interface Props {
-    item: ItemInstance<SceneNode | null>;
+    item: ItemInstance<TreeItem>;
     node: SceneNode | undefined;
     top: number;
     height: number;

@@ -15,13 +15,7 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { perform } from "../../model/actions.ts";
 import { isContainer } from "../../model/add.ts";
-import {
-    isInside,
-    nodeLabel,
-    pathTo,
-    type SceneDocument,
-    type SceneNode,
-} from "../../model/document.ts";
+import { isInside, nodeLabel, pathTo, type SceneDocument } from "../../model/document.ts";
 import { moveNodes } from "../../model/edits.ts";
 import { nodeType } from "../../model/schema.ts";
 import { modelsHeldBy } from "../../model/usage.ts";
@@ -30,7 +24,7 @@ import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
 import { filterNodes } from "./filter.ts";
 import { NodeMenu } from "./NodeMenu.tsx";
-import { ModelsRow, Row } from "./Row.tsx";
+import { ModelsRow, Row, type TreeItem } from "./Row.tsx";
 import "./scene.css";
 
 /* The tree's own root is not shown; it holds the scene's root node and, where there are models,
@@ -63,7 +57,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
         return [TOP, ...models, ...open.map((node) => node.id)];
     }, [document, collapsed, kept]);
 
-    const tree = useTree<SceneNode | null>({
+    const tree = useTree<TreeItem>({
         rootItemId: TOP,
         features: [
             syncDataLoaderFeature,
@@ -74,7 +68,10 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
         ],
         indent: INDENT,
         canReorder: kept === null,
-        dataLoader: { getItem: (id) => document.nodes.get(id) ?? null, getChildren: childrenOf },
+        dataLoader: {
+            getItem: (id) => ({ node: document.nodes.get(id) ?? null }),
+            getChildren: childrenOf,
+        },
         getItemName: (item) => labelOf(item),
         isItemFolder: (item) => childrenOf(item.getId()).length > 0 || mayHold(editor, item),
         state: { expandedItems: expanded, selectedItems: [...selection] },
@@ -97,7 +94,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
             focusNextItem: stepKey("ArrowDown", 1),
             focusPreviousItem: stepKey("ArrowUp", -1),
         },
-        canDrag: (items) => items.every((item) => item.getItemData()?.parent != null),
+        canDrag: (items) => items.every((item) => item.getItemData().node?.parent != null),
         canDrop: (items, target) => canDrop(editor, document, items, target),
         onDrop: (items, target) => drop(editor, items, target),
     });
@@ -164,7 +161,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
     );
 }
 
-type Item = ItemInstance<SceneNode | null>;
+type Item = ItemInstance<TreeItem>;
 
 /* Up and down select what they reach; while a row is carried they move it instead. */
 function stepKey(hotkey: string, by: 1 | -1) {
@@ -172,12 +169,12 @@ function stepKey(hotkey: string, by: 1 | -1) {
         hotkey,
         canRepeat: true,
         preventDefault: true,
-        isEnabled: (tree: TreeInstance<SceneNode | null>) => !tree.getState().dnd,
-        handler: (_event: KeyboardEvent, tree: TreeInstance<SceneNode | null>) => step(tree, by),
+        isEnabled: (tree: TreeInstance<TreeItem>) => !tree.getState().dnd,
+        handler: (_event: KeyboardEvent, tree: TreeInstance<TreeItem>) => step(tree, by),
     };
 }
 
-function step(tree: TreeInstance<SceneNode | null>, by: 1 | -1): void {
+function step(tree: TreeInstance<TreeItem>, by: 1 | -1): void {
     if (by > 0) {
         tree.focusNextItem();
     } else {
@@ -188,8 +185,8 @@ function step(tree: TreeInstance<SceneNode | null>, by: 1 | -1): void {
 }
 
 function labelOf(item: Item): string {
-    const node = item.getItemData();
-    return node ? nodeLabel(node) : "";
+    const { node } = item.getItemData();
+    return node ? nodeLabel(node) : t("models.title");
 }
 
 /* What a row of the tree has below it. */
@@ -204,7 +201,7 @@ function childIds(document: SceneDocument, id: string): string[] {
 
 function mayHold(editor: ReturnType<typeof useEditor>, item: Item): boolean {
     const { schema } = editor.stores.document.getState();
-    const row = nodeType(schema, item.getItemData()?.type ?? "");
+    const row = nodeType(schema, item.getItemData().node?.type ?? "");
     return row !== null && isContainer(row);
 }
 
@@ -212,7 +209,7 @@ function canDrop(
     editor: ReturnType<typeof useEditor>,
     document: SceneDocument,
     items: Item[],
-    target: DragTarget<SceneNode | null>,
+    target: DragTarget<TreeItem>,
 ): boolean {
     const into = target.item.getId();
     const { schema } = editor.stores.document.getState();
@@ -228,7 +225,7 @@ function canDrop(
 function drop(
     editor: ReturnType<typeof useEditor>,
     items: Item[],
-    target: DragTarget<SceneNode | null>,
+    target: DragTarget<TreeItem>,
 ): void {
     const { document } = editor.stores.document.getState();
     if (document === null) {
@@ -243,7 +240,7 @@ function drop(
 
 /* Unfolds the way to a node that was selected elsewhere, focuses its row and brings it in sight. */
 function useReveal(
-    tree: TreeInstance<SceneNode | null>,
+    tree: TreeInstance<TreeItem>,
     document: SceneDocument,
     id: string | null,
     scroll: (id: string) => void,

@@ -51,6 +51,7 @@ function Excerpt({ problem: { excerpt, from, line, column } }: { problem: Import
             {excerpt.map((text, i) => {
                 const here = from + i === line;
                 return (
+                    // biome-ignore lint/suspicious/noArrayIndexKey: a line is its number
                     <span key={from + i} data-here={here || undefined}>
                         <i>{from + i}</i>
                         {text}

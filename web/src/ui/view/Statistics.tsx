@@ -38,7 +38,7 @@ function summary(numbers: Numbers | null): string {
     return t("stats.fps", { fps: Math.round(numbers.fps), ms: Math.round(ms) });
 }
 
-export function StatisticsPill() {
+export default function StatisticsPill() {
     const { stores } = useEditor();
     const text = useLink((state) => summary(state.statistics));
     const open = useView((view) => view.popup === "statistics");

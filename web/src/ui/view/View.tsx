@@ -3,6 +3,7 @@
  * picks; React draws only what lies over it. */
 import { useEffect, useRef, useState } from "react";
 import { attachInput } from "../../overlay/input.ts";
+import { later } from "../later.tsx";
 import { Button } from "../parts/Button.tsx";
 import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -11,9 +12,10 @@ import { Crumbs } from "./Crumbs.tsx";
 import { inputActions } from "./input.ts";
 import { Outputs } from "./Outputs.tsx";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
-import { StatisticsPill } from "./Statistics.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
+
+const StatisticsPill = later(() => import("./Statistics.tsx"));
 
 export function View() {
     return (
