@@ -359,6 +359,9 @@ static void distances_are_those_of_the_words(void **state)
                 double size = k % 2 ? 2.5 : 0.8; /* half of the points near or in the shape */
                 double p[2] = {random_between(&random, -size, size),
                                random_between(&random, -size, size)};
+                if (shape.words->line && k == 0) { /* on the line, where a miss weighs most */
+                    shape.words->line(shape.raw, random_between(&random, 0, 1), p);
+                }
                 check_point(&shape, p);
             }
         }
