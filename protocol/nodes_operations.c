@@ -11,7 +11,7 @@ static const struct param blend_params[] = {
     {"k", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
      .doc = "Reach of the blend: nothing changes where distances differ by more. Of the kernels "
             "without end: exponential, 1 by a length (greater is harder); root, the square of a "
-            "length; power, an exponent."},
+            "length; power, an exponent of 1 or more."},
     {"kernel", PARAM_ENUM, .choices = kernels,
      .doc = "Profile of the blend; power changes distances but moves no surface."},
     {.name = NULL},

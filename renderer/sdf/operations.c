@@ -44,12 +44,18 @@ static double combine_morph(double a, double b, const double *n, double *out_sha
 enum kernel { QUADRATIC, CUBIC, QUARTIC, CIRCULAR, EXPONENTIAL, ROOT, POWER }; /* registry order */
 
 #define K_MIN 1e-7 /* nothing divides by less */
-#define STRETCH_MAX 1e30
+/* Below, the power kernel is nearly 0 even far from all surfaces, so that no ray gets anywhere. */
+#define POWER_MIN 1.0
+
+static double blend_k(const double *n)
+{
+    return fmax(n[0], (enum kernel)n[1] == POWER ? POWER_MIN : K_MIN);
+}
 
 /* What k measures: a length, 1 by a length, the square of one, or nothing. */
 static void blend_scale(double *n, double scale)
 {
-    n[0] = fmax(n[0], K_MIN);
+    n[0] = blend_k(n);
     switch ((enum kernel)n[1]) {
     case QUADRATIC:
     case CUBIC:
@@ -139,7 +145,7 @@ static double combine_smooth_difference(double a, double b, const double *n, dou
 static double blend_lowered(const double *n, size_t count)
 {
     enum kernel kernel = (enum kernel)n[1];
-    double k = fmax(n[0], K_MIN), x = 0, greater;
+    double k = blend_k(n), x = 0, greater;
     for (size_t i = 1; i < count && kernel != POWER; i++) {
         x += blend_depth(x, k, kernel, &greater);
     }
@@ -150,7 +156,7 @@ static double blend_lowered(const double *n, size_t count)
 static double blend_stretched(const double *n, size_t count)
 {
     bool power = (enum kernel)n[1] == POWER && count > 1;
-    return power ? fmin(pow((double)count, 1 / fmax(n[0], K_MIN)), STRETCH_MAX) : 1;
+    return power ? pow((double)count, 1 / blend_k(n)) : 1;
 }
 
 const struct sdf sdf_operations[] = {

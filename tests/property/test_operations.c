@@ -75,7 +75,7 @@ static double root(double a, double b, double k)
     return (a + b - sqrt((a - b) * (a - b) + k)) / 2;
 }
 
-static double power(double a, double b, double k)
+static double power_form(double a, double b, double k)
 {
     double x = pow(a, k), y = pow(b, k);
     return fmin(a, b) > 0 ? pow(x * y / (x + y), 1 / k) : fmin(a, b);
@@ -87,7 +87,7 @@ static const struct closed_form {
     bool compact;
 } closed_forms[] = {
     {"quadratic", quadratic, true},      {"cubic", cubic, true}, {"quartic", quartic, true},
-    {"circular", circular, true},        {"root", root, false},  {"power", power, false},
+    {"circular", circular, true},        {"root", root, false},  {"power", power_form, false},
     {"exponential", exponential, false},
 };
 
@@ -168,17 +168,19 @@ static void far_operands_do_no_harm(void **state)
 
 /* --- every operation --- */
 
+static size_t kernels_of(const struct node_type *type)
+{
+    return record_type_find(&type->record, "kernel") >= 0 ? kernel_count() : 1;
+}
+
 /* Numbers of a row with the kernel, where it has one. */
 static void random_numbers_of(struct random *random, const struct node_type *type, size_t kernel,
                               double n[2])
 {
+    bool power = kernels_of(type) > 1 && closed_form_of(kernel)->blend == power_form;
     n[0] = type->record.params[0].name ? random_between(random, 0.05, 1) : 0;
+    n[0] = power ? 1 + 3 * n[0] : n[0];
     n[1] = (double)kernel;
-}
-
-static size_t kernels_of(const struct node_type *type)
-{
-    return record_type_find(&type->record, "kernel") >= 0 ? kernel_count() : 1;
 }
 
 typedef void check(struct random *random, const struct node_type *type, const double n[2]);
@@ -417,6 +419,16 @@ static void exclusive_is_an_odd_number_of_children(void **state)
     field_unref(field);
 }
 
+static void a_power_is_at_least_one(void **state)
+{
+    (void)state;
+    double small[2] = {0.1, (double)(kernel_count() - 1)}, one[2] = {1, small[1]};
+    assert_string_equal(kernel_param()->choices[(size_t)one[1]], "power");
+    row("smooth_union")->scale(small, 7);
+    row("smooth_union")->scale(one, 0.1);
+    assert_true(small[0] == 1 && one[0] == 1);
+}
+
 #define BALL(radius) "{\"type\":\"sphere\",\"params\":{\"radius\":" #radius "}}"
 #define NOTHING "{\"type\":\"group\"}"
 
@@ -449,6 +461,7 @@ int main(void)
         cmocka_unit_test(nothing_gets_steeper),
         cmocka_unit_test(blends_are_lowered_as_far_as_they_say),
         cmocka_unit_test(operations_fold_their_children_and_scale),
+        cmocka_unit_test(a_power_is_at_least_one),
         cmocka_unit_test(exclusive_is_an_odd_number_of_children),
         cmocka_unit_test(morph_goes_from_the_first_to_the_second),
     };
