@@ -220,14 +220,16 @@ static void write_inputs(struct writer *w)
     char name[TYPE_NAME_BYTES];
     for (const struct variable *v = tree->declared; v; v = v->next) {
         if (v->used) {
-            PUT(w, "%s %s_d%d;\n", type_name(v->type, name), w->name, v->number);
+            /* A value, though it gets another: else drivers warn of each use. */
+            type_name(v->type, name);
+            PUT(w, "%s %s_d%d = %s(0);\n", name, w->name, v->number, name);
         }
     }
     if (tree->data_used) {
         PUT(w, "float %s_data[%d];\n", w->name, tree->data_count);
     }
     if (tree->shading_used) {
-        PUT(w, "Shading %s_s;\n", w->name);
+        PUT(w, "Shading %s_s = Shading(vec3(0), vec3(0), vec3(0), vec3(0), 0.0);\n", w->name);
     }
 }
 
