@@ -153,12 +153,19 @@ $(S)/web/node_modules/.package-lock.json: $(S)/web/package-lock.json
 test_sources := $(wildcard $(S)/tests/*/test_*.c)
 test_programs := $(patsubst %.o,%,$(call object,$(test_sources)))
 support := $(call object,$(wildcard $(S)/tests/support/*.c))
+preloaded := $(OUT)/tests/kill/hostile_driver.so
 
-programs: $(OUT)/fieldcast $(test_programs) $(BUILD)/compile_commands.json ## the program and all C tests
+programs: $(OUT)/fieldcast $(test_programs) $(preloaded) $(BUILD)/compile_commands.json ## the program and all C tests
 
 $(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
 	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(packages_libs)
+
+# Loaded in front of everything else, so without the sanitizers' own libraries.
+$(preloaded): $(OUT)/%.so: $(S)/%.c
+	$(call say,CC,$<)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) -std=gnu17 -D_GNU_SOURCE $(warnings) -O1 -fPIC -shared -pthread -o $@ $< -ldl
 
 $(BUILD)/compile_commands.json: $(OUT)/flags $(sources) $(test_sources)
 	$(Q)for f in $(filter %.c,$^); do printf '{"directory":"%s","file":"%s","command":"%s"},\n' \

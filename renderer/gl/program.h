@@ -45,9 +45,9 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
 struct program *program_cache_next(struct program_cache *cache, bool *out_busy);
 /* Lets the compilers have it. */
 void program_cache_allow(struct program_cache *cache, struct program *program);
-/* Whether a compiler has been at one stage for so long that it may never end: LIMIT_COMPILE_MS of
- * its processor time, LIMIT_COMPILE_CODE_MS and more for each shape where there is code of users,
- * or three times as long without having the processor. */
+/* Whether a compiler has been at work for so long that it may never end: LIMIT_COMPILE_MS of
+ * processor time; where there is code of users LIMIT_COMPILE_CODE_MS and more for each shape, the
+ * compilers taken together; or twice as long without having the processor. */
 bool program_cache_stuck(struct program_cache *cache);
 struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);

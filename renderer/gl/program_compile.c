@@ -13,7 +13,7 @@
 
 enum {
     PRELOAD_MAX = 4096, /* vec4s */
-    WALL_FACTOR = 3,    /* a compiler that waits for others may take so much longer */
+    WALL_FACTOR = 2,    /* a compiler that waits for others may take so much longer */
 };
 
 bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
@@ -295,17 +295,23 @@ static int64_t longest_ms(const struct program *program)
 
 bool program_cache_stuck(struct program_cache *cache)
 {
+    const int64_t now = clock_in_ms(CLOCK_MONOTONIC);
+    int64_t together = 0; /* all of them may be at one program with code, which is alone */
     bool stuck = false;
 
     pthread_mutex_lock(&cache->lock);
     for (int i = 0; i < EGL_COMPILERS; i++) {
         const struct compiler *compiler = &cache->compilers[i];
+        const struct program *program = compiler->program;
         clockid_t clock;
 
-        if (compiler->program && pthread_getcpuclockid(compiler->thread, &clock) == 0) {
-            const int64_t most = longest_ms(compiler->program);
-            stuck = stuck || clock_in_ms(clock) - compiler->begun_cpu_ms > most ||
-                    clock_in_ms(CLOCK_MONOTONIC) - compiler->begun_ms > WALL_FACTOR * most;
+        if (program && pthread_getcpuclockid(compiler->thread, &clock) == 0) {
+            const int64_t most = longest_ms(program);
+            const int64_t spent = clock_in_ms(clock) - compiler->begun_cpu_ms;
+
+            together += program->user_code ? spent : 0;
+            stuck = stuck || spent > most || (program->user_code && together > most) ||
+                    now - compiler->begun_ms > WALL_FACTOR * most;
         }
     }
     pthread_mutex_unlock(&cache->lock);

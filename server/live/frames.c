@@ -269,14 +269,16 @@ static void send_frame(struct session *session, const struct packet *answer)
     struct frames *frames = &session->frames;
     const cJSON *json = answer->json;
     const struct room *room = session->room;
-    bool newest = json_member_bool(json, "newest", true) && room->sent == room->revision;
+    const uint64_t revision = (uint64_t)json_member_number(json, "revision", 0);
+    bool newest = json_member_bool(json, "newest", true) &&
+                  !(room->problem.kind != ERROR_NONE && revision < room->problem_revision);
     struct frame_header header = {
         .codec =
             strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG : FRAME_JPEG,
         .flags = level_rules[frames->job_level].flags | (newest ? 0 : FRAME_STALE),
         .number = ++frames->last_number,
         .payload_bytes = (uint32_t)answer->payload_length,
-        .revision = (uint64_t)json_member_number(json, "revision", 0),
+        .revision = revision,
         .input = frames->job_seq,
         .width = (uint16_t)json_member_number(json, "width", 0),
         .height = (uint16_t)json_member_number(json, "height", 0),
@@ -306,7 +308,7 @@ static void send_frame(struct session *session, const struct packet *answer)
         frames->flight[slot].sent_ms = clock_ms();
     }
     frames->stale = !newest;
-    frames->revision = header.revision;
+    frames->revision = revision;
     session->wake(session->connection);
 }
 

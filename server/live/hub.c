@@ -249,7 +249,7 @@ static void on_ready(void *data, const cJSON *ready)
     hub_unlock(hub);
 }
 
-static void on_down(void *data, const char *reason, bool hung)
+static bool on_down(void *data, const char *reason, bool hung)
 {
     struct hub *hub = data;
 
@@ -260,9 +260,10 @@ static void on_down(void *data, const char *reason, bool hung)
                       "The render process ended and is started again.");
     }
     log_debug("hub", "worker down: %s", reason);
-    quarantine_worker_down(hub, hung);
+    bool known = quarantine_worker_down(hub, hung);
     renders_worker_down(hub);
     hub_unlock(hub);
+    return known;
 }
 
 static void on_hopeless(void *data)

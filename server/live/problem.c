@@ -27,13 +27,20 @@ static void end(struct room *room)
     room->problem = (struct error){0};
 }
 
+static bool is_same(const struct error *a, const struct error *b)
+{
+    /* Of a quarantine the next worker knows less than was told when it began. */
+    return a->kind == b->kind && (a->kind == ERROR_QUARANTINED ||
+                                  (strcmp(a->place, b->place) == 0 && a->line == b->line &&
+                                   a->column == b->column && strcmp(a->message, b->message) == 0));
+}
+
 void problem_set(struct room *room, const struct error *err, uint64_t revision)
 {
     const struct error *old = &room->problem;
 
     room->problem_revision = revision;
-    if (old->kind == err->kind && strcmp(old->place, err->place) == 0 && old->line == err->line &&
-        old->column == err->column && strcmp(old->message, err->message) == 0) {
+    if (is_same(old, err)) {
         return;
     }
     if (old->kind != ERROR_NONE && strcmp(old->place, err->place) != 0) {

@@ -69,7 +69,7 @@ static void convict(struct hub *hub, const struct suspect *suspect)
     }
 }
 
-void quarantine_worker_down(struct hub *hub, bool hung)
+bool quarantine_worker_down(struct hub *hub, bool hung)
 {
     struct quarantine *quarantine = &hub->quarantine;
     const struct suspect none = {.scene = ""};
@@ -81,6 +81,7 @@ void quarantine_worker_down(struct hub *hub, bool hung)
         convict(hub, &quarantine->compiling);
     }
     quarantine->compiling = quarantine->drawing = none;
+    return quarantine->named;
 }
 
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked)

@@ -35,8 +35,8 @@ struct quarantine {
 void quarantine_named(struct hub *hub, const struct packet *packet);
 /* Tells a new worker what not to compile. */
 void quarantine_worker_ready(struct hub *hub);
-/* `hung`: it was silent, rather than ended by itself. */
-void quarantine_worker_down(struct hub *hub, bool hung);
+/* `hung`: it was silent, rather than ended by itself. True: it had named somebody. */
+bool quarantine_worker_down(struct hub *hub, bool hung);
 /* Whether the worker that has just ended may have done so by drawing this. Where it had named
  * nobody, all that it was asked for is suspect: `asked`. */
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);

@@ -239,7 +239,10 @@ static void take_down(struct supervisor *supervisor, const char *reason)
     metric_add(supervisor->params.metrics, METRIC_WORKER_RESTARTS, 1);
     log_warning("worker", "%s; another one is started", text);
     plan_restart(supervisor);
-    supervisor->params.on_down(supervisor->params.data, text, reason != NULL);
+    if (supervisor->params.on_down(supervisor->params.data, text, reason != NULL)) {
+        supervisor->backoff_ms = 0;
+        supervisor->next_start = clock_ms();
+    }
 }
 
 /* --- receiving --- */

@@ -19,7 +19,9 @@ struct supervisor_params {
     /* All are called on the supervisor's thread, holding nothing. */
     void (*on_ready)(void *data, const cJSON *ready);
     void (*on_packet)(void *data, const char *type, const struct packet *packet);
-    void (*on_down)(void *data, const char *reason, bool hung /* it was silent */);
+    /* `hung`: it was silent. True: it is known what ended it, and kept from the next, which need
+     * not wait. */
+    bool (*on_down)(void *data, const char *reason, bool hung);
     /* The first worker ended by itself before it was ready: here nothing can be drawn. No other is
      * started. */
     void (*on_hopeless)(void *data);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// A driver that hangs, crashes or eats memory over the code of one scene: its author is told, it is
+// shown as it was before, and others see at most a short pause.
+import assert from 'node:assert/strict';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { ask, counter, program, startDaemon, until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const driver = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
+const CODE = '/primitives/blob/code';
+const ball = (radius) => `float sdf(vec3 p) { return length(p) - ${radius} * blow; }`;
+const GOOD = ball('1.0');
+const HANG = ball('31337.5');
+const CRASH = ball('31338.5');
+const EAT = ball('31339.5');
+const CRASH_LATER = ball('31340.5');
+
+const scene = (code) => ({
+    format: 'fieldcast/1',
+    lights: [{ id: 'sun', type: 'directional' }],
+    primitives: { blob: { params: [{ name: 'blow', type: 'float', default: 1 }], code } },
+    root: { id: 'root', type: 'union', children: [{ id: 'b', type: 'field', params: { primitive: 'blob' } }] },
+});
+
+let daemon;
+let viewer; // of a scene that has nothing to do with it
+before(async () => {
+    process.env.LD_PRELOAD = driver;
+    process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
+    daemon = await startDaemon({ args: ['--worker-memory', '512'] });
+    delete process.env.LD_PRELOAD;
+    await ask(daemon, 'POST', '/v1/scenes?id=other', {
+        format: 'fieldcast/1',
+        root: { id: 'ball', type: 'sphere' },
+    });
+    viewer = await Live.open(daemon, 'other');
+    viewer.look();
+    await viewer.nextFrame((frame) => frame.lossless);
+});
+after(async () => {
+    await viewer?.close();
+    await daemon?.stop();
+});
+
+/** The other scene is edited and its picture follows. */
+async function othersGoOn() {
+    const edit = viewer.set('/nodes/ball/params/radius', 0.3 + Math.random());
+    const { revision } = await viewer.next('applied', { edit });
+    await viewer.nextFrame((frame) => frame.lossless && frame.revision === revision);
+    assert.equal(viewer.closed, false);
+    assert.ok(!viewer.find('notice', { level: 'error' }), 'others hear of no error');
+}
+
+async function open(id, code = GOOD) {
+    await ask(daemon, 'POST', `/v1/scenes?id=${id}`, scene(code));
+    const live = await Live.open(daemon, id);
+    live.look();
+    return live;
+}
+
+const isOver = (live, from) => live.next('notice', { code: 'compiled', place: CODE }, from);
+
+for (const [what, code] of [
+    ['hangs', HANG],
+    ['crashes', CRASH],
+    ['eats memory', EAT],
+]) {
+    test(`a compiler that ${what}`, async (t) => {
+        const live = await open(what.replace(' ', '-'));
+        await live.nextFrame((frame) => frame.lossless && frame.revision === 1);
+        const restarts = await counter(daemon, 'worker_restarts_total');
+        const asked = Date.now();
+        live.set(CODE, code);
+        const notice = await live.next('notice', { level: 'error' });
+        t.diagnostic(`told after ${notice.at - asked} ms`);
+        assert.equal(notice.code, 'quarantined');
+        assert.equal(notice.place, CODE);
+        assert.match(notice.message, /shown as it was before/);
+
+        // The next worker has the state before.
+        const from = live.frames.length;
+        live.look({ width: 80, height: 48 });
+        const frame = await live.nextFrame((one) => one.viewWidth === 80, from);
+        assert.equal(frame.revision, 1);
+        assert.equal(frame.stale, true);
+        await othersGoOn();
+
+        // Who comes later is told; a number changes nothing; a picture of it is refused.
+        const late = await Live.open(daemon, live.welcome.scene);
+        assert.equal((await late.next('notice', { code: 'quarantined' })).place, CODE);
+        await late.close();
+        const messages = live.messages.length;
+        const edit = live.set('/nodes/b/params/blow', 0.5);
+        await live.next('applied', { edit, durable: true });
+        await until(async () => {
+            const answer = await fetch(`${daemon.url}/v1/scenes/${live.welcome.scene}/image.png?width=8&height=8`);
+            const problem = await answer.json();
+            assert.equal(answer.status, 503);
+            assert.equal(problem.code, 'quarantined');
+            return problem.place === CODE;
+        }, 'the refusal');
+        assert.equal(await counter(daemon, 'worker_restarts_total'), restarts + 1, 'one worker only');
+        assert.ok(!live.find('notice', { code: 'quarantined' }, messages), 'told once');
+
+        // Edited, it is drawn again.
+        const cured = live.set(CODE, ball('0.5'));
+        await isOver(live, messages);
+        const { revision } = await live.next('applied', { edit: cured });
+        await live.nextFrame((one) => one.lossless && one.revision === revision);
+        await live.close();
+    });
+}
+
+test('undo takes it back too, and a document put in place is no other road', async () => {
+    const live = await open('undone');
+    await live.nextFrame((frame) => frame.lossless);
+    live.set(CODE, CRASH);
+    await live.next('notice', { code: 'quarantined' });
+    live.step('undo');
+    await isOver(live, 0);
+    await live.nextFrame((frame) => frame.lossless && frame.revision === 3);
+
+    const from = live.messages.length;
+    const frames = live.frames.length;
+    await ask(daemon, 'PUT', '/v1/scenes/undone', scene(`${CRASH} /* again */`));
+    assert.equal((await live.next('notice', { level: 'error' }, from)).code, 'quarantined');
+    live.look({ width: 80, height: 48 });
+    const frame = await live.nextFrame((one) => one.viewWidth === 80, frames);
+    assert.equal(frame.revision, 3);
+    await live.close();
+});
+
+test('without a state before, nothing is shown until it is edited', async () => {
+    const live = await open('from-the-start', `${CRASH} // from the start`);
+    const notice = await live.next('notice', { code: 'quarantined' });
+    assert.match(notice.message, /not shown/);
+    assert.equal(live.frames.length, 0);
+    const edit = live.set(CODE, GOOD);
+    await isOver(live, 0);
+    const { revision } = await live.next('applied', { edit });
+    await live.nextFrame((frame) => frame.lossless && frame.revision === revision);
+    await live.close();
+});
+
+test('a document sent along with an order is answered', async () => {
+    for (const code of [CRASH, HANG]) {
+        const answer = await fetch(`${daemon.url}/v1/render`, {
+            method: 'POST',
+            headers: { 'content-type': 'application/json' },
+            body: JSON.stringify({ scene: scene(`${code} /* inline */`), width: 8, height: 8 }),
+        });
+        assert.equal(answer.status, 503);
+        const problem = await answer.json();
+        assert.equal(problem.code, 'quarantined');
+        assert.equal(problem.place, CODE);
+    }
+    await othersGoOn();
+});
+
+test('code that crashes while it draws is left out the second time', async () => {
+    const live = await open('later', CRASH_LATER);
+    await live.next('notice', { code: 'scene_left_out' });
+    await othersGoOn();
+    const edit = live.set(CODE, GOOD);
+    const { revision } = await live.next('applied', { edit });
+    await live.nextFrame((frame) => frame.lossless && frame.revision === revision);
+    await live.close();
+});
