@@ -32,7 +32,7 @@
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
     X(CODE_WORK, "code_work", 65536, "operations", "one call of code, with its loops run through") \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
-    X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling one pass of a scene")            \
+    X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
       "the same with code in it, and few shapes")                                                  \
     X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
