@@ -43,7 +43,8 @@ static bool match(const char *pattern, struct request *request)
             }
             continue;
         }
-        size_t length = strcspn(path, "/");
+        size_t length = strcspn(path, "/"), after = strcspn(pattern + 2, "/");
+        length = length > after ? length - after : 0;
         if (length == 0 || length > LIMIT_ID_BYTES) {
             return false;
         }
