@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Loops whose iterations can be counted: for (int i = 0; i < 8; i++), where all three numbers are
  * constants. */
+#include <math.h>
+
 #include "check.h"
 
 static bool refuse_loop(struct checker *checker, struct at at, const char *why)
@@ -110,6 +112,12 @@ static bool goes_on(enum op op, double at, double bound)
     }
 }
 
+static bool fits(struct type type, double number)
+{
+    return type.base == BASE_FLOAT || (type.base == BASE_INT && fabs(number) <= 2147483647.0) ||
+           (type.base == BASE_UINT && number >= 0 && number <= 4294967295.0);
+}
+
 /* Counted with the floats that a driver has. */
 static bool count_trips(struct checker *checker, struct stmt *stmt, enum op op, double bound)
 {
@@ -117,7 +125,7 @@ static bool count_trips(struct checker *checker, struct stmt *stmt, enum op op, 
     double at = stmt->start;
     while (stmt->trips <= LIMIT_CODE_TRIPS && goes_on(op, at, bound)) {
         double next = whole ? at + stmt->step : (double)((float)at + (float)stmt->step);
-        if (next == at) {
+        if (next == at || (!fits(stmt->variable->type, next) && goes_on(op, next, bound))) {
             return refuse_loop(checker, stmt->at, "the loop never ends");
         }
         at = next;

@@ -80,8 +80,8 @@ void lower_store(struct lower *lower, const struct spot *spot, uint16_t from);
 uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted);
 uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool wanted);
 
-/* lower_values.c: where the expression's value is. Nothing may be assigned before it is used, except
- * after lower_stable with `effects_follow`. */
+/* lower_values.c: where the expression's value is. Nothing may be assigned before it is used,
+ * except after lower_stable with `effects_follow`. */
 uint16_t lower_value(struct lower *lower, const struct expr *expr);
 uint16_t lower_stable(struct lower *lower, const struct expr *expr, bool effects_follow);
 /* Of a statement, whose value nobody reads. */

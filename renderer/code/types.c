@@ -12,10 +12,14 @@ static const struct {
 } names[] = {
     /* clang-format off */
     {"void", {BASE_VOID, 1, 1, 0}},
-    {"float", {BASE_FLOAT, 1, 1, 0}}, {"half", {BASE_FLOAT, 1, 1, 0}}, {"float1", {BASE_FLOAT, 1, 1, 0}},
-    {"vec2", {BASE_FLOAT, 2, 1, 0}}, {"float2", {BASE_FLOAT, 2, 1, 0}}, {"half2", {BASE_FLOAT, 2, 1, 0}},
-    {"vec3", {BASE_FLOAT, 3, 1, 0}}, {"float3", {BASE_FLOAT, 3, 1, 0}}, {"half3", {BASE_FLOAT, 3, 1, 0}},
-    {"vec4", {BASE_FLOAT, 4, 1, 0}}, {"float4", {BASE_FLOAT, 4, 1, 0}}, {"half4", {BASE_FLOAT, 4, 1, 0}},
+    {"float", {BASE_FLOAT, 1, 1, 0}}, {"half", {BASE_FLOAT, 1, 1, 0}},
+    {"float1", {BASE_FLOAT, 1, 1, 0}},
+    {"vec2", {BASE_FLOAT, 2, 1, 0}}, {"float2", {BASE_FLOAT, 2, 1, 0}},
+    {"half2", {BASE_FLOAT, 2, 1, 0}},
+    {"vec3", {BASE_FLOAT, 3, 1, 0}}, {"float3", {BASE_FLOAT, 3, 1, 0}},
+    {"half3", {BASE_FLOAT, 3, 1, 0}},
+    {"vec4", {BASE_FLOAT, 4, 1, 0}}, {"float4", {BASE_FLOAT, 4, 1, 0}},
+    {"half4", {BASE_FLOAT, 4, 1, 0}},
     {"int", {BASE_INT, 1, 1, 0}}, {"int1", {BASE_INT, 1, 1, 0}},
     {"ivec2", {BASE_INT, 2, 1, 0}}, {"int2", {BASE_INT, 2, 1, 0}},
     {"ivec3", {BASE_INT, 3, 1, 0}}, {"int3", {BASE_INT, 3, 1, 0}},

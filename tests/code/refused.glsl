@@ -320,6 +320,10 @@ float sdf(vec3 p) { for (vec2 i = vec2(0.0); i.x < 3.0; i++) {} return 1.0; }
 float sdf(vec3 p) { for (int i = 0; i < 3; i += 0) {} return 1.0; }
 //! 1:21 the loop never ends
 float sdf(vec3 p) { for (float t = 1e9; t < 2e9; t += 1.0) {} return 1.0; }
+//! 1:21 the loop never ends
+float sdf(vec3 p) { for (int i = 1; i > 0; i += 1000000000) {} return 1.0; }
+//! 1:21 the loop never ends
+float sdf(vec3 p) { for (uint i = 3u; i != 7u; i--) {} return 1.0; }
 //! limit 1:21 iterations of loops above the maximum 256 (code_trips)
 float sdf(vec3 p) { for (int i = 0; i >= 0; i++) {} return 1.0; }
 //! limit 1:21 iterations of loops above the maximum 256 (code_trips)
