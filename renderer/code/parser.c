@@ -97,14 +97,17 @@ static struct qualifiers take_qualifiers(struct parser *parser)
     }
 }
 
-static bool unknown_type(struct parser *parser)
+/* A name where none can be: a type or a word of the language was meant. */
+static bool unknown_word(struct parser *parser, const struct token *token)
 {
-    const struct token *token = parser->token;
     char text[41], hint[80];
     snprintf(text, sizeof text, "%.*s", token->length < 40 ? token->length : 40, token->text);
     struct nearest nearest = {.text = text};
     for (size_t i = 0; type_name_at(i); i++) {
         nearest_consider(&nearest, type_name_at(i));
+    }
+    for (int kind = TOKEN_CONST; lexer_text((enum token_kind)kind); kind++) {
+        nearest_consider(&nearest, lexer_text((enum token_kind)kind));
     }
     return tree_fail(parser->tree, token->at, "there is no type %s%s", text,
                      nearest_hint(&nearest, hint, sizeof hint));
@@ -113,7 +116,7 @@ static bool unknown_type(struct parser *parser)
 static bool expect_type(struct parser *parser, struct type *out)
 {
     if (parser->token->kind == TOKEN_NAME) {
-        return unknown_type(parser);
+        return unknown_word(parser, parser->token);
     }
     if (parser->token->kind != TOKEN_TYPE) {
         return parser_unexpected(parser, "a type");
@@ -257,6 +260,11 @@ static struct stmt *parse_value_statement(struct parser *parser, enum token_kind
                                           const char *where)
 {
     struct stmt *stmt = statement(parser, STMT_EXPR);
+    const struct token *first = parser->token;
+    if (first->kind == TOKEN_NAME && first[1].kind == TOKEN_NUMBER) { /* retrun 1.0; */
+        unknown_word(parser, first);
+        return NULL;
+    }
     stmt->expr = parser_expression(parser);
     return stmt->expr && parser_expect(parser, end, where) ? stmt : NULL;
 }

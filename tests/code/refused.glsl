@@ -30,6 +30,10 @@ float sdf(vec3 p) { return 1.0; } }
 Float sdf(vec3 p) { return 1.0; }
 //! 1:21 there is no type vec; did you mean "vec2"?
 float sdf(vec3 p) { vec a = p; return 1.0; }
+//! 1:21 there is no type retrun; did you mean "return"?
+float sdf(vec3 p) { retrun 1.0; }
+//! 1:21 there is no type retun; did you mean "return"?
+float sdf(vec3 p) { retun p; }
 //! 1:11 there is no type flaot
 float sdf(flaot p) { return 1.0; }
 //! 1:21 the character $ has no meaning here
