@@ -17,7 +17,6 @@ import {
     COMPILE,
     COMPILED,
     dropGone,
-    dropShown,
     endProblem,
     settleProblems,
 } from "../model/problems.ts";
@@ -190,9 +189,6 @@ class SceneLink implements Link {
                 break;
             case "frame":
                 this.#stores.link.setState({ frame: report.frame });
-                this.#stores.document.setState(({ problems, schema, document }) => ({
-                    problems: dropShown(problems, report.frame, schema, document),
-                }));
                 break;
             case "statistics":
                 this.#stores.link.setState({ statistics: report.statistics });
@@ -318,8 +314,8 @@ class SceneLink implements Link {
 
     #problemAt(problem: Problem): void {
         if (problem.place !== "") {
-            this.#stores.document.setState((now) => ({
-                problems: addProblem(now.problems, problem, now),
+            this.#stores.document.setState(({ problems }) => ({
+                problems: addProblem(problems, problem),
             }));
         }
     }

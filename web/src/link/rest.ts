@@ -20,6 +20,12 @@ export interface ExampleEntry {
     readonly description: string;
 }
 
+export interface Imported {
+    readonly id: string;
+    /* What was put right while reading. */
+    readonly notes: readonly string[];
+}
+
 /* A problem+json answer, or a network that did not answer (status 0). */
 export class RestError extends Error {
     readonly status: number;
@@ -52,8 +58,8 @@ export interface Rest {
     createScene(document: Json): Promise<string>;
     /* Of a text that the server reads itself, so that it can say where it is wrong. */
     createFromText(text: string): Promise<string>;
-    /* Of files in the other format, their texts by path. */
-    importScene(files: Readonly<Record<string, string>>, name: string): Promise<string>;
+    /* Of files in the other format, their texts by path; `scene` says which of several. */
+    importScene(files: Readonly<Record<string, string>>, scene: string | null): Promise<Imported>;
     createFromExample(example: string): Promise<string>;
     createFromScene(scene: string): Promise<string>;
     deleteScene(id: string): Promise<void>;
@@ -116,12 +122,18 @@ export function createRest(base: string, token: string | null): Rest {
         return response;
     };
     const get = async (path: string): Promise<Json> => (await (await request(path)).json()) as Json;
-    const create = async (body: Json | string, path = "/v1/scenes"): Promise<string> => {
-        const text = typeof body === "string" ? body : JSON.stringify(body);
+    const post = async (path: string, text: string): Promise<Imported> => {
         const response = await request(path, { method: "POST", body: text });
         const location = response.headers.get("Location") ?? "";
-        return decodeURIComponent(location.split("/").at(-1) ?? "");
+        const json = (await response.json()) as Json;
+        return {
+            id: decodeURIComponent(location.split("/").at(-1) ?? ""),
+            notes: listOf(isObject(json) ? json.notes : []).map((note) => textOf(note)),
+        };
     };
+    const createFromText = async (text: string): Promise<string> =>
+        (await post("/v1/scenes", text)).id;
+    const create = (body: Json): Promise<string> => createFromText(JSON.stringify(body));
     const list = async (path: string, member: string) => {
         const json = await get(path);
         return listOf(isObject(json) ? json[member] : []).filter(isObject);
@@ -138,10 +150,10 @@ export function createRest(base: string, token: string | null): Rest {
                     typeof scene.modified === "number" ? scene.modified : textOf(scene.modified),
                 viewers: numberOf(scene.viewers),
             })),
-        createScene: (document) => create(document),
-        createFromText: (text) => create(text),
-        importScene: (files, name) =>
-            create({ ...(name === "" ? {} : { name }), files }, "/v1/import"),
+        createScene: create,
+        createFromText,
+        importScene: (files, scene) =>
+            post("/v1/import", JSON.stringify({ files, ...(scene === null ? {} : { scene }) })),
         createFromExample: (example) => create({ from: `example:${example}` }),
         createFromScene: (scene) => create({ from: `scene:${scene}` }),
         deleteScene: async (id) => {

@@ -4,53 +4,42 @@
 import { paramAt, type SceneDocument } from "./document.ts";
 import type { Operation, Problem } from "./operation.ts";
 import { cleanPlace, isWithin, nodeOfPlace, resourceOfPlace, resourcePlace } from "./places.ts";
-import type { Schema, Value } from "./schema.ts";
+import type { Schema } from "./schema.ts";
 
-/* The code of notices about code. */
+/* Notices about code: it does not compile, it hung or crashed what draws, it is well again. */
 export const COMPILE = "compile";
+const QUARANTINED = "quarantined";
 export const COMPILED = "compiled";
 
-export interface Standing extends Problem {
-    /* The document's revision, and the code, when it was told. */
-    readonly since: number;
-    readonly text: Value | null;
-}
-
 /* By place; at most one each. */
-export type Problems = ReadonlyMap<string, Standing>;
+export type Problems = ReadonlyMap<string, Problem>;
 
 export const NO_PROBLEMS: Problems = new Map();
 
-function textAt(schema: Schema, document: SceneDocument | null, place: string): Value | null {
-    const found = document && paramAt(schema, document, place);
-    return found ? (found.values[found.param.name] ?? null) : null;
+/* Does it stand until the server says that it is over? */
+function isStanding({ code }: Problem): boolean {
+    return code === COMPILE || code === QUARANTINED;
 }
 
-export function addProblem(
-    problems: Problems,
-    problem: Problem,
-    now: { schema: Schema; document: SceneDocument | null; revision: number },
-): Problems {
+export function addProblem(problems: Problems, problem: Problem): Problems {
     const place = cleanPlace(problem.place);
-    const text = textAt(now.schema, now.document, place);
-    const standing = { ...problem, place, since: now.revision, text };
-    return new Map(problems).set(place, standing);
+    return new Map(problems).set(place, { ...problem, place });
 }
 
-function without(problems: Problems, gone: (problem: Standing) => boolean): Problems {
+function without(problems: Problems, gone: (problem: Problem) => boolean): Problems {
     const left = [...problems].filter(([, problem]) => !gone(problem));
     return left.length < problems.size ? new Map(left) : problems;
 }
 
 /* The code at `place` compiles again. */
 export function endProblem(problems: Problems, place: string): Problems {
-    return without(problems, (one) => one.code === COMPILE && one.place === cleanPlace(place));
+    return without(problems, (one) => isStanding(one) && one.place === cleanPlace(place));
 }
 
 /* An edit that touches what an earlier one was refused for settles it. */
 export function settleProblems(problems: Problems, ops: readonly Operation[]): Problems {
     const touched = ops.map((op) => ownerOf("at" in op ? op.at : op.into));
-    return without(problems, (one) => one.code !== COMPILE && touched.includes(ownerOf(one.place)));
+    return without(problems, (one) => !isStanding(one) && touched.includes(ownerOf(one.place)));
 }
 
 /* The node or resource of a place, else the place itself. */
@@ -72,29 +61,11 @@ export function dropGone(
 ): Problems {
     return problems.size === 0 || document === null
         ? problems
-        : without(problems, (one) => one.code === COMPILE && !paramAt(schema, document, one.place));
-}
-
-/* A picture of a later revision is shown and nothing was said again of code that has changed. */
-export function dropShown(
-    problems: Problems,
-    frame: { readonly revision: number; readonly stale: boolean },
-    schema: Schema,
-    document: SceneDocument | null,
-): Problems {
-    return frame.stale
-        ? problems
-        : without(
-              problems,
-              (one) =>
-                  one.code === COMPILE &&
-                  frame.revision > one.since &&
-                  textAt(schema, document, one.place) !== one.text,
-          );
+        : without(problems, (one) => isStanding(one) && !paramAt(schema, document, one.place));
 }
 
 /* The first problem at a place or inside of it. */
-export function problemIn(problems: Problems, place: string): Standing | null {
+export function problemIn(problems: Problems, place: string): Problem | null {
     for (const problem of problems.values()) {
         if (isWithin(problem.place, place)) {
             return problem;
@@ -104,10 +75,8 @@ export function problemIn(problems: Problems, place: string): Standing | null {
 }
 
 /* Code that does not compile. */
-export function brokenCode(problems: Problems): readonly Standing[] {
-    return problems.size === 0
-        ? NONE
-        : [...problems.values()].filter(({ code }) => code === COMPILE);
+export function brokenCode(problems: Problems): readonly Problem[] {
+    return problems.size === 0 ? NONE : [...problems.values()].filter(isStanding);
 }
 
-const NONE: readonly Standing[] = [];
+const NONE: readonly Problem[] = [];

@@ -2,6 +2,7 @@
 /* Files that are chosen or dropped become scenes: documents of ours one each, files of the other
  * format, which name each other, one together. */
 import { RestError } from "../link/rest.ts";
+import { addNotice } from "../model/stores.ts";
 import type { Editor } from "./editor.ts";
 import { report } from "./files.ts";
 import { goTo } from "./route.ts";
@@ -23,10 +24,14 @@ export interface ImportProblem {
     /* Lines around, the first of which is number `from`. */
     readonly excerpt: readonly string[];
     readonly from: number;
+    /* Scenes of which one has to be named, and the files to choose them from. */
+    readonly choices: readonly string[];
+    readonly files: readonly TextFile[];
 }
 
 const READ = /\.(json|txt|glsl|hlsl|slang)$/i;
 const AROUND = 2;
+const MOST_NOTES = 2;
 
 export async function readFiles(files: readonly File[]): Promise<TextFile[]> {
     const read = files.filter((file) => READ.test(file.name) || files.length === 1);
@@ -53,54 +58,78 @@ export function withoutFolder(files: readonly TextFile[]): readonly TextFile[] {
 /* Where a refused text went wrong. */
 export function problemOf(error: unknown, files: readonly TextFile[]): ImportProblem {
     const rest = error instanceof RestError ? error : null;
-    const place = (rest?.place ?? "").replace(/^\/?(files\/)?/, "");
-    const file =
-        files.find(({ path }) => place === path || place.startsWith(`${path}/`)) ??
-        (files.length === 1 ? files[0] : undefined);
-    const inside = file && place.startsWith(file.path) ? place.slice(file.path.length) : place;
+    const place = rest?.place ?? "";
+    const named = files.find(({ path }) => place === path || place.startsWith(`${path}/`));
+    const file = named ?? (files.length === 1 ? files[0] : undefined);
+    const inside = named ? place.slice(named.path.length) : place;
     const line = rest?.line ?? null;
     const message = error instanceof Error ? error.message : String(error);
     const lines = file && line !== null ? file.text.split("\n") : [];
     const from = Math.max(1, (line ?? 1) - AROUND);
     return {
-        file: file?.path ?? place,
+        file: file?.path ?? "",
         message: inside === "" ? message : `${inside}: ${message}`,
         line,
         column: rest?.column ?? null,
         excerpt: lines.slice(from - 1, (line ?? 0) + AROUND),
         from,
+        choices: [],
+        files,
     };
 }
 
-/* Makes scenes of files and opens the last one. A problem is shown on the start page, else told. */
+/* Names of the scenes among files of the other format. */
+function scenesIn(files: readonly TextFile[]): string[] {
+    return files
+        .filter(({ text }) => /"scene"\s*:/.test(text))
+        .map(({ path }) => path.replace(/^.*\//, "").replace(/\.json$/i, ""));
+}
+
+async function importFiles(editor: Editor, files: readonly TextFile[], scene: string | null) {
+    const texts = Object.fromEntries(files.map(({ path, text }) => [path, text]));
+    const { id, notes } = await editor.rest.importScene(texts, scene);
+    const { notices } = editor.stores;
+    for (const message of notes.slice(0, MOST_NOTES)) {
+        addNotice(notices, { level: "info", code: "import", message });
+    }
+    if (notes.length > MOST_NOTES) {
+        const message = t("import.notes", { count: notes.length - MOST_NOTES });
+        addNotice(notices, { level: "info", code: "import", message });
+    }
+    return id;
+}
+
+/* Makes scenes of files and opens the last one. A problem is shown on the start page, else told.
+ * `scene`: which, where files of the other format hold several. */
 export async function openFiles(
     editor: Editor,
     files: readonly TextFile[],
     onProblem?: (problem: ImportProblem) => void,
+    scene: string | null = null,
 ): Promise<void> {
     if (files.length === 0) {
-        const message = t("import.nothing");
-        report(editor, new Error(message));
+        report(editor, new Error(t("import.nothing")));
         return;
     }
     const ours = files.filter(isDocument);
     const others = withoutFolder(files.filter((file) => !isDocument(file)));
     let asked = ours;
     try {
-        let scene: string | null = null;
+        let made: string | null = null;
         for (const file of ours) {
             asked = [file];
-            scene = await editor.rest.createFromText(file.text);
+            made = await editor.rest.createFromText(file.text);
         }
         if (others.length > 0) {
             asked = [...others];
-            const texts = Object.fromEntries(others.map(({ path, text }) => [path, text]));
-            scene = await editor.rest.importScene(texts, "");
+            made = await importFiles(editor, others, scene);
         }
-        goTo(scene);
+        goTo(made);
     } catch (error) {
         if (onProblem && error instanceof RestError && error.status !== 0) {
-            onProblem(problemOf(error, asked));
+            const names = error.place === "" && scene === null ? scenesIn(asked) : [];
+            const choices = names.length > 1 ? names : [];
+            onProblem({ ...problemOf(error, asked), choices, files: asked });
         } else {
             report(editor, error, t("files.refused", { name: asked[0]?.path ?? "" }));
         }

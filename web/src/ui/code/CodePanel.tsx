@@ -5,8 +5,8 @@ import { CircleAlert, CircleCheck, X } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
 import type { Gesture } from "../../link/link.ts";
 import { declaredBy, findResource, nodeLabel, paramAt } from "../../model/document.ts";
+import type { Problem } from "../../model/operation.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
-import type { Standing } from "../../model/problems.ts";
 import type { Param } from "../../model/schema.ts";
 import { NEW_NODE_CODE } from "../../model/templates.ts";
 import { showPlace } from "../acts.ts";
@@ -139,7 +139,7 @@ function Title({ place }: { place: string }) {
 }
 
 interface StateProps {
-    problem: Standing | null;
+    problem: Problem | null;
     waiting: boolean;
     onShow: CodeEditor | null;
 }
@@ -190,7 +190,7 @@ function Names({ declared, place }: { declared: readonly Param[]; place: string 
     );
 }
 
-function Fault({ problem, code }: { problem: Standing; code: CodeEditor | null }) {
+function Fault({ problem, code }: { problem: Problem; code: CodeEditor | null }) {
     const { line, column, message } = problem;
     return (
         <div className="code-fault" role="status">

@@ -9,20 +9,22 @@ import "./scenes.css";
 
 interface Props {
     problem: ImportProblem | null;
+    /* One of several scenes. */
+    onChoose: (scene: string) => void;
     onClose: () => void;
 }
 
-export default function ImportFault({ problem, onClose }: Props) {
+export default function ImportFault({ problem, onChoose, onClose }: Props) {
     return (
         <Dialog
             open={problem !== null}
-            title={t("import.refused")}
+            title={t(problem?.choices.length ? "import.which" : "import.refused")}
             closeLabel={t("close")}
             onClose={onClose}
         >
             {problem && (
                 <div className="fault" data-testid="import-fault">
-                    <p className="fault-place">
+                    <p className="fault-place" hidden={problem.file === ""}>
                         <b>{problem.file}</b>
                         {problem.line !== null && (
                             <span>
@@ -33,8 +35,15 @@ export default function ImportFault({ problem, onClose }: Props) {
                             </span>
                         )}
                     </p>
-                    <p>{problem.message}</p>
+                    <p>{problem.choices.length > 0 ? t("import.choose") : problem.message}</p>
                     {problem.excerpt.length > 0 && <Excerpt problem={problem} />}
+                    <div className="fault-choices">
+                        {problem.choices.map((scene) => (
+                            <Button key={scene} look="outline" onClick={() => onChoose(scene)}>
+                                {scene}
+                            </Button>
+                        ))}
+                    </div>
                     <Button look="primary" onClick={onClose}>
                         {t("close")}
                     </Button>

@@ -180,7 +180,14 @@ export default function ScenesPage() {
                     />
                 ))}
             </div>
-            <ImportFault problem={problem} onClose={() => setProblem(null)} />
+            <ImportFault
+                problem={problem}
+                onChoose={(scene) => {
+                    setProblem(null);
+                    void openFiles(editor, problem?.files ?? [], setProblem, scene);
+                }}
+                onClose={() => setProblem(null)}
+            />
             {dropping && <div className="drop-cover">{t("scenes.drop")}</div>}
         </div>
     );
@@ -218,7 +225,7 @@ function Head({ onNew, onFiles, onFolder }: HeadProps) {
                 >
                     {t("scenes.upload")}
                 </Button>
-                <IconButton title={t("scenes.folder")} onClick={onFolder}>
+                <IconButton className="wide-only" title={t("scenes.folder")} onClick={onFolder}>
                     <FolderUp size={16} />
                 </IconButton>
                 <Button
