@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The registry as one list. Its rows stand in nodes_*.c. */
+/* The registry as one list. Its rows stand in registry/. */
 #include <string.h>
 
-#include "nodes_parts.h"
+#include "protocol/registry/rows.h"
 
 static const struct node_type *const tables[] = {
     node_shapes,     node_solids,    node_flat,      node_fractals,

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import_parts.h"
-#include "memory.h"
-#include "scene_parts.h"
+#include "parts.h"
+#include "protocol/memory.h"
+#include "protocol/scene_parts.h"
 
 static bool list_materials(const struct importing *importing, struct import_item *item)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: modifiers. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 /* clang-format off */
 const struct node_type node_modifiers[] = {

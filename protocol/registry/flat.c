@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: two-dimensional shapes, children of extrude and revolve. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 #define QUILEZ_FLAT "Inigo Quilez, 2D distance functions, iquilezles.org/articles/distfunctions2d"
 #define PI 3.141592653589793

@@ -4,8 +4,8 @@
 #define PROTOCOL_IMPORT_PARTS_H
 
 #include "import.h"
-#include "import_text.h"
-#include "limits.h"
+#include "protocol/limits.h"
+#include "text.h"
 
 enum { IMPORT_DATA_MAX = 8 }; /* numbers of a primitive */
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import_parts.h"
-#include "memory.h"
+#include "parts.h"
+#include "protocol/memory.h"
 
 enum { RESERVED_IDS = 32, WORD_BYTES = 64 };
 

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import_parts.h"
-#include "memory.h"
-#include "nearest.h"
-#include "nodes.h"
+#include "parts.h"
+#include "protocol/memory.h"
+#include "protocol/nearest.h"
+#include "protocol/nodes.h"
 
 static const char extension[] = ".json";
 

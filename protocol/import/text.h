@@ -9,7 +9,7 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-#include "error.h"
+#include "protocol/error.h"
 
 enum import_kind {
     IMPORT_NULL,

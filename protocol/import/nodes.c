@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import_parts.h"
-#include "nearest.h"
+#include "parts.h"
+#include "protocol/nearest.h"
 
 /* THE TABLE of built-in types: what a primitive reads of its `data`, in order. */
 static const struct built_in {

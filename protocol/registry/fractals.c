@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: fractals, minimal surfaces and landscapes. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 #define COUNT PARAM_INT, UNIT_NONE, .step = 1, .main = true
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: primitives in three dimensions. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 /* From the +Y axis to either side. */
 #define HALF_ANGLE UNIT_ANGLE, .min = 0, .max = 3.141592653589793, .step = 0.05, .main = true

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: operations, and the nodes that only give structure. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 /* In the order of renderer/sdf/operations.c. */
 static const char *const kernels[] = {"quadratic",   "cubic", "quartic", "circular",

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files of the registry's rows share. Private to nodes*.c. */
-#ifndef PROTOCOL_NODES_PARTS_H
-#define PROTOCOL_NODES_PARTS_H
+/* What the files of the registry's rows share. Private to this folder and nodes.c. */
+#ifndef PROTOCOL_ROWS_H
+#define PROTOCOL_ROWS_H
 
-#include "limits.h"
-#include "nodes.h"
+#include "protocol/limits.h"
+#include "protocol/nodes.h"
 
 #define PARAMS(...) ((const struct param[]){__VA_ARGS__, {.name = NULL}})
 

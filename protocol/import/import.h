@@ -5,7 +5,7 @@
 #ifndef PROTOCOL_IMPORT_H
 #define PROTOCOL_IMPORT_H
 
-#include "scene.h"
+#include "protocol/scene.h"
 
 struct import_file {
     const char *path; /* as messages name it; the last part without .json is what others name */

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* A recursive descent through the text, one character at a time, counting lines and columns. */
-#include "import_text.h"
+#include "text.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "limits.h"
-#include "memory.h"
-#include "utf8.h"
+#include "protocol/limits.h"
+#include "protocol/memory.h"
+#include "protocol/utf8.h"
 
 enum { NOTES_MAX = 100 }; /* nobody reads more */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Registry: primitives in three dimensions with flat sides, and flat ones with a thickness. */
-#include "nodes_parts.h"
+#include "rows.h"
 
 #define REGULAR "H. S. M. Coxeter, Regular Polytopes (1973), chapter 5, The Kaleidoscope"
 #define CIRCUMRADIUS                                                                               \
