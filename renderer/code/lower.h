@@ -58,8 +58,7 @@ void lower_land(struct lower *lower, size_t jump);
 
 /* lower_operators.c. a op b are numbers of one base, whose components go together, or one is for
  * all. */
-struct operand lower_operand(struct lower *lower, const struct expr *expr, int count,
-                             bool effects_follow);
+struct operand lower_operand(struct lower *lower, const struct expr *expr, int count);
 uint8_t lower_spread_flags(struct operand a, struct operand b);
 uint16_t lower_join(struct lower *lower, enum step_kind kind, int count, struct operand a,
                     struct operand b, struct step more);
@@ -80,10 +79,9 @@ void lower_store(struct lower *lower, const struct spot *spot, uint16_t from);
 uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted);
 uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool wanted);
 
-/* lower_values.c: where the expression's value is. Nothing may be assigned before it is used,
- * except after lower_stable with `effects_follow`. */
+/* lower_values.c: where the expression's value is, which may be a variable's own place: parts of an
+ * expression do not assign to what others use (check_order). */
 uint16_t lower_value(struct lower *lower, const struct expr *expr);
-uint16_t lower_stable(struct lower *lower, const struct expr *expr, bool effects_follow);
 /* Of a statement, whose value nobody reads. */
 void lower_effect(struct lower *lower, const struct expr *expr);
 

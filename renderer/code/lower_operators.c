@@ -3,8 +3,7 @@
 #include "lower.h"
 
 /* As `count` components. */
-struct operand lower_operand(struct lower *lower, const struct expr *expr, int count,
-                             bool effects_follow)
+struct operand lower_operand(struct lower *lower, const struct expr *expr, int count)
 {
     int own = type_components(expr->type);
     if (expr->value && own > 1) {
@@ -20,9 +19,9 @@ struct operand lower_operand(struct lower *lower, const struct expr *expr, int c
                    expr->arg_count == 1 && type_is_scalar(expr->args->type) &&
                    expr->args->type.base == expr->type.base;
     if (spreads) {
-        return (struct operand){lower_stable(lower, expr->args, effects_follow), count > 1};
+        return (struct operand){lower_value(lower, expr->args), count > 1};
     }
-    return (struct operand){lower_stable(lower, expr, effects_follow), own == 1 && count > 1};
+    return (struct operand){lower_value(lower, expr), own == 1 && count > 1};
 }
 
 uint8_t lower_spread_flags(struct operand a, struct operand b)
@@ -129,23 +128,22 @@ static uint16_t lower_logic(struct lower *lower, const struct expr *expr)
 uint16_t lower_binary(struct lower *lower, const struct expr *expr)
 {
     struct type a_type = expr->a->type, b_type = expr->b->type;
-    bool follow = expr->b->effects;
     if (expr->op == OP_AND || expr->op == OP_OR) {
         return lower_logic(lower, expr);
     }
     if (lower_is_product(expr->op, a_type, b_type)) {
-        uint16_t a = lower_stable(lower, expr->a, follow);
+        uint16_t a = lower_value(lower, expr->a);
         return lower_product(lower, a_type, a, b_type, lower_value(lower, expr->b));
     }
     bool compares = expr->op >= OP_LESS && expr->op <= OP_XOR;
     int count = type_components(compares ? a_type : expr->type);
     struct operand a, b;
     if (expr->op == OP_EQUAL || expr->op == OP_UNEQUAL) {
-        a = (struct operand){lower_stable(lower, expr->a, follow), false};
+        a = (struct operand){lower_value(lower, expr->a), false};
         b = (struct operand){lower_value(lower, expr->b), false};
     } else {
-        a = lower_operand(lower, expr->a, count, follow);
-        b = lower_operand(lower, expr->b, count, false);
+        a = lower_operand(lower, expr->a, count);
+        b = lower_operand(lower, expr->b, count);
     }
     lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
     return compares ? compare(lower, expr->op, a_type, a, b)

@@ -44,13 +44,6 @@ static struct spot lower_spot_index(struct lower *lower, const struct expr *expr
         struct type type = type_vector((enum base)spot.type.base, spot.count);
         spot = (struct spot){lower_load(lower, &spot), MACHINE_NOWHERE, type, 0, {0}};
     }
-    if (expr->b->effects) { /* the index may change what it is an index of */
-        int count = type_components(spot.type);
-        uint16_t copy = lower_alloc(lower, count);
-        lower_move(lower, copy, lower_load(lower, &spot), count);
-        spot.at = copy;
-        spot.offset = MACHINE_NOWHERE;
-    }
     spot_index(lower, &spot, expr->b);
     return spot;
 }
@@ -158,18 +151,13 @@ uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted)
     struct type type = expr->type;
     int count = type_components(type);
     struct operand left = {lower_load(lower, &spot), false};
-    if (expr->b->effects) {
-        uint16_t copy = lower_alloc(lower, count);
-        lower_move(lower, copy, left.at, count);
-        left.at = copy;
-    }
     uint16_t out;
     if (lower_is_product(expr->op, type, expr->b->type)) {
         uint16_t right = lower_value(lower, expr->b);
         lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
         out = lower_product(lower, type, left.at, expr->b->type, right);
     } else {
-        struct operand right = lower_operand(lower, expr->b, count, false);
+        struct operand right = lower_operand(lower, expr->b, count);
         lower->origin = (struct origin){expr->at, tree_op_text(expr->op)};
         out = lower_arithmetic(lower, expr->op, type, left, right);
     }

@@ -4,17 +4,6 @@
 
 #include "lower.h"
 
-uint16_t lower_stable(struct lower *lower, const struct expr *expr, bool effects_follow)
-{
-    uint16_t at = lower_value(lower, expr);
-    if (effects_follow && !expr->value) {
-        int count = type_components(expr->type);
-        uint16_t copy = lower_alloc(lower, count);
-        lower_move(lower, copy, at, count);
-        return copy;
-    }
-    return at;
-}
 /* --- constructors --- */
 
 static uint16_t converted(struct lower *lower, const struct expr *arg, enum base to)
@@ -95,16 +84,6 @@ static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
     return out;
 }
 
-static bool any_effects(const struct expr *list)
-{
-    for (; list; list = list->next) {
-        if (list->effects) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static uint16_t lower_builtin(struct lower *lower, const struct expr *expr)
 {
     const struct builtin *row = expr->builtin;
@@ -115,9 +94,8 @@ static uint16_t lower_builtin(struct lower *lower, const struct expr *expr)
         in[k] = (struct operand){MACHINE_NOWHERE, false};
     }
     for (const struct expr *arg = expr->args; arg; arg = arg->next, i++) {
-        bool follow = any_effects(arg->next);
-        in[i] = together ? (struct operand){lower_stable(lower, arg, follow), false}
-                         : lower_operand(lower, arg, count, follow);
+        in[i] = together ? (struct operand){lower_value(lower, arg), false}
+                         : lower_operand(lower, arg, count);
     }
     struct step step = {
         .kind = (uint8_t)(together   ? STEP_TOGETHER
@@ -148,8 +126,7 @@ static uint16_t lower_call(struct lower *lower, const struct expr *expr)
     const struct variable *parameter = function->parameters;
     for (const struct expr *arg = expr->args; arg; arg = arg->next, parameter = parameter->next) {
         if (parameter->direction == DIRECTION_IN) {
-            values[i++] =
-                type_is_handle(arg->type) ? 0 : lower_stable(lower, arg, any_effects(arg->next));
+            values[i++] = type_is_handle(arg->type) ? 0 : lower_value(lower, arg);
         } else {
             spots[i] = lower_spot(lower, arg);
             values[i] = lower_load(lower, &spots[i]);
