@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "files.h"
-#include "protocol/import.h"
+#include "protocol/import/import.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 

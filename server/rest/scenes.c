@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "assets.h"
-#include "protocol/import.h"
+#include "protocol/import/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "routes.h"

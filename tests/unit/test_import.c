@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
-#include "protocol/import.h"
-#include "protocol/import_text.h"
+#include "protocol/import/import.h"
+#include "protocol/import/text.h"
 #include "tests/support/compiled.h"
 #include "tests/support/text_file.h"
 
