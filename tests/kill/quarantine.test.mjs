@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { ask, counter, program, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, makeDirectory, program, removeDirectory, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const driver = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
@@ -166,4 +166,33 @@ test('code that crashes while it draws is left out the second time', async () =>
     const { revision } = await live.next('applied', { edit });
     await live.nextFrame((frame) => frame.lossless && frame.revision === revision);
     await live.close();
+});
+
+test('stored code is kept but not compiled where code is off', async () => {
+    const data = makeDirectory();
+    process.env.LD_PRELOAD = driver;
+    let other = await startDaemon({ data });
+    await ask(other, 'POST', '/v1/scenes?id=kept', scene(CRASH));
+    await other.stop();
+    other = await startDaemon({ data, args: ['--code', 'off'] });
+    delete process.env.LD_PRELOAD;
+    const live = await Live.open(other, 'kept');
+    const notice = await live.next('notice', { code: 'code_off' });
+    assert.equal(notice.level, 'warning');
+    assert.equal(notice.place, CODE);
+    const { document } = await live.next('document');
+    assert.equal(document.primitives.blob.code, CRASH);
+    live.look();
+    await live.nextFrame((frame) => frame.lossless);
+    live.set(CODE, GOOD);
+    assert.equal((await live.next('rejected')).code, 'forbidden');
+    // What takes code away comes back by undo, still without being compiled.
+    live.set(CODE, '');
+    live.step('undo');
+    const { revision } = await live.next('changed', { edit: live.edit });
+    await live.nextFrame((frame) => frame.lossless && frame.revision === revision);
+    assert.equal(await counter(other, 'worker_restarts_total'), 0);
+    await live.close();
+    await other.stop();
+    removeDirectory(data);
 });
