@@ -38,10 +38,10 @@ void code_destroy(struct code *code); /* NULL: nothing */
 /* Writes the GLSL of all functions, the last of which is
  *     float NAME(vec3 p, float a, vec3 b, ...)       CODE_DISTANCE
  *     vec4 NAME(Shading s, float a, vec3 b, ...)     CODE_SHADE (struct: glsl/surface.glsl)
- * with one argument for each of `params`, whole numbers and booleans as float; it calls functions of
- * glsl/code.glsl. All names begin with NAME, which has no two underscores in a row and none at the
- * end. `source_number` is what #line gives as the number of the string; lines after the text are
- * counted on from there. */
+ * with one argument for each of `params`, whole numbers and booleans as float. It calls functions
+ * of glsl/code.glsl. All names begin with NAME, which has no two underscores in a row and none at
+ * the end. `source_number` is what #line gives as the number of the string; lines after the text
+ * are counted on from there. */
 void code_write(const struct code *code, const char *name, int source_number, FILE *out);
 
 /* Loop iterations of one call, at most. */
