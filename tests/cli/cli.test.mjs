@@ -241,7 +241,7 @@ test('doctor says what fails', async () => {
 
 test('bench prints JSON of drawing, compiling, encoding and storing', () => {
     const args = ['bench', '--only', 'first-steps', '--rounds', '1', '--data', 'bench'];
-    const { renderer, drawing, edits } = JSON.parse(succeed(args).out);
+    const { renderer, drawing, documents, edits } = JSON.parse(succeed(args).out);
     assert.ok(renderer.name);
     assert.equal(drawing.length, 1);
     const [row] = drawing;
@@ -258,7 +258,18 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
     }
     assert.ok(row.first_picture.cold_ms > 0 && row.first_picture.warm_ms > 0);
     assert.ok(row.encoders.length >= 3 && row.encoders.every(({ bytes }) => bytes > 0));
-    assert.ok(edits.stream_per_second > 0 && edits.alone_p95_ms >= edits.alone_p50_ms);
+    assert.deepEqual(
+        edits.map(({ nodes }) => nodes),
+        [1, 10000],
+    );
+    for (const { stream_per_second, alone_p50_ms, alone_p95_ms } of edits) {
+        assert.ok(stream_per_second > 0 && alone_p95_ms >= alone_p50_ms);
+    }
+    assert.deepEqual(
+        documents.map(({ nodes }) => nodes),
+        [1000, 10000, 100000],
+    );
+    assert.ok(documents.every(({ parse_ms, memory_mib }) => parse_ms > 0 && memory_mib > 0));
     assert.deepEqual(fs.readdirSync(path.join(folder, 'bench')), [], 'nothing is left');
     assert.equal(run(['bench', '--only', 'nothing']).status, 2);
 });

@@ -593,7 +593,7 @@ static void materials_mix_by_the_derivative(void **state)
         const struct sdf *sdf = sdf_find(node_type_find(types[i]));
         for (int k = 0; k < 10000; k++) {
             double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
-            double n[1] = {random_between(&random, 0.1, 1)}, share, ignored, h = 1e-6;
+            double n[2] = {random_between(&random, 0.1, 1)}, share, ignored, h = 1e-6;
             sdf->combine(a, b, n, &share);
             double by_b =
                 (sdf->combine(a, b + h, n, &ignored) - sdf->combine(a, b - h, n, &ignored)) /
