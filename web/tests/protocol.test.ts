@@ -39,15 +39,32 @@ const SCHEMA = readSchema({
         { type: "smooth_union", group: "operation", params: [{ name: "k", type: "float" }] },
         { type: "sphere", group: "primitive", params: [{ name: "radius", type: "float" }] },
         { type: "cone", group: "primitive", params: [{ name: "height", type: "float" }] },
+        { type: "model", group: "structure", params: [{ name: "model", type: "model" }] },
+        { type: "field", group: "structure", params: [{ name: "primitive", type: "function" }] },
     ],
+    resources: {
+        primitive: [
+            { name: "params", type: "rows" },
+            { name: "code", type: "code" },
+        ],
+        shader: [],
+        declared_types: ["float"],
+    },
 });
 
 /* Empty members may be left out. */
 function trimmed(json: Json): Json {
     const full = (value: Json | undefined): boolean =>
         !isObject(value) || Object.keys(value).length > 0;
+    if (Array.isArray(json)) {
+        return json.map(trimmed);
+    }
     return isObject(json)
-        ? Object.fromEntries(Object.entries(json).filter(([, value]) => full(value)))
+        ? Object.fromEntries(
+              Object.entries(json)
+                  .filter(([, value]) => full(value))
+                  .map(([name, value]) => [name, trimmed(value as Json)]),
+          )
         : json;
 }
 
@@ -61,16 +78,17 @@ test("the scene of the protocol's page reads and prints", () => {
     }
 });
 
-test("the edit of the protocol's page applies to its scene and back", () => {
-    const [example] = examples("scene");
+test("each edit of the protocol's page applies to its scene and back", () => {
+    const scenes = examples("scene");
     const edits = examples("edit");
-    expect(edits.length).toBeGreaterThan(0);
-    for (const edit of edits) {
-        const document = readDocument(example ?? null);
+    expect(edits.length).toBe(scenes.length);
+    for (const [i, edit] of edits.entries()) {
+        const document = readDocument(scenes[i] ?? null);
         const result = apply(document, edit as unknown as Operation[], SCHEMA);
         expect(result).toMatchObject({ ok: true });
         if (result.ok) {
-            expect(result.document.nodes.get("body")?.params.radius).toBe(1.2);
+            const changed = result.document.nodes.get(i === 0 ? "body" : "pawn-body");
+            expect(changed?.params.radius).toBe(i === 0 ? 1.2 : 0.4);
             const back = apply(result.document, result.inverse, SCHEMA);
             expect(
                 back.ok && equalJson(printDocument(back.document), printDocument(document)),
