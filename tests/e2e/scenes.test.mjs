@@ -90,6 +90,7 @@ test('a document that goes down and up again is the same document', async () => 
 
 test('a dropped file opens; a bad one is refused with its place', async () => {
     page = await stage.page();
+    await page.locator('main').waitFor();
     const drop = (text) =>
         page.evaluate((content) => {
             const data = new DataTransfer();
