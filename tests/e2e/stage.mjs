@@ -65,9 +65,9 @@ export const SCENE = {
 };
 
 /** FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. */
-export async function openStage({ data } = {}) {
+export async function openStage({ data, args: more = [] } = {}) {
     const web = process.env.FIELDCAST_WEB;
-    const args = web ? ['--web', web] : [];
+    const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, args });
     const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS });
     let made = 0;

@@ -72,6 +72,8 @@ export interface Link {
     redo(): void;
     /* What lies under a point of the picture, in CSS pixels from its left top. */
     pick(x: number, y: number): Promise<PickedMessage>;
+    /* The same, but not while another answer is due, which it would take the place of: null. */
+    pickIdle(x: number, y: number): Promise<PickedMessage | null>;
     /* Tries to connect at once instead of waiting for the next attempt. */
     retry(): void;
     destroy(): void;
@@ -240,8 +242,7 @@ class SceneLink implements Link {
     #message(message: ServerMessage): void {
         switch (message.type) {
             case "picked":
-                this.#picking.get(message.pick)?.take(message);
-                this.#picking.delete(message.pick);
+                this.#picked(message);
                 break;
             case "notice":
                 this.#serverNotice(message);
@@ -544,13 +545,30 @@ class SceneLink implements Link {
         });
         return new Promise((take, fail) => {
             this.#picking.set(pick, { take, fail });
-            /* The server answers only the newest of many. */
             setTimeout(() => {
                 if (this.#picking.delete(pick)) {
                     fail(new Error("no answer"));
                 }
             }, PICK_ANSWER_MS);
         });
+    }
+
+    pickIdle(x: number, y: number): Promise<PickedMessage | null> {
+        return this.#picking.size > 0 ? Promise.resolve(null) : this.pick(x, y);
+    }
+
+    /* The server answers only the newest of many: those before it are not waited for. */
+    #picked(message: PickedMessage): void {
+        for (const [pick, { take, fail }] of [...this.#picking]) {
+            if (pick === message.pick) {
+                take(message);
+            } else if (pick < message.pick) {
+                fail(new Error("no answer"));
+            }
+            if (pick <= message.pick) {
+                this.#picking.delete(pick);
+            }
+        }
     }
 
     #failPicks(): void {

@@ -93,6 +93,8 @@ export function nodeParams(
     return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
 }
 
+const NO_ROWS: readonly Param[] = [];
+
 /* The rows of a resource's values. */
 export function resourceParams(
     schema: Schema,
@@ -113,7 +115,7 @@ export function resourceParams(
         case "shaders":
             return schema.shader;
         case "models":
-            return [];
+            return NO_ROWS;
     }
 }
 

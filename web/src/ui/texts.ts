@@ -246,6 +246,7 @@ const texts = {
     "state.still": "still",
     "state.lossless": "lossless ✓",
     "state.compiling": "compiling …",
+    "state.kept": "last good picture",
     "state.brokenLine": "code has an error: line {line}",
     "state.broken": "code has {count} errors",
     "state.broken.one": "code has an error",

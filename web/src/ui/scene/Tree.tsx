@@ -49,13 +49,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
             : ids.filter((child) => kept.has(child) || (child === MODELS && anyModel));
     };
     const anyModel = kept === null || document.models.some((model) => kept.has(model.root));
-    const expanded = useMemo(() => {
-        const open = [...document.nodes.values()].filter(
-            (node) => node.children.length > 0 && (kept !== null || !collapsed.has(node.id)),
-        );
-        const models = kept !== null || !collapsed.has(MODELS) ? [MODELS] : [];
-        return [TOP, ...models, ...open.map((node) => node.id)];
-    }, [document, collapsed, kept]);
+    const expanded = useExpanded(document, collapsed, kept);
 
     const tree = useTree<TreeItem>({
         rootItemId: TOP,
@@ -72,7 +66,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
             getItem: (id) => ({ node: document.nodes.get(id) ?? null }),
             getChildren: childrenOf,
         },
-        getItemName: (item) => labelOf(item),
+        getItemName: (item) => labelOf(document, item),
         isItemFolder: (item) => childrenOf(item.getId()).length > 0 || mayHold(editor, item),
         state: { expandedItems: expanded, selectedItems: [...selection] },
         setExpandedItems: (update) => {
@@ -184,9 +178,25 @@ function step(tree: TreeInstance<TreeItem>, by: 1 | -1): void {
     tree.setSelectedItems([tree.getFocusedItem().getId()]);
 }
 
-function labelOf(item: Item): string {
+/* The rows that are open; where rows are searched, all that lead to one. */
+function useExpanded(
+    document: SceneDocument,
+    collapsed: ReadonlySet<string>,
+    kept: ReadonlySet<string> | null,
+): string[] {
+    return useMemo(() => {
+        const open = [...document.nodes.values()].filter(
+            (node) => node.children.length > 0 && (kept !== null || !collapsed.has(node.id)),
+        );
+        const models = kept !== null || !collapsed.has(MODELS) ? [MODELS] : [];
+        return [TOP, ...models, ...open.map((node) => node.id)];
+    }, [document, collapsed, kept]);
+}
+
+function labelOf(document: SceneDocument, item: Item): string {
     const { node } = item.getItemData();
-    return node ? nodeLabel(node) : t("models.title");
+    const model = document.models.find(({ root }) => root === node?.id);
+    return node ? (model?.name ?? nodeLabel(node)) : t("models.title");
 }
 
 /* What a row of the tree has below it. */

@@ -10,7 +10,10 @@ import { t } from "../texts.ts";
 import "./view.css";
 
 export function StatePill() {
-    const state = useLink(({ frame }) => (frame.stale ? "compiling" : frame.state));
+    const broken = useDocument(({ problems }) => brokenCode(problems).length > 0);
+    const state = useLink(({ frame }) =>
+        frame.stale ? (broken ? "kept" : "compiling") : frame.state,
+    );
     const percent = useLink(({ frame }) => Math.round(frame.scale * 100));
     const revision = useLink(({ frame }) => frame.revision);
     return (

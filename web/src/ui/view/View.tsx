@@ -9,6 +9,7 @@ import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Crumbs } from "./Crumbs.tsx";
+import { watchHover } from "./hover.ts";
 import { inputActions } from "./input.ts";
 import { Outputs } from "./Outputs.tsx";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
@@ -53,7 +54,9 @@ function Picture() {
         editor.setPicture(element);
         const hide = editor.link.attach(element);
         const stop = attachInput(element, inputActions(editor, element, setMenu));
+        const rest = watchHover(editor, element);
         return () => {
+            rest();
             stop();
             hide();
             editor.setPicture(null);
