@@ -2,6 +2,7 @@
 // The start page: examples, files up and down, names, deleting with a way back.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { ask, until } from '../support/daemon.mjs';
 import { closePage, openStage, readDownload, SCENE, settled } from './stage.mjs';
 
@@ -25,6 +26,19 @@ const act = async (id, name, what) => {
     await card(id).getByRole('button', { name: `Actions for ${name}` }).click();
     await page.getByRole('menuitem', { name: what, exact: true }).click();
 };
+
+/* The browser itself reports the status of refused requests. */
+const forgetRefusals = () => {
+    page.problems = page.problems.filter((text) => !/status of 4\d\d/.test(text));
+};
+const choose = async (button, files) => {
+    const [chooser] = await Promise.all([
+        page.waitForEvent('filechooser'),
+        page.getByRole('button', { name: button }).click(),
+    ]);
+    await chooser.setFiles(files);
+};
+const json = (name, text) => ({ name, mimeType: 'application/json', buffer: Buffer.from(text) });
 
 test('an example opens as a copy and shows a picture', async () => {
     page = await stage.page();
@@ -78,11 +92,7 @@ test('a document that goes down and up again is the same document', async () => 
     assert.equal(file.suggestedFilename(), 'Table.json');
     const text = await readDownload(file);
     await page.getByRole('link', { name: 'All scenes' }).click();
-    const [chooser] = await Promise.all([
-        page.waitForEvent('filechooser'),
-        page.getByRole('button', { name: 'Upload' }).click(),
-    ]);
-    await chooser.setFiles({ name: 'up.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+    await choose('Upload', json('up.json', text));
     await page.waitForURL((url) => url.pathname.startsWith('/s/') && !url.pathname.endsWith(id));
     const copy = page.url().split('/').at(-1);
     assert.equal(await stage.document(copy), await stage.document(id));
@@ -105,10 +115,40 @@ test('a dropped file opens; a bad one is refused with its place', async () => {
     bad.root.children[0].params.radius = -1;
     await drop(JSON.stringify(bad));
     await page.getByText('/nodes/ball/params/radius').waitFor();
-    /* The browser itself reports the status of the refused request. */
-    page.problems = page.problems.filter((text) => !text.includes('422'));
+    await page.getByTestId('import-fault').getByText('dropped.json').waitFor();
+    await page.getByTestId('import-fault').getByRole('button', { name: 'Close' }).click();
+    forgetRefusals();
     await drop(JSON.stringify(SCENE));
     await page.locator('[data-node=ball]').waitFor();
+});
+
+const SPHERES = '{"scene": [{"type": "Primitives/Sphere"}]}';
+
+test('a folder of the other format becomes a scene; what was put right is told', async () => {
+    page = await stage.page();
+    await choose('Import a folder', fileURLToPath(new URL('../import/thesis', import.meta.url)));
+    await page.locator('[role=treeitem]').first().waitFor();
+    await page.getByText(/Cena1.json:8:1: read as a member/).waitFor();
+    const { models, shaders } = JSON.parse(await stage.document(page.url().split('/').at(-1)));
+    assert.ok(models.Esfera && shaders['Blend-Shader']);
+    await page.locator('[data-resource=Esfera]').waitFor();
+});
+
+test('files that cannot be read say where; of several scenes one is chosen', async () => {
+    page = await stage.page();
+    const wrong = '{\n  "model": {"type": "Primitives/Sphere" 5}\n}\n';
+    await choose('Upload', [json('main.json', SPHERES), json('broken.json', wrong)]);
+    const fault = page.getByTestId('import-fault');
+    await fault.getByText('broken.json').waitFor();
+    await fault.getByText(/^line 2, column/).waitFor();
+    await fault.getByText('"model": {"type": "Primitives/Sphere" 5}').waitFor();
+    await fault.getByRole('button', { name: 'Close' }).click();
+    forgetRefusals();
+    await choose('Upload', [json('one.json', SPHERES), json('two.json', SPHERES)]);
+    await page.getByRole('dialog', { name: 'Which scene?' }).waitFor();
+    await fault.getByRole('button', { name: 'two' }).click();
+    await page.locator('[data-type=sphere]').waitFor();
+    forgetRefusals();
 });
 
 test('rename, duplicate, delete and take it back', async () => {

@@ -41,6 +41,9 @@ export interface SceneDocument extends ResourceLists {
 
 /* --- rows --- */
 
+/* The same one always, as what is shown of it is not drawn anew then. */
+const NO_ROWS: readonly Param[] = [];
+
 /* What a distance function or a shader of the document declares. */
 export function declaredBy(
     schema: Schema,
@@ -89,11 +92,9 @@ export function nodeParams(
     document: SceneDocument,
     node: Pick<SceneNode, "type" | "params">,
 ): readonly Param[] {
-    const own = nodeType(schema, node.type)?.params ?? [];
+    const own = nodeType(schema, node.type)?.params ?? NO_ROWS;
     return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
 }
-
-const NO_ROWS: readonly Param[] = [];
 
 /* The rows of a resource's values. */
 export function resourceParams(
@@ -104,7 +105,7 @@ export function resourceParams(
 ): readonly Param[] {
     switch (list) {
         case "lights":
-            return lightType(schema, type)?.params ?? [];
+            return lightType(schema, type)?.params ?? NO_ROWS;
         case "materials":
             return (
                 shaderType(schema, type)?.params ??

@@ -3,7 +3,7 @@
  * commands (model/commands.ts). */
 
 import { perform } from "../model/actions.ts";
-import { type Addition, addNode as buildNode } from "../model/add.ts";
+import { type Addition, addNode as buildNode, typeNaming } from "../model/add.ts";
 import { findResource, type Resource, type SceneDocument } from "../model/document.ts";
 import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import {
@@ -110,8 +110,22 @@ export function addLight(editor: Editor, type: string): void {
     performOn(editor, (document) => newLight(document, type), showIt(editor, "lights"));
 }
 
-export function addMaterialOf(editor: Editor, shader: string): void {
-    performOn(editor, (document) => newMaterialOf(document, shader), showIt(editor, "materials"));
+/* Something made of it: an instance of a model, a node of a distance function, a material. */
+export function addInstance(
+    editor: Editor,
+    list: "models" | "primitives" | "shaders",
+    named: string,
+): void {
+    if (list === "shaders") {
+        const build = (document: SceneDocument) => newMaterialOf(document, named);
+        performOn(editor, build, showIt(editor, "materials"));
+        return;
+    }
+    const { schema } = editor.stores.document.getState();
+    const row = typeNaming(schema, list === "models" ? "model" : "function");
+    if (row) {
+        addNode(editor, { type: row.type, named });
+    }
 }
 
 export function makeMaterialUnique(editor: Editor, node: string, name: string): void {

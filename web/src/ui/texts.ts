@@ -53,6 +53,7 @@ const texts = {
     "models.doc": "A tree of nodes; what changes in it changes in every instance.",
     "models.offer": "An instance of this model.",
     "models.instance": "Add an instance",
+    "models.parts": "Edit its parts",
     "materials.title": "Materials",
     "materials.add": "Add a material",
     "materials.empty": "No materials yet: everything has the default look.",

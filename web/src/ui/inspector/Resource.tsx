@@ -6,7 +6,7 @@ import { findResource, resourceParams } from "../../model/document.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "../../model/places.ts";
 import { problemIn } from "../../model/problems.ts";
 import { type User, usersOf } from "../../model/usage.ts";
-import { rename, selectNode, whyNotName } from "../acts.ts";
+import { addInstance, rename, selectNode, whyNotName } from "../acts.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
 import { typeTitle } from "../names.ts";
@@ -40,6 +40,7 @@ export function ResourceInspector({ list, name }: Props) {
     return (
         <div className="panel-scroll" data-testid="inspector">
             <Head list={list} name={name} type={type} />
+            <Acts list={list} name={name} />
             {params.length > 0 && (
                 <Section title={t(`${list}.values`)}>
                     <div className="section-body">
@@ -105,6 +106,29 @@ function Head({ list, name, type }: Props & { type: string }) {
             )}
             <p className="inspector-doc">{doc}</p>
         </header>
+    );
+}
+
+/* What it is made for, in sight. */
+function Acts({ list, name }: Props) {
+    const editor = useEditor();
+    const root = useDocument(({ document }) =>
+        list === "models" && document ? (findResource(document, list, name)?.root ?? "") : "",
+    );
+    if (list !== "models" && list !== "primitives" && list !== "shaders") {
+        return null;
+    }
+    return (
+        <div className="inspector-acts">
+            {root !== "" && (
+                <Button look="outline" onClick={() => selectNode(editor, root)}>
+                    {t("models.parts")}
+                </Button>
+            )}
+            <Button look="outline" onClick={() => addInstance(editor, list, name)}>
+                {t(`${list}.instance`)}
+            </Button>
+        </div>
     );
 }
 

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* What can be done with a resource, where its row and its form stand. */
-import { Copy, Ellipsis, PackagePlus, Palette, SquareCode, Trash2 } from "lucide-react";
-import { typeNaming } from "../../model/add.ts";
+import { Copy, Ellipsis, PackagePlus, SquareCode, Trash2 } from "lucide-react";
 import type { Resource } from "../../model/document.ts";
 import type { ListName } from "../../model/places.ts";
 import { whyNotRemoved } from "../../model/usage.ts";
-import { addMaterialOf, addNode, codePlace, duplicate, openCode, remove } from "../acts.ts";
+import { addInstance, codePlace, duplicate, openCode, remove } from "../acts.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem, MenuLine, MenuNote } from "../parts/Menu.tsx";
 import { useDocument, useEditor } from "../state.ts";
@@ -38,29 +37,23 @@ function Uses({ list, name }: { list: ListName; name: string }) {
     const editor = useEditor();
     const schema = useDocument((state) => state.schema);
     const code = codePlace(schema, list, name);
-    const type = typeNaming(schema, list === "models" ? "model" : "function")?.type;
-    const instanced = (list === "models" || list === "primitives") && type !== undefined;
+    if (list !== "models" && list !== "primitives" && list !== "shaders") {
+        return null;
+    }
     return (
         <>
-            {instanced && (
-                <MenuItem
-                    icon={<PackagePlus size={14} />}
-                    onSelect={() => addNode(editor, { type, named: name })}
-                >
-                    {t(list === "models" ? "models.instance" : "primitives.instance")}
-                </MenuItem>
-            )}
-            {list === "shaders" && (
-                <MenuItem icon={<Palette size={14} />} onSelect={() => addMaterialOf(editor, name)}>
-                    {t("shaders.instance")}
-                </MenuItem>
-            )}
+            <MenuItem
+                icon={<PackagePlus size={14} />}
+                onSelect={() => addInstance(editor, list, name)}
+            >
+                {t(`${list}.instance`)}
+            </MenuItem>
             {code !== null && (
                 <MenuItem icon={<SquareCode size={14} />} onSelect={() => openCode(editor, code)}>
                     {t("code.edit")}
                 </MenuItem>
             )}
-            {(instanced || list === "shaders") && <MenuLine />}
+            <MenuLine />
         </>
     );
 }
