@@ -3,12 +3,40 @@
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { after, before, describe, test } from 'node:test';
-import { closePage, openStage, row, settled } from './stage.mjs';
+import { closePage, openStage, row, SCENE, settled } from './stage.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { AxeBuilder } = require('@axe-core/playwright');
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+/** One of everything that a document can hold of its own. */
+const OWN = {
+    ...SCENE,
+    primitives: {
+        egg: {
+            params: [{ name: 'radius', type: 'float', default: 0.5, range: [0, 2] }],
+            code: 'float sdf(vec3 p) { return length(p) - radius; }',
+        },
+    },
+    shaders: {
+        marble: {
+            properties: [{ name: 'vein', type: 'color' }],
+            code: 'vec3 shade(FragmentProperties properties) { return vein; }',
+        },
+    },
+    materials: { veined: { shader: 'marble' }, ...SCENE.materials },
+    models: { pawn: { id: 'foot', type: 'cylinder' } },
+    root: {
+        id: 'root',
+        type: 'union',
+        children: [
+            { id: 'it', type: 'field', params: { primitive: 'egg' }, material: 'veined' },
+            { id: 'one', type: 'model', params: { model: 'pawn' } },
+            { id: 'solid', type: 'extrude', children: [{ id: 'shape', type: 'polygon' }] },
+        ],
+    },
+};
 
 let stage;
 let scene;
@@ -57,10 +85,39 @@ for (const theme of ['dark', 'light']) {
             await closePage(page);
         });
 
+        test('models, primitives, shaders and their code; points', async () => {
+            const own = await stage.scene(OWN);
+            const page = await stage.page({ scene: own, theme });
+            await settled(page);
+            await page.locator('[data-resource=egg] .resource-pick').click();
+            await page.getByRole('button', { name: 'More of radius' }).click();
+            await page.getByRole('spinbutton', { name: 'default of radius' }).waitFor();
+            await check(page, 'a primitive');
+            await page.getByRole('button', { name: 'Edit code' }).click();
+            await page.locator('.cm-content').click();
+            await page.keyboard.press('Control+a');
+            await page.keyboard.insertText('float sdf(vec3 p) {\n    return 1 +;\n}');
+            await page.getByTestId('broken').waitFor();
+            await check(page, 'code with an error');
+            await page.locator('.cm-content').click();
+            await page.keyboard.press('Control+z');
+            await page.getByTestId('broken').waitFor({ state: 'detached' });
+            await page.locator('[data-resource=veined] .resource-pick').click();
+            await check(page, 'a material of a shader of the scene');
+            await page.locator('[data-resource=pawn] .resource-pick').click();
+            await check(page, 'a model');
+            await row(page, 'one').click();
+            await check(page, 'an instance');
+            await row(page, 'shape').click();
+            await page.getByRole('button', { name: /^point 1:/ }).waitFor();
+            await check(page, 'points');
+            await closePage(page);
+        });
+
         test('palettes, keys, statistics, menus', async () => {
             const page = await stage.page({ scene, theme });
             await settled(page);
-            for (const keys of ['Shift+A', 'Control+k', '?']) {
+            for (const keys of ['Shift+A', 'Control+k', '?', 'F1']) {
                 await page.keyboard.press(keys);
                 await page.getByRole('dialog').waitFor();
                 await check(page, keys);
@@ -81,6 +138,19 @@ for (const theme of ['dark', 'light']) {
     });
 }
 
+/** What stands beyond the sides of the window. */
+const spill = (page) =>
+    page.evaluate(() => {
+        const outside = [...document.querySelectorAll('button, input, a, [role=treeitem]')]
+            .filter((one) => one.checkVisibility())
+            .map((one) => ({ one, box: one.getBoundingClientRect() }))
+            .filter(({ box }) => box.width > 0)
+            .filter(({ box }) => box.right > innerWidth + 0.5 || box.left < -0.5)
+            .map(({ one }) => one.outerHTML.slice(0, 120));
+        const { scrollWidth, clientWidth } = document.documentElement;
+        return { outside, scrolls: scrollWidth > clientWidth };
+    });
+
 describe('sizes', () => {
     for (const [width, height] of [
         [1200, 800],
@@ -92,19 +162,37 @@ describe('sizes', () => {
             for (const open of [null, scene]) {
                 const page = await stage.page({ scene: open, width, height });
                 await page.locator(open ? '[role=treeitem]' : '[data-example]').first().waitFor();
-                const spill = await page.evaluate(() => {
-                    const outside = [...document.querySelectorAll('button, input, a, [role=treeitem]')]
-                        .filter((one) => one.checkVisibility())
-                        .map((one) => ({ one, box: one.getBoundingClientRect() }))
-                        .filter(({ box }) => box.width > 0)
-                        .filter(({ box }) => box.right > innerWidth + 0.5 || box.left < -0.5)
-                        .map(({ one }) => one.outerHTML.slice(0, 120));
-                    const { scrollWidth, clientWidth } = document.documentElement;
-                    return { outside, scrolls: scrollWidth > clientWidth };
-                });
-                assert.deepEqual(spill, { outside: [], scrolls: false });
+                assert.deepEqual(await spill(page), { outside: [], scrolls: false });
                 await closePage(page);
             }
+        });
+    }
+
+    for (const [width, height] of [
+        [1200, 800],
+        [900, 700],
+        [320, 640],
+    ]) {
+        test(`code and reference, ${width} × ${height}`, async () => {
+            const page = await stage.page({ scene: await stage.scene(OWN), width, height });
+            await page.keyboard.press('F1');
+            await page.locator('.reference-link').first().waitFor();
+            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await page.keyboard.press('Escape');
+            await page.getByTestId('reference').waitFor({ state: 'detached' });
+            const looks = page.getByRole('tab', { name: 'Looks' });
+            if ((await looks.count()) > 0) {
+                await looks.click();
+            }
+            await page.locator('[data-resource=egg] .resource-pick').click();
+            const edit = page.getByRole('tab', { name: 'Edit' });
+            if ((await edit.count()) > 0) {
+                await edit.click();
+            }
+            await page.getByRole('button', { name: 'Edit code' }).click();
+            await page.locator('.cm-content').waitFor();
+            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await closePage(page);
         });
     }
 

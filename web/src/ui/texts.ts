@@ -167,7 +167,6 @@ const texts = {
     "code.template": "Begin with an example",
 
     "reference.title": "Reference",
-    "reference.loading": "Loading …",
     "reference.about": "What is {name}?",
     "reference.search": "Search the reference",
     "reference.index": "Types",

@@ -14,12 +14,10 @@ import { t } from "../texts.ts";
 import { defaultOf, rangeOf, type Topic, topicsOf, typeOf } from "./topics.ts";
 import "./reference.css";
 
-export default function Reference({ field }: { field: RefObject<HTMLInputElement | null> }) {
+export function Reference({ field }: { field: RefObject<HTMLInputElement | null> }) {
     const { stores } = useEditor();
     const schema = useDocument((state) => state.schema);
     const wanted = useView((view) => view.topic);
-    /* The dialog has opened before this was loaded. */
-    useEffect(() => field.current?.focus(), [field]);
     const [query, setQuery] = useState("");
     const all = useMemo(() => topicsOf(schema), [schema]);
     const found = useMemo(

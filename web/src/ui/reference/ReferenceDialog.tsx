@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The reference over the page; what it shows is loaded when it is first opened. */
-import { lazy, Suspense, useRef } from "react";
+/* The reference over the page. */
+import { useRef } from "react";
 import { Dialog } from "../parts/Dialog.tsx";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
-
-const Reference = lazy(() => import("./Reference.tsx"));
+import { Reference } from "./Reference.tsx";
 
 export function ReferenceDialog() {
     const { stores } = useEditor();
@@ -20,9 +19,7 @@ export function ReferenceDialog() {
             closeLabel={t("close")}
             onClose={() => stores.view.setState({ popup: null })}
         >
-            <Suspense fallback={<p className="empty-note">{t("reference.loading")}</p>}>
-                <Reference field={field} />
-            </Suspense>
+            <Reference field={field} />
         </Dialog>
     );
 }
