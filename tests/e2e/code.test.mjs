@@ -109,11 +109,13 @@ describe('a distance function', () => {
     });
 
     test('an error leads to its place; the text that is typed is not disturbed', async () => {
-        await open({
+        /* There is nothing to draw, so no picture is waited for. */
+        id = await stage.scene({
             ...SHADED,
             primitives: { rod: { code: BAD } },
             root: { type: 'field', id: 'root', params: { primitive: 'rod' } },
-        }).catch(() => undefined);
+        });
+        page = await stage.page({ scene: id });
         await page.getByTestId('broken').click();
         await panel().locator('.cm-content').waitFor();
         await panel().getByRole('button', { name: 'error in line 3' }).click();
