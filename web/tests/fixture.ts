@@ -143,7 +143,7 @@ export const SCENE: Json = {
         slab: {
             params: [
                 { name: "radius", type: "int" },
-                { name: "size", type: "vec2", range: [1, 4] },
+                { name: "extent", type: "vec2", range: [1, 4] },
             ],
             code: "",
         },

@@ -68,7 +68,10 @@ function offerEntries(editor: Editor, schema: Schema, document: SceneDocument, q
 }
 
 function nodeEntries(editor: Editor, schema: Schema, document: SceneDocument, query: string) {
-    const nodes = [...document.nodes.values()];
+    /* A model is found by its own name. */
+    const nodes = [...document.nodes.values()].filter(
+        ({ id, parent }) => parent !== null || id === document.root,
+    );
     return search(nodes, query, (node) => ({ name: nodeLabel(node), words: node.id }))
         .slice(0, MOST_NODES)
         .map(
