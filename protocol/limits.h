@@ -20,6 +20,10 @@
     X(NODE_DEPTH, "node_depth", 64, "levels", "nesting of nodes")                                  \
     X(CHILDREN, "children", 10000, "nodes", "children of one node")                                \
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \
+    X(VOLUMES, "volumes", 8, "volumes", "volumes of a scene")                                      \
+    X(ASSETS, "assets", 1024, "files", "uploaded files kept")                                      \
+    X(ASSET_BYTES, "asset_bytes", 33554432, "bytes", "one uploaded file")                          \
+    X(ASSET_SIDE, "asset_side", 8192, "pixels", "width or height of an uploaded picture")          \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \
@@ -41,7 +45,8 @@
     X(OPERATIONS, "operations", 10000, "operations", "operations of one edit")                     \
     X(UNDO_GROUPS, "undo_groups", 1000, "groups", "undo steps kept for one author")                \
     X(IMAGE_SIDE, "image_side", 16384, "pixels", "width or height of a picture")                   \
-    X(IMAGE_PIXELS, "image_pixels", 33554432, "pixels", "width times height of a picture")         \
+    X(IMAGE_PIXELS, "image_pixels", 268435456, "pixels", "width times height of a picture")        \
+    X(IMAGE_BYTES, "image_bytes", 268435456, "bytes", "one finished picture, as it is sent")       \
     X(VIEW_SIDE, "view_side", 4096, "pixels", "width or height of a live view")                    \
     X(FRAMES_IN_FLIGHT, "frames_in_flight", 2, "frames",                                           \
       "frames sent and not yet acknowledged, per client")                                          \

@@ -60,6 +60,7 @@ extern const struct record_type camera_type;
 extern const struct record_type environment_type;
 extern const struct record_type render_type;
 extern const struct record_type light_types[];
+extern const struct record_type volume_types[];
 extern const struct record_type shader_types[];
 extern const struct record_type primitive_type; /* of a document's `primitives` */
 extern const struct record_type shader_type;    /* of its `shaders` */

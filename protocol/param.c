@@ -23,6 +23,7 @@ static const struct {
     [PARAM_MATERIAL] = {"material", 0}, [PARAM_VEC2] = {"vec2", 2},   [PARAM_VEC4] = {"vec4", 4},
     [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
     [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},
+    [PARAM_ASSET] = {"asset", 0},
 };
 
 int param_components(enum param_type type)
@@ -226,6 +227,14 @@ static bool check_characters(const char *text, const char *allowed, const char *
     return true;
 }
 
+static bool check_digest(const char *text, const char *place, struct error *err)
+{
+    size_t length = strlen(text);
+    return length == 0 || (length == DIGEST_DIGITS && strspn(text, "0123456789abcdef") == length) ||
+           error_set(err, ERROR_INVALID, place, "\"%.80s\" is not %d small hexadecimal digits", text,
+                     DIGEST_DIGITS);
+}
+
 static bool check_text(const struct param *param, const cJSON *json, const char *place,
                        struct error *err)
 {
@@ -245,6 +254,9 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
                    ? error_set(err, ERROR_INVALID, place, "%zu bytes are above the maximum %d",
                                length, LIMIT_NAME_BYTES)
                    : check_characters(text, "", place, err);
+    }
+    if (param->type == PARAM_ASSET) {
+        return check_digest(text, place, err);
     }
     return !*text || record_check_name(text, place, err);
 }

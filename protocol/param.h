@@ -27,8 +27,11 @@ enum param_type {
     PARAM_CODE,     /* GLSL text of several lines, at most LIMIT_CODE_BYTES */
     PARAM_MODEL,    /* name of a model of the scene, or "" */
     PARAM_FUNCTION, /* name of a distance function among `primitives`, or "" */
+    PARAM_ASSET,    /* an uploaded file: its SHA-256 in 64 small hex digits, or "" */
     PARAM_ROWS,     /* parameters that a document declares (definition.h); `text` is their JSON */
 };
+
+enum { DIGEST_DIGITS = 64 }; /* of a SHA-256 */
 
 enum param_unit { UNIT_NONE, UNIT_LENGTH, UNIT_ANGLE /* radians */, UNIT_DEGREES };
 

@@ -15,6 +15,8 @@
 const struct resource_kind resource_kinds[] = {
     {.list = "lights", .item = "light", .offset = offsetof(struct scene, lights),
      .limit = LIMIT_LIGHTS, .array = true, .type = "type", .table = light_types},
+    {.list = "volumes", .item = "volume", .offset = offsetof(struct scene, volumes),
+     .limit = LIMIT_VOLUMES, .array = true, .type = "type", .table = volume_types},
     {.list = "primitives", .item = "primitive", .user = "node", .named_by = PARAM_FUNCTION,
      .offset = offsetof(struct scene, primitives), .limit = LIMIT_PRIMITIVES, .extends = "field",
      .table = &primitive_type},

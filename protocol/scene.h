@@ -48,7 +48,7 @@ struct node_index; /* id -> node, private to scene.c */
 
 struct scene {
     struct record info, camera, environment, render;
-    struct resource_list lights, materials, primitives, shaders, models;
+    struct resource_list lights, volumes, materials, primitives, shaders, models;
     struct node *root; /* the roots of models stand in `models`; all nodes share one index */
     size_t node_count;
     struct node_index *index;

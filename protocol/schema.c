@@ -172,6 +172,7 @@ static cJSON *param_schema(const struct param *param)
     case PARAM_CODE:
     case PARAM_MODEL:
     case PARAM_FUNCTION:
+    case PARAM_ASSET:
         schema = text_schema(param);
         break;
     }
@@ -460,6 +461,7 @@ static cJSON *describe_registry(void)
     cJSON_AddItemToObject(registry, "node", describe_params(&node_common_type));
     cJSON_AddItemToObject(registry, "transform", describe_params(&transform_type));
     cJSON_AddItemToObject(registry, "lights", describe_types(light_types));
+    cJSON_AddItemToObject(registry, "volumes", describe_types(volume_types));
     cJSON_AddItemToObject(registry, "shaders", describe_types(shader_types));
     cJSON_AddItemToObject(registry, "resources", describe_resources());
     cJSON_AddItemToObject(registry, "camera", describe_params(&camera_type));

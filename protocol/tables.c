@@ -5,11 +5,14 @@
 
 #include "limits.h"
 #include "nodes.h"
+#include "picture.h"
 
 #define PARAMS(...) ((const struct param[]){__VA_ARGS__, {.name = NULL}})
 
 static const char *const camera_kinds[] = {"perspective", "orthographic", NULL};
-static const char *const sky_kinds[] = {"sky", "solid", NULL};
+static const char *const sky_kinds[] = {"sky", "solid", "image", NULL};
+static const char *const density_kinds[] = {"constant", "noise", "field", NULL};
+static const char *const antialiasing_kinds[] = {"auto", "none", "edges", "adaptive", "full", NULL};
 static const char *const shadow_kinds[] = {"none", "hard", "soft", NULL};
 static const char *const lighting_kinds[] = {"lit", "unlit", NULL};
 static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
@@ -20,6 +23,12 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
     {"color", PARAM_COLOR, .def = {1, 1, 1}, .step = 0.05, .doc = "Colour of the light."}, \
     {"intensity", PARAM_FLOAT, .def = {1}, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1, \
      .main = true, .doc = "Scales the colour."}
+#define LIGHT_REACH \
+    {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {0.1}, .min = 0, .max = LIMIT_COORDINATE, \
+     .above_min = true, .step = 0.05, \
+     .doc = "Below this distance the light no longer grows with the inverse square."}, \
+    {"range", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.5, \
+     .doc = "Beyond this distance there is no light; 0: no limit."}
 #define LIGHT_SHADOW \
     {"size", PARAM_FLOAT, .def = {8}, .min = 0, .max = 1000, .above_min = true, .step = 0.5, \
      .doc = "Sharpness of soft shadows: larger is harder."}, \
@@ -53,11 +62,15 @@ const struct record_type camera_type = {"camera", "Where the scene is seen from.
     {"fov", PARAM_FLOAT, UNIT_DEGREES, .def = {45}, .min = 1, .max = 170, .step = 1,
      .doc = "Full vertical angle of a perspective picture."},
     {"height", PARAM_FLOAT, UNIT_LENGTH, .def = {4}, .min = 0, .max = LIMIT_COORDINATE,
-     .above_min = true, .step = 0.1, .doc = "Full height of an orthographic picture."})};
+     .above_min = true, .step = 0.1, .doc = "Full height of an orthographic picture."},
+    {"aperture", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.01,
+     .doc = "Radius of the lens: what is out of focus blurs in stills; 0: all is sharp."},
+    {"focus", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+     .doc = "Distance along the view that is in focus; 0: the target's."})};
 
 const struct record_type environment_type = {
     "environment", "What is around the scene, and its ambient light.", PARAMS(
-    {"type", PARAM_ENUM, .choices = sky_kinds, .doc = "A gradient, or one colour."},
+    {"type", PARAM_ENUM, .choices = sky_kinds, .doc = "A gradient with the sun, one colour, or a picture."},
     {"zenith", PARAM_COLOR, .def = {0.12, 0.26, 0.55}, .step = 0.05, .main = true,
      .doc = "Colour of the sky straight up."},
     {"horizon", PARAM_COLOR, .def = {0.68, 0.77, 0.86}, .step = 0.05, .main = true,
@@ -66,12 +79,38 @@ const struct record_type environment_type = {
      .doc = "Colour straight down."},
     {"color", PARAM_COLOR, .def = {0.05, 0.055, 0.065}, .step = 0.05,
      .doc = "The one colour of a solid environment."},
+    {"sun", PARAM_BOOL, .def = {1},
+     .doc = "Whether the gradient shows a sun where the first directional light comes from."},
+    {"image", PARAM_ASSET,
+     .doc = "Picture by longitude and latitude, up on top: PNG or Radiance HDR."},
+    {"rotation", PARAM_FLOAT, UNIT_ANGLE, .min = -100, .max = 100, .step = 0.0872664625997165,
+     .doc = "Turns the picture about Y."},
+    {"brightness", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.05,
+     .doc = "Scales the picture, as seen and as light."},
     {"intensity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.05,
-     .doc = "Scales the ambient light that it gives."})};
+     .doc = "Scales the ambient light that it gives."},
+    {"fog", PARAM_FLOAT, .min = 0, .max = 1000, .step = 0.01,
+     .doc = "Density of fog: part of the light lost for each unit of length; 0: none."},
+    {"fog_color", PARAM_COLOR, .def = {0.7, 0.75, 0.8}, .step = 0.05, .doc = "Colour of fog."},
+    {"fog_height", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+     .doc = "Height over which fog thins to 1/e; 0: it is the same everywhere."},
+    {"fog_base", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1,
+     .doc = "Height at which fog has its density."},
+    {"floor", PARAM_BOOL, .doc = "Whether there is an endless ground plane."},
+    {"floor_height", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1, .doc = "Its height."},
+    {"floor_color", PARAM_COLOR, .def = {0.6, 0.6, 0.6}, .min = 0, .max = 1, .step = 0.05,
+     .doc = "Its colour."},
+    {"floor_reflectivity", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
+     .doc = "Part of the light that it mirrors, seen head-on."})};
 
 const struct record_type render_type = {"render", "How the scene becomes a picture.", PARAMS(
+    {"level", PARAM_ENUM, .def = {QUALITY_STILL}, .choices = quality_names, .main = true,
+     .doc = "Quality of still pictures."},
     {"samples", PARAM_INT, .def = {2}, .min = 1, .max = 4, .step = 1, .main = true,
      .doc = "Samples for each pixel along one axis, in still pictures."},
+    {"antialiasing", PARAM_ENUM, .choices = antialiasing_kinds,
+     .doc = "none; edges: they are blended with what is around them; adaptive: samples at edges, "
+            "one elsewhere; full: samples everywhere; auto: as the level says."},
     {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
      .doc = "Steps after which a ray gives up."},
     {"max_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {200}, .min = 0, .max = LIMIT_COORDINATE,
@@ -79,7 +118,17 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
     {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
      .doc = "Brightness in stops: one more doubles the light."},
     {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
-     .doc = "How bright light is fitted into the picture."})};
+     .doc = "How bright light is fitted into the picture."},
+    {"shadows", PARAM_BOOL, .def = {1}, .doc = "Whether lights cast shadows."},
+    {"occlusion", PARAM_BOOL, .def = {1}, .doc = "Whether ambient light is less in corners."},
+    {"occlusion_samples", PARAM_INT, .min = 0, .max = 16, .step = 1,
+     .doc = "Places along the normal looked at for occlusion; 0: as the level says."},
+    {"reflections", PARAM_BOOL, .def = {1}, .doc = "Whether mirrors show the scene."},
+    {"refractions", PARAM_BOOL, .def = {1}, .doc = "Whether the scene is seen through glass."},
+    {"ray_depth", PARAM_INT, .min = 0, .max = 8, .step = 1,
+     .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
+    {"transparent", PARAM_BOOL,
+     .doc = "Whether the background is left out: pictures have an alpha channel."})};
 
 const struct record_type light_types[] = {
     {"directional", "Light from far away, like the sun's.", PARAMS(
@@ -89,27 +138,116 @@ const struct record_type light_types[] = {
     {"point", "Light from one place to all sides.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .def = {2, 4, 3}, .step = 0.05, .main = true,
          .doc = "Where the light is."},
-        LIGHT_COLOR,
-        {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {0.1}, .min = 0, .max = LIMIT_COORDINATE,
-         .above_min = true, .step = 0.05,
-         .doc = "Below this distance the light no longer grows with the inverse square."},
-        {"range", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.5,
-         .doc = "Beyond this distance there is no light; 0: no limit."},
-        LIGHT_SHADOW)},
+        LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
+    {"spot", "Light from one place into a cone.", PARAMS(
+        {"position", PARAM_VEC3, UNIT_LENGTH, .def = {2, 4, 3}, .step = 0.05, .main = true,
+         .doc = "Where the light is."},
+        {"direction", PARAM_VEC3, .def = {-0.4, -0.8, -0.6}, .direction = true, .step = 0.05,
+         .main = true, .doc = "Axis of the cone, away from the light; any length but 0."},
+        {"angle", PARAM_FLOAT, UNIT_ANGLE, .def = {0.5}, .min = 0.01, .max = 1.5707,
+         .step = 0.0872664625997165, .doc = "Half the angle of the cone."},
+        {"softness", PARAM_FLOAT, .def = {0.2}, .min = 0, .max = 1, .step = 0.05,
+         .doc = "Part of the angle over which the light fades to the rim."},
+        LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
     {.name = NULL},
 };
 
+/* What light that enters a surface meets inside. */
+#define INSIDE \
+    {"attenuation_color", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "What is left of white light inside, after the attenuation distance."}, \
+    {"attenuation_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, \
+     .max = LIMIT_COORDINATE, .above_min = true, .step = 0.1, \
+     .doc = "Way inside after which the attenuation colour is left."}
+#define IOR \
+    {"ior", PARAM_FLOAT, .def = {1.5}, .min = 1, .max = 4, .step = 0.01, \
+     .doc = "Index of refraction."}
+#define EMISSION \
+    {"emission", PARAM_COLOR, .step = 0.05, .doc = "Light that the surface gives by itself."}
+/* All of Blinn's and Phong's but the colour. */
+#define GLOSS \
+    {"ambient", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "Part of the environment's light that is taken up."}, \
+    {"specular", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "Colour of the highlight."}, \
+    {"shininess", PARAM_FLOAT, .def = {32}, .min = 1, .max = 2048, .step = 1, .main = true, \
+     .doc = "Narrowness of the highlight."}, \
+    EMISSION, \
+    {"reflectivity", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "Part of the light that is mirrored, seen head-on."}, \
+    IOR, \
+    {"opacity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "Part of the light that does not go through."}, \
+    INSIDE
+#define DIFFUSE \
+    {"diffuse", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05, \
+     .main = true, .doc = "Colour of the surface."}
+
 const struct record_type shader_types[] = {
-    {"phong", "Matt and shiny surfaces after Blinn and Phong.", PARAMS(
-        {"ambient", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05,
-         .doc = "Part of the environment's light that is taken up."},
-        {"diffuse", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
-         .main = true, .doc = "Colour of the surface."},
-        {"specular", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05,
-         .doc = "Colour of the highlight."},
-        {"shininess", PARAM_FLOAT, .def = {32}, .min = 1, .max = 2048, .step = 1, .main = true,
-         .doc = "Narrowness of the highlight."},
-        {"emission", PARAM_COLOR, .step = 0.05, .doc = "Light that the surface gives by itself."})},
+    {"phong", "Matt and shiny surfaces after Blinn and Phong: highlights by the halfway vector.",
+     PARAMS(DIFFUSE, GLOSS)},
+    {"blinn", "The same with highlights by the reflected vector.", PARAMS(DIFFUSE, GLOSS)},
+    {"standard", "Physically based surfaces: metals and everything else, rough to smooth.", PARAMS(
+        {"base_color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
+         .main = true, .doc = "Colour of the surface; of a metal's mirror image."},
+        {"metallic", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05, .main = true,
+         .doc = "0: no metal, 1: metal."},
+        {"roughness", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
+         .doc = "0: a mirror, 1: matt."},
+        EMISSION, IOR,
+        {"transmission", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
+         .doc = "Part of the light that enters and goes through, as in glass."},
+        INSIDE)},
+    {"unlit", "One colour, whatever the light.", PARAMS(
+        {"color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .step = 0.05, .main = true,
+         .doc = "What is seen."})},
+    {"normals", "The normal as a colour, for looking at shapes.", PARAMS({.name = NULL})},
+    {"checker", "Two colours in cubes, shiny like phong.", PARAMS(
+        {"color1", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
+         .main = true, .doc = "Colour of the cubes whose places add up to an even number."},
+        {"color2", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05,
+         .main = true, .doc = "Colour of the others."},
+        {"scale", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
+         .above_min = true, .step = 0.1, .doc = "Side of a cube."},
+        GLOSS)},
+    {.name = NULL},
+};
+
+/* What volumes have in common. */
+#define DENSITY \
+    {"color", PARAM_COLOR, .def = {0.9, 0.9, 0.9}, .min = 0, .max = 1, .step = 0.05, .main = true, \
+     .doc = "Part of the light that is scattered, not swallowed."}, \
+    {"emission", PARAM_COLOR, .step = 0.05, \
+     .doc = "Light given by each unit of length at density 1."}, \
+    {"density", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.1, .main = true, \
+     .doc = "Part of the light met for each unit of length."}, \
+    {"source", PARAM_ENUM, .choices = density_kinds, .def = {1}, \
+     .doc = "What the density follows: nothing, noise, or the distance to the scene's surfaces."}, \
+    {"falloff", PARAM_FLOAT, UNIT_LENGTH, .def = {0.2}, .min = 0, .max = LIMIT_COORDINATE, \
+     .step = 0.05, .doc = "Way from the rim inwards on which the density grows."}, \
+    {"frequency", PARAM_FLOAT, .def = {1.5}, .min = 0, .max = 1000, .step = 0.1, \
+     .doc = "Waves of noise for each unit of length."}, \
+    {"octaves", PARAM_INT, .def = {4}, .min = 1, .max = 8, .step = 1, .doc = "Layers of noise."}, \
+    {"seed", PARAM_INT, .min = 0, .max = 65535, .step = 1, .doc = "Which noise."}, \
+    {"cover", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, \
+     .doc = "Part of the volume that noise fills."}, \
+    {"reach", PARAM_FLOAT, UNIT_LENGTH, .def = {0.5}, .min = 0, .max = LIMIT_COORDINATE, \
+     .above_min = true, .step = 0.05, \
+     .doc = "Distance from surfaces over which a density by field thins to 1/e."}, \
+    {"anisotropy", PARAM_FLOAT, .min = -0.95, .max = 0.95, .step = 0.05, \
+     .doc = "Above 0 light is scattered forwards, below 0 backwards."}
+
+const struct record_type volume_types[] = {
+    {"box", "Smoke or cloud in a box.", PARAMS(
+        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "Its centre."},
+        {"size", PARAM_VEC3, UNIT_LENGTH, .def = {2, 2, 2}, .min = 0, .max = LIMIT_COORDINATE,
+         .above_min = true, .step = 0.05, .main = true, .doc = "Full lengths."},
+        DENSITY)},
+    {"sphere", "Smoke or cloud in a ball.", PARAMS(
+        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "Its centre."},
+        {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
+         .above_min = true, .step = 0.05, .main = true, .doc = "Its radius."},
+        DENSITY)},
     {.name = NULL},
 };
 

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "protocol/limits.h"
+#include "protocol/picture.h"
 #include "protocol/scene.h"
 
 struct renderer; /* a GL context on a device */
@@ -88,10 +89,6 @@ const struct error *resident_warning(const struct resident *resident);
 bool renderer_poll(struct renderer *renderer, int wait_ms);
 
 /* --- pictures --- */
-
-enum aov { AOV_COLOR, AOV_DEPTH, AOV_NORMAL, AOV_ID, AOV_COUNT };
-const char *aov_name(enum aov aov);
-int aov_find(const char *name); /* -1: none */
 
 struct job_desc {
     int width, height;

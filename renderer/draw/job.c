@@ -26,23 +26,6 @@ struct job {
     struct error error;
 };
 
-static const char *const aov_names[AOV_COUNT] = {"color", "depth", "normal", "id"};
-
-const char *aov_name(enum aov aov)
-{
-    return aov_names[aov];
-}
-
-int aov_find(const char *name)
-{
-    for (int i = 0; i < AOV_COUNT; i++) {
-        if (strcmp(aov_names[i], name) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 static bool check_desc(const struct job_desc *desc, struct error *err)
 {
     if (desc->width < 1 || desc->width > LIMIT_IMAGE_SIDE) {
@@ -60,7 +43,8 @@ static bool check_desc(const struct job_desc *desc, struct error *err)
     if (desc->samples < 0 || desc->samples > 4) {
         return error_set(err, ERROR_LIMIT, "samples", "%d is not in 0..4", desc->samples);
     }
-    if ((int)desc->aov < 0 || desc->aov >= AOV_COUNT) {
+    if ((int)desc->aov < 0 || desc->aov >= AOV_COUNT ||
+        !draw_form_find(desc->aov, desc->as_floats)) {
         return error_set(err, ERROR_INVALID, "aov", "unknown");
     }
     return true;

@@ -2,6 +2,8 @@
 /* The table of materials, and the shaders of users that they are made by. */
 #include "field_materials.h"
 
+#include <string.h>
+
 #include "field_code.h"
 
 size_t field_material_slot(const struct scene *scene, const char *name)
@@ -92,7 +94,7 @@ void field_add_materials(struct builder *b)
         if (shaders[i] >= 0) {
             put_custom(b, (uint32_t)vec4, material, shaders[i]);
         } else {
-            put_phong(field->numbers + 4 * vec4, material->shader ? &standard : &material->record);
+            put_phong(field->numbers + 4 * vec4, strcmp(material->record.type->name, "phong") == 0 ? &material->record : &standard);
         }
     }
     record_finish(&standard);

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+/* What can be asked of a picture: outputs, quality levels, and the stages whose time is told.
+ * Tables; messages, options, REST, the schema and the docs are derived from them. */
+#ifndef PROTOCOL_PICTURE_H
+#define PROTOCOL_PICTURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* --- outputs --- */
+
+enum aov {
+    AOV_COLOR,
+    AOV_DEPTH,
+    AOV_NORMAL,
+    AOV_POSITION,
+    AOV_ID,
+    AOV_STEPS,
+    AOV_ALBEDO,
+    AOV_SPECULAR,
+    AOV_OPTICAL,
+    AOV_SHADOW,
+    AOV_OCCLUSION,
+    AOV_COUNT
+};
+
+struct aov_row {
+    const char *name;
+    int channels; /* of the array form */
+    bool whole;   /* the array holds uint32, else float32 */
+    bool picture; /* has a picture form too */
+    const char *doc;
+};
+
+const struct aov_row *aov_row(enum aov aov);
+const char *aov_name(enum aov aov);
+int aov_find(const char *name); /* -1: none */
+
+/* --- quality levels --- */
+
+enum quality_level { QUALITY_DRAFT, QUALITY_INTERACTIVE, QUALITY_STILL, QUALITY_FINAL, QUALITY_COUNT };
+
+/* Choices of the render setting `antialiasing`. */
+enum antialiasing {
+    ANTIALIASING_AUTO, /* the level's */
+    ANTIALIASING_NONE,
+    ANTIALIASING_EDGES,    /* one sample; edges are blended */
+    ANTIALIASING_ADAPTIVE, /* samples at edges, one elsewhere */
+    ANTIALIASING_FULL,     /* samples everywhere */
+};
+
+struct quality {
+    const char *name;
+    const char *doc;
+    int samples; /* for each pixel along an axis; 0: as the scene says */
+    enum antialiasing antialiasing;
+    int lens_samples;      /* for each pixel where the camera has an aperture; 0: no blur */
+    int shadow_steps;      /* of a ray to a light */
+    int occlusion_samples; /* along the normal; 0: none */
+    int ray_depth;         /* times that a ray is mirrored or broken */
+    int rays;              /* mirrored and broken rays of one sample, at most */
+    double ray_least;      /* of what a ray adds to its pixel; less is taken from the environment */
+    int clear_depth;       /* surfaces that light goes through on its way to another */
+    int volume_steps;      /* through a volume */
+    int volume_shadow_steps;
+};
+
+const struct quality *quality_row(enum quality_level level);
+int quality_find(const char *name);       /* -1: none */
+extern const char *const quality_names[]; /* NULL-terminated */
+
+/* --- time --- */
+
+/* Where the time of a frame goes, in this order. */
+enum frame_stage {
+    FRAME_QUEUE,       /* waiting for other pictures */
+    FRAME_ENVIRONMENT, /* light of the environment, when it is new */
+    FRAME_MARCH,       /* rays from the camera to their surfaces */
+    FRAME_MATTER,      /* what the surfaces are made of */
+    FRAME_SHADOW,      /* shadows and occlusion */
+    FRAME_SHADE,       /* light on surfaces, fog, background, tone mapping */
+    FRAME_RAYS,        /* everything along mirrored and broken rays, and light through glass */
+    FRAME_VOLUME,
+    FRAME_RESOLVE, /* samples to pixels, edges */
+    FRAME_READ,    /* to the processor */
+    FRAME_ENCODE,
+    FRAME_STAGES
+};
+
+struct stage_row {
+    const char *name; /* "march"; as a member of JSON "march_us" */
+    const char *doc;
+};
+const struct stage_row *stage_row(enum frame_stage stage);
+
+#endif
