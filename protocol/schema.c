@@ -8,6 +8,7 @@
 #include "limits.h"
 #include "messages.h"
 #include "nodes.h"
+#include "picture.h"
 #include "scene_parts.h"
 
 #define NAME_PATTERN "^[A-Za-z0-9_.-]{1,64}$"
@@ -454,6 +455,47 @@ static cJSON *describe_errors(void)
     return list;
 }
 
+static cJSON *described(const char *name, const char *doc)
+{
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddStringToObject(row, "name", name);
+    cJSON_AddStringToObject(row, "doc", doc);
+    return row;
+}
+
+static cJSON *describe_outputs(void)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct aov_row *aov = aov_row(i);
+        cJSON *row = described(aov->name, aov->doc);
+        cJSON_AddNumberToObject(row, "channels", aov->channels);
+        cJSON_AddBoolToObject(row, "picture", aov->picture);
+        cJSON_AddItemToArray(list, row);
+    }
+    return list;
+}
+
+static cJSON *describe_levels(void)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < QUALITY_COUNT; i++) {
+        const struct quality *level = quality_row(i);
+        cJSON_AddItemToArray(list, described(level->name, level->doc));
+    }
+    return list;
+}
+
+static cJSON *describe_stages(void)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        const struct stage_row *stage = stage_row(i);
+        cJSON_AddItemToArray(list, described(stage->name, stage->doc));
+    }
+    return list;
+}
+
 static cJSON *describe_registry(void)
 {
     cJSON *registry = cJSON_CreateObject();
@@ -467,6 +509,9 @@ static cJSON *describe_registry(void)
     cJSON_AddItemToObject(registry, "camera", describe_params(&camera_type));
     cJSON_AddItemToObject(registry, "environment", describe_params(&environment_type));
     cJSON_AddItemToObject(registry, "render", describe_params(&render_type));
+    cJSON_AddItemToObject(registry, "outputs", describe_outputs());
+    cJSON_AddItemToObject(registry, "levels", describe_levels());
+    cJSON_AddItemToObject(registry, "stages", describe_stages());
     cJSON_AddItemToObject(registry, "limits", describe_limits());
     cJSON_AddItemToObject(registry, "errors", describe_errors());
     cJSON_AddItemToObject(registry, "messages", messages_describe());
