@@ -84,9 +84,9 @@ glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
 examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg \
                                $(S)/protocol/reference/*.jpg))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
-# What is embedded: C by deploy/embed.sh, for renderer/glsl.h and server/rest/assets.h.
+# What is embedded: C by deploy/embed.sh, for renderer/glsl.h and server/rest/embedded.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl.h),$(OUT)/generated/glsl.o) \
-            $(if $(wildcard $(S)/server/rest/assets.h),$(OUT)/generated/assets.o)
+            $(if $(wildcard $(S)/server/rest/embedded.h),$(OUT)/generated/embedded.o)
 objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
 library := $(OUT)/libfieldcast.a
 
@@ -114,10 +114,10 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 	$(Q)mkdir -p $(@D)
 	$(Q)sh $< glsl $(abspath $(glsl)) >$@
 
-$(OUT)/generated/assets.c: $(S)/deploy/embed.sh $(page) $(examples) $(OUT)/asset-names
+$(OUT)/generated/embedded.c: $(S)/deploy/embed.sh $(page) $(examples) $(OUT)/embedded-names
 	$(call say,GEN,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)sh $< assets $(abspath $(S)) $(abspath $(@D)) >$@
+	$(Q)sh $< embedded $(abspath $(S)) $(abspath $(@D)) >$@
 
 # stamp NAME TEXT: a file that changes only when its text does.
 define stamp
@@ -129,7 +129,7 @@ quote = '$(subst ','\'',$(1))'
 $(eval $(call stamp,flags,$$(compile)))
 $(eval $(call stamp,link-flags,$$(link) $$(packages_libs) $$(objects)))
 $(eval $(call stamp,glsl-names,$$(glsl)))
-$(eval $(call stamp,asset-names,$$(page) $$(examples)))
+$(eval $(call stamp,embedded-names,$$(page) $$(examples)))
 
 # --- the page ---
 

@@ -4,9 +4,9 @@
 # taken in by the assembler, which is much faster than arrays in C.
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
-#   embed.sh assets SOURCE WORK    assets_table[] (SOURCE/web/dist), examples_table[] and
+#   embed.sh embedded SOURCE WORK  page_table[] (SOURCE/web/dist), examples_table[] and
 #                                  cards_table[] (SOURCE/protocol/examples), references_table[]
-#                                  (SOURCE/protocol/reference) of assets.h; WORK takes the
+#                                  (SOURCE/protocol/reference) of embedded.h; WORK takes the
 #                                  compressed files. Without web/dist the page's table is empty
 set -eu
 
@@ -62,11 +62,11 @@ table() {
         n=$((n + 1))
         bytes "$2$n" "$file"
         type=$(mime "$path")
-        [ "$1" = assets ] || path=${path%.*}
+        [ "$1" = page ] || path=${path%.*}
         rows="$rows    {\"$path\", \"$type\", $2$n, $(($(wc -c <"$file"))), $gzip},
 "
     done
-    printf 'const struct asset %s_table[] = {\n%s    {0},\n};\n' "$1" "$rows"
+    printf 'const struct embedded %s_table[] = {\n%s    {0},\n};\n' "$1" "$rows"
     printf 'const size_t %s_count = %d;\n' "$1" "$n"
 }
 
@@ -92,9 +92,9 @@ files() {
     done
 }
 
-assets() {
-    echo '#include "server/rest/assets.h"'
-    page "$1" "$2" | table assets asset_
+embedded() {
+    echo '#include "server/rest/embedded.h"'
+    page "$1" "$2" | table page page_
     files "$1/protocol/examples" json | LC_ALL=C sort | table examples example_
     files "$1/protocol/examples" jpg | LC_ALL=C sort | table cards card_
     files "$1/protocol/reference" jpg | LC_ALL=C sort | table references reference_

@@ -12,7 +12,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "server/clock.h"
-#include "server/rest/assets.h"
+#include "server/rest/embedded.h"
 
 enum { PATIENCE_MS = 50, FIRST_SIDE = 64 };
 
@@ -69,7 +69,7 @@ static bool draw(struct renderer *renderer, struct resident *resident, const str
 /* Drivers keep compiled shaders in their process, and a renderer's end does not empty them. */
 struct task {
     const struct renderer_params *params;
-    const struct asset *example;
+    const struct embedded *example;
     int rounds;
 };
 
@@ -148,7 +148,7 @@ static cJSON *describe(const struct task *task, struct error *err)
     return row;
 }
 
-static struct resident *open_example(struct renderer *renderer, const struct asset *example,
+static struct resident *open_example(struct renderer *renderer, const struct embedded *example,
                                      struct error *err)
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);

@@ -6,7 +6,7 @@
 #include "bench.h"
 #include "command.h"
 #include "protocol/json.h"
-#include "server/rest/assets.h"
+#include "server/rest/embedded.h"
 
 static int by_value(const void *a, const void *b)
 {

@@ -15,7 +15,7 @@
 #include "command.h"
 #include "drawing.h"
 #include "protocol/memory.h"
-#include "server/rest/assets.h"
+#include "server/rest/embedded.h"
 
 enum { DEVICES_MAX = 16 };
 #define DISK_WANTED (1ULL << 30)
@@ -186,10 +186,10 @@ static int check_descriptors(void)
 
 static int check_page(void)
 {
-    if (assets_count == 0) {
+    if (page_count == 0) {
         say(WARNING, "page", "not built in (`make web`, then `make`); the rest works without it");
     } else {
-        say(GOOD, "page", "built in, %zu files, %zu example scenes", assets_count, examples_count);
+        say(GOOD, "page", "built in, %zu files, %zu example scenes", page_count, examples_count);
     }
     return 0;
 }

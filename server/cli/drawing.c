@@ -7,7 +7,7 @@
 
 #include "files.h"
 #include "protocol/nearest.h"
-#include "server/rest/assets.h"
+#include "server/rest/embedded.h"
 
 static void print_line(void *data, const char *line)
 {
@@ -34,7 +34,7 @@ void drawing_params(const struct options *options, struct renderer_params *out)
 
 static struct scene *open_example(const char *name, const char *id, struct error *err)
 {
-    const struct asset *example = examples_find(id);
+    const struct embedded *example = examples_find(id);
     if (example) {
         return scene_parse((const char *)example->bytes, example->length, err);
     }

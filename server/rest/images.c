@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "assets.h"
+#include "embedded.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
@@ -499,7 +499,7 @@ void images_of_example(struct request *request)
 {
     struct error err = {0};
     struct wish wish;
-    const struct asset *example = examples_find(request->capture[0]);
+    const struct embedded *example = examples_find(request->capture[0]);
 
     if (!example) {
         error_set(&err, ERROR_NOT_FOUND, "", "there is no example %s", request->capture[0]);

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "assets.h"
+#include "embedded.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
@@ -95,7 +95,7 @@ static bool reply_file(struct request *request, const char *path)
             return false;
         }
     } else {
-        const struct asset *asset = assets_find(path);
+        const struct embedded *asset = page_find(path);
 
         if (!asset) {
             return false;
@@ -167,7 +167,7 @@ void pages_examples(struct request *request)
 
 void pages_example(struct request *request)
 {
-    const struct asset *example = examples_find(request->capture[0]);
+    const struct embedded *example = examples_find(request->capture[0]);
 
     if (!example) {
         reply_not_found(request);
@@ -181,7 +181,7 @@ void pages_example(struct request *request)
     request_reply(request, &response);
 }
 
-static void reply_picture(struct request *request, const struct asset *picture)
+static void reply_picture(struct request *request, const struct embedded *picture)
 {
     if (!picture) {
         reply_not_found(request);

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "assets.h"
+#include "embedded.h"
 #include "protocol/import/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -180,7 +180,7 @@ static void create(struct request *request, const char *id, struct scene *scene,
 
 static struct scene *copy_of_example(const char *id, struct error *err)
 {
-    const struct asset *example = examples_find(id);
+    const struct embedded *example = examples_find(id);
 
     if (!example) {
         error_set(err, ERROR_NOT_FOUND, "/from", "there is no example %s", id);

@@ -14,7 +14,7 @@
 #include <turbojpeg.h>
 
 #include "renderer/renderer.h"
-#include "server/rest/assets.h"
+#include "server/rest/embedded.h"
 
 #define CARD_MEAN 3.0
 
@@ -22,7 +22,7 @@ enum { BLOCK = 4 };
 
 static struct renderer *renderer;
 
-static uint8_t *unpack(const struct asset *card, int *out_width, int *out_height)
+static uint8_t *unpack(const struct embedded *card, int *out_width, int *out_height)
 {
     tjhandle jpeg = tjInitDecompress();
     int sampling = 0, space = 0;
@@ -58,7 +58,7 @@ static double blocks_difference(const uint8_t *a, const uint8_t *b, int width, i
 }
 
 /* Mean difference of a channel between the card and the scene drawn now. */
-static double difference(const struct asset *example, const struct asset *card, double exposure)
+static double difference(const struct embedded *example, const struct embedded *card, double exposure)
 {
     struct error err = {0};
     struct image image;
@@ -88,7 +88,7 @@ static void every_example_has_its_card(void **state)
     (void)state;
     assert_int_equal(cards_count, examples_count);
     for (size_t i = 0; i < examples_count; i++) {
-        const struct asset *card = cards_find(examples_table[i].path);
+        const struct embedded *card = cards_find(examples_table[i].path);
 
         assert_non_null(card);
         double mean = difference(&examples_table[i], card, 0);
