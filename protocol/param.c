@@ -22,8 +22,7 @@ static const struct {
     [PARAM_COLOR] = {"color", 3},       [PARAM_ENUM] = {"enum", 1},   [PARAM_TEXT] = {"text", 0},
     [PARAM_MATERIAL] = {"material", 0}, [PARAM_VEC2] = {"vec2", 2},   [PARAM_VEC4] = {"vec4", 4},
     [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
-    [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},
-    [PARAM_ASSET] = {"asset", 0},
+    [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},   [PARAM_ASSET] = {"asset", 0},
 };
 
 int param_components(enum param_type type)
@@ -231,8 +230,8 @@ static bool check_digest(const char *text, const char *place, struct error *err)
 {
     size_t length = strlen(text);
     return length == 0 || (length == DIGEST_DIGITS && strspn(text, "0123456789abcdef") == length) ||
-           error_set(err, ERROR_INVALID, place, "\"%.80s\" is not %d small hexadecimal digits", text,
-                     DIGEST_DIGITS);
+           error_set(err, ERROR_INVALID, place, "\"%.80s\" is not %d small hexadecimal digits",
+                     text, DIGEST_DIGITS);
 }
 
 static bool check_text(const struct param *param, const cJSON *json, const char *place,
@@ -441,6 +440,12 @@ cJSON *param_describe(const struct param *param)
     cJSON *choices = param->choices ? cJSON_AddArrayToObject(row, "choices") : NULL;
     for (int i = 0; choices && param->choices[i]; i++) {
         cJSON_AddItemToArray(choices, cJSON_CreateString(param->choices[i]));
+    }
+    if (param->group) {
+        cJSON_AddStringToObject(row, "group", param->group);
+    }
+    if (param->when) {
+        cJSON_AddStringToObject(row, "when", param->when);
     }
     cJSON_AddStringToObject(row, "doc", param->doc);
     return row;

@@ -50,6 +50,8 @@ struct param {
     double step;                /* what one arrow key adds; 0 lets the editor choose */
     const char *const *choices; /* PARAM_ENUM: NULL-terminated */
     bool main;                  /* among the two that a compact view shows */
+    const char *group;          /* the heading that forms put it under; NULL: none */
+    const char *when;           /* it matters only then: "type=sky", "opacity!=1"; NULL: always */
     const char *doc;
 };
 

@@ -31,8 +31,10 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
      .doc = "Beyond this distance there is no light; 0: no limit."}
 #define LIGHT_SHADOW \
     {"size", PARAM_FLOAT, .def = {8}, .min = 0, .max = 1000, .above_min = true, .step = 0.5, \
+     .group = "shadow", .when = "shadow=soft", \
      .doc = "Sharpness of soft shadows: larger is harder."}, \
-    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .doc = "Kind of shadow."}
+    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .group = "shadow", \
+     .doc = "Kind of shadow."}
 
 const struct record_type node_common_type = {"node", "What every node has.", PARAMS(
     {"name", PARAM_TEXT, .doc = "Shown instead of the id."},
@@ -60,72 +62,90 @@ const struct record_type camera_type = {"camera", "Where the scene is seen from.
     {"up", PARAM_VEC3, .def = {0, 1, 0}, .direction = true, .step = 0.05,
      .doc = "Direction that is up in the picture."},
     {"fov", PARAM_FLOAT, UNIT_DEGREES, .def = {45}, .min = 1, .max = 170, .step = 1,
-     .doc = "Full vertical angle of a perspective picture."},
+     .when = "type=perspective", .doc = "Full vertical angle of a perspective picture."},
     {"height", PARAM_FLOAT, UNIT_LENGTH, .def = {4}, .min = 0, .max = LIMIT_COORDINATE,
-     .above_min = true, .step = 0.1, .doc = "Full height of an orthographic picture."},
+     .above_min = true, .step = 0.1, .when = "type=orthographic",
+     .doc = "Full height of an orthographic picture."},
     {"aperture", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.01,
+     .group = "lens",
      .doc = "Radius of the lens: what is out of focus blurs in stills; 0: all is sharp."},
     {"focus", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+     .group = "lens", .when = "aperture!=0",
      .doc = "Distance along the view that is in focus; 0: the target's."})};
 
 const struct record_type environment_type = {
     "environment", "What is around the scene, and its ambient light.", PARAMS(
-    {"type", PARAM_ENUM, .choices = sky_kinds, .doc = "A gradient with the sun, one colour, or a picture."},
+    {"type", PARAM_ENUM, .choices = sky_kinds,
+     .doc = "A gradient with the sun, one colour, or a picture."},
     {"zenith", PARAM_COLOR, .def = {0.12, 0.26, 0.55}, .step = 0.05, .main = true,
-     .doc = "Colour of the sky straight up."},
+     .when = "type=sky", .doc = "Colour of the sky straight up."},
     {"horizon", PARAM_COLOR, .def = {0.68, 0.77, 0.86}, .step = 0.05, .main = true,
-     .doc = "Colour of the sky at the horizon."},
+     .when = "type=sky", .doc = "Colour of the sky at the horizon."},
     {"ground", PARAM_COLOR, .def = {0.2, 0.18, 0.16}, .step = 0.05,
-     .doc = "Colour straight down."},
+     .when = "type=sky", .doc = "Colour straight down."},
     {"color", PARAM_COLOR, .def = {0.05, 0.055, 0.065}, .step = 0.05,
-     .doc = "The one colour of a solid environment."},
+     .when = "type=solid", .doc = "The one colour of a solid environment."},
     {"sun", PARAM_BOOL, .def = {1},
+     .when = "type=sky",
      .doc = "Whether the gradient shows a sun where the first directional light comes from."},
     {"image", PARAM_ASSET,
+     .when = "type=image",
      .doc = "Picture by longitude and latitude, up on top: PNG or Radiance HDR."},
     {"rotation", PARAM_FLOAT, UNIT_ANGLE, .min = -100, .max = 100, .step = 0.0872664625997165,
-     .doc = "Turns the picture about Y."},
+     .when = "type=image", .doc = "Turns the picture about Y."},
     {"brightness", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.05,
-     .doc = "Scales the picture, as seen and as light."},
+     .when = "type=image", .doc = "Scales the picture, as seen and as light."},
     {"intensity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.05,
      .doc = "Scales the ambient light that it gives."},
     {"fog", PARAM_FLOAT, .min = 0, .max = 1000, .step = 0.01,
+     .group = "fog",
      .doc = "Density of fog: part of the light lost for each unit of length; 0: none."},
-    {"fog_color", PARAM_COLOR, .def = {0.7, 0.75, 0.8}, .step = 0.05, .doc = "Colour of fog."},
+    {"fog_color", PARAM_COLOR, .def = {0.7, 0.75, 0.8}, .step = 0.05, .group = "fog",
+     .when = "fog!=0", .doc = "Colour of fog."},
     {"fog_height", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
+     .group = "fog", .when = "fog!=0",
      .doc = "Height over which fog thins to 1/e; 0: it is the same everywhere."},
     {"fog_base", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1,
-     .doc = "Height at which fog has its density."},
-    {"floor", PARAM_BOOL, .doc = "Whether there is an endless ground plane."},
-    {"floor_height", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1, .doc = "Its height."},
+     .group = "fog", .when = "fog_height!=0", .doc = "Height at which fog has its density."},
+    {"floor", PARAM_BOOL, .group = "floor", .doc = "Whether there is an endless ground plane."},
+    {"floor_height", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1, .group = "floor", .when = "floor=true",
+     .doc = "Its height."},
     {"floor_color", PARAM_COLOR, .def = {0.6, 0.6, 0.6}, .min = 0, .max = 1, .step = 0.05,
-     .doc = "Its colour."},
+     .group = "floor", .when = "floor=true", .doc = "Its colour."},
     {"floor_reflectivity", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
+     .group = "floor", .when = "floor=true",
      .doc = "Part of the light that it mirrors, seen head-on."})};
 
 const struct record_type render_type = {"render", "How the scene becomes a picture.", PARAMS(
     {"level", PARAM_ENUM, .def = {QUALITY_STILL}, .choices = quality_names, .main = true,
      .doc = "Quality of still pictures."},
     {"samples", PARAM_INT, .def = {2}, .min = 1, .max = 4, .step = 1, .main = true,
+     .when = "antialiasing!=none",
      .doc = "Samples for each pixel along one axis, in still pictures."},
     {"antialiasing", PARAM_ENUM, .choices = antialiasing_kinds,
      .doc = "none; edges: they are blended with what is around them; adaptive: samples at edges, "
             "one elsewhere; full: samples everywhere; auto: as the level says."},
     {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
-     .doc = "Steps after which a ray gives up."},
+     .group = "limits", .doc = "Steps after which a ray gives up."},
     {"max_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {200}, .min = 0, .max = LIMIT_COORDINATE,
-     .above_min = true, .step = 10, .doc = "Nothing farther from the eye is seen."},
+     .above_min = true, .step = 10, .group = "limits",
+     .doc = "Nothing farther from the eye is seen."},
     {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
-     .doc = "Brightness in stops: one more doubles the light."},
+     .group = "tone", .doc = "Brightness in stops: one more doubles the light."},
     {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
-     .doc = "How bright light is fitted into the picture."},
-    {"shadows", PARAM_BOOL, .def = {1}, .doc = "Whether lights cast shadows."},
-    {"occlusion", PARAM_BOOL, .def = {1}, .doc = "Whether ambient light is less in corners."},
+     .group = "tone", .doc = "How bright light is fitted into the picture."},
+    {"shadows", PARAM_BOOL, .def = {1}, .group = "effects", .doc = "Whether lights cast shadows."},
+    {"occlusion", PARAM_BOOL, .def = {1}, .group = "effects",
+     .doc = "Whether ambient light is less in corners."},
     {"occlusion_samples", PARAM_INT, .min = 0, .max = 16, .step = 1,
+     .group = "effects", .when = "occlusion=true",
      .doc = "Places along the normal looked at for occlusion; 0: as the level says."},
-    {"reflections", PARAM_BOOL, .def = {1}, .doc = "Whether mirrors show the scene."},
-    {"refractions", PARAM_BOOL, .def = {1}, .doc = "Whether the scene is seen through glass."},
+    {"reflections", PARAM_BOOL, .def = {1}, .group = "effects",
+     .doc = "Whether mirrors show the scene."},
+    {"refractions", PARAM_BOOL, .def = {1}, .group = "effects",
+     .doc = "Whether the scene is seen through glass."},
     {"ray_depth", PARAM_INT, .min = 0, .max = 8, .step = 1,
+     .group = "effects",
      .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
     {"transparent", PARAM_BOOL,
      .doc = "Whether the background is left out: pictures have an alpha channel."})};
@@ -153,15 +173,17 @@ const struct record_type light_types[] = {
 };
 
 /* What light that enters a surface meets inside. */
-#define INSIDE \
+#define INSIDE(WHEN) \
     {"attenuation_color", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05, \
+     .group = "optics", .when = WHEN, \
      .doc = "What is left of white light inside, after the attenuation distance."}, \
     {"attenuation_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, \
      .max = LIMIT_COORDINATE, .above_min = true, .step = 0.1, \
+     .group = "optics", .when = WHEN, \
      .doc = "Way inside after which the attenuation colour is left."}
 #define IOR \
     {"ior", PARAM_FLOAT, .def = {1.5}, .min = 1, .max = 4, .step = 0.01, \
-     .doc = "Index of refraction."}
+     .group = "optics", .doc = "Index of refraction."}
 #define EMISSION \
     {"emission", PARAM_COLOR, .step = 0.05, .doc = "Light that the surface gives by itself."}
 /* All of Blinn's and Phong's but the colour. */
@@ -174,11 +196,11 @@ const struct record_type light_types[] = {
      .doc = "Narrowness of the highlight."}, \
     EMISSION, \
     {"reflectivity", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05, \
-     .doc = "Part of the light that is mirrored, seen head-on."}, \
+     .group = "optics", .doc = "Part of the light that is mirrored, seen head-on."}, \
     IOR, \
     {"opacity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1, .step = 0.05, \
-     .doc = "Part of the light that does not go through."}, \
-    INSIDE
+     .group = "optics", .doc = "Part of the light that does not go through."}, \
+    INSIDE("opacity!=1")
 #define DIFFUSE \
     {"diffuse", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05, \
      .main = true, .doc = "Colour of the surface."}
@@ -196,8 +218,8 @@ const struct record_type shader_types[] = {
          .doc = "0: a mirror, 1: matt."},
         EMISSION, IOR,
         {"transmission", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
-         .doc = "Part of the light that enters and goes through, as in glass."},
-        INSIDE)},
+         .group = "optics", .doc = "Part of the light that enters and goes through, as in glass."},
+        INSIDE("transmission!=0"))},
     {"unlit", "One colour, whatever the light.", PARAMS(
         {"color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .step = 0.05, .main = true,
          .doc = "What is seen."})},
@@ -220,19 +242,25 @@ const struct record_type shader_types[] = {
     {"emission", PARAM_COLOR, .step = 0.05, \
      .doc = "Light given by each unit of length at density 1."}, \
     {"density", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.1, .main = true, \
-     .doc = "Part of the light met for each unit of length."}, \
+     .group = "density", .doc = "Part of the light met for each unit of length."}, \
     {"source", PARAM_ENUM, .choices = density_kinds, .def = {1}, \
+     .group = "density", \
      .doc = "What the density follows: nothing, noise, or the distance to the scene's surfaces."}, \
     {"falloff", PARAM_FLOAT, UNIT_LENGTH, .def = {0.2}, .min = 0, .max = LIMIT_COORDINATE, \
-     .step = 0.05, .doc = "Way from the rim inwards on which the density grows."}, \
+     .step = 0.05, .group = "density", \
+     .doc = "Way from the rim inwards on which the density grows."}, \
     {"frequency", PARAM_FLOAT, .def = {1.5}, .min = 0, .max = 1000, .step = 0.1, \
+     .group = "density", .when = "source=noise", \
      .doc = "Waves of noise for each unit of length."}, \
-    {"octaves", PARAM_INT, .def = {4}, .min = 1, .max = 8, .step = 1, .doc = "Layers of noise."}, \
-    {"seed", PARAM_INT, .min = 0, .max = 65535, .step = 1, .doc = "Which noise."}, \
+    {"octaves", PARAM_INT, .def = {4}, .min = 1, .max = 8, .step = 1, .group = "density", \
+     .when = "source=noise", .doc = "Layers of noise."}, \
+    {"seed", PARAM_INT, .min = 0, .max = 65535, .step = 1, .group = "density", \
+     .when = "source=noise", .doc = "Which noise."}, \
     {"cover", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, \
-     .doc = "Part of the volume that noise fills."}, \
+     .group = "density", .when = "source=noise", .doc = "Part of the volume that noise fills."}, \
     {"reach", PARAM_FLOAT, UNIT_LENGTH, .def = {0.5}, .min = 0, .max = LIMIT_COORDINATE, \
      .above_min = true, .step = 0.05, \
+     .group = "density", .when = "source=field", \
      .doc = "Distance from surfaces over which a density by field thins to 1/e."}, \
     {"anisotropy", PARAM_FLOAT, .min = -0.95, .max = 0.95, .step = 0.05, \
      .doc = "Above 0 light is scattered forwards, below 0 backwards."}

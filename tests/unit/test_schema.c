@@ -13,6 +13,7 @@
 #include "protocol/limits.h"
 #include "protocol/messages.h"
 #include "protocol/nodes.h"
+#include "protocol/picture.h"
 #include "protocol/schema.h"
 
 static cJSON *schema;
@@ -146,6 +147,63 @@ static void assert_described(const cJSON *rows, const struct record_type *type)
     }
 }
 
+/* What a condition names stands in the same record, and can hold what it is compared with. */
+static void assert_condition(const struct record_type *type, const struct param *param)
+{
+    char name[64] = "";
+    const char *at = param->when + strcspn(param->when, "!=");
+    memcpy(name, param->when, (size_t)(at - param->when));
+    at += *at == '!';
+    assert_int_equal(*at, '=');
+    const struct param *other = type->params;
+    while (other->name && strcmp(other->name, name) != 0) {
+        other++;
+    }
+    assert_non_null(other->name);
+    assert_ptr_not_equal(other, param);
+    cJSON *value = other->type == PARAM_ENUM ? cJSON_CreateString(at + 1) : cJSON_Parse(at + 1);
+    double read[4];
+    assert_true(param_read(other, value, read, "", NULL));
+    cJSON_Delete(value);
+}
+
+static void test_conditions(void **state)
+{
+    (void)state;
+    const struct record_type *const tables[] = {light_types, shader_types, volume_types};
+    const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
+    int found = 0;
+    for (size_t i = 0; i < 3; i++) {
+        for (const struct record_type *type = tables[i]; type->name; type++) {
+            for (const struct param *param = type->params; param->name; param++) {
+                if (param->when) {
+                    assert_condition(type, param);
+                    found++;
+                }
+            }
+        }
+        for (const struct param *param = records[i]->params; param->name; param++) {
+            if (param->when) {
+                assert_condition(records[i], param);
+                found++;
+            }
+        }
+    }
+    assert_true(found > 0);
+}
+
+static void test_outputs_levels_stages(void **state)
+{
+    (void)state;
+    const cJSON *registry = at(schema, "x-fieldcast");
+    assert_int_equal(cJSON_GetArraySize(at(registry, "outputs")), AOV_COUNT);
+    assert_string_equal(json_member_text(at(registry, "outputs")->child, "name", ""), "color");
+    assert_int_equal(cJSON_GetArraySize(at(registry, "levels")), QUALITY_COUNT);
+    assert_string_equal(json_member_text(at(registry, "levels")->child, "name", ""), "draft");
+    assert_int_equal(cJSON_GetArraySize(at(registry, "stages")), FRAME_STAGES);
+    assert_string_equal(json_member_text(at(registry, "stages")->child, "name", ""), "queue");
+}
+
 static void test_registry(void **state)
 {
     (void)state;
@@ -192,6 +250,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_every_node_has_a_rule, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_what_documents_declare, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_outputs_levels_stages, set_up, tear_down),
+        cmocka_unit_test(test_conditions),
     };
     return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
 }
