@@ -143,6 +143,10 @@ static void add_limits(struct page *page)
 
 char *reference_markdown(void)
 {
+    static const struct {
+        const char *title;
+        const struct record_type *types;
+    } lists[] = {{"Lights", light_types}, {"Volumes", volume_types}, {"Shaders", shader_types}};
     static const struct record_type *const records[] = {
         &node_common_type, &transform_type, &camera_type, &environment_type,
         &render_type,      &primitive_type, &shader_type};
@@ -150,13 +154,11 @@ char *reference_markdown(void)
     add(&page, "# Reference\nEverything that a scene may hold. Written by `make docs` out of the "
                "tables of this folder.\n\n");
     add_nodes(&page);
-    add(&page, "## Lights\n");
-    for (const struct record_type *type = light_types; type->name; type++) {
-        add_record(&page, "###", type);
-    }
-    add(&page, "## Shaders\n");
-    for (const struct record_type *type = shader_types; type->name; type++) {
-        add_record(&page, "###", type);
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        add(&page, "## %s\n", lists[i].title);
+        for (const struct record_type *type = lists[i].types; type->name; type++) {
+            add_record(&page, "###", type);
+        }
     }
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         add_record(&page, "##", records[i]);

@@ -4,8 +4,8 @@
 #define PROTOCOL_REFERENCE_H
 
 /* Markdown: every node type with its picture (reference/TYPE.jpg), parameters, ranges, exactness
- * and source; then lights, shaders, camera, environment, render settings and limits. Caller
- * frees. */
+ * and source; then lights, volumes, shaders, camera, environment, render settings and
+ * limits. Caller frees. */
 char *reference_markdown(void);
 
 #endif

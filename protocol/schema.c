@@ -99,7 +99,9 @@ static cJSON *choices_schema(const struct param *param)
 static cJSON *text_schema(const struct param *param)
 {
     cJSON *schema = typed("string");
-    if (param->type == PARAM_TEXT || param->type == PARAM_CODE) {
+    if (param->type == PARAM_ASSET) {
+        cJSON_AddStringToObject(schema, "pattern", "^([0-9a-f]{64})?$");
+    } else if (param->type == PARAM_TEXT || param->type == PARAM_CODE) {
         bool code = param->type == PARAM_CODE;
         cJSON_AddNumberToObject(schema, "maxLength", code ? LIMIT_CODE_BYTES : LIMIT_NAME_BYTES);
         cJSON_AddStringToObject(schema, "pattern",
@@ -252,11 +254,12 @@ static cJSON *node_schema(void)
     return schema;
 }
 
-static cJSON *light_schema(void)
+/* Of a kind whose list is an array: each type of its table is a form. */
+static cJSON *listed_schema(const struct record_type *type)
 {
     cJSON *schema = cJSON_CreateObject();
     cJSON *forms = cJSON_AddArrayToObject(schema, "oneOf");
-    for (const struct record_type *type = light_types; type->name; type++) {
+    for (; type->name; type++) {
         cJSON *properties, *form = closed_object(type->doc, &properties);
         cJSON_AddItemToObject(properties, "id", name_schema());
         cJSON_AddItemToObject(properties, "type", constant(type->name));
@@ -349,7 +352,8 @@ static void add_definitions(cJSON *schema)
         cJSON_AddItemToObject(definitions, records[i]->name, record_schema(records[i]));
     }
     cJSON_AddItemToObject(definitions, "declaration", declaration_schema());
-    cJSON_AddItemToObject(definitions, "light", light_schema());
+    cJSON_AddItemToObject(definitions, "light", listed_schema(light_types));
+    cJSON_AddItemToObject(definitions, "volume", listed_schema(volume_types));
     cJSON_AddItemToObject(definitions, "material", material_schema());
     cJSON_AddItemToObject(definitions, "node", node_schema());
 }

@@ -119,12 +119,12 @@ const struct record_type environment_type = {
 const struct record_type render_type = {"render", "How the scene becomes a picture.", PARAMS(
     {"level", PARAM_ENUM, .def = {QUALITY_STILL}, .choices = quality_names, .main = true,
      .doc = "Quality of still pictures."},
-    {"samples", PARAM_INT, .def = {2}, .min = 1, .max = 4, .step = 1, .main = true,
+    {"samples", PARAM_INT, .def = {2}, .min = 1, .max = 4, .step = 1,
      .when = "antialiasing!=none",
      .doc = "Samples for each pixel along one axis, in still pictures."},
     {"antialiasing", PARAM_ENUM, .choices = antialiasing_kinds,
-     .doc = "none; edges: they are blended with what is around them; adaptive: samples at edges, "
-            "one elsewhere; full: samples everywhere; auto: as the level says."},
+     .doc = "How edges are softened: none; edges: blended with what is around them; adaptive: "
+            "samples at edges, one elsewhere; full: samples everywhere; auto: as the level says."},
     {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
      .group = "limits", .doc = "Steps after which a ray gives up."},
     {"max_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {200}, .min = 0, .max = LIMIT_COORDINATE,
@@ -163,7 +163,7 @@ const struct record_type light_types[] = {
         {"position", PARAM_VEC3, UNIT_LENGTH, .def = {2, 4, 3}, .step = 0.05, .main = true,
          .doc = "Where the light is."},
         {"direction", PARAM_VEC3, .def = {-0.4, -0.8, -0.6}, .direction = true, .step = 0.05,
-         .main = true, .doc = "Axis of the cone, away from the light; any length but 0."},
+         .doc = "Axis of the cone, away from the light; any length but 0."},
         {"angle", PARAM_FLOAT, UNIT_ANGLE, .def = {0.5}, .min = 0.01, .max = 1.5707,
          .step = 0.0872664625997165, .doc = "Half the angle of the cone."},
         {"softness", PARAM_FLOAT, .def = {0.2}, .min = 0, .max = 1, .step = 0.05,
@@ -212,10 +212,10 @@ const struct record_type shader_types[] = {
     {"standard", "Physically based surfaces: metals and everything else, rough to smooth.", PARAMS(
         {"base_color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
          .main = true, .doc = "Colour of the surface; of a metal's mirror image."},
-        {"metallic", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05, .main = true,
-         .doc = "0: no metal, 1: metal."},
+        {"metallic", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
+         .doc = "From 0, no metal, to 1, metal."},
         {"roughness", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
-         .doc = "0: a mirror, 1: matt."},
+         .doc = "From 0, a mirror, to 1, matt."},
         EMISSION, IOR,
         {"transmission", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
          .group = "optics", .doc = "Part of the light that enters and goes through, as in glass."},
@@ -228,7 +228,7 @@ const struct record_type shader_types[] = {
         {"color1", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
          .main = true, .doc = "Colour of the cubes whose places add up to an even number."},
         {"color2", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05,
-         .main = true, .doc = "Colour of the others."},
+         .doc = "Colour of the others."},
         {"scale", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.1, .doc = "Side of a cube."},
         GLOSS)},
@@ -267,14 +267,14 @@ const struct record_type shader_types[] = {
 
 const struct record_type volume_types[] = {
     {"box", "Smoke or cloud in a box.", PARAMS(
-        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "Its centre."},
+        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
         {"size", PARAM_VEC3, UNIT_LENGTH, .def = {2, 2, 2}, .min = 0, .max = LIMIT_COORDINATE,
-         .above_min = true, .step = 0.05, .main = true, .doc = "Full lengths."},
+         .above_min = true, .step = 0.05, .doc = "Full lengths."},
         DENSITY)},
     {"sphere", "Smoke or cloud in a ball.", PARAMS(
-        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .main = true, .doc = "Its centre."},
+        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
         {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
-         .above_min = true, .step = 0.05, .main = true, .doc = "Its radius."},
+         .above_min = true, .step = 0.05, .doc = "Its radius."},
         DENSITY)},
     {.name = NULL},
 };

@@ -8,6 +8,7 @@
 
 const struct random_kind random_kinds[RANDOM_KINDS] = {
     [RANDOM_LIGHTS] = {"lights", offsetof(struct scene, lights), "type", NULL, light_types},
+    [RANDOM_VOLUMES] = {"volumes", offsetof(struct scene, volumes), "type", NULL, volume_types},
     [RANDOM_PRIMITIVES] = {"primitives", offsetof(struct scene, primitives), NULL, NULL,
                            &primitive_type},
     [RANDOM_SHADERS] = {"shaders", offsetof(struct scene, shaders), NULL, NULL, &shader_type},
@@ -121,6 +122,16 @@ static cJSON *random_code(struct random *random)
     return cJSON_CreateString(texts[random_below(random, sizeof texts / sizeof texts[0])]);
 }
 
+/* A file that nobody has, or none. */
+static cJSON *random_asset(struct random *random)
+{
+    char digest[DIGEST_DIGITS + 1] = "";
+    for (size_t i = 0, count = random_chance(random, 0.7) ? DIGEST_DIGITS : 0; i < count; i++) {
+        digest[i] = "0123456789abcdef"[random_below(random, 16)];
+    }
+    return cJSON_CreateString(digest);
+}
+
 /* One of the list, or "". */
 static cJSON *random_name(struct random *random, const struct scene *scene, int kind)
 {
@@ -160,6 +171,8 @@ cJSON *random_value(struct random *random, const struct param *param, const stru
         return random_name(random, scene, RANDOM_PRIMITIVES);
     case PARAM_MATERIAL:
         return random_name(random, scene, RANDOM_MATERIALS);
+    case PARAM_ASSET:
+        return random_asset(random);
     case PARAM_ENUM:
         while (param->choices[count]) {
             count++;
@@ -298,7 +311,7 @@ struct scene *random_document(struct random *random, size_t nodes)
         cJSON_AddItemToObject(document, records[i]->name, random_record(random, records[i], scene));
     }
     for (int kind = 0; kind < RANDOM_KINDS; kind++) {
-        bool array = kind == RANDOM_LIGHTS;
+        bool array = kind == RANDOM_LIGHTS || kind == RANDOM_VOLUMES;
         cJSON *list = array ? cJSON_CreateArray() : cJSON_CreateObject();
         cJSON_AddItemToObject(document, random_kinds[kind].list, list);
         for (size_t i = 0, count = random_below(random, 4); i < count; i++) {

@@ -20,6 +20,7 @@ struct random_kind {
 
 enum {
     RANDOM_LIGHTS,
+    RANDOM_VOLUMES,
     RANDOM_PRIMITIVES,
     RANDOM_SHADERS,
     RANDOM_MATERIALS,

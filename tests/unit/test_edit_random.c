@@ -44,6 +44,11 @@ static struct {
     {"set", "/materials/", "/shader", true, 0},
     {"set", "/primitives/", "/code", false, 0},
     {"set", "/lights/", "/type", true, 0},
+    {"set", "/volumes/", "/type", true, 0},
+    {"set", "/environment/", "image", false, 0},
+    {"insert", "/volumes", "", false, 0},
+    {"remove", "/volumes/", "", false, 0},
+    {"move", "/volumes/", "", false, 0},
     {"insert", "/primitives", "", false, 0},
     {"insert", "/shaders", "", false, 0},
     {"insert", "/models", "", false, 0},
@@ -111,7 +116,7 @@ static void test_random_edits_have_exact_inverses(void **state)
 {
     (void)state;
     int accepted = 0, refused = 0;
-    for (uint64_t seed = 1; seed <= 150; seed++) {
+    for (uint64_t seed = 1; seed <= 170; seed++) {
         struct random random = {seed};
         struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
         for (int i = 0; i < 60; i++) {

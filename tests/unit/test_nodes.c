@@ -167,6 +167,9 @@ static void test_tables_hold_their_defaults(void **state)
         check_table(type);
         assert_ptr_equal(record_type_in(light_types, type->name), type);
     }
+    for (const struct record_type *type = volume_types; type->name; type++) {
+        check_table(type);
+    }
     for (const struct record_type *type = shader_types; type->name; type++) {
         check_table(type);
     }

@@ -296,7 +296,7 @@ static void test_limits_of_the_tree(void **state)
 /* `count` of the list, each `value`. */
 static char *listed(const char *list, size_t count, const char *value)
 {
-    bool array = strcmp(list, "lights") == 0;
+    bool array = strcmp(list, "lights") == 0 || strcmp(list, "volumes") == 0;
     char *text = malloc(count * (strlen(value) + 20) + 200), *at = text;
     assert_non_null(text);
     at += sprintf(at, "{\"format\":\"fieldcast/1\",\"%s\":%c", list, array ? '[' : '{');
@@ -316,6 +316,7 @@ static void test_limits_of_lists(void **state)
         size_t limit, nodes; /* nodes of each */
     } lists[] = {
         {"lights", "{\"type\":\"point\"}", LIMIT_LIGHTS, 0},
+        {"volumes", "{\"type\":\"sphere\"}", LIMIT_VOLUMES, 0},
         {"primitives", "{}", LIMIT_PRIMITIVES, 0},
         {"shaders", "{}", LIMIT_SHADERS, 0},
         {"materials", "{\"shader\":\"phong\"}", LIMIT_MATERIALS, 0},

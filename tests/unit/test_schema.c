@@ -137,6 +137,29 @@ static void test_what_documents_declare(void **state)
     assert_int_equal(forms, built_in + 1);
 }
 
+static void test_lists(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list, *of;
+        const struct record_type *types;
+    } lists[] = {{"lights", "light", light_types}, {"volumes", "volume", volume_types}};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        const cJSON *list = at(at(schema, "properties"), lists[i].list);
+        const cJSON *form = at(at(at(schema, "$defs"), lists[i].of), "oneOf")->child;
+        assert_non_null(strstr(at(list, "items/$ref")->valuestring, lists[i].of));
+        for (const struct record_type *type = lists[i].types; type->name; type++) {
+            assert_string_equal(at(form, "properties/type/const")->valuestring, type->name);
+            assert_int_equal(cJSON_GetArraySize(at(form, "properties")),
+                             (int)record_type_count(type) + 2);
+            form = form->next;
+        }
+        assert_null(form);
+    }
+    assert_string_equal(at(schema, "$defs/environment/properties/image/pattern")->valuestring,
+                        "^([0-9a-f]{64})?$");
+}
+
 static void assert_described(const cJSON *rows, const struct record_type *type)
 {
     assert_int_equal(cJSON_GetArraySize(rows), (int)record_type_count(type));
@@ -228,6 +251,10 @@ static void test_registry(void **state)
         const cJSON *row = cJSON_GetArrayItem(at(registry, "lights"), i);
         assert_described(at(row, "params"), &light_types[i]);
     }
+    for (int i = 0; volume_types[i].name; i++) {
+        const cJSON *row = cJSON_GetArrayItem(at(registry, "volumes"), i);
+        assert_described(at(row, "params"), &volume_types[i]);
+    }
     for (int i = 0; shader_types[i].name; i++) {
         const cJSON *row = cJSON_GetArrayItem(at(registry, "shaders"), i);
         assert_described(at(row, "params"), &shader_types[i]);
@@ -249,6 +276,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_is_a_schema, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_every_node_has_a_rule, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_what_documents_declare, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_lists, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_outputs_levels_stages, set_up, tear_down),
         cmocka_unit_test(test_conditions),
