@@ -24,6 +24,8 @@
     X(ASSETS, "assets", 1024, "files", "uploaded files kept")                                      \
     X(ASSET_BYTES, "asset_bytes", 33554432, "bytes", "one uploaded file")                          \
     X(ASSET_SIDE, "asset_side", 8192, "pixels", "width or height of an uploaded picture")          \
+    X(ASSET_PIXELS, "asset_pixels", 33554432, "pixels",                                            \
+      "width times height of an uploaded picture")                                                 \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \

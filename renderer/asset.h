@@ -8,20 +8,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { ASSET_ID_CHARACTERS = 64 };
+#include "protocol/asset.h"
 
 struct asset {
     char id[ASSET_ID_CHARACTERS + 1];
     uint8_t *bytes;
     size_t length;
-    struct asset *next; /* the one given before */
+    struct error problem; /* why it is no picture; ERROR_NONE: none is known */
+    struct asset *next;
 };
 
-/* Keeps a copy of the file. Files that `is_used` does not know give way, but the newest few. */
+/* Takes a copy of the file into the list, which begins with the newest. Beyond a few that
+ * `is_used` does not know, the oldest go. */
 void assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
                 bool (*is_used)(void *data, const char *id), void *data);
 /* NULL: none of that name. */
-const struct asset *assets_find(const struct asset *assets, const char *id);
+struct asset *assets_find(struct asset *assets, const char *id);
 void assets_finish(struct asset **assets);
 
 #endif
