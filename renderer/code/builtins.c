@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "renderer/sdf/noise.h"
+
 /* --- component by component --- */
 
 static double from_degrees(double x)
@@ -155,6 +157,11 @@ static double stepped_smoothly(double low, double high, double x)
 static double product(double x, double y)
 {
     return x * y;
+}
+
+static double striped(double x)
+{
+    return stepped(0.5, fraction(x + BUILTIN_WALL));
 }
 
 static double is_nan(double x)
@@ -346,6 +353,61 @@ static void inverted(double *out, const double *const in[BUILTIN_ARGUMENTS], int
     }
 }
 
+/* --- patterns --- */
+
+static bool all_finite(const double *p)
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+static void noise_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
+{
+    (void)n;
+    out[0] = all_finite(in[0]) ? noise_value(in[0], 0) : NAN;
+}
+
+static void octaves_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
+{
+    (void)n;
+    int octaves = (int)between(in[1][0], 0, BUILTIN_OCTAVES);
+    out[0] = all_finite(in[0]) ? noise_octaves(in[0], octaves, 0) : NAN;
+}
+
+static void hash_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
+{
+    uint32_t at[3] = {0};
+    bool finite = all_finite(in[0]);
+    for (int i = 0; i < n && finite; i++) {
+        at[i] = (uint32_t)remainder_floor(floor(in[0][i] + BUILTIN_WALL), 65536);
+    }
+    out[0] = finite ? 0.5 + 0.5 * noise_lattice(at[0], at[1], at[2], 0) : NAN;
+}
+
+static void checker_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        sum += floor(in[0][i] + BUILTIN_WALL);
+    }
+    out[0] = remainder_floor(sum, 2);
+}
+
+static void triplanar_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
+{
+    double greatest = BUILTIN_TINY, sum = 0;
+    for (int i = 0; i < n; i++) {
+        greatest = most(greatest, fabs(in[0][i]));
+    }
+    for (int i = 0; i < n; i++) {
+        double x = in[0][i] / greatest;
+        out[i] = x * x * x * x + BUILTIN_TINY;
+        sum += out[i];
+    }
+    for (int i = 0; i < n; i++) {
+        out[i] /= sum;
+    }
+}
+
 /* --- the table --- */
 
 const struct builtin builtin_table[] = {
@@ -424,6 +486,19 @@ const struct builtin builtin_table[] = {
     {"not", FAMILY_LOGIC, 1, .one = is_false},
     {"any", FAMILY_COUNT, 1, .whole = any_of},
     {"all", FAMILY_COUNT, 1, .whole = all_of},
+    /* Value noise from -1 to 1, waves about two units long. */
+    {"noise", FAMILY_PLACE, 1, .weight = 40, .glsl = "noise_value($0, 0u)", .whole = noise_of},
+    /* The sum of up to eight octaves, each of twice the frequency and half the height. */
+    {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .trips = BUILTIN_OCTAVES, .glsl = "code_fbm",
+     .whole = octaves_of},
+    /* A number from 0 to 1 for each cube of side 1, by chance. */
+    {"hash", FAMILY_PLACE, 1, .weight = 8, .glsl = "code_hash", .whole = hash_of},
+    /* 0 and 1 by turns in cubes of side 1. */
+    {"checker", FAMILY_PLACE, 1, .weight = 2, .glsl = "code_checker", .whole = checker_of},
+    /* 0 in the first half of each unit, 1 in the second. */
+    {"stripes", FAMILY_FLOAT, 1, .weight = 2, .glsl = "code_stripes", .one = striped},
+    /* How much of each of three patterns along X, Y and Z a surface shows; 1 in all. */
+    {"triplanar", FAMILY_CROSS, 1, .weight = 4, .glsl = "code_triplanar", .whole = triplanar_of},
     {.name = NULL},
     /* clang-format on */
 };
@@ -456,7 +531,7 @@ const char *builtin_advice(const char *name)
         {"clip", "code cannot leave out a point; return a large distance, or a colour"},
         {"sincos", "write sin() and cos()"},
         {"modf", "write trunc() and fract()"},
-        {"noise", "no driver has it; write a function of your own"},
+        {"noise", "no driver has it; call noise(vec3)"},
         {"atomic", "there is nothing to share between points"},
         {"printf", "code can only return its value"},
     };

@@ -6,6 +6,9 @@
  * normalize of nothing is nothing, atan(0, 0) is 0. pow() takes the magnitude of its first
  * argument. What is divided by 0 is divided by 1e-30, but gives 0 inside of mod() and for whole
  * numbers.
+ *
+ * Patterns have walls between their cells, a little below whole numbers: surfaces that lie on whole
+ * numbers are all on one side of a wall, where rounding would else make noise of them.
  */
 #ifndef RENDERER_CODE_BUILTINS_H
 #define RENDERER_CODE_BUILTINS_H
@@ -27,7 +30,9 @@ enum family {
     FAMILY_SCALAR,      /* floats or vectors of one shape; the result is a float */
     FAMILY_SHAPE,       /* the same, but as a whole; the result has their shape */
     FAMILY_REFRACT,     /* two of one shape and a float */
-    FAMILY_CROSS,       /* two of vec3 */
+    FAMILY_CROSS,       /* of vec3, which the result is, too */
+    FAMILY_PLACE,       /* a vec3; the result is a float */
+    FAMILY_OCTAVES,     /* a vec3 and an int; the result is a float */
     FAMILY_MATRIX,      /* matrices of one size, which the result has, too */
     FAMILY_DETERMINANT, /* a matrix; the result is a float */
     FAMILY_OUTER,       /* two vectors of one size; the result is a matrix */
@@ -38,6 +43,8 @@ enum { BUILTIN_ARGUMENTS = 3 };
 
 /* As in glsl/code.glsl. */
 #define BUILTIN_TINY 1e-30
+#define BUILTIN_WALL 0.015625 /* how far walls are below whole numbers */
+enum { BUILTIN_OCTAVES = 8 };
 
 /* What stands for a divisor. */
 static inline double builtin_nonzero(double divisor)
@@ -50,6 +57,7 @@ struct builtin {
     enum family family;
     int arguments;
     int weight; /* operations that it counts for in each component; 0: one */
+    int trips;  /* iterations of loops in it, at most */
     /* A name to call, or a text where $0, $1, $2 are arguments, each at most once. NULL: `name`. */
     const char *glsl;
     /* One of these; NULL for the others. The first three go component by component. */

@@ -140,6 +140,12 @@ static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct 
         if (expr->kind == EXPR_CALL) {
             return walk_call(walk, cost, expr);
         }
+        if (expr->kind == EXPR_BUILTIN && expr->builtin->trips > 0) {
+            cost->trips += expr->builtin->trips;
+            if (!spend_work(walk, cost, size_of(expr) * (expr->builtin->trips - 1), expr->at)) {
+                return false;
+            }
+        }
     }
     return spend(walk, cost, size_of(expr), expr->at);
 }

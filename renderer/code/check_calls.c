@@ -235,6 +235,16 @@ static bool match_vectors(const struct builtin *row, const struct expr *args, st
     case FAMILY_CROSS:
         want_all(match, type_vector(BASE_FLOAT, 3));
         return base != BASE_VOID && rows == 3;
+    case FAMILY_PLACE:
+        want_all(match, type_vector(BASE_FLOAT, 3));
+        match->result.rows = 1;
+        return base != BASE_VOID && rows == 3;
+    case FAMILY_OCTAVES:
+        want_all(match, type_vector(BASE_FLOAT, 3));
+        match->wanted[1] = type_vector(BASE_INT, 1);
+        match->result.rows = 1;
+        return args->type.rows == 3 && args->next->type.base == BASE_INT &&
+               type_is_scalar(args->next->type);
     case FAMILY_REFRACT:
         want_all(match, type_vector(BASE_FLOAT, rows));
         match->wanted[2].rows = 1;

@@ -24,6 +24,7 @@ struct builder {
     uint32_t index;    /* pre-order in the scene's tree, of the next node */
     uint32_t instance; /* number of the outermost `model` node around, 0: none */
     const struct node *instance_node;
+    bool cutting;     /* what comes is taken away from something else, or bounds it */
     size_t depth;     /* nodes around, through models */
     size_t emitted;   /* nodes so far, in models each time anew */
     uint64_t trips;   /* loop iterations so far, in the current loop */

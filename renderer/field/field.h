@@ -51,9 +51,13 @@ struct field_instruction {
     uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
 };
 
-/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, first
- * parameter). Blocks of domain modifiers: three rows, then the row's own vec4s. */
-enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 3 };
+/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, clear),
+ * then its parameters. Blocks of domain modifiers: three rows, then the row's own vec4s.
+ *
+ * `clear` is 1 where the material lets light through, -1 where it does not, and 0 where the shape
+ * cuts another, as every child but the first of a difference or an intersection does. GLSL may look
+ * at the solid or at the clear shapes alone (`through` in glsl/mixture.glsl); C sees all. */
+enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 4 };
 
 /* Behind the head of a shape of a user's code: (half of the box that cuts it, scale), then what it
  * declares. */
@@ -66,16 +70,30 @@ enum { FIELD_CUT_VEC4S = 1 };
  * box: where the box is farther than d[a] that changes nothing, and where it is nearer, so much is
  * sure to be free. Guards are left out where surfaces are asked for: that happens once. */
 
-/* The first vec4s of a material: (diffuse, shininess), (specular, 0), (emission, shader), (ambient,
- * unlit). Shader i + 1 is field.shaders[i], whose parameters follow; 0 is Blinn-Phong. Of a custom
- * material, what is here is added to by its shader: the colour it gives is added to diffuse, or
- * to emission where it is unlit. */
+/* The first vec4s of a material: (diffuse, gloss), (specular, 0), (emission, shader), (ambient,
+ * unlit), (reflectivity, transmission, index of refraction, model), (absorption, 0), each as in
+ * glsl/surface.glsl. Shader i + 1 is field.shaders[i], whose parameters follow; 0: none. The colour
+ * that a shader gives is added to diffuse, or to emission where it is unlit. */
 enum {
-    FIELD_MATERIAL_VEC4S = 4,
+    FIELD_MATERIAL_VEC4S = 6,
     FIELD_MATERIAL_NUMBERS = 4 * FIELD_MATERIAL_VEC4S,
-    FIELD_SHADER = 11, /* component of these numbers */
+    /* Components of these numbers. */
+    FIELD_DIFFUSE = 0,
+    FIELD_GLOSS = 3,
+    FIELD_SPECULAR = 4,
+    FIELD_EMISSION = 8,
+    FIELD_SHADER = 11,
+    FIELD_AMBIENT = 12,
     FIELD_UNLIT = 15,
+    FIELD_REFLECTIVITY = 16,
+    FIELD_TRANSMISSION = 17,
+    FIELD_IOR = 18,
+    FIELD_MODEL = 19,
+    FIELD_ABSORPTION = 20,
 };
+
+/* As in glsl/surface.glsl. */
+enum field_model { FIELD_PHONG, FIELD_BLINN, FIELD_STANDARD };
 
 /* No nesting needs more: two slots for each level and one for the whole. */
 enum { FIELD_SLOTS_MAX = 2 * LIMIT_NODE_DEPTH + 4 };
@@ -91,9 +109,10 @@ struct field_place {
     int vec4, component, count;
 };
 
-/* Code of a user that a field calls: user_I or shade_I in GLSL. */
+/* Code that a field calls: user_I or shade_I in GLSL. */
 struct field_code {
     const char *text; /* only to tell codes apart while compiling */
+    bool own;         /* ours (renderer/code/shades.h), not a user's */
     struct code *code;
     char place[ERROR_PLACE_BYTES];             /* of the text in the document */
     uint64_t hash;                             /* of the text and of what it declares */
@@ -108,7 +127,7 @@ struct field {
     size_t vec4_count;      /* the same for every field of this shape_hash */
     size_t material_base;   /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
     size_t material_stride; /* vec4s of one slot */
-    size_t material_count;  /* without the default */
+    size_t material_count;  /* without the default and the floor's, which is the last */
     struct field_code *codes, *shaders;
     size_t code_count, shader_count;
     double *arguments;         /* the numbers again, as the C evaluator reads them */
@@ -120,7 +139,10 @@ struct field {
     /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
      * must be kept from steps * (1 + loop_trips) above its bound. */
     uint32_t loop_trips;
-    struct bounds bounds; /* of the visible scene */
+    struct bounds bounds;       /* of the visible scene */
+    struct bounds clear_bounds; /* of what light goes through in it */
+    bool clear;                 /* there is any of that */
+    bool user_code;             /* some of `codes` or `shaders` is a user's */
     int references;
 };
 
@@ -151,7 +173,7 @@ struct field_surface {
     uint32_t number;                         /* of the leaf of greatest weight; 0: empty space */
     double material[FIELD_MATERIAL_NUMBERS]; /* mixed by weight, laid out as in the buffer */
 };
-/* How a point is looked at, for shaders of users. */
+/* How a point is looked at, for shaders. */
 struct field_view {
     double normal[3], direction[3], distance;
 };

@@ -60,6 +60,7 @@ static struct result emit_union(struct builder *b, const struct node *node,
 {
     for (size_t i = 0; i < node->child_count; i++) {
         struct result child = emit(b, node->children[i], frame, slot, joined || own.solid);
+        field_join_clear(&own, &child);
         if (child.solid) {
             own.box = own.solid ? bounds_union(own.box, child.box) : child.box;
             own.solid = true;
@@ -83,7 +84,10 @@ static struct result emit_folded(struct builder *b, const struct node *node,
             skip(b, node->children[i]);
             continue;
         }
+        bool cutting = b->cutting;
+        b->cutting = cutting || (i > 0 && rule != SDF_ANY);
         struct result child = emit(b, node->children[i], frame, slot + whole.solid, false);
+        b->cutting = cutting;
         bool leads = rule == SDF_FIRST && i == 0;
         dead =
             dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
@@ -95,6 +99,7 @@ static struct result emit_folded(struct builder *b, const struct node *node,
             continue;
         }
         builder_add_instruction(b, combine);
+        field_join_clear(&whole, &child);
         if (rule == SDF_ANY) {
             whole.box = bounds_union(whole.box, child.box);
         } else if (rule == SDF_ALL) {
@@ -346,6 +351,7 @@ static struct result emit(struct builder *b, const struct node *node, const stru
         result = emit_joining(b, node, &frame, slot, joined, number);
     } else if (!b->failed) {
         result = emit_apart(b, node, &frame, slot + joined);
+        result.clear_box = result.box;
         if (result.solid && joined) {
             builder_add_instruction(b, union_at(b, slot));
         }
@@ -356,6 +362,7 @@ static struct result emit(struct builder *b, const struct node *node, const stru
         return result;
     }
     result.box = bounds_transform(&result.box, from, ratio);
+    result.clear_box = bounds_transform(&result.clear_box, from, ratio);
     if (joined) {
         guard(b, before, slot, outer, &result.box);
     }
@@ -394,6 +401,39 @@ static uint64_t shape_hash(const struct field *field)
     return builder_hash(state, (uint32_t)field->vec4_count);
 }
 
+/* Whether some of the code is a user's. */
+static bool has_user_code(const struct field *field)
+{
+    bool has = field->code_count > 0;
+    for (size_t i = 0; i < field->shader_count; i++) {
+        has = has || !field->shaders[i].own;
+    }
+    return has;
+}
+
+/* The environment's endless ground, united with the scene if there is any, which is in slot 0. */
+static void add_floor(struct builder *b, struct result *whole)
+{
+    const struct record *environment = &b->scene->environment;
+    if (record_number(environment, "floor") == 0 || b->failed) {
+        return;
+    }
+    struct frame frame = frame_create(0, 1, field_floor_slot(b->scene));
+    struct node plane = {.type = node_type_find("plane")};
+    record_init(&plane.params, &plane.type->record);
+    struct value *offset = &plane.params.values[record_type_find(plane.params.type, "offset")];
+    offset->number[0] = record_number(environment, "floor_height");
+    struct result floor =
+        field_emit_shape(b, &plane, &frame, whole->solid, subtree_count(b->scene->root) + 1);
+    record_finish(&plane.params);
+    if (whole->solid) {
+        builder_add_instruction(b, union_at(b, 0));
+        floor.box = bounds_union(whole->box, floor.box);
+    }
+    field_join_clear(&floor, whole);
+    *whole = floor;
+}
+
 struct field *field_compile(const struct scene *scene, struct error *err)
 {
     struct field *field = memory_alloc(1, sizeof *field);
@@ -403,6 +443,7 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     builder.union_sdf = sdf_find(builder.union_type);
     struct frame frame = frame_create(0, 1, 0);
     struct result whole = emit(&builder, scene->root, &frame, 0, false);
+    add_floor(&builder, &whole);
     field_add_materials(&builder);
     if (builder.failed) {
         if (err) {
@@ -416,6 +457,9 @@ struct field *field_compile(const struct scene *scene, struct error *err)
         whole.box = bounds_empty();
     }
     field->bounds = whole.box;
+    field->clear_bounds = whole.clear_box;
+    field->clear = whole.clear;
+    field->user_code = has_user_code(field);
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;

@@ -8,7 +8,7 @@
 
 #define FAR 1e9 /* as in glsl/operations.glsl */
 
-/* Where a shader of a user applies: a material slot, its share of the whole, and the point in the
+/* Where a shader applies: a material slot, its share of the whole, and the point in the
  * space of the shape. */
 struct paint {
     size_t slot;
@@ -111,11 +111,16 @@ static void add_paint(struct paint paints[2], const struct paint *more, double s
 static void mix_tints(struct tint *a, const struct tint *b, double share)
 {
     double wa = a->weight * (1 - share), wb = b->weight * share;
-    a->leaf = wb > wa ? b->leaf : a->leaf;
+    const struct tint *most = wb > wa ? b : a;
+    double model = most->material[FIELD_MODEL], gloss = most->material[FIELD_GLOSS];
+    bool differ = a->material[FIELD_MODEL] != b->material[FIELD_MODEL];
+    a->leaf = most->leaf;
     a->weight = fmax(wa, wb);
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
         a->material[i] += (b->material[i] - a->material[i]) * share;
     }
+    a->material[FIELD_MODEL] = model;
+    a->material[FIELD_GLOSS] = differ ? gloss : a->material[FIELD_GLOSS];
     a->paints[0].weight *= 1 - share;
     a->paints[1].weight *= 1 - share;
     add_paint(a->paints, &b->paints[0], share);
@@ -261,7 +266,7 @@ double field_distance(const struct field *field, const double p[3])
     return machine.d[0];
 }
 
-/* Adds what a shader of a user gives. */
+/* Adds the colour that a shader gives. */
 static void paint(const struct field *field, const struct paint *paint, const double p[3],
                   const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
 {
@@ -274,7 +279,7 @@ static void paint(const struct field *field, const struct paint *paint, const do
     memcpy(at.world_normal, view->normal, sizeof at.world_normal);
     memcpy(at.ray_direction, view->direction, sizeof at.ray_direction);
     code_shade(field->shaders[shader].code, &at, numbers, color, NULL);
-    double *to = material + (block[FIELD_UNLIT] > 0 ? 8 : 0);
+    double *to = material + (block[FIELD_UNLIT] > 0 ? FIELD_EMISSION : FIELD_DIFFUSE);
     for (int i = 0; i < 3; i++) {
         to[i] += paint->weight * fmax(color[i], 0);
     }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The table of materials, and the shaders of users that they are made by. */
+/* The table of materials, and the shaders that they are made by. */
 #include "field_materials.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "field_code.h"
+#include "renderer/code/shades.h"
 
 size_t field_material_slot(const struct scene *scene, const char *name)
 {
@@ -17,87 +19,236 @@ size_t field_material_slot(const struct scene *scene, const char *name)
     return 0;
 }
 
-static void put_color(float *to, const struct record *record, const char *name)
+size_t field_floor_slot(const struct scene *scene)
 {
-    const double *color = record_vector(record, name);
-    for (int i = 0; i < 3; i++) {
-        to[i] = (float)color[i];
+    return scene->materials.count + 1;
+}
+
+/* --- materials of the registry --- */
+
+static double transmission_of(const struct record *record)
+{
+    if (record_type_find(record->type, "opacity") >= 0) {
+        return 1 - record_number(record, "opacity");
     }
+    return record_type_find(record->type, "transmission") >= 0
+               ? record_number(record, "transmission")
+               : 0;
+}
+
+bool field_material_clear(const struct scene *scene, size_t slot)
+{
+    const struct resource *material =
+        slot > 0 && slot <= scene->materials.count ? scene->materials.items[slot - 1] : NULL;
+    return material && !material->shader && transmission_of(&material->record) > 0;
+}
+
+static void put_vector(float *to, const struct record *record, const char *name)
+{
+    const double *vector = record_vector(record, name);
+    for (int i = 0; i < 3; i++) {
+        to[i] = (float)vector[i];
+    }
+}
+
+/* Of what light meets inside, so much is left at least after the attenuation distance: any less
+ * is black, and would take its place in the G-buffer from the other colours. */
+#define LEFT_LEAST 1e-4
+#define ABSORPTION_MAX 65000.0
+
+/* Light falls by Beer and Lambert's law, exp(-absorption * way). */
+static void put_inside(float *to, const struct record *record)
+{
+    const double *left = record_vector(record, "attenuation_color");
+    double way = record_number(record, "attenuation_distance");
+    for (int i = 0; i < 3; i++) {
+        double absorption = log(1 / fmax(left[i], LEFT_LEAST)) / way;
+        to[FIELD_ABSORPTION + i] = (float)fmin(absorption, ABSORPTION_MAX);
+    }
+    to[FIELD_TRANSMISSION] = (float)transmission_of(record);
+    to[FIELD_IOR] = (float)record_number(record, "ior");
+}
+
+/* All of phong's but its colour. */
+static void put_checker(float *to, const struct record *record)
+{
+    put_vector(to + FIELD_AMBIENT, record, "ambient");
+    put_vector(to + FIELD_SPECULAR, record, "specular");
+    put_vector(to + FIELD_EMISSION, record, "emission");
+    to[FIELD_GLOSS] = (float)record_number(record, "shininess");
+    to[FIELD_REFLECTIVITY] = (float)record_number(record, "reflectivity");
+    put_inside(to, record);
 }
 
 static void put_phong(float *to, const struct record *record)
 {
-    put_color(to, record, "diffuse");
-    to[3] = (float)record_number(record, "shininess");
-    put_color(to + 4, record, "specular");
-    put_color(to + 8, record, "emission");
-    put_color(to + 12, record, "ambient");
+    put_vector(to + FIELD_DIFFUSE, record, "diffuse");
+    put_checker(to, record);
 }
 
-/* Nothing but what its shader gives. */
-static void put_custom(struct builder *b, uint32_t vec4, const struct resource *material,
-                       int shader)
+/* What is mirrored at normal incidence, of a metal its colour, else by Fresnel's equations. */
+static void put_standard(float *to, const struct record *record)
 {
-    float *to = b->field->numbers + 4 * (size_t)vec4;
-    bool unlit = record_is(&material->shader->record, "lighting", "unlit");
-    const struct record *own = &material->record;
-    uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
+    const double *base = record_vector(record, "base_color");
+    double metallic = record_number(record, "metallic"), ior = record_number(record, "ior");
+    double mirrored = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), most = 0;
     for (int i = 0; i < 3; i++) {
-        to[12 + i] = unlit ? 0 : 1;
+        double specular = mirrored + (base[i] - mirrored) * metallic;
+        to[FIELD_DIFFUSE + i] = (float)(base[i] * (1 - metallic));
+        to[FIELD_SPECULAR + i] = (float)specular;
+        most = fmax(most, specular);
     }
-    to[3] = 1;
-    to[FIELD_SHADER] = (float)(shader + 1);
-    to[FIELD_UNLIT] = unlit;
-    builder_put_params(b, own->type->params, own->values, NULL, 1, vec4 + FIELD_MATERIAL_VEC4S, 0,
-                       arguments);
+    put_vector(to + FIELD_EMISSION, record, "emission");
+    to[FIELD_GLOSS] = (float)record_number(record, "roughness");
+    to[FIELD_REFLECTIVITY] = (float)most;
+    put_inside(to, record);
 }
 
-/* The buffer's size is part of the shape; padded, it leaves room for some more materials. */
-enum { PADDING = 256 };
+static void put_unlit(float *to, const struct record *record)
+{
+    put_vector(to + FIELD_EMISSION, record, "color");
+}
 
-/* Compiles the shaders that are used; `out_shaders` tells for each material which, -1: none. */
-static void add_shaders(struct builder *b, int *out_shaders)
+/* Those that have numbers of their own. */
+static const struct {
+    const char *shader;
+    void (*put)(float *to, const struct record *record);
+    enum field_model model;
+} rows[] = {
+    {"phong", put_phong, FIELD_PHONG},     {"blinn", put_phong, FIELD_BLINN},
+    {"checker", put_checker, FIELD_PHONG}, {"standard", put_standard, FIELD_STANDARD},
+    {"unlit", put_unlit, FIELD_PHONG},
+};
+
+static void put_material(float *to, const struct record *record)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (strcmp(rows[i].shader, record->type->name) == 0) {
+            to[FIELD_MODEL] = (float)rows[i].model;
+            rows[i].put(to, record);
+        }
+    }
+}
+
+/* What stands in a slot before: dull, and to be mixed with others without harm. */
+static void put_nothing(float *to)
+{
+    for (int i = 0; i < 3; i++) {
+        to[FIELD_AMBIENT + i] = 1;
+    }
+    to[FIELD_GLOSS] = 1;
+    to[FIELD_IOR] = 1.5f;
+}
+
+static void put_default(float *to)
+{
+    struct record phong;
+    record_init(&phong, record_type_in(shader_types, "phong"));
+    put_nothing(to);
+    put_material(to, &phong);
+    record_finish(&phong);
+}
+
+static void put_floor(float *to, const struct record *environment)
+{
+    put_default(to);
+    put_vector(to + FIELD_DIFFUSE, environment, "floor_color");
+    to[FIELD_REFLECTIVITY] = (float)record_number(environment, "floor_reflectivity");
+}
+
+/* --- shaders --- */
+
+/* The code that a material's colour comes from. */
+struct painter {
+    const char *text; /* NULL: none */
+    bool own, unlit;
+    int index; /* in the field's shaders, -1: none, or it does not compile */
+};
+
+static struct painter painter_of(const struct resource *material)
+{
+    const struct resource *shader = material->shader;
+    const struct shade *own = shader ? NULL : shade_find(material->record.type->name);
+    struct painter painter = {.own = own != NULL, .index = -1};
+    if (material->users > 0 && shader) {
+        painter.text = record_text(&shader->record, "code");
+        painter.unlit = record_is(&shader->record, "lighting", "unlit");
+    } else if (material->users > 0 && own) {
+        painter.text = own->text;
+        painter.unlit = own->unlit;
+    }
+    return painter;
+}
+
+static void add_painter(struct builder *b, const struct resource *material, struct painter *painter)
+{
+    char place[ERROR_PLACE_BYTES] = "";
+    if (material->shader) {
+        snprintf(place, sizeof place, "/shaders/%s/code", material->shader->name);
+    }
+    painter->index =
+        field_code_add(b, CODE_SHADE, painter->text, material->record.type->params, place);
+    if (painter->index >= 0) {
+        b->field->shaders[painter->index].own = painter->own;
+    }
+}
+
+/* Compiles the shaders that are used, and leaves room for what they read. */
+static void add_painters(struct builder *b, struct painter *out_painters)
 {
     const struct resource_list *materials = &b->scene->materials;
     size_t most = 0;
     for (size_t i = 0; i < materials->count; i++) {
-        const struct resource *material = materials->items[i], *shader = material->shader;
-        out_shaders[i] = -1;
-        if (shader && material->users > 0) {
-            char place[ERROR_PLACE_BYTES];
-            snprintf(place, sizeof place, "/shaders/%s/code", shader->name);
-            out_shaders[i] = field_code_add(b, CODE_SHADE, record_text(&shader->record, "code"),
-                                            material->record.type->params, place);
+        struct painter *painter = &out_painters[i];
+        *painter = painter_of(materials->items[i]);
+        if (painter->text) {
+            add_painter(b, materials->items[i], painter);
         }
-        if (out_shaders[i] >= 0) {
-            size_t vec4s = (size_t)b->field->shaders[out_shaders[i]].vec4s;
+        if (painter->index >= 0) {
+            size_t vec4s = (size_t)b->field->shaders[painter->index].vec4s;
             most = vec4s > most ? vec4s : most;
         }
     }
     b->field->material_stride = FIELD_MATERIAL_VEC4S + most;
 }
 
+/* What the shader reads, and where its colour goes. */
+static void put_painter(struct builder *b, uint32_t vec4, const struct record *record,
+                        const struct painter *painter)
+{
+    float *to = b->field->numbers + 4 * (size_t)vec4;
+    uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
+    to[FIELD_SHADER] = (float)(painter->index + 1);
+    to[FIELD_UNLIT] = painter->unlit;
+    builder_put_params(b, record->type->params, record->values, NULL, 1,
+                       vec4 + FIELD_MATERIAL_VEC4S, 0, arguments);
+}
+
+/* The buffer's size is part of the shape; padded, it leaves room for some more materials. */
+enum { PADDING = 256 };
+
 void field_add_materials(struct builder *b)
 {
     struct field *field = b->field;
     const struct resource_list *materials = &b->scene->materials;
-    int shaders[LIMIT_MATERIALS];
-    add_shaders(b, shaders);
+    struct painter painters[LIMIT_MATERIALS];
+    add_painters(b, painters);
+    size_t stride = field->material_stride, slots = materials->count + 2;
     field->material_count = materials->count;
-    field->material_base = builder_add_vec4s(b, (materials->count + 1) * field->material_stride);
-    struct record standard;
-    record_init(&standard, record_type_in(shader_types, "phong"));
-    put_phong(field->numbers + 4 * field->material_base, &standard);
+    field->material_base = builder_add_vec4s(b, slots * stride);
+    float *first = field->numbers + 4 * field->material_base;
+    put_default(first);
+    put_floor(first + 4 * stride * field_floor_slot(b->scene), &b->scene->environment);
     for (size_t i = 0; i < materials->count; i++) {
         const struct resource *material = materials->items[i];
-        size_t vec4 = field->material_base + (i + 1) * field->material_stride;
-        if (shaders[i] >= 0) {
-            put_custom(b, (uint32_t)vec4, material, shaders[i]);
-        } else {
-            put_phong(field->numbers + 4 * vec4, strcmp(material->record.type->name, "phong") == 0 ? &material->record : &standard);
+        float *to = first + 4 * stride * (i + 1);
+        put_nothing(to);
+        put_material(to, &material->record);
+        if (painters[i].index >= 0) {
+            put_painter(b, (uint32_t)(field->material_base + (i + 1) * stride), &material->record,
+                        &painters[i]);
         }
     }
-    record_finish(&standard);
     builder_place_points(b);
     builder_add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);
 }

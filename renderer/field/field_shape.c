@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "field_code.h"
+#include "field_materials.h"
 
 uint32_t field_choices(const struct record *params)
 {
@@ -27,14 +28,26 @@ static int prepared_numbers(const struct node *node, const struct sdf *sdf,
     return count;
 }
 
-/* Anything inside an instance is its leaf. */
+/* Anything inside an instance is its leaf; the floor, which is no node, is none. */
 static void add_leaf(struct builder *b, uint32_t number, const struct node *node)
 {
     const struct field *field = b->field;
     b->field->shape_count++;
-    if (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number) {
-        builder_add_leaf(b, number, b->instance ? b->instance_node->id : node->id);
+    const char *id = b->instance ? b->instance_node->id : node->id;
+    if (id && (field->leaf_count == 0 || field->leaves[field->leaf_count - 1].number != number)) {
+        builder_add_leaf(b, number, id);
     }
+}
+
+/* What is common to all shapes, in front of their parameters. */
+static void fill_head(const struct builder *b, const struct frame *frame, double slope,
+                      uint32_t number, double out_head[FIELD_HEAD_NUMBERS])
+{
+    bool clear = field_material_clear(b->scene, frame->material);
+    out_head[0] = frame->scale / slope;
+    out_head[1] = number;
+    out_head[2] = (double)frame->material;
+    out_head[3] = b->cutting ? 0 : clear ? 1 : -1;
 }
 
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
@@ -47,7 +60,8 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
     uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + (size_t)count);
     double slope = sdf->lipschitz ? sdf->lipschitz(numbers) : node->type->lipschitz;
-    double head[FIELD_HEAD_NUMBERS] = {frame->scale / slope, number, (double)frame->material};
+    double head[FIELD_HEAD_NUMBERS];
+    fill_head(b, frame, slope, number, head);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
     builder_put_params(b, node->params.type->params, node->params.values, sdf, 1,
@@ -85,9 +99,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
         return (struct result){0};
     }
     const struct field_code *code = &b->field->codes[index];
-    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale};
-    double head[FIELD_HEAD_NUMBERS] = {frame->scale / call.lipschitz, number,
-                                       (double)frame->material};
+    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale}, head[FIELD_HEAD_NUMBERS];
     struct bounds box = bounds_infinite();
     for (int i = 0; i < 3; i++) {
         bool ends = call.size[i] > 0;
@@ -95,6 +107,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
         box.high[i] = ends ? cut[i] : INFINITY;
         box.low[i] = -box.high[i];
     }
+    fill_head(b, frame, call.lipschitz, number, head);
     int count = sdf_numbers(call.params, call.values, numbers);
     size_t heads = FIELD_MATRIX_VEC4S + 1;
     uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
@@ -120,10 +133,23 @@ static struct result emit_code(struct builder *b, const struct node *node,
 struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
+    struct result result = {.solid = true};
     if (node->type->kind == KIND_CODE) {
-        return emit_code(b, node, frame, slot, number);
+        result = emit_code(b, node, frame, slot, number);
+    } else {
+        const struct sdf *sdf = sdf_find(node->type);
+        emit_shape(b, node, sdf, frame, slot, number);
+        result.box = shape_box(node, sdf);
     }
-    const struct sdf *sdf = sdf_find(node->type);
-    emit_shape(b, node, sdf, frame, slot, number);
-    return (struct result){.solid = true, .box = shape_box(node, sdf)};
+    result.clear = result.solid && !b->cutting && field_material_clear(b->scene, frame->material);
+    result.clear_box = result.box;
+    return result;
+}
+
+void field_join_clear(struct result *to, const struct result *from)
+{
+    if (from->clear) {
+        to->clear_box = to->clear ? bounds_union(to->clear_box, from->clear_box) : from->clear_box;
+        to->clear = true;
+    }
 }

@@ -10,7 +10,7 @@ enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
 
 /* Surfaces that were never mixed are vec3 h (distance, leaf, slot): materials are read where a
  * blend first needs them, which for most scenes is at a few places only. Mixed ones are m. Where
- * there are shaders of users, o is the point in the space of the shape that h is of. */
+ * there are shaders, o is the point in the space of the shape that h is of. */
 struct writer {
     FILE *out;
     const struct field *field;
@@ -94,7 +94,7 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
         write_local(w, in);
         fprintf(w->out, ";\n");
     }
-    fprintf(w->out, w->surface ? "h%u = vec3(" : "d%u = ", in->a);
+    fprintf(w->out, w->surface ? "h%u = vec3(hidden(" : "d%u = hidden(", in->a);
     if (in->sdf) {
         fprintf(w->out, "%s(", in->type->glsl);
         write_local(w, in);
@@ -104,7 +104,7 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
     } else {
         write_code(w, in);
     }
-    fprintf(w->out, w->surface ? ", N(%u).yz);\n" : ";\n", head);
+    fprintf(w->out, w->surface ? ", N(%u).w), N(%u).yz);\n" : ", N(%u).w);\n", head, head);
     w->mixed[in->a] = false;
 }
 
@@ -307,13 +307,14 @@ static void write_slots(const struct writer *w, const char *type, const char *na
 static void write_mixture(const struct writer *w)
 {
     bool shaders = w->field->shader_count > 0;
-    fprintf(
-        w->out,
-        "Mixture mixture(vec3 h%s)\n{\n"
-        "int i = %zu + %zu * int(h.z);\n"
-        "return Mixture(h.x, h.y, 1.0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3)%s);\n}\n",
-        shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
-        shaders ? ", vec4(o, N_ANY(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)" : "");
+    fprintf(w->out,
+            "Mixture mixture(vec3 h%s)\n{\n"
+            "int i = %zu + %zu * int(h.z);\n"
+            "return Mixture(h.x, h.y, 1.0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3),\n"
+            "N_ANY(i + 4), N_ANY(i + 5)%s);\n}\n",
+            shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
+            shaders ? ", vec4(o, N_ANY(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)"
+                    : "");
 }
 
 /* The colour that the material in a slot has by its shader, and whether it is lit. */
@@ -351,7 +352,7 @@ static void write_functions(const struct writer *w)
     fprintf(w->out, "#endif\n");
 }
 
-/* Shaders of users, each in one place, at the end. */
+/* Shaders, each in one place, at the end. */
 static void write_painting(const struct writer *w)
 {
     if (w->field->shader_count > 0) {
@@ -393,11 +394,16 @@ static void write_surface(struct writer *w)
     write_instructions(w);
     write_mixed(w, 0);
     fputs("s.id = uint(m0.leaf);\n"
-          "s.diffuse = m0.diffuse_shininess.rgb;\n"
-          "s.shininess = m0.diffuse_shininess.w;\n"
+          "s.diffuse = m0.diffuse_gloss.rgb;\n"
+          "s.gloss = m0.diffuse_gloss.w;\n"
           "s.specular = m0.specular.rgb;\n"
           "s.emission = m0.emission.rgb;\n"
-          "s.ambient = m0.ambient.rgb;\n",
+          "s.ambient = m0.ambient.rgb;\n"
+          "s.reflectivity = m0.optics.x;\n"
+          "s.transmission = m0.optics.y;\n"
+          "s.ior = m0.optics.z;\n"
+          "s.model = int(m0.optics.w);\n"
+          "s.absorption = m0.absorption.rgb;\n",
           w->out);
     write_painting(w);
     fprintf(w->out, "}\n");

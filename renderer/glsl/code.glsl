@@ -3,6 +3,8 @@
  * argument. */
 
 #define CODE_TINY 1e-30
+#define CODE_WALL 0.015625 /* how far the walls of patterns are below whole numbers */
+#define CODE_OCTAVES 8
 
 /* Distances and colours beyond these are none: the FAR of glsl/mixture.glsl, and half floats. */
 #define CODE_FAR 1e9
@@ -23,6 +25,7 @@
     T code_acosh(T x) { return acosh(max(x, 1.0)); }                                               \
     T code_atanh(T x) { return atanh(clamp(x, -0.9999, 0.9999)); }                                 \
     T code_atan(T y, T x) { return atan(y, x + step(abs(x) + abs(y), T(0.0))); }                   \
+    T code_stripes(T x) { return step(0.5, fract(x + CODE_WALL)); }                                \
     T code_saturate(T x) { return clamp(x, 0.0, 1.0); }                                            \
     T code_normalize(T x) { return x * inversesqrt(max(dot(x, x), CODE_TINY)); }                   \
     T code_mod(T x, T y)                                                                           \
@@ -92,6 +95,39 @@ CODE_WHOLE(vec4, ivec4, uvec4)
 CODE_MATRIX(mat2)
 CODE_MATRIX(mat3)
 CODE_MATRIX(mat4)
+
+/* Octaves of value noise. */
+float code_fbm(vec3 p, int octaves)
+{
+    return noise_octaves(p, clamp(octaves, 0, CODE_OCTAVES), 0u);
+}
+
+/* The cell between walls. */
+vec3 code_cell(vec3 p)
+{
+    return floor(p + CODE_WALL);
+}
+
+/* A number for each cell, by chance. */
+float code_hash(vec3 p)
+{
+    return 0.5 + 0.5 * noise_lattice(uvec3(code_mod(code_cell(p), vec3(65536.0))), 0u);
+}
+
+/* 0 and 1 by turns. */
+float code_checker(vec3 p)
+{
+    return code_mod(dot(code_cell(p), vec3(1.0)), 2.0);
+}
+
+/* The weights of three patterns. */
+vec3 code_triplanar(vec3 n)
+{
+    vec3 x = abs(n);
+    x /= max(max(x.x, CODE_TINY), max(x.y, x.z));
+    x = x * x * x * x + CODE_TINY;
+    return x / dot(x, vec3(1.0));
+}
 
 /* A number, whatever the code of a user gave. */
 float code_distance(float d)

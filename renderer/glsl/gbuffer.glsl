@@ -1,29 +1,77 @@
 /* SPDX-License-Identifier: MIT */
-/* What march.glsl and matter.glsl leave for light.glsl, 48 bytes for each sample:
- *   geometry  rgba32f   normal, distance along the ray (INFINITY: nothing hit)
- *   matter    rgba32ui  eight halves: diffuse, shininess, specular, emission.r
- *   more      rgba32ui  five halves: emission.gb, ambient, unused; then the id */
+/* What the march and matter passes leave for the others, 48 bytes for each sample:
+ *
+ *   geometry  rgba32f   normal, distance along the ray (INFINITY: nothing hit; below 0: from inside
+ *                       of something clear, something solid)
+ *   matter    rgba32ui  x  diffuse.r, diffuse.g       two halves
+ *                       y  diffuse.b, gloss           two halves
+ *                       z  specular, model            10 bits each, 2 bits
+ *                       w  ior, transmission, reflectivity   a half, 8 bits each
+ *   more      rgba32ui  x  emission                   shared exponent
+ *                       y  ambient                    10 bits each, 2 unused
+ *                       z  absorption                 shared exponent
+ *                       w  id
+ *
+ * Parts of n bits are from 0 to 1 in 2^n - 1 steps. A shared exponent (OpenGL 4.3, 8.25) leaves
+ * nine bits to each channel: the error is at most 1/500 of the greatest one. */
 
 #define HALF_MAX 65504.0
+#define SHARED_MAX 65408.0
+
+/* Nine bits of each channel, then five of an exponent, such that none of the former rounds up to
+ * ten bits: hence the little more than the greatest channel that the exponent is taken of. */
+uint shared_pack(vec3 color)
+{
+    vec3 c = clamp(color, 0.0, SHARED_MAX);
+    float most = 1.001 * max(c.r, max(c.g, c.b));
+    int exponent = clamp((floatBitsToInt(most) >> 23) - 127, -16, 15);
+    uvec3 parts = uvec3(c * exp2(float(8 - exponent)) + 0.5);
+    return parts.r | parts.g << 9 | parts.b << 18 | uint(exponent + 16) << 27;
+}
+
+vec3 shared_unpack(uint word)
+{
+    uvec3 parts = uvec3(word, word >> 9, word >> 18) & 511u;
+    return vec3(parts) * exp2(float(word >> 27) - 24.0);
+}
+
+/* Three parts of 10 bits, and a number from 0 to 3. */
+uint parts_pack(vec3 parts, int number)
+{
+    uvec3 p = uvec3(clamp(parts, 0.0, 1.0) * 1023.0 + 0.5);
+    return p.r | p.g << 10 | p.b << 20 | uint(number) << 30;
+}
+
+vec3 parts_unpack(uint word)
+{
+    return vec3(uvec3(word, word >> 10, word >> 20) & 1023u) / 1023.0;
+}
 
 void surface_pack(Surface s, out uvec4 matter, out uvec4 more)
 {
-    vec3 glow = min(s.emission, HALF_MAX);
-    matter = uvec4(packHalf2x16(s.diffuse.rg), packHalf2x16(vec2(s.diffuse.b, s.shininess)),
-                   packHalf2x16(s.specular.rg), packHalf2x16(vec2(s.specular.b, glow.r)));
-    more = uvec4(packHalf2x16(glow.gb), packHalf2x16(s.ambient.rg),
-                 packHalf2x16(vec2(s.ambient.b, 0.0)), s.id);
+    vec3 diffuse = min(s.diffuse, HALF_MAX);
+    uint optics = packUnorm4x8(vec4(0.0, 0.0, s.transmission, s.reflectivity));
+    matter =
+        uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
+              parts_pack(s.specular, s.model), optics | packHalf2x16(vec2(s.ior, 0.0)));
+    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, 0), shared_pack(s.absorption), s.id);
 }
 
 Surface surface_unpack(uvec4 matter, uvec4 more)
 {
-    vec2 a = unpackHalf2x16(matter.y), b = unpackHalf2x16(matter.w);
+    vec2 y = unpackHalf2x16(matter.y);
+    vec4 optics = unpackUnorm4x8(matter.w);
     Surface s;
-    s.diffuse = vec3(unpackHalf2x16(matter.x), a.x);
-    s.shininess = a.y;
-    s.specular = vec3(unpackHalf2x16(matter.z), b.x);
-    s.emission = vec3(b.y, unpackHalf2x16(more.x));
-    s.ambient = vec3(unpackHalf2x16(more.y), unpackHalf2x16(more.z).x);
+    s.diffuse = vec3(unpackHalf2x16(matter.x), y.x);
+    s.gloss = y.y;
+    s.specular = parts_unpack(matter.z);
+    s.model = int(matter.z >> 30);
+    s.ior = unpackHalf2x16(matter.w).x;
+    s.transmission = optics.z;
+    s.reflectivity = optics.w;
+    s.emission = shared_unpack(more.x);
+    s.ambient = parts_unpack(more.y);
+    s.absorption = shared_unpack(more.z);
     s.id = more.w;
     return s;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Second pass: what the surface that march.glsl found is made of. */
+/* Second pass: what the surface that the march found is made of. */
 
 layout(binding = 0) uniform sampler2D geometry;
 layout(rgba32ui, binding = 1) writeonly uniform uimage2D out_matter;
@@ -10,12 +10,15 @@ void main()
     preload();
     ivec2 here = group_place();
     vec4 g = texelFetch(geometry, here, 0);
-    bool hit = g.w < INFINITY;
-    Ray ray = camera_ray(tile.xy * size.z + here);
-    vec3 p = ray.origin + ray.direction * (hit ? g.w : 0.0);
+    Ray ray = ray_load(here);
+    float t = abs(g.w);
+    bool hit = t < INFINITY;
+    vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
+    /* From inside, where two surfaces lie near each other, the one that was met. */
+    through = !ray.inside ? 0.0 : g.w < 0.0 ? FAR : -FAR;
     Surface s;
     uvec4 matter, more;
-    surface(p, Shading(p, vec3(0.0), g.xyz, ray.direction, g.w), s);
+    surface(p, Shading(p, vec3(0.0), g.xyz, ray.direction, t), s);
     s.id = hit ? s.id : 0u;
     surface_pack(s, matter, more);
     imageStore(out_matter, here, matter);

@@ -4,13 +4,25 @@
 /* Empty space is this far away. */
 const float FAR = 1e9;
 
+/* Which shapes map() and surface() see. 0: all; FAR: those that light goes through are away; -FAR:
+ * those that it does not go through are. */
+float through = 0.0;
+
+/* The distance of a shape that may be away; `clear` is the fourth number of its head. */
+float hidden(float d, float clear)
+{
+    return d + max(clear * through, 0.0);
+}
+
 /* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
  * Mixture has the materials' numbers, as they lie in the table, and the weight of its leaf. */
 struct Mixture {
     float d, leaf, weight;
-    vec4 diffuse_shininess, specular, emission, ambient;
+    vec4 diffuse_gloss, specular, emission, ambient;
+    vec4 optics; /* reflectivity, transmission, index of refraction, model */
+    vec4 absorption;
 #ifdef USER_SHADERS
-    /* Where the strongest two shaders of users apply: point in the shape's space, share. */
+    /* Where the strongest two shaders apply: point in the shape's space, share. */
     vec4 first, second;
     vec2 slots; /* their materials */
 #endif
@@ -25,7 +37,8 @@ struct Mixture {
 /* Nothing. */
 Mixture mixture_far()
 {
-    return Mixture(FAR, 0.0, 1.0, vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0) NO_SHADERS);
+    return Mixture(FAR, 0.0, 1.0, vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
+                   vec4(0.0) NO_SHADERS);
 }
 
 /* One of two, by the share of b, with the distance of the result. */
@@ -59,14 +72,21 @@ void add_shader(inout Mixture m, vec4 place, float slot)
 }
 #endif
 
-/* Both, by the share of b, with the distance of the result. */
+/* Both, by the share of b, with the distance of the result. The model is that of the leaf, and so
+ * is gloss where it means different things. */
 Mixture blend(float d, float share, Mixture a, Mixture b)
 {
     float wa = a.weight * (1.0 - share), wb = b.weight * share;
-    Mixture m = Mixture(d, wb > wa ? b.leaf : a.leaf, max(wa, wb),
-                   mix(a.diffuse_shininess, b.diffuse_shininess, share),
-                   mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
-                   mix(a.ambient, b.ambient, share) NO_SHADERS);
+    bool most = wb > wa;
+    Mixture m =
+        Mixture(d, most ? b.leaf : a.leaf, max(wa, wb), mix(a.diffuse_gloss, b.diffuse_gloss, share),
+                mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
+                mix(a.ambient, b.ambient, share), mix(a.optics, b.optics, share),
+                mix(a.absorption, b.absorption, share) NO_SHADERS);
+    m.optics.w = most ? b.optics.w : a.optics.w;
+    if (a.optics.w != b.optics.w) {
+        m.diffuse_gloss.w = most ? b.diffuse_gloss.w : a.diffuse_gloss.w;
+    }
 #ifdef USER_SHADERS
     add_shader(m, vec4(a.first.xyz, a.first.w * (1.0 - share)), a.slots.x);
     add_shader(m, vec4(a.second.xyz, a.second.w * (1.0 - share)), a.slots.y);

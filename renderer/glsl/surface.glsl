@@ -1,12 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* What a point of a surface is made of: filled in by surface() of the field's text. */
 
+#define MODEL_PHONG 0    /* highlights by the halfway vector */
+#define MODEL_BLINN 1    /* highlights by the reflected vector */
+#define MODEL_STANDARD 2 /* microfacets */
+
 struct Surface {
     vec3 ambient; /* part of the environment's light taken up */
     vec3 diffuse;
-    vec3 specular;
+    vec3 specular; /* of the highlight; of standard: what is mirrored at normal incidence */
     vec3 emission;
-    float shininess;
+    vec3 absorption; /* of light inside, for each unit of length */
+    float gloss;     /* shininess; of standard: roughness */
+    float reflectivity;
+    float transmission; /* part of the light that goes through */
+    float ior;
+    int model;
     uint id; /* 1 + pre-order index of the leaf */
 };
 

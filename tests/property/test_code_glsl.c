@@ -208,6 +208,7 @@ static void add_row(struct code_batch *batch, const struct builtin *row, int row
 {
     const struct shape f = {"float", rows}, one = {"float", 1}, b = {"bool", rows};
     const struct shape select[] = {f, f, b}, refract[] = {f, f, one}, wide[] = {one, f, f};
+    const struct shape octaves[] = {f, {"int", 1}};
     switch (row->family) {
     case FAMILY_NUMBER:
         add_same(batch, row, "uint", rows, (struct shape){"uint", rows});
@@ -258,6 +259,16 @@ static void add_row(struct code_batch *batch, const struct builtin *row, int row
     case FAMILY_CROSS:
         if (rows == 3) {
             add_same(batch, row, "float", rows, f);
+        }
+        break;
+    case FAMILY_PLACE:
+        if (rows == 3) {
+            add_same(batch, row, "float", rows, one);
+        }
+        break;
+    case FAMILY_OCTAVES:
+        if (rows == 3) {
+            add_call(batch, row, octaves, one);
         }
         break;
     case FAMILY_MATRIX:

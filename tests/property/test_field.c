@@ -352,14 +352,16 @@ static void numbers_lie_where_the_header_says(void **state)
         "{\"type\":\"capsule\",\"params\":{\"a\":[1,2,3],\"b\":[4,5,6],\"radius\":7}}]}",
         "\"materials\":{\"a\":{\"shader\":\"phong\"},\"b\":{\"shader\":\"phong\",\"properties\":{"
         "\"diffuse\":[0.125,0.25,0.5],\"specular\":[0.5,0.75,1],\"emission\":[4,5,6],"
-        "\"ambient\":[1,0.5,0.25],\"shininess\":99}}},");
+        "\"ambient\":[1,0.5,0.25],\"shininess\":99,\"reflectivity\":0.5,\"ior\":2,"
+        "\"opacity\":1,\"attenuation_distance\":2,"
+        "\"attenuation_color\":[1,0.36787944117144233,0]}}},");
     const struct field *field = pair.field;
     const float want[] = {
         0.5f * 2, 0, 0, 0,                                       /* k */
-        0.5f,     0, 0, -10,   0, 0.5f, 0, -20, 0, 0, 0.5f, -30, /* round_box */
-        2,        3, 2, 0.25f, 3, 4,    5, 0,                    /* scale, leaf, slot */
-        0.5f,     0, 0, 0,     0, 0.5f, 0, 0,   0, 0, 0.5f, 0,   /* capsule */
-        2,        4, 0, 7,     1, 2,    3, 0,   4, 5, 6,    0,
+        0.5f,     0, 0, -10, 0, 0.5f, 0, -20,   0, 0, 0.5f, -30, /* round_box */
+        2,        3, 2, -1,  3, 4,    5, 0.25f,                  /* scale, leaf, slot, solid */
+        0.5f,     0, 0, 0,   0, 0.5f, 0, 0,     0, 0, 0.5f, 0,   /* capsule */
+        2,        4, 0, -1,  1, 2,    3, 7,     4, 5, 6,    0,
     };
     size_t own = sizeof want / sizeof want[0];
     for (size_t i = 0; i < own; i++) {
@@ -369,10 +371,13 @@ static void numbers_lie_where_the_header_says(void **state)
         }
     }
     assert_int_equal(field->material_base, own / 4);
-    const float material[FIELD_MATERIAL_NUMBERS] = {0.125f, 0.25f, 0.5f, 99, 0.5f, 0.75f, 1,    0,
-                                                    4,      5,     6,    0,  1,    0.5f,  0.25f};
-    assert_memory_equal(field->numbers + own + (size_t)2 * FIELD_MATERIAL_NUMBERS, material,
-                        sizeof material);
+    const float material[FIELD_MATERIAL_NUMBERS] = {
+        0.125f, 0.25f, 0.5f,  99, 0.5f, 0.75f, 1, 0, 4, 5,    6,        0,
+        1,      0.5f,  0.25f, 0,  0.5f, 0,     2, 0, 0, 0.5f, 4.60517f, 0,
+    };
+    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
+        assert_float_equal(field->numbers[own + 2 * FIELD_MATERIAL_NUMBERS + i], material[i], 1e-6);
+    }
     assert_true(field->numbers[own] > 0.79f); /* the default's diffuse */
     pair_finish(&pair);
 }

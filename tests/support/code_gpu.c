@@ -84,7 +84,8 @@ static char *write_program(const struct code_gpu_job *jobs, size_t count)
         abort();
     }
     fprintf(out, head, GROUP, CODE_GPU_POINTS);
-    fprintf(out, "#line 1 1\n%s#line 1 2\n%s", glsl_text("surface.glsl"), glsl_text("code.glsl"));
+    fprintf(out, "#line 1 1\n%s%s#line 1 2\n%s", glsl_text("surface.glsl"), glsl_text("noise.glsl"),
+            glsl_text("code.glsl"));
     for (size_t i = 0; i < count; i++) {
         snprintf(name, sizeof name, "job_%zu", i);
         code_write(jobs[i].code, name, 1000 + (int)i, out);

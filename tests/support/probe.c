@@ -9,7 +9,14 @@
 #include "renderer/field/shader.h"
 #include "renderer/glsl.h"
 
-enum { POINTS, NUMBERS, ANSWERS, GROUP = 64, ANSWER_VEC4S = 5, LOG_BYTES = 4096 };
+enum {
+    POINTS,
+    NUMBERS,
+    ANSWERS,
+    GROUP = 64,
+    ANSWER_VEC4S = 1 + FIELD_MATERIAL_VEC4S,
+    LOG_BYTES = 4096
+};
 
 static const char *glsl_text(const char *name)
 {
@@ -81,10 +88,12 @@ static void write_question(FILE *out, size_t index, size_t first, bool surface)
     if (surface) {
         fprintf(out,
                 "surface_%zu(p, Shading(p, p, p, p, 0.0), s);\nanswers[at].y = float(s.id);\n"
-                "answers[at + 1u] = vec4(s.diffuse, s.shininess);\n"
+                "answers[at + 1u] = vec4(s.diffuse, s.gloss);\n"
                 "answers[at + 2u] = vec4(s.specular, 0.0);\n"
                 "answers[at + 3u] = vec4(s.emission, 0.0);\n"
-                "answers[at + 4u] = vec4(s.ambient, 0.0);\n",
+                "answers[at + 4u] = vec4(s.ambient, 0.0);\n"
+                "answers[at + 5u] = vec4(s.reflectivity, s.transmission, s.ior, s.model);\n"
+                "answers[at + 6u] = vec4(s.absorption, 0.0);\n",
                 index);
     }
     fprintf(out, "at += %du * count;\n", ANSWER_VEC4S);
