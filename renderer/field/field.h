@@ -139,10 +139,10 @@ struct field {
     /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
      * must be kept from steps * (1 + loop_trips) above its bound. */
     uint32_t loop_trips;
-    struct bounds bounds;       /* of the visible scene */
-    struct bounds clear_bounds; /* of what light goes through in it */
-    bool clear;                 /* there is any of that */
-    bool user_code;             /* some of `codes` or `shaders` is a user's */
+    struct bounds bounds;               /* of the visible scene */
+    struct bounds clear_bounds;         /* of what light goes through in it */
+    bool clear;                         /* there is any of that */
+    const struct field_code *user_code; /* the first that is not ours; NULL: none */
     int references;
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Users' code: found, compiled once for each text, and where its parameters lie. */
+/* Code: found, compiled once for each text, and where its parameters lie. */
 #include "field_code.h"
 
 #include <assert.h>
@@ -158,8 +158,11 @@ bool field_probe(const struct field *field, struct error *out_warning, struct er
     int next = 0; /* shaders are numbered in the order of materials */
     for (size_t slot = 1; slot <= field->material_count; slot++) {
         double n[4 * LIMIT_DECLARED];
-        if (field_shader_numbers(field, slot, n) == next &&
-            !probe(&field->shaders[next++], n, half, INFINITY, out_warning, err)) {
+        if (field_shader_numbers(field, slot, n) != next) {
+            continue;
+        }
+        const struct field_code *shader = &field->shaders[next++];
+        if (!shader->own && !probe(shader, n, half, INFINITY, out_warning, err)) {
             return false;
         }
     }

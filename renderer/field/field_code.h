@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Users' code in a field while it is compiled. Private to this folder. */
+/* Code in a field while it is compiled. Private to this folder. */
 #ifndef RENDERER_FIELD_CODE_H
 #define RENDERER_FIELD_CODE_H
 
@@ -22,7 +22,7 @@ struct field_call {
 /* False: it names no code, so it is empty space. */
 bool field_call_of(const struct scene *scene, const struct node *node, struct field_call *out);
 
-/* The shader of the material in a slot, -1 where it is none of a user's, and what it reads. */
+/* The shader of the material in a slot, -1: none, and what it reads. */
 int field_shader_numbers(const struct field *field, size_t slot, double *out_n);
 
 #endif

@@ -401,14 +401,17 @@ static uint64_t shape_hash(const struct field *field)
     return builder_hash(state, (uint32_t)field->vec4_count);
 }
 
-/* Whether some of the code is a user's. */
-static bool has_user_code(const struct field *field)
+static const struct field_code *find_user_code(const struct field *field)
 {
-    bool has = field->code_count > 0;
-    for (size_t i = 0; i < field->shader_count; i++) {
-        has = has || !field->shaders[i].own;
+    if (field->code_count > 0) {
+        return field->codes;
     }
-    return has;
+    for (size_t i = 0; i < field->shader_count; i++) {
+        if (!field->shaders[i].own) {
+            return &field->shaders[i];
+        }
+    }
+    return NULL;
 }
 
 /* The environment's endless ground, united with the scene if there is any, which is in slot 0. */
@@ -459,7 +462,7 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     field->bounds = whole.box;
     field->clear_bounds = whole.clear_box;
     field->clear = whole.clear;
-    field->user_code = has_user_code(field);
+    field->user_code = find_user_code(field);
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;
