@@ -4,6 +4,8 @@
 
 #include "messages.h"
 
+enum { VERSION = 2 };
+
 static void put(uint8_t **at, uint64_t value, int bytes)
 {
     for (int i = 0; i < bytes; i++) {
@@ -24,15 +26,12 @@ void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEAD
 {
     const uint16_t sides[] = {header->width, header->height, header->view_width,
                               header->view_height};
-    const uint32_t times[] = {header->queue_us, header->march_us, header->light_us, header->read_us,
-                              header->encode_us};
     uint8_t *at = out + 4;
-    memset(out, 0, FRAME_HEADER_BYTES);
     memcpy(out, "FCF1", 4);
-    put(&at, 1, 1);
+    put(&at, VERSION, 1);
     put(&at, header->codec, 1);
     put(&at, header->flags, 1);
-    put(&at, 0, 1);
+    put(&at, FRAME_STAGES, 1);
     put(&at, header->number, 4);
     put(&at, header->payload_bytes, 4);
     put(&at, header->revision, 8);
@@ -40,21 +39,20 @@ void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEAD
     for (int i = 0; i < 4; i++) {
         put(&at, sides[i], 2);
     }
-    for (int i = 0; i < 5; i++) {
-        put(&at, times[i], 4);
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        put(&at, header->stage_us[i], 4);
     }
 }
 
 bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_header *out)
 {
-    if (length < FRAME_HEADER_BYTES || memcmp(bytes, "FCF1\1", 5) != 0) {
+    if (length < FRAME_HEADER_BYTES || memcmp(bytes, "FCF1", 4) != 0 || bytes[4] != VERSION ||
+        bytes[7] != FRAME_STAGES) {
         return false;
     }
     struct frame_header header;
     uint16_t *const sides[] = {&header.width, &header.height, &header.view_width,
                                &header.view_height};
-    uint32_t *const times[] = {&header.queue_us, &header.march_us, &header.light_us,
-                               &header.read_us, &header.encode_us};
     const uint8_t *at = bytes + 5;
     header.codec = (uint8_t)take(&at, 1);
     header.flags = (uint8_t)take(&at, 1);
@@ -66,8 +64,8 @@ bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_heade
     for (int i = 0; i < 4; i++) {
         *sides[i] = (uint16_t)take(&at, 2);
     }
-    for (int i = 0; i < 5; i++) {
-        *times[i] = (uint32_t)take(&at, 4);
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        header.stage_us[i] = (uint32_t)take(&at, 4);
     }
     *out = header;
     return true;

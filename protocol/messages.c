@@ -32,7 +32,6 @@ struct message_type {
 #define SIDE PARAM_INT, .min = 1, .max = LIMIT_VIEW_SIDE
 #define AT PARAM_FLOAT, .min = 0, .max = LIMIT_VIEW_SIDE
 
-static const char *const aovs[] = {"color", "depth", "normal", "id", NULL};
 static const char *const qualities[] = {"auto", "smooth", "sharp", NULL};
 static const char *const levels[] = {"info", "warning", "error", NULL};
 
@@ -59,7 +58,7 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"camera", .doc = "As in the document; absent: the document's."},
          .kind = FIELD_CAMERA},
-        {.param = {"aov", PARAM_ENUM, .choices = aovs, .doc = "Which output."}},
+        {.param = {"aov", PARAM_ENUM, .choices = aov_picture_names, .doc = "Which output."}},
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}})},

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "picture.h"
 #include "record.h"
 
 enum message_kind {
@@ -38,7 +39,7 @@ bool json_member_bool(const cJSON *object, const char *name, bool fallback);
 
 /* --- frames --- */
 
-enum { FRAME_HEADER_BYTES = 64, FRAME_PART_HEADER_BYTES = 8 };
+enum { FRAME_HEADER_BYTES = 36 + 4 * FRAME_STAGES, FRAME_PART_HEADER_BYTES = 8 };
 
 enum frame_codec { FRAME_JPEG = 1, FRAME_PNG = 2 };
 
@@ -58,7 +59,7 @@ struct frame_header {
     uint32_t input;                   /* `seq` of the newest view message that the picture shows */
     uint16_t width, height;           /* of the picture */
     uint16_t view_width, view_height; /* of the view that it fills */
-    uint32_t queue_us, march_us, light_us, read_us, encode_us;
+    uint32_t stage_us[FRAME_STAGES];
 };
 
 void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEADER_BYTES]);

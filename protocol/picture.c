@@ -1,22 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 #include "picture.h"
 
+#include <stdio.h>
 #include <string.h>
 
+/* X(NAME, "name", channels, whole, picture, "what it is") */
+/* clang-format off */
+#define OUTPUTS(X) \
+    X(COLOR, "color", 4, false, true, "What is seen, with its coverage.") \
+    X(DEPTH, "depth", 1, false, true, "Distance along the ray; infinite where nothing is.") \
+    X(NORMAL, "normal", 3, false, true, "Unit normal in the world; 0 where nothing is.") \
+    X(POSITION, "position", 3, false, false, "Place in the world; 0 where nothing is.") \
+    X(ID, "id", 1, true, true, "1 + the leaf's place in the tree; 0 where nothing is.") \
+    X(STEPS, "steps", 1, false, true, "Steps that the ray took.") \
+    X(ALBEDO, "albedo", 3, false, true, "Colour of the surface, without light.") \
+    X(SPECULAR, "specular", 3, false, true, "Colour of its mirror image, head-on.") \
+    X(OPTICAL, "optical", 4, false, true, "Reflectivity, index of refraction, opacity, roughness.") \
+    X(SHADOW, "shadow", 3, false, true, "Part of the lights' light that arrives.") \
+    X(OCCLUSION, "occlusion", 1, false, true, "Part of the environment's that arrives.")
+/* clang-format on */
+
 static const struct aov_row aovs[AOV_COUNT] = {
-    [AOV_COLOR] = {"color", 4, false, true, "What is seen, with its coverage."},
-    [AOV_DEPTH] = {"depth", 1, false, true, "Distance along the ray; infinite where nothing is."},
-    [AOV_NORMAL] = {"normal", 3, false, true, "Unit normal in the world; 0 where nothing is."},
-    [AOV_POSITION] = {"position", 3, false, false, "Place in the world; 0 where nothing is."},
-    [AOV_ID] = {"id", 1, true, true, "1 + the leaf's place in the tree; 0 where nothing is."},
-    [AOV_STEPS] = {"steps", 1, false, true, "Steps that the ray took."},
-    [AOV_ALBEDO] = {"albedo", 3, false, true, "Colour of the surface, without light."},
-    [AOV_SPECULAR] = {"specular", 3, false, true, "Colour of its mirror image, head-on."},
-    [AOV_OPTICAL] = {"optical", 4, false, true,
-                     "Reflectivity, index of refraction, opacity, roughness."},
-    [AOV_SHADOW] = {"shadow", 3, false, true, "Part of the lights' light that arrives."},
-    [AOV_OCCLUSION] = {"occlusion", 1, false, true, "Part of the environment's that arrives."},
+#define X(NAME, ...) [AOV_##NAME] = {__VA_ARGS__},
+    OUTPUTS(X)
+#undef X
 };
+
+const char *const aov_picture_names[] = {
+#define ONLY_true(name) name,
+#define ONLY_false(name)
+#define X(NAME, name, channels, whole, picture, doc) ONLY_##picture(name)
+    OUTPUTS(X)
+#undef X
+        NULL};
 
 const struct aov_row *aov_row(enum aov aov)
 {
@@ -28,14 +44,71 @@ const char *aov_name(enum aov aov)
     return aovs[aov].name;
 }
 
-int aov_find(const char *name)
+static int find_name(const char *name, size_t length)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (strcmp(aovs[i].name, name) == 0) {
+        if (strlen(aovs[i].name) == length && memcmp(aovs[i].name, name, length) == 0) {
             return i;
         }
     }
     return -1;
+}
+
+int aov_find(const char *name)
+{
+    return find_name(name, strlen(name));
+}
+
+static bool fail_name(const char *name, size_t length, const char *place, struct error *err)
+{
+    enum { SHOWN = 40 };
+    char all[AOVS_TEXT_BYTES];
+    bool every[AOV_COUNT];
+
+    for (int i = 0; i < AOV_COUNT; i++) {
+        every[i] = true;
+    }
+    aovs_print(every, all);
+    return error_set(err, ERROR_INVALID, place, "\"%.*s\" is none of %s",
+                     (int)(length < SHOWN ? length : SHOWN), name, all);
+}
+
+bool aovs_read(const char *text, bool out[AOV_COUNT], const char *place, struct error *err)
+{
+    bool found[AOV_COUNT] = {false};
+    size_t length;
+
+    for (const char *name = text;; name += length + 1) {
+        int aov;
+
+        length = strcspn(name, ",");
+        aov = find_name(name, length);
+        if (aov < 0) {
+            return fail_name(name, length, place, err);
+        }
+        if (found[aov]) {
+            return error_set(err, ERROR_INVALID, place, "%s is named twice", aovs[aov].name);
+        }
+        found[aov] = true;
+        if (name[length] == '\0') {
+            break;
+        }
+    }
+    memcpy(out, found, sizeof found);
+    return true;
+}
+
+void aovs_print(const bool which[AOV_COUNT], char out[AOVS_TEXT_BYTES])
+{
+    size_t used = 0;
+
+    out[0] = '\0';
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (which[i]) {
+            used += (size_t)snprintf(out + used, AOVS_TEXT_BYTES - used, "%s%s", used ? "," : "",
+                                     aovs[i].name);
+        }
+    }
 }
 
 /* clang-format off */
@@ -92,4 +165,9 @@ static const struct stage_row stages[FRAME_STAGES] = {
 const struct stage_row *stage_row(enum frame_stage stage)
 {
     return &stages[stage];
+}
+
+void stage_member(enum frame_stage stage, char out[STAGE_MEMBER_BYTES])
+{
+    snprintf(out, STAGE_MEMBER_BYTES, "%s_us", stages[stage].name);
 }

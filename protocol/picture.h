@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "error.h"
+
 /* --- outputs --- */
 
 enum aov {
@@ -34,11 +36,23 @@ struct aov_row {
 
 const struct aov_row *aov_row(enum aov aov);
 const char *aov_name(enum aov aov);
-int aov_find(const char *name); /* -1: none */
+int aov_find(const char *name);               /* -1: none */
+extern const char *const aov_picture_names[]; /* those with a picture form; NULL-terminated */
+/* Names with commas between them; each once. */
+bool aovs_read(const char *text, bool out[AOV_COUNT], const char *place, struct error *err);
+enum { AOVS_TEXT_BYTES = 128 };
+/* The same in the table's order. */
+void aovs_print(const bool aovs[AOV_COUNT], char out[AOVS_TEXT_BYTES]);
 
 /* --- quality levels --- */
 
-enum quality_level { QUALITY_DRAFT, QUALITY_INTERACTIVE, QUALITY_STILL, QUALITY_FINAL, QUALITY_COUNT };
+enum quality_level {
+    QUALITY_DRAFT,
+    QUALITY_INTERACTIVE,
+    QUALITY_STILL,
+    QUALITY_FINAL,
+    QUALITY_COUNT
+};
 
 /* Choices of the render setting `antialiasing`. */
 enum antialiasing {
@@ -88,9 +102,12 @@ enum frame_stage {
 };
 
 struct stage_row {
-    const char *name; /* "march"; as a member of JSON "march_us" */
+    const char *name;
     const char *doc;
 };
 const struct stage_row *stage_row(enum frame_stage stage);
+enum { STAGE_MEMBER_BYTES = 24 };
+/* "march_us", the member of JSON that holds its microseconds. */
+void stage_member(enum frame_stage stage, char out[STAGE_MEMBER_BYTES]);
 
 #endif

@@ -6,6 +6,8 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+#include "protocol/picture.h"
+
 /* X(NAME, "name after fieldcast_", "type", "help") */
 #define METRICS(X)                                                                                 \
     X(HTTP_REQUESTS, "http_requests_total", "counter", "HTTP requests answered")                   \
@@ -24,8 +26,6 @@
     X(RENDERS_FAILED, "renders_failed_total", "counter", "Pictures that the worker refused")       \
     X(RENDER_QUEUE, "render_queue", "gauge", "Pictures asked and not yet there")                   \
     X(PICTURES_REUSED, "pictures_reused_total", "counter", "Pictures answered from memory")        \
-    X(RENDER_US, "render_microseconds_total", "counter", "Worker's time in march, light, read")    \
-    X(ENCODE_US, "encode_microseconds_total", "counter", "Worker's time in encoders")              \
     X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
     X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \
     X(FRAME_BYTES, "frame_bytes_total", "counter", "Payload bytes of frames sent")                 \
@@ -46,6 +46,7 @@ enum metric {
 
 struct metrics {
     _Atomic int64_t value[METRIC_COUNT];
+    _Atomic int64_t stage_us[FRAME_STAGES]; /* of pictures */
 };
 
 static inline void metric_add(struct metrics *metrics, enum metric metric, int64_t amount)
@@ -56,6 +57,11 @@ static inline void metric_add(struct metrics *metrics, enum metric metric, int64
 static inline void metric_set(struct metrics *metrics, enum metric metric, int64_t value)
 {
     atomic_store_explicit(&metrics->value[metric], value, memory_order_relaxed);
+}
+
+static inline void metric_add_stage(struct metrics *metrics, enum frame_stage stage, int64_t us)
+{
+    atomic_fetch_add_explicit(&metrics->stage_us[stage], us, memory_order_relaxed);
 }
 
 /* Prometheus text format 0.0.4; caller frees. */

@@ -28,21 +28,23 @@ static const struct quality_rule quality_rules[] = {
     [QUALITY_SHARP] = {120, 2},
 };
 
-/* How each level is encoded. */
+/* How each picture is drawn and encoded. */
 struct level_rule {
+    const char *level; /* of quality; NULL: the scene's */
     const char *format;
-    int priority, quality, samples;
+    int priority, quality;
     bool chroma_halved, fast, exact;
     int after_ms; /* rest of the view before it is due */
     uint8_t flags;
 };
 
 static const struct level_rule level_rules[] = {
-    [FRAMES_MOVING] = {"jpg", RENDER_MOVING, 60, 1, true, true, false, 0, FRAME_KEY},
-    [FRAMES_LARGER] = {"jpg", RENDER_STILL, 80, 1, true, true, false, FRAMES_STILL_MS, FRAME_KEY},
-    [FRAMES_STILL] = {"jpg", RENDER_STILL, 88, 1, false, true, false, FRAMES_STILL_MS,
+    [FRAMES_MOVING] = {"interactive", "jpg", RENDER_MOVING, 60, true, true, false, 0, FRAME_KEY},
+    [FRAMES_LARGER] = {"interactive", "jpg", RENDER_STILL, 80, true, true, false, FRAMES_STILL_MS,
+                       FRAME_KEY},
+    [FRAMES_STILL] = {"interactive", "jpg", RENDER_STILL, 88, false, true, false, FRAMES_STILL_MS,
                       FRAME_KEY | FRAME_STILL},
-    [FRAMES_LOSSLESS] = {"png", RENDER_LOSSLESS, 0, 0, false, true, true, FRAMES_LOSSLESS_MS,
+    [FRAMES_LOSSLESS] = {NULL, "png", RENDER_LOSSLESS, 0, false, true, true, FRAMES_LOSSLESS_MS,
                          FRAME_KEY | FRAME_STILL | FRAME_LOSSLESS},
 };
 
@@ -284,12 +286,8 @@ static void send_frame(struct session *session, const struct packet *answer)
         .height = (uint16_t)json_member_number(json, "height", 0),
         .view_width = (uint16_t)frames->job_view_width,
         .view_height = (uint16_t)frames->job_view_height,
-        .queue_us = (uint32_t)json_member_number(json, "queue_us", 0),
-        .march_us = (uint32_t)json_member_number(json, "march_us", 0),
-        .light_us = (uint32_t)json_member_number(json, "light_us", 0),
-        .read_us = (uint32_t)json_member_number(json, "read_us", 0),
-        .encode_us = (uint32_t)json_member_number(json, "encode_us", 0),
     };
+    renders_read_times(json, header.stage_us);
     struct blob *payload = blob_create(answer->payload, answer->payload_length);
     uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
 
@@ -342,10 +340,18 @@ void frames_shown(struct session *session)
     }
 }
 
-static cJSON *picture_fields(struct frames *frames, const struct frames_view *view,
+/* JPEG would spoil what is no colour, and has no alpha. */
+static bool may_be_jpeg(const struct session *session, const struct frames_view *view)
+{
+    return view->aov == AOV_COLOR &&
+           record_number(&session->room->scene->render, "transparent") == 0;
+}
+
+static cJSON *picture_fields(struct session *session, const struct frames_view *view,
                              enum frames_level level)
 {
     const struct level_rule *rule = &level_rules[level];
+    struct frames *frames = &session->frames;
     double scale = scale_of(frames, view, level);
     int width = (int)fmax(1, lround(view->width * scale));
     int height = (int)fmax(1, lround(view->height * scale));
@@ -358,9 +364,10 @@ static cJSON *picture_fields(struct frames *frames, const struct frames_view *vi
                               json_parse(view->camera, strlen(view->camera), NULL));
     }
     cJSON_AddStringToObject(fields, "aov", aov_name(view->aov));
-    cJSON_AddNumberToObject(fields, "samples", rule->samples);
-    /* JPEG would spoil what is no colour. */
-    cJSON_AddStringToObject(fields, "format", view->aov == AOV_COLOR ? rule->format : "png");
+    if (rule->level) {
+        cJSON_AddStringToObject(fields, "level", rule->level);
+    }
+    cJSON_AddStringToObject(fields, "format", may_be_jpeg(session, view) ? rule->format : "png");
     cJSON_AddNumberToObject(fields, "quality", rule->quality);
     cJSON_AddBoolToObject(fields, "chroma_halved", rule->chroma_halved);
     cJSON_AddBoolToObject(fields, "fast", rule->fast);
@@ -378,7 +385,7 @@ static void ask(struct session *session, enum frames_level level)
     struct render_order order = {
         .type = "render",
         .room = session->room,
-        .fields = picture_fields(frames, view, level),
+        .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
         .on_done = on_picture,
         .data = session,

@@ -287,13 +287,24 @@ bool renders_has_room(const struct renders *renders, const struct room *room)
     return render != NULL;
 }
 
+void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES])
+{
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        char name[STAGE_MEMBER_BYTES];
+
+        stage_member((enum frame_stage)i, name);
+        out_us[i] = (uint32_t)json_member_number(frame, name, 0);
+    }
+}
+
 static void count_times(struct hub *hub, const cJSON *frame)
 {
-    metric_add(&hub->metrics, METRIC_RENDER_US,
-               (int64_t)(json_member_number(frame, "march_us", 0) +
-                         json_member_number(frame, "light_us", 0) +
-                         json_member_number(frame, "read_us", 0)));
-    metric_add(&hub->metrics, METRIC_ENCODE_US, (int64_t)json_member_number(frame, "encode_us", 0));
+    uint32_t us[FRAME_STAGES];
+
+    renders_read_times(frame, us);
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        metric_add_stage(&hub->metrics, (enum frame_stage)i, us[i]);
+    }
 }
 
 static enum error_kind kind_of(const char *code)
@@ -323,6 +334,10 @@ void renders_answer(struct hub *hub, const struct packet *packet)
 
     if (!render || !render->sent) {
         return; /* cancelled meanwhile */
+    }
+    if (strcmp(json_member_text(json, "type", ""), "progress") == 0) {
+        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
+        return;
     }
     if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
         struct error err = {0};
@@ -406,7 +421,7 @@ int64_t renders_tick(struct hub *hub, int64_t now_ms)
     struct error err = {0};
     int64_t next_deadline = 0;
 
-    error_set(&err, ERROR_UNAVAILABLE, "", "the picture took longer than %d seconds",
+    error_set(&err, ERROR_UNAVAILABLE, "", "the picture did not go on for %d seconds",
               RENDER_DEADLINE_MS / 1000);
     for (struct render *render = hub->renders.first, *next; render; render = next) {
         next = render->next;

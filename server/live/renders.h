@@ -21,8 +21,8 @@ enum {
     RENDER_STILL = 1,
     RENDER_LOSSLESS = 2,
     RENDER_IMAGE = 3,
-    RENDER_DEADLINE_MS = 120000,
-    RENDER_DEATHS = 2, /* workers that one scene may take with it */
+    RENDER_DEADLINE_MS = 120000, /* without progress */
+    RENDER_DEATHS = 2,           /* workers that one scene may take with it */
 };
 
 struct renders {
@@ -58,9 +58,10 @@ void renders_fail_all(struct hub *hub, const char *why);
 /* Events of the supervisor. */
 void renders_worker_ready(struct hub *hub);
 void renders_worker_down(struct hub *hub);
-/* A packet of type frame, failed or picked. */
+/* A packet of type frame, progress, failed or picked. */
 void renders_answer(struct hub *hub, const struct packet *packet);
-/* What a packet says of an error. */
+/* What a packet says of times, and of an error. */
+void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES]);
 void renders_read_error(const cJSON *packet, struct error *out);
 /* Fails what is too old; returns the next deadline or 0. */
 int64_t renders_tick(struct hub *hub, int64_t now_ms);

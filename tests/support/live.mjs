@@ -73,6 +73,8 @@ export function readFrameHeader(bytes) {
         height: bytes.readUInt16LE(30),
         viewWidth: bytes.readUInt16LE(32),
         viewHeight: bytes.readUInt16LE(34),
+        version: bytes[4],
+        stagesUs: Array.from({ length: bytes[7] }, (_, stage) => bytes.readUInt32LE(36 + 4 * stage)),
     };
 }
 
@@ -173,7 +175,8 @@ export class Live {
     takePart(bytes) {
         const magic = bytes.subarray(0, 4).toString();
         if (magic === 'FCF1') {
-            this.frame = { ...readFrameHeader(bytes), at: Date.now(), parts: [bytes.subarray(64)], got: 0 };
+            const header = readFrameHeader(bytes);
+            this.frame = { ...header, at: Date.now(), parts: [bytes.subarray(36 + 4 * header.stagesUs.length)], got: 0 };
         } else if (magic !== 'FCFP' || bytes.readUInt32LE(4) !== this.frame?.number) {
             throw new Error(`a binary message starts with ${magic}`);
         } else {

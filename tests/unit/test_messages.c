@@ -85,6 +85,8 @@ static void test_refuses(void **state)
                    "/width", "10.5 is not a whole number");
     assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"aov\":\"normals\"}",
                    ERROR_INVALID, "/aov", "did you mean \"normal\"?");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"aov\":\"position\"}",
+                   ERROR_INVALID, "/aov", "");
     assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"camera\":{\"fov\":0}}",
                    ERROR_INVALID, "/camera/fov", "0 is below the minimum 1");
     assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"visible\":1}",
@@ -129,13 +131,13 @@ static void test_members_have_fallbacks(void **state)
 }
 
 static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
-    'F',  'C',  'F',  '1',  1,    2,    6,    0,                   /* version, codec, flags */
-    4,    3,    2,    1,    8,    7,    6,    5,                   /* number, payload bytes */
-    0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09,                /* revision */
-    0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0, 5, 0xd0, 2, /* seq, sides */
-    1,    0,    0,    0,    2,    0,    0,    0,    3, 0, 0,    0, /* queue, march, light */
-    4,    0,    0,    0,    0xff, 0xff, 0xff, 0xff,                /* read-back, encode */
-    0,    0,    0,    0,    0,    0,    0,    0,
+    'F',  'C',  'F',  '1',  2,    2,    6,    11,   /* version, codec, flags, stages */
+    4,    3,    2,    1,    8,    7,    6,    5,    /* number, payload bytes */
+    0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09, /* revision */
+    0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,  5, 0xd0, 2, /* seq, sides */
+    1,    0,    0,    0,    2,    0,    0,    0,    3,  0, 0,    0, /* stages in their order */
+    4,    0,    0,    0,    5,    0,    0,    0,    6,  0, 0,    0, 7,    0,    0,    0,
+    8,    0,    0,    0,    9,    0,    0,    0,    10, 0, 0,    0, 0xff, 0xff, 0xff, 0xff,
 };
 
 static const struct frame_header frame = {
@@ -149,11 +151,7 @@ static const struct frame_header frame = {
     .height = 360,
     .view_width = 1280,
     .view_height = 720,
-    .queue_us = 1,
-    .march_us = 2,
-    .light_us = 3,
-    .read_us = 4,
-    .encode_us = 0xffffffff,
+    .stage_us = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0xffffffff},
 };
 
 static void test_frame_header_bytes(void **state)
@@ -171,7 +169,7 @@ static void test_frame_header_bytes(void **state)
     frame_header_pack(&back, bytes);
     assert_memory_equal(bytes, frame_bytes, sizeof bytes);
     assert_false(frame_header_unpack(bytes, sizeof bytes - 1, &back));
-    bytes[4] = 2;
+    bytes[4] = 1;
     assert_false(frame_header_unpack(bytes, sizeof bytes, &back));
     frame_part_pack(0x01020304, bytes);
     assert_memory_equal(bytes, "FCFP\4\3\2\1", FRAME_PART_HEADER_BYTES);
