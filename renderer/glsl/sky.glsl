@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* The environment: what a ray that hits nothing sees, and the light that comes from there. */
+/* The environment: what a ray that hits nothing sees, and the light that comes from there.
+ *
+ * It lies in pictures by longitude and latitude: the middle looks along -Z, +X is right of it, the
+ * first row is straight up. In those that environment_*.glsl make, first and last row are the poles
+ * themselves, so that nothing is pinched there. */
+
+layout(binding = 8) uniform sampler2D sky_picture;  /* what is around the scene */
+layout(binding = 9) uniform sampler2D sky_mirror;   /* mip level i: roughness (i + 1) / levels */
+layout(binding = 10) uniform sampler2D sky_matt;    /* irradiance / pi */
+
+#define PI 3.14159265
+#define MIRROR_LEVELS 4.0
 
 /* From the ground's colour below through the horizon's to the zenith's. */
 vec3 sky_gradient(vec3 direction)
@@ -10,31 +21,80 @@ vec3 sky_gradient(vec3 direction)
     return y >= 0.0 ? above : below;
 }
 
-/* Around the first directional light: a disc with a soft rim, and a glow that whitens the sky. */
-vec3 sky_sun(vec3 direction)
+/* Around the first directional light: a glow that whitens the sky, and `disc` times the sun. */
+vec3 sky_sun(vec3 direction, float disc)
 {
     vec3 sum = vec3(0.0);
     for (int i = zero; i < modes.x; i++) {
         if (int(lights[i].place.w) == LIGHT_DIRECTIONAL) {
             float c = max(dot(direction, lights[i].place.xyz), 0.0);
             float glow = 0.06 * pow(c, 24.0) + 0.12 * pow(c, 350.0);
-            float disc = smoothstep(0.99965, 0.99985, c);
-            sum = lights[i].color.rgb * (glow + 4.0 * disc);
+            sum = lights[i].color.rgb * (glow + 4.0 * disc * smoothstep(0.99965, 0.99985, c));
             break;
         }
     }
     return sum;
 }
 
-vec3 sky(vec3 direction)
+/* Where there is no picture. */
+vec3 sky_plain(vec3 direction, float disc)
 {
-    return modes.y == SKY_GRADIENT ? sky_gradient(direction) + sky_sun(direction) : zenith.rgb;
+    vec3 sun = (effects.z & EFFECT_SUN) != 0 ? sky_sun(direction, disc) : vec3(0.0);
+    return modes.y == SKY_GRADIENT ? sky_gradient(direction) + sun : zenith.rgb;
 }
 
-/* Light from the half of the environment around n, without the sun. */
-vec3 sky_ambient(vec3 n)
+/* From what is seen to what is in the picture, which may be turned. */
+vec3 sky_turned(vec3 d)
 {
-    vec3 top = mix(horizon.rgb, zenith.rgb, 0.5);
-    vec3 bottom = mix(horizon.rgb, ground.rgb, 0.75);
-    return horizon.w * (modes.y == SKY_GRADIENT ? mix(bottom, top, 0.5 + 0.5 * n.y) : zenith.rgb);
+    return vec3(panorama.x * d.x - panorama.y * d.z, d.y, panorama.y * d.x + panorama.x * d.z);
+}
+
+/* Longitude and latitude, 0 to 1. */
+vec2 sky_place(vec3 d)
+{
+    float side = abs(d.x) + abs(d.z) > 0.0 ? atan(d.x, -d.z) : 0.0;
+    return vec2(0.5 + side / (2.0 * PI), acos(clamp(d.y, -1.0, 1.0)) / PI);
+}
+
+/* One mip level of a picture with a row at each pole. */
+vec3 sky_made(sampler2D made, vec3 d, float level)
+{
+    vec2 place = sky_place(d);
+    float rows = float(textureSize(made, int(level)).y);
+    return textureLod(made, vec2(place.x, (place.y * (rows - 1.0) + 0.5) / rows), level).rgb;
+}
+
+/* Without the sun's disc; `blur`: over about this angle, where there is a picture. */
+vec3 sky_blurred(vec3 direction, float blur)
+{
+    if (modes.y != SKY_IMAGE) {
+        return sky_plain(direction, 0.0);
+    }
+    float texel = PI / float(textureSize(sky_picture, 0).y);
+    vec2 place = sky_place(sky_turned(direction));
+    return panorama.z * textureLod(sky_picture, place, log2(max(blur / texel, 1.0))).rgb;
+}
+
+/* The background. */
+vec3 sky(vec3 direction)
+{
+    float pixel = eye.w > 0.5 ? 0.0 : 2.0 * forward.w;
+    return modes.y == SKY_IMAGE ? sky_blurred(direction, pixel) : sky_plain(direction, 1.0);
+}
+
+/* Light that falls on a matt surface, over pi. */
+vec3 sky_irradiance(vec3 n)
+{
+    return horizon.w * panorama.z * sky_made(sky_matt, sky_turned(n), 0.0);
+}
+
+/* What a surface mirrors that looks along `direction`. */
+vec3 sky_mirrored(vec3 direction, float roughness)
+{
+    float level = clamp(roughness, 0.0, 1.0) * MIRROR_LEVELS - 1.0, low = max(floor(level), 0.0);
+    vec3 turned = sky_turned(direction);
+    vec3 sharp = sky_blurred(direction, 2.0 * roughness * roughness);
+    vec3 a = panorama.z * sky_made(sky_mirror, turned, low);
+    vec3 b = panorama.z * sky_made(sky_mirror, turned, min(low + 1.0, MIRROR_LEVELS - 1.0));
+    return horizon.w * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));
 }

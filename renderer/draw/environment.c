@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT */
+/* The list of environments, and the pictures that each is made of. */
+#include "environment.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "protocol/memory.h"
+#include "renderer/gl/pass.h"
+#include "renderer/image/decode.h"
+
+enum {
+    PLAIN_WIDTH = 128, /* of what is drawn where there is no picture; twice the height */
+    MIRROR_WIDTH = 128,
+    MIRROR_LEVELS = 4, /* of glsl/sky.glsl */
+    MATT_WIDTH = 32,
+    KEPT_BYTES = 64 << 20, /* of environments that nobody uses */
+    TEXEL_BYTES = 8,
+};
+
+enum maker { MAKE_PLAIN, MAKE_MIRROR, MAKE_MATT, MAKER_COUNT };
+
+struct environments {
+    const struct gl *gl;
+    struct pass makers[MAKER_COUNT];
+    GLuint frame;
+    struct environment *first; /* the last used first */
+};
+
+/* --- what tells one from another --- */
+
+static uint64_t mix(uint64_t state, const void *bytes, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        state = (state ^ ((const uint8_t *)bytes)[i]) * UINT64_C(0x100000001b3);
+    }
+    return state;
+}
+
+/* What sky_sun() of glsl/sky.glsl looks at. */
+static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
+{
+    for (int i = 0; i < block->modes[0]; i++) {
+        const struct frame_light *light = &block->lights[i];
+
+        if (light->place[3] == LIGHT_DIRECTIONAL) {
+            return mix(mix(state, light->place, 12), light->color, 12);
+        }
+    }
+    return state;
+}
+
+static uint64_t key_of(const struct frame_block *block, const struct asset *image)
+{
+    const int32_t sun = block->effects[2] & EFFECT_SUN;
+    uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->modes[1], sizeof block->modes[1]);
+
+    if (block->modes[1] == SKY_IMAGE) {
+        return mix(state, image->id, sizeof image->id);
+    }
+    state = mix(state, block->zenith, 12);
+    if (block->modes[1] == SKY_SOLID) {
+        return state;
+    }
+    state = mix(mix(mix(state, block->horizon, 12), block->ground, 12), &sun, sizeof sun);
+    return sun ? mix_sun(state, block) : state;
+}
+
+/* --- pictures --- */
+
+static int levels_of(int width, int height)
+{
+    int levels = 1;
+
+    for (int side = width > height ? width : height; side > 1; side /= 2) {
+        levels++;
+    }
+    return levels;
+}
+
+/* Longitudes meet, latitudes end. */
+static GLuint create_picture(const struct gl *gl, int width, int height, int levels)
+{
+    GLuint texture;
+
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, width, height);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                      levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+/* Draws one mip level of a picture. */
+static void make(const struct environments *environments, enum maker maker, GLuint out, int level,
+                 int width)
+{
+    const struct gl *gl = environments->gl;
+    const struct pass_place place = {
+        .width = width, .height = width / 2, .turn = {level}, .mode = PASS_TILE};
+
+    gl->BindImageTexture(0, out, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    pass_compute(&environments->makers[maker], gl, &place);
+}
+
+/* The gradient, or the one colour. */
+static void make_plain(const struct environments *environments, struct environment *out)
+{
+    out->panorama = create_picture(environments->gl, PLAIN_WIDTH, PLAIN_WIDTH / 2,
+                                   levels_of(PLAIN_WIDTH, PLAIN_WIDTH / 2));
+    out->bytes += (size_t)TEXEL_BYTES * PLAIN_WIDTH * PLAIN_WIDTH / 2;
+    make(environments, MAKE_PLAIN, out->panorama, 0, PLAIN_WIDTH);
+}
+
+static void upload(const struct environments *environments, const struct decoded *image,
+                   struct environment *out)
+{
+    const struct gl *gl = environments->gl;
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    const float most = 65504; /* of a half */
+
+    for (size_t i = 0; i < 3 * pixels; i++) {
+        image->rgb[i] = fminf(image->rgb[i], most);
+    }
+    out->panorama =
+        create_picture(gl, image->width, image->height, levels_of(image->width, image->height));
+    out->bytes += TEXEL_BYTES * pixels;
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width, image->height, GL_RGB, GL_FLOAT,
+                      image->rgb);
+}
+
+/* What is made of `panorama`. */
+static void make_light(const struct environments *environments, struct environment *out)
+{
+    const struct gl *gl = environments->gl;
+
+    out->mirrored = create_picture(gl, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS);
+    out->irradiance = create_picture(gl, MATT_WIDTH, MATT_WIDTH / 2, 1);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_PANORAMA);
+    gl->BindTexture(GL_TEXTURE_2D, out->panorama);
+    gl->GenerateMipmap(GL_TEXTURE_2D);
+    for (int level = 0; level < MIRROR_LEVELS; level++) {
+        make(environments, MAKE_MIRROR, out->mirrored, level, MIRROR_WIDTH >> level);
+    }
+    make(environments, MAKE_MATT, out->irradiance, 0, MATT_WIDTH);
+}
+
+/* --- the list --- */
+
+static void destroy(const struct environments *environments, struct environment *environment)
+{
+    const GLuint textures[] = {environment->panorama, environment->mirrored,
+                               environment->irradiance};
+
+    environments->gl->DeleteTextures(3, textures);
+    free(environment);
+}
+
+static struct environment **find(struct environments *environments, uint64_t key)
+{
+    struct environment **at = &environments->first;
+
+    while (*at && (*at)->key != key) {
+        at = &(*at)->next;
+    }
+    return at;
+}
+
+static void clean(struct environments *environments)
+{
+    size_t bytes = 0;
+
+    for (struct environment **at = &environments->first; *at;) {
+        struct environment *environment = *at;
+
+        bytes += environment->references == 0 ? environment->bytes : 0;
+        if (environment->references == 0 && bytes > KEPT_BYTES) {
+            *at = environment->next;
+            destroy(environments, environment);
+        } else {
+            at = &environment->next;
+        }
+    }
+}
+
+static struct environment *create(struct environments *environments,
+                                  const struct frame_block *block, const struct decoded *image,
+                                  struct error *err)
+{
+    const struct gl *gl = environments->gl;
+    struct environment *environment = memory_alloc(1, sizeof *environment);
+
+    gl->BindBuffer(GL_UNIFORM_BUFFER, environments->frame);
+    gl->BufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_STREAM_DRAW);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, environments->frame);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_PANORAMA);
+    if (image) {
+        upload(environments, image, environment);
+    } else {
+        make_plain(environments, environment);
+    }
+    make_light(environments, environment);
+    gl->Finish(); /* so that its time is told apart */
+    if (!gl_check(gl, "environment", err)) {
+        destroy(environments, environment);
+        return NULL;
+    }
+    return environment;
+}
+
+/* Without its picture. */
+static void make_solid(struct frame_block *block)
+{
+    const float unturned[4] = {1, 0, 1, 0};
+
+    block->modes[1] = SKY_SOLID;
+    memcpy(block->panorama, unturned, sizeof unturned);
+}
+
+/* A file that is no picture is not read again. */
+static bool load(struct asset *image, struct decoded *out, struct error *out_problem)
+{
+    static const char place[] = "/environment/image";
+    struct error err = {0};
+
+    if (!image) {
+        return error_set(out_problem, ERROR_NOT_FOUND, place, "no such file has been uploaded");
+    }
+    if (image->problem.kind == ERROR_NONE &&
+        !image_decode(image->bytes, image->length, out, &err)) {
+        error_set(&image->problem, err.kind, place, "%s", err.message);
+    }
+    *out_problem = image->problem;
+    return image->problem.kind == ERROR_NONE;
+}
+
+static uint64_t now_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000 + (uint64_t)now.tv_nsec / 1000;
+}
+
+struct environment *environments_get(struct environments *environments, struct frame_block *block,
+                                     struct asset *image, struct error *out_problem,
+                                     uint32_t *out_us, struct error *err)
+{
+    const uint64_t begun = now_us();
+    const bool pictured = block->modes[1] == SKY_IMAGE;
+    struct environment **at = find(environments, !pictured || image ? key_of(block, image) : 0);
+    struct environment *environment = *at;
+    struct decoded decoded = {0};
+
+    *out_problem = (struct error){0};
+    if (!environment && pictured && !load(image, &decoded, out_problem)) {
+        make_solid(block);
+        at = find(environments, key_of(block, NULL));
+        environment = *at;
+    }
+    *out_us = 0;
+    if (environment) {
+        *at = environment->next;
+    } else {
+        environment = create(environments, block, decoded.rgb ? &decoded : NULL, err);
+        decoded_finish(&decoded);
+        if (!environment) {
+            return NULL;
+        }
+        environment->key = key_of(block, image);
+        *out_us = (uint32_t)(now_us() - begun);
+    }
+    environment->references++;
+    environment->next = environments->first;
+    environments->first = environment;
+    clean(environments);
+    return environment;
+}
+
+void environment_unref(struct environments *environments, struct environment *environment)
+{
+    if (environment && --environment->references == 0) {
+        clean(environments);
+    }
+}
+
+/* --- birth and death --- */
+
+struct environments *environments_create(const struct gl *gl, struct error *err)
+{
+    static const char *const files[MAKER_COUNT] = {[MAKE_PLAIN] = "environment_sky.glsl",
+                                                   [MAKE_MIRROR] = "environment_mirror.glsl",
+                                                   [MAKE_MATT] = "environment_matt.glsl"};
+    struct environments *environments = memory_alloc(1, sizeof *environments);
+
+    environments->gl = gl;
+    gl->GenBuffers(1, &environments->frame);
+    for (int i = 0; i < MAKER_COUNT; i++) {
+        const char *const list[] = {"frame.glsl", "sky.glsl", "environment_place.glsl", files[i],
+                                    NULL};
+        const struct pass_source source = {.compute = true, .defines = "", .files = list};
+
+        if (!pass_init(&environments->makers[i], gl, &source, err)) {
+            environments_destroy(environments);
+            return NULL;
+        }
+    }
+    return environments;
+}
+
+void environments_destroy(struct environments *environments)
+{
+    if (!environments) {
+        return;
+    }
+    while (environments->first) {
+        struct environment *environment = environments->first;
+
+        environments->first = environment->next;
+        destroy(environments, environment);
+    }
+    for (int i = 0; i < MAKER_COUNT; i++) {
+        pass_finish(&environments->makers[i], environments->gl);
+    }
+    environments->gl->DeleteBuffers(1, &environments->frame);
+    free(environments);
+}
