@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures against references: tests/golden/GROUP/CASE/{scene.json, picture.json, expected.png}.
- * picture.json, which may be absent, says {"width", "height", "samples", "aov"}.
+ * picture.json, which may be absent, says {"width", "height", "samples", "aov"}; the scene says the
+ * rest.
  *
- * What was drawn is always written beside this program, with the difference, as
- * golden/GROUP-CASE-actual.png and -difference.png. With GOLDEN_ACCEPT=CASE (or =all) in the
- * environment the picture drawn becomes the reference. */
+ * What was drawn, what was expected and the difference are left in BUILD/golden, where index.html
+ * shows them side by side. With GOLDEN_ACCEPT=CASE (or =all) in the environment the picture drawn
+ * becomes the reference. */
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
@@ -23,12 +24,13 @@
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "renderer/renderer.h"
+#include "tests/support/golden_page.h"
 #include "tests/support/picture.h"
 #include "tests/support/text_file.h"
 
 #define ROOT "tests/golden"
 
-enum { CASES_MAX = 256, WIDTH = 160, HEIGHT = 120, PATH_BYTES = 1024, NAME_BYTES = 256 };
+enum { CASES_MAX = 400, WIDTH = 160, HEIGHT = 120, PATH_BYTES = 1024, NAME_BYTES = 256 };
 
 struct golden {
     char group[NAME_BYTES], name[NAME_BYTES], title[2 * NAME_BYTES];
@@ -36,7 +38,8 @@ struct golden {
 
 static struct golden cases[CASES_MAX];
 static size_t case_count;
-static char out_dir[PATH_BYTES];
+static char out_dir[PATH_MAX + 8];
+static FILE *page;
 static struct renderer *renderer;
 
 static const char *case_path(const struct golden *golden, const char *file)
@@ -49,7 +52,7 @@ static const char *case_path(const struct golden *golden, const char *file)
 
 static const char *out_path(const struct golden *golden, const char *what)
 {
-    static char path[2 * PATH_BYTES];
+    static char path[PATH_MAX + PATH_BYTES];
 
     snprintf(path, sizeof path, "%s/%s-%s-%s.png", out_dir, golden->group, golden->name, what);
     return path;
@@ -98,7 +101,8 @@ static void find_cases(void)
 
 static struct job_desc read_desc(const struct golden *golden)
 {
-    struct job_desc desc = {.width = WIDTH, .height = HEIGHT, .exact = true};
+    struct job_desc desc = {
+        .width = WIDTH, .height = HEIGHT, .level = -1, .transparent = -1, .exact = true};
     const char *path = case_path(golden, "picture.json");
 
     if (access(path, R_OK) == 0) {
@@ -109,39 +113,47 @@ static struct job_desc read_desc(const struct golden *golden)
         desc.width = (int)json_member_number(json, "width", WIDTH);
         desc.height = (int)json_member_number(json, "height", HEIGHT);
         desc.samples = (int)json_member_number(json, "samples", 0);
-        desc.aov = (enum aov)aov_find(json_member_text(json, "aov", "color"));
+        const int aov = aov_find(json_member_text(json, "aov", aov_name(AOV_COLOR)));
+        assert_true(aov >= 0);
+        desc.aovs[aov] = true;
         cJSON_Delete(json);
         free(text);
     }
     return desc;
 }
 
-static void draw(const struct golden *golden, struct picture *out)
+static bool draw_scene(struct scene *scene, const struct job_desc *desc, struct picture *out,
+                       struct error *err)
 {
-    const struct job_desc desc = read_desc(golden);
-    struct error err = {0};
-    size_t bytes_length = 0, length;
-    char *text = text_file_read(case_path(golden, "scene.json"), &length);
-    struct scene *scene = scene_parse(text, length, &err);
-    struct resident *resident;
-    struct image image;
+    struct resident *resident = resident_create(renderer, scene, 1);
+    struct image image = {0};
     uint8_t *bytes = NULL;
+    size_t length = 0;
+    const bool good =
+        renderer_render(resident, desc, &image, err) &&
+        image_encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &length, err);
 
-    if (!scene) {
-        fail_msg("%s: %s: %s", golden->title, err.place, err.message);
+    if (good) {
+        assert_true(picture_read_memory(out, bytes, length));
     }
-    resident = resident_create(renderer, scene, 1);
-    if (!renderer_render(resident, &desc, &image, &err) ||
-        !image_encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &bytes_length,
-                      &err)) {
-        fail_msg("%s: %s: %s", golden->title, err.place, err.message);
-    }
-    assert_true(picture_read_memory(out, bytes, bytes_length));
     image_finish(&image);
     free(bytes);
     resident_destroy(resident);
-    free(text);
+    return good;
 }
+
+static bool draw(const struct golden *golden, struct picture *out, struct error *err)
+{
+    const struct job_desc desc = read_desc(golden);
+    size_t length;
+    char *text = text_file_read(case_path(golden, "scene.json"), &length);
+    struct scene *scene = scene_parse(text, length, err);
+
+    free(text);
+    return scene && draw_scene(scene, &desc, out, err);
+}
+
+/* --- judging --- */
 
 static bool is_accepted(const struct golden *golden)
 {
@@ -152,49 +164,86 @@ static bool is_accepted(const struct golden *golden)
             strcmp(accept, golden->title) == 0);
 }
 
-/* False, with a message, where the picture is not that of the reference. */
-static bool matches(const struct golden *golden, const struct picture *actual)
-{
-    struct picture expected, shown = {0};
-    struct picture_difference difference;
+static void say(struct golden_verdict *verdict, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
-    if (!picture_read(&expected, case_path(golden, "expected.png"))) {
-        print_message("%s: no reference; look at %s, then make golden-accept CASE=%s\n",
-                      golden->title, out_path(golden, "actual"), golden->name);
-        return false;
-    }
-    difference = picture_compare(actual, &expected, &shown);
+static void say(struct golden_verdict *verdict, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(verdict->message, sizeof verdict->message, format, arguments);
+    va_end(arguments);
+}
+
+static void compare(struct golden_verdict *verdict, const struct golden *golden,
+                    const struct picture *actual, const struct picture *expected)
+{
+    struct picture shown = {0};
+    const struct picture_difference difference = picture_compare(actual, expected, &shown);
+
+    assert_true(picture_write(expected, out_path(golden, "expected")));
+    verdict->difference = difference;
+    verdict->compared = !difference.size;
+    verdict->same = difference.same;
     if (difference.size) {
-        print_message("%s: the sizes differ\n", golden->title);
-    } else {
-        assert_true(picture_write(&shown, out_path(golden, "difference")));
-        if (!difference.same) {
-            print_message("%s: %d pixels differ by more than %d (greatest %d, mean %.3f); see %s\n",
-                          golden->title, difference.pixels, PICTURE_STEPS, difference.greatest,
-                          difference.mean, out_path(golden, "difference"));
-        }
+        say(verdict, "%d x %d pixels, not %d x %d", actual->width, actual->height, expected->width,
+            expected->height);
+        return;
     }
-    picture_finish(&expected);
+    assert_true(picture_write(&shown, out_path(golden, "difference")));
+    if (!difference.same) {
+        say(verdict, "%d pixels differ by more than %d (greatest %d, mean %.3f)", difference.pixels,
+            PICTURE_STEPS, difference.greatest, difference.mean);
+    }
     picture_finish(&shown);
-    return difference.same;
+}
+
+/* What an earlier run left. */
+static void forget(const struct golden *golden)
+{
+    static const char *const left[] = {"expected", "actual", "difference"};
+
+    for (size_t i = 0; i < sizeof left / sizeof left[0]; i++) {
+        unlink(out_path(golden, left[i]));
+    }
+}
+
+static struct golden_verdict judge(const struct golden *golden)
+{
+    struct golden_verdict verdict = {0};
+    struct picture actual = {0}, expected = {0};
+    struct error err = {0};
+
+    forget(golden);
+    if (!draw(golden, &actual, &err)) {
+        say(&verdict, "%s: %s", err.place, err.message);
+        return verdict;
+    }
+    assert_true(picture_write(&actual, out_path(golden, "actual")));
+    if (is_accepted(golden)) {
+        assert_true(picture_write(&actual, case_path(golden, "expected.png")));
+    }
+    if (picture_read(&expected, case_path(golden, "expected.png"))) {
+        compare(&verdict, golden, &actual, &expected);
+    } else {
+        say(&verdict, "no reference; look at it, then make golden-accept CASE=%s", golden->title);
+    }
+    picture_finish(&actual);
+    picture_finish(&expected);
+    return verdict;
 }
 
 static void test_case(void **state)
 {
     const struct golden *golden = *state;
-    struct picture actual;
-    bool same;
+    const struct golden_verdict verdict = judge(golden);
 
-    draw(golden, &actual);
-    assert_true(picture_write(&actual, out_path(golden, "actual")));
-    if (is_accepted(golden)) {
-        char *path = memory_text(case_path(golden, "expected.png"));
-        assert_true(picture_write(&actual, path));
-        free(path);
+    golden_page_add(page, golden->title, &verdict);
+    if (!verdict.same) {
+        print_message("%s: %s; see %s/index.html\n", golden->title, verdict.message, out_dir);
     }
-    same = matches(golden, &actual);
-    picture_finish(&actual);
-    assert_true(same);
+    assert_true(verdict.same);
 }
 
 /* --- that the comparison can fail --- */
@@ -202,23 +251,21 @@ static void test_case(void **state)
 static void test_bad_reference(void **state)
 {
     static const struct golden wrong = {"refused", "wrong", "refused/wrong"};
-    struct picture actual;
+    const struct golden_verdict verdict = judge(&wrong);
 
     (void)state;
-    draw(&wrong, &actual);
-    assert_false(matches(&wrong, &actual));
-    picture_finish(&actual);
+    assert_true(verdict.compared);
+    assert_false(verdict.same);
 }
 
 static void test_missing_reference(void **state)
 {
     static const struct golden missing = {"refused", "missing", "refused/missing"};
-    struct picture actual;
+    const struct golden_verdict verdict = judge(&missing);
 
     (void)state;
-    draw(&missing, &actual);
-    assert_false(matches(&missing, &actual));
-    picture_finish(&actual);
+    assert_false(verdict.compared || verdict.same);
+    assert_non_null(strstr(verdict.message, "no reference"));
 }
 
 /* Every row of the registry has a picture. */
@@ -260,20 +307,34 @@ static int tear_down(void **state)
 {
     (void)state;
     renderer_destroy(renderer);
+    golden_page_end(page);
     return 0;
+}
+
+/* This program is BUILD/tests/golden/test_golden. */
+static bool open_page(const char *program)
+{
+    if (!realpath(program, out_dir)) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        *strrchr(out_dir, '/') = '\0';
+    }
+    strcat(out_dir, "/golden");
+    if (mkdir(out_dir, 0777) != 0 && errno != EEXIST) {
+        return false;
+    }
+    page = golden_page_begin(out_dir);
+    return page != NULL;
 }
 
 int main(int argc, char **argv)
 {
     static struct CMUnitTest tests[CASES_MAX + 3];
-    char *slash;
     size_t n = 0;
 
     (void)argc;
-    snprintf(out_dir, sizeof out_dir - 8, "%s", argv[0]);
-    slash = strrchr(out_dir, '/');
-    snprintf(slash ? slash + 1 : out_dir, 8, "golden");
-    if (mkdir(out_dir, 0777) != 0 && errno != EEXIST) {
+    if (!open_page(argv[0])) {
         perror(out_dir);
         return 1;
     }

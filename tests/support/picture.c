@@ -71,7 +71,7 @@ struct picture_difference picture_compare(const struct picture *a, const struct 
                                           struct picture *out_shown)
 {
     const size_t count = (size_t)a->width * (size_t)a->height;
-    struct picture_difference result = {0};
+    struct picture_difference result = {.of = (int)count};
     struct picture shown = {a->width, a->height, NULL};
     long sum = 0;
 

@@ -27,8 +27,8 @@ enum { PICTURE_STEPS = 8, PICTURE_PIXELS = 200 };
 
 struct picture_difference {
     bool same;
-    bool size; /* the sizes differ, and nothing else is known */
-    int pixels, greatest;
+    bool size;                /* the sizes differ, and nothing else is known */
+    int pixels, of, greatest; /* pixels that differ, of so many */
     double mean;
 };
 /* `*out_shown` (may be NULL) becomes the difference, eight times as strong, on black. */
