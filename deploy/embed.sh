@@ -5,7 +5,8 @@
 #
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
 #   embed.sh embedded SOURCE WORK  page_table[] (SOURCE/web/dist), examples_table[] and
-#                                  cards_table[] (SOURCE/protocol/examples), references_table[]
+#                                  cards_table[] (SOURCE/protocol/examples), example_files_table[]
+#                                  (SOURCE/protocol/examples/assets), references_table[]
 #                                  (SOURCE/protocol/reference) of embedded.h; WORK takes the
 #                                  compressed files. Without web/dist the page's table is empty
 set -eu
@@ -46,6 +47,7 @@ mime() {
     *.jpg) echo 'image/jpeg' ;;
     *.woff2) echo 'font/woff2' ;;
     *.wasm) echo 'application/wasm' ;;
+    *.hdr) echo 'image/vnd.radiance' ;;
     *.txt) echo 'text/plain; charset=utf-8' ;;
     *)
         echo "embed.sh: no media type is known for $1" >&2
@@ -92,10 +94,18 @@ files() {
     done
 }
 
+# digests FOLDER: files under their SHA-256.
+digests() {
+    for file in "$1"/*; do
+        [ -e "$file" ] && echo "$(sha256sum "$file" | cut -d ' ' -f 1).${file##*.} $file false"
+    done
+}
+
 embedded() {
     echo '#include "server/rest/embedded.h"'
     page "$1" "$2" | table page page_
     files "$1/protocol/examples" json | LC_ALL=C sort | table examples example_
+    digests "$1/protocol/examples/assets" | LC_ALL=C sort | table example_files example_file_
     files "$1/protocol/examples" jpg | LC_ALL=C sort | table cards card_
     files "$1/protocol/reference" jpg | LC_ALL=C sort | table references reference_
 }

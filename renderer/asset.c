@@ -26,29 +26,39 @@ static struct asset **find(struct asset **at, const char *id)
     return at;
 }
 
-void assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
-                bool (*is_used)(void *data, const char *id), void *data)
+static struct asset *create(const char *id, const void *bytes, size_t length)
 {
     struct asset *asset = memory_alloc(1, sizeof *asset);
-    struct asset **known = find(assets, id);
-    int unused = 0;
 
-    if (*known) {
-        drop(known);
-    }
     snprintf(asset->id, sizeof asset->id, "%s", id);
     asset->bytes = memory_alloc(length, 1);
     memcpy(asset->bytes, bytes, length);
     asset->length = length;
+    return asset;
+}
+
+bool assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
+                bool (*is_used)(void *data, const char *id), void *data)
+{
+    struct asset **at = find(assets, id), *asset = *at;
+    const bool known = asset != NULL;
+    int unused = 0;
+
+    if (known) {
+        *at = asset->next;
+    } else {
+        asset = create(id, bytes, length);
+    }
     asset->next = *assets;
     *assets = asset;
-    for (struct asset **at = assets; *at;) {
+    for (at = assets; *at;) {
         if (!is_used(data, (*at)->id) && ++unused > UNUSED_KEPT) {
             drop(at);
         } else {
             at = &(*at)->next;
         }
     }
+    return !known;
 }
 
 struct asset *assets_find(struct asset *assets, const char *id)

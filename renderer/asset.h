@@ -18,9 +18,9 @@ struct asset {
     struct asset *next;
 };
 
-/* Takes a copy of the file into the list, which begins with the newest. Beyond a few that
- * `is_used` does not know, the oldest go. */
-void assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
+/* Takes a copy of the file into the list, which begins with the newest; false where it was there.
+ * Of those that `is_used` does not know all but the newest few go. */
+bool assets_add(struct asset **assets, const char *id, const void *bytes, size_t length,
                 bool (*is_used)(void *data, const char *id), void *data);
 /* NULL: none of that name. */
 struct asset *assets_find(struct asset *assets, const char *id);

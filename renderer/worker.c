@@ -47,7 +47,7 @@ static void on_stop(struct worker *w, const cJSON *packet)
     w->status = 0;
 }
 
-static void on_packet(struct worker *w, const cJSON *packet)
+static void on_packet(struct worker *w, const struct packet *whole)
 {
     static const struct {
         const char *type;
@@ -57,9 +57,15 @@ static void on_packet(struct worker *w, const cJSON *packet)
         {"render", worker_on_render}, {"cancel", worker_on_cancel}, {"pick", worker_on_pick},
         {"refuse", worker_on_refuse}, {"ping", worker_on_ping},     {"stop", on_stop},
     };
+    const cJSON *packet = whole->json;
     const char *type = json_member_text(packet, "type", "");
     struct error err = {0};
 
+    if (strcmp(type, "asset") == 0 && whole->payload) {
+        renderer_asset(w->renderer, json_member_text(packet, "asset", ""), whole->payload,
+                       whole->payload_length);
+        return;
+    }
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strcmp(rows[i].type, type) == 0) {
             rows[i].handle(w, packet);
@@ -92,7 +98,7 @@ static void receive(struct worker *w)
             w->status = 1; /* where the next packet begins is not known */
             return;
         }
-        on_packet(w, packet.json);
+        on_packet(w, &packet);
         packet_finish(&packet);
     }
 }

@@ -34,8 +34,7 @@ static bool advance(struct resident *resident)
     return false;
 }
 
-/* A snapshot of the scene as it is now becomes the newest. */
-static void renew(struct resident *resident)
+void resident_renew(struct resident *resident)
 {
     struct renderer *renderer = resident->renderer;
     struct error err = {0};
@@ -63,7 +62,7 @@ struct resident *resident_create(struct renderer *renderer, struct scene *scene,
     resident->revision = revision;
     resident->next = renderer->residents;
     renderer->residents = resident;
-    renew(resident);
+    resident_renew(resident);
     return resident;
 }
 
@@ -89,7 +88,7 @@ void resident_replace(struct resident *resident, struct scene *scene, uint64_t r
     scene_destroy(resident->scene);
     resident->scene = scene;
     resident->revision = revision;
-    renew(resident);
+    resident_renew(resident);
 }
 
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
@@ -99,7 +98,7 @@ bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revisio
         return false;
     }
     resident->revision = revision;
-    renew(resident);
+    resident_renew(resident);
     return true;
 }
 

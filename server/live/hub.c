@@ -390,6 +390,12 @@ static void add_to_catalog(void *data, const struct store_scene *scene)
     catalog_set(data, scene->id, scene->name, scene->revision, scene->nodes, scene->modified_ms);
 }
 
+/* The payload of a packet. */
+static void *load_file(void *data, const char *id, size_t *out_length)
+{
+    return uploads_load(data, id, out_length, NULL);
+}
+
 struct hub *hub_create(const struct hub_params *params, struct error *err)
 {
     struct hub *hub = memory_alloc(1, sizeof(*hub));
@@ -402,7 +408,9 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->code_refused = params->code_refused;
     build_schema(hub);
     hub->store = store_open(params->data_dir, &hub->metrics, err);
-    if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err)) {
+    uploads_add_embedded(&hub->uploads);
+    if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err) ||
+        !store_list_assets(hub->store, uploads_add, &hub->uploads, err)) {
         hub_destroy(hub);
         return NULL;
     }
@@ -419,6 +427,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
         .on_down = on_down,
         .on_hopeless = on_hopeless,
         .on_tick = on_tick,
+        .load_file = load_file,
     });
     hub_unlock(hub);
     return hub;
@@ -462,6 +471,7 @@ void hub_destroy(struct hub *hub)
     renders_finish(&hub->renders);
     pictures_finish(&hub->pictures);
     catalog_finish(&hub->catalog);
+    uploads_finish(&hub->uploads);
     free(hub->schema);
     pthread_mutex_destroy(&hub->load_lock);
     pthread_mutex_destroy(&hub->lock);

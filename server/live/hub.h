@@ -20,6 +20,7 @@
 #include "server/rest/pictures.h"
 #include "server/store/store.h"
 #include "supervisor.h"
+#include "uploads.h"
 
 struct room;
 struct ws;
@@ -37,6 +38,7 @@ struct hub {
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */
 
     struct catalog catalog;
+    struct uploads uploads;
     struct room *rooms;
     struct renders renders;
     struct quarantine quarantine;

@@ -108,12 +108,14 @@ static void send_scene(struct hub *hub, const struct render *render)
     }
     char name[LIMIT_ID_BYTES + 16];
     cJSON *packet = say_begin("scene");
+    cJSON *document = json_parse(render->document, strlen(render->document), NULL);
+    const cJSON *environment = cJSON_GetObjectItemCaseSensitive(document, "environment");
 
+    uploads_send(hub, json_member_text(environment, "image", ""));
     scene_name(render, name);
     cJSON_AddStringToObject(packet, "scene", name);
     cJSON_AddNumberToObject(packet, "revision", 1);
-    cJSON_AddItemToObject(packet, "document",
-                          json_parse(render->document, strlen(render->document), NULL));
+    cJSON_AddItemToObject(packet, "document", document);
     if (hub->code_refused) {
         code_text_remove(packet);
     }

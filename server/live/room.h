@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "fallback.h"
+#include "protocol/asset.h"
 #include "protocol/edit.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
@@ -59,11 +60,12 @@ struct room {
     int64_t idle_since; /* clock_ms; 0: in use */
 
     /* What the worker has of it. */
-    uint64_t sent;    /* newest revision that it was told of; 0: it does not hold the scene */
-    uint64_t shown;   /* newest revision that it can draw */
-    uint64_t settled; /* newest of which it is known whether it can */
-    int deaths;       /* workers lost while they drew this scene, since its last picture */
-    bool left_out;    /* too many: not drawn until it is edited */
+    uint64_t sent;  /* newest revision that it was told of; 0: it does not hold the scene */
+    uint64_t shown; /* newest revision that it can draw */
+    char image[ASSET_ID_CHARACTERS + 1]; /* file of its environment that the worker was sent last */
+    uint64_t settled;                    /* newest of which it is known whether it can */
+    int deaths;    /* workers lost while they drew this scene, since its last picture */
+    bool left_out; /* too many: not drawn until it is edited */
     struct fallback fallback;
     struct error problem; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
     uint64_t problem_revision; /* that it is about */

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "room_worker.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #include "hub.h"
 #include "protocol/code_text.h"
 #include "room_log.h"
@@ -25,10 +28,22 @@ static cJSON *packet_of(const struct room *room, const char *type, uint64_t revi
     return packet;
 }
 
+/* The file that the environment names, which the worker keeps as long as its scene does. */
+static void send_image(struct room *room, const struct scene *scene)
+{
+    const char *image = record_text(&scene->environment, "image");
+
+    if (*image && strcmp(image, room->image) != 0 && uploads_find(&room->hub->uploads, image)) {
+        snprintf(room->image, sizeof(room->image), "%s", image);
+        uploads_send(room->hub, image);
+    }
+}
+
 static void send_scene(struct room *room, const struct scene *scene, uint64_t revision)
 {
     cJSON *packet = packet_of(room, "scene", revision);
 
+    send_image(room, scene);
     cJSON_AddItemToObject(packet, "document", scene_to_json(scene));
     room->sent = revision;
     send_and_delete(room, packet);
@@ -41,6 +56,7 @@ void room_worker_open(struct room *room)
         room->problem.kind != ERROR_NONE ? fallback_state(room, &revision) : NULL;
 
     if (room->sent == 0) {
+        room->image[0] = '\0';
         send_scene(room, good ? good : room->scene, good ? revision : room->revision);
     }
 }
@@ -55,6 +71,7 @@ void room_worker_done(struct room *room, uint64_t revision)
         return;
     }
     cJSON *packet = packet_of(room, "edit", room->revision);
+    send_image(room, room->scene);
     cJSON_AddItemToObject(packet, "ops", room_log_since(room, room->sent));
     room->sent = room->revision;
     send_and_delete(room, packet);
@@ -66,6 +83,7 @@ void room_worker_edit(struct room *room, const cJSON *ops)
         return; /* room_worker_done sends all at once */
     }
     cJSON *packet = packet_of(room, "edit", room->revision);
+    send_image(room, room->scene);
     cJSON_AddItemToObject(packet, "ops", cJSON_Duplicate(ops, true));
     room->sent = room->revision;
     send_and_delete(room, packet);
@@ -76,6 +94,16 @@ void room_worker_replace(struct room *room)
     if (room->sent > 0 && room->sent + 1 == room->revision) {
         send_scene(room, room->scene, room->revision);
     }
+}
+
+bool room_worker_upload(struct room *room, const char *id)
+{
+    const bool named = strcmp(record_text(&room->scene->environment, "image"), id) == 0;
+
+    if (named && room->sent > 0) {
+        send_image(room, room->scene);
+    }
+    return named;
 }
 
 void room_worker_close(struct room *room)

@@ -6,6 +6,7 @@
 #define SERVER_ROOM_WORKER_H
 
 #include <cjson/cJSON.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 struct room;
@@ -18,6 +19,8 @@ void room_worker_done(struct room *room, uint64_t revision);
 void room_worker_edit(struct room *room, const cJSON *ops);
 /* After another document did. */
 void room_worker_replace(struct room *room);
+/* A file is there from now on. True where the scene names it. */
+bool room_worker_upload(struct room *room, const char *id);
 /* The room goes. */
 void room_worker_close(struct room *room);
 

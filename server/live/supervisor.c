@@ -34,6 +34,8 @@ struct chunk {
     struct chunk *next;
     size_t length, sent;
     uint8_t *bytes;
+    cJSON *packet; /* of a file that is still to be read; `bytes` is NULL so long */
+    char *file;
 };
 
 struct supervisor {
@@ -58,24 +60,31 @@ struct supervisor {
 
 /* --- sending --- */
 
+static void chunk_destroy(struct chunk *chunk)
+{
+    cJSON_Delete(chunk->packet);
+    free(chunk->file);
+    free(chunk->bytes);
+    free(chunk);
+}
+
 static void chunks_clear(struct supervisor *supervisor)
 {
     while (supervisor->first) {
         struct chunk *chunk = supervisor->first;
 
         supervisor->first = chunk->next;
-        free(chunk->bytes);
-        free(chunk);
+        chunk_destroy(chunk);
     }
     supervisor->end = &supervisor->first;
 }
 
-/* Under the lock: writes what the socket takes. */
+/* Under the lock: writes what the socket takes, up to a file that is not read yet. */
 static void chunks_write(struct supervisor *supervisor)
 {
     struct chunk *chunk;
 
-    while ((chunk = supervisor->first) != NULL) {
+    while ((chunk = supervisor->first) != NULL && chunk->bytes) {
         ssize_t sent = send(supervisor->fd, chunk->bytes + chunk->sent, chunk->length - chunk->sent,
                             MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent < 0) {
@@ -89,9 +98,28 @@ static void chunks_write(struct supervisor *supervisor)
         if (!supervisor->first) {
             supervisor->end = &supervisor->first;
         }
-        free(chunk->bytes);
-        free(chunk);
+        chunk_destroy(chunk);
     }
+}
+
+/* On the supervisor's thread: the others leave a file alone that is first in the queue. */
+static void load_first(struct supervisor *supervisor)
+{
+    struct chunk *chunk;
+    size_t length = 0;
+    void *bytes;
+
+    pthread_mutex_lock(&supervisor->lock);
+    chunk = supervisor->first;
+    pthread_mutex_unlock(&supervisor->lock);
+    if (!chunk || chunk->bytes) {
+        return;
+    }
+    bytes = supervisor->params.load_file(supervisor->params.data, chunk->file, &length);
+    pthread_mutex_lock(&supervisor->lock);
+    chunk->bytes = packet_pack(chunk->packet, bytes, length, &chunk->length);
+    pthread_mutex_unlock(&supervisor->lock);
+    free(bytes);
 }
 
 void supervisor_wake(struct supervisor *supervisor)
@@ -99,16 +127,13 @@ void supervisor_wake(struct supervisor *supervisor)
     eventfd_write(supervisor->wake_fd, 1);
 }
 
-static void send_packet(struct supervisor *supervisor, const cJSON *packet)
+/* Takes `chunk`. */
+static void send_chunk(struct supervisor *supervisor, struct chunk *chunk)
 {
-    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
-
-    chunk->bytes = packet_pack(packet, NULL, 0, &chunk->length);
     pthread_mutex_lock(&supervisor->lock);
     if (!supervisor->ready) {
         pthread_mutex_unlock(&supervisor->lock);
-        free(chunk->bytes);
-        free(chunk);
+        chunk_destroy(chunk);
         return;
     }
     *supervisor->end = chunk;
@@ -123,7 +148,19 @@ static void send_packet(struct supervisor *supervisor, const cJSON *packet)
 
 void supervisor_send(struct supervisor *supervisor, const cJSON *packet)
 {
-    send_packet(supervisor, packet);
+    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
+
+    chunk->bytes = packet_pack(packet, NULL, 0, &chunk->length);
+    send_chunk(supervisor, chunk);
+}
+
+void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, const char *id)
+{
+    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
+
+    chunk->packet = cJSON_Duplicate(packet, true);
+    chunk->file = memory_text(id);
+    send_chunk(supervisor, chunk);
 }
 
 /* --- the process --- */
@@ -313,7 +350,7 @@ static void ping(struct supervisor *supervisor, int64_t now)
 
     cJSON_AddStringToObject(packet, "type", "ping");
     cJSON_AddNumberToObject(packet, "ping", (double)now);
-    send_packet(supervisor, packet);
+    supervisor_send(supervisor, packet);
     cJSON_Delete(packet);
     supervisor->next_ping = now + PING_MS;
 }
@@ -354,6 +391,7 @@ static void wait_and_receive(struct supervisor *supervisor, int timeout_ms)
                             {.fd = supervisor->fd, .events = POLLIN}};
     eventfd_t ignored;
 
+    load_first(supervisor);
     pthread_mutex_lock(&supervisor->lock);
     if (supervisor->first) {
         fds[1].events |= POLLOUT;

@@ -28,12 +28,16 @@ struct supervisor_params {
     /* Called after everything that happens; returns when to be called again at the latest
      * (clock_ms; 0: no wish). */
     int64_t (*on_tick)(void *data, int64_t now_ms);
+    /* A file for supervisor_send_file, which frees it; NULL: there is none. */
+    void *(*load_file)(void *data, const char *id, size_t *out_length);
 };
 
 /* Starts the thread, which starts the worker. Dies without a thread (aborts). */
 struct supervisor *supervisor_create(const struct supervisor_params *params);
 /* Any thread; never waits. Dropped while no worker is ready. */
 void supervisor_send(struct supervisor *supervisor, const cJSON *packet);
+/* The same with a file as the payload, read when its turn comes, so that nobody waits for it here. */
+void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, const char *id);
 /* Any thread: have on_tick called soon. */
 void supervisor_wake(struct supervisor *supervisor);
 /* Ends worker and thread: no event comes afterwards, and what is sent is dropped. */

@@ -262,6 +262,13 @@ static bool is_json(const char *type)
             strncasecmp(type + length - 5, "+json", 5) == 0);
 }
 
+static size_t body_limit(const struct exchange *exchange)
+{
+    const bool file = exchange->route && exchange->route->body == BODY_FILE;
+
+    return file ? LIMIT_ASSET_BYTES : LIMIT_DOCUMENT_BYTES;
+}
+
 static uint64_t announced_bytes(const struct exchange *exchange)
 {
     const char *length = request_header(&exchange->request, "Content-Length");
@@ -282,9 +289,9 @@ static bool check_body(const struct exchange *exchange, struct response *out)
 
     if (exchange->route->body == BODY_NONE && has_body(exchange)) {
         *out = response_problem(400, "syntax", "", "this request takes no body");
-    } else if (length > LIMIT_DOCUMENT_BYTES) {
-        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %d",
-                 length, LIMIT_DOCUMENT_BYTES);
+    } else if (length > body_limit(exchange)) {
+        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %zu",
+                 length, body_limit(exchange));
         *out = response_problem(413, "too_large", "", detail);
     } else if (exchange->route->body == BODY_JSON &&
                !is_json(request_header(&exchange->request, "Content-Type"))) {
@@ -407,10 +414,10 @@ static enum MHD_Result receive_body(struct exchange *exchange, const char *bytes
 {
     exchange->body_bytes += *length;
     if (clock_ms() > exchange->deadline ||
-        exchange->body_bytes > (size_t)BODY_PATIENCE * LIMIT_DOCUMENT_BYTES) {
+        exchange->body_bytes > BODY_PATIENCE * body_limit(exchange)) {
         return MHD_NO;
     }
-    if (exchange->body_bytes <= LIMIT_DOCUMENT_BYTES && !exchange->response) {
+    if (exchange->body_bytes <= body_limit(exchange) && !exchange->response) {
         add_body(exchange, bytes, *length);
     }
     *length = 0;
@@ -421,8 +428,8 @@ static enum MHD_Result refuse_body(struct exchange *exchange)
 {
     char detail[100];
 
-    snprintf(detail, sizeof(detail), "the body of %zu bytes is above the maximum %d",
-             exchange->body_bytes, LIMIT_DOCUMENT_BYTES);
+    snprintf(detail, sizeof(detail), "the body of %zu bytes is above the maximum %zu",
+             exchange->body_bytes, body_limit(exchange));
     struct response response = response_problem(413, "too_large", "", detail);
     return answer_now(exchange, &response);
 }
@@ -458,7 +465,7 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
         return MHD_YES;
     }
     if (has_body(exchange) && !request_header(&exchange->request, "Expect") &&
-        announced_bytes(exchange) <= (uint64_t)BODY_PATIENCE * LIMIT_DOCUMENT_BYTES) {
+        announced_bytes(exchange) <= BODY_PATIENCE * body_limit(exchange)) {
         request_reply(&exchange->request, &response);
         return MHD_YES;
     }
@@ -489,7 +496,7 @@ static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, 
     if (state == REPLIED) {
         return queue_reply(exchange);
     }
-    return exchange->body_bytes > LIMIT_DOCUMENT_BYTES ? refuse_body(exchange) : handle(exchange);
+    return exchange->body_bytes > body_limit(exchange) ? refuse_body(exchange) : handle(exchange);
 }
 
 static void on_completed(void *data, struct MHD_Connection *connection, void **connection_data,

@@ -23,6 +23,11 @@ const struct embedded *examples_find(const char *id)
     return find(examples_table, examples_count, id);
 }
 
+const struct embedded *example_files_find(const char *id)
+{
+    return find(example_files_table, example_files_count, id);
+}
+
 const struct embedded *cards_find(const char *id)
 {
     return find(cards_table, cards_count, id);

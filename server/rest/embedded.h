@@ -26,6 +26,10 @@ extern const size_t examples_count;
 extern const struct embedded cards_table[];
 extern const size_t cards_count;
 
+/* Files that examples name, protocol/examples/assets: path is the SHA-256. */
+extern const struct embedded example_files_table[];
+extern const size_t example_files_count;
+
 /* Pictures of the node types, protocol/reference: path is the type. */
 extern const struct embedded references_table[];
 extern const size_t references_count;
@@ -33,6 +37,7 @@ extern const size_t references_count;
 /* NULL: none. */
 const struct embedded *page_find(const char *path);
 const struct embedded *examples_find(const char *id);
+const struct embedded *example_files_find(const char *id);
 const struct embedded *cards_find(const char *id);
 const struct embedded *references_find(const char *type);
 

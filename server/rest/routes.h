@@ -5,7 +5,7 @@
 
 #include "server/net/request.h"
 
-enum route_body { BODY_NONE, BODY_JSON };
+enum route_body { BODY_NONE, BODY_JSON, BODY_FILE };
 
 struct route {
     const char *method;  /* GET serves HEAD too */
@@ -27,6 +27,9 @@ void scenes_replace(struct request *request);
 void scenes_edit(struct request *request);
 void scenes_delete(struct request *request);
 void scenes_live(struct request *request);
+void assets_list(struct request *request);
+void assets_create(struct request *request);
+void assets_read(struct request *request);
 void images_of_scene(struct request *request);
 void images_of_example(struct request *request);
 void images_render(struct request *request);

@@ -33,6 +33,10 @@ static void write_destroy(struct store_write *write)
 {
     free(write->text);
     free(write->name);
+    if (write->asset) {
+        free(write->asset->bytes);
+        free(write->asset);
+    }
     free(write);
 }
 
@@ -191,6 +195,19 @@ bool store_list(struct store *store, void (*each)(void *data, const struct store
 bool store_load(struct store *store, const char *scene, struct store_loaded *out, struct error *err)
 {
     return store_sqlite_load(store->db, scene, out, err);
+}
+
+bool store_list_assets(struct store *store,
+                       void (*each)(void *data, const struct store_asset *asset), void *data,
+                       struct error *err)
+{
+    return store_sqlite_list_assets(store->db, each, data, err);
+}
+
+bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,
+                      struct error *err)
+{
+    return store_sqlite_load_asset(store->db, id, out_bytes, out_length, err);
 }
 
 void store_push(struct store *store, struct store_write *write)

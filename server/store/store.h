@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes on disk: for each a snapshot of its document, the log of edits since, and the newest edit
- * number of each author. Writes are queued and committed in order by one thread, as many as wait
+ * number of each author; and the files that scenes name. Writes are queued and committed in order by one thread, as many as wait
  * in one transaction; what was told durable survives kill -9 and loss of power. A failed commit
  * ends the program with STORE_EXIT_STATUS: after a failed fsync nothing on disk can be trusted to
  * become durable by trying again. Only store_sqlite.c knows the database. */
@@ -9,6 +9,7 @@
 
 #include <stdint.h>
 
+#include "protocol/asset.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
 #include "server/metrics.h"
@@ -26,6 +27,15 @@ enum store_kind {
     STORE_REPLACE,  /* a new document at a new revision */
     STORE_SNAPSHOT, /* the document at a revision that the log has reached */
     STORE_DELETE,
+    STORE_ASSET, /* a file, once */
+};
+
+/* A file that scenes name by its SHA-256. */
+struct store_asset {
+    char id[ASSET_ID_CHARACTERS + 1];
+    struct asset_info info;
+    size_t length;
+    void *bytes; /* NULL in a list */
 };
 
 struct store_write {
@@ -37,7 +47,8 @@ struct store_write {
     char *text;   /* owned: operations of an edit, else the document */
     char *name;   /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
     size_t nodes;
-    int64_t time_ms; /* since 1970 */
+    struct store_asset *asset; /* owned, with its bytes: of STORE_ASSET */
+    int64_t time_ms;           /* since 1970 */
     /* On the writer's thread after the commit; may be NULL. */
     void (*on_durable)(void *data);
     void *data;
@@ -83,6 +94,13 @@ bool store_list(struct store *store, void (*each)(void *data, const struct store
 /* Any thread; sees what is committed. */
 bool store_load(struct store *store, const char *scene, struct store_loaded *out,
                 struct error *err);
+/* Calls `each` for every file, oldest first, without its bytes. */
+bool store_list_assets(struct store *store,
+                       void (*each)(void *data, const struct store_asset *asset), void *data,
+                       struct error *err);
+/* Any thread; the caller frees the bytes. */
+bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,
+                      struct error *err);
 /* Any thread; takes a `write` from the heap, with its texts. Never waits. */
 void store_push(struct store *store, struct store_write *write);
 /* Waits until everything pushed before is committed and told. */

@@ -9,9 +9,8 @@
 
 #include "protocol/memory.h"
 
-enum { SCHEMA_VERSION = 1 };
-
-static const char schema[] =
+/* What each version of the tables adds to the one before. */
+static const char *const schema[] = {
     "CREATE TABLE scenes(id TEXT PRIMARY KEY, name TEXT NOT NULL, revision INTEGER NOT NULL,"
     " nodes INTEGER NOT NULL, modified INTEGER NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE snapshots(scene TEXT NOT NULL, revision INTEGER NOT NULL,"
@@ -23,10 +22,15 @@ static const char schema[] =
     "CREATE UNIQUE INDEX edits_once ON edits(scene, author, edit) WHERE edit > 0;"
     "CREATE TABLE authors(scene TEXT NOT NULL, author TEXT NOT NULL, edit INTEGER NOT NULL,"
     " PRIMARY KEY(scene, author)) WITHOUT ROWID;"
-    "PRAGMA user_version = 1;";
+    "PRAGMA user_version = 1;",
+    "CREATE TABLE assets(id TEXT PRIMARY KEY, type TEXT NOT NULL, width INTEGER NOT NULL,"
+    " height INTEGER NOT NULL, time INTEGER NOT NULL, bytes BLOB NOT NULL);"
+    "PRAGMA user_version = 2;",
+};
+enum { SCHEMA_VERSION = sizeof schema / sizeof schema[0] };
 
 /* Parameters of every statement: 1 scene, 2 revision, 3 author, 4 edit, 5 text, 6 name, 7 nodes,
- * 8 time, 9 edits kept. */
+ * 8 time, 9 edits kept; of an asset 10 id, 11 type, 12 width, 13 height, 14 bytes. */
 enum statement {
     CREATE_SCENE,
     UPDATE_SCENE,
@@ -39,6 +43,7 @@ enum statement {
     DELETE_SNAPSHOTS,
     DELETE_EDITS,
     DELETE_AUTHORS,
+    ADD_ASSET,
     STATEMENT_COUNT
 };
 
@@ -58,6 +63,8 @@ static const char *const texts[STATEMENT_COUNT] = {
     [DELETE_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1",
     [DELETE_EDITS] = "DELETE FROM edits WHERE scene=?1",
     [DELETE_AUTHORS] = "DELETE FROM authors WHERE scene=?1",
+    [ADD_ASSET] = "INSERT OR IGNORE INTO assets(id, type, width, height, time, bytes)"
+                  " VALUES(?10, ?11, ?12, ?13, ?8, ?14)",
 };
 
 /* What each kind of write runs. */
@@ -67,6 +74,7 @@ static const int steps[][5] = {
     [STORE_REPLACE] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, UPDATE_SCENE, -1},
     [STORE_SNAPSHOT] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, CUT_LOG, -1},
     [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, -1},
+    [STORE_ASSET] = {ADD_ASSET, -1},
 };
 
 struct store_sqlite {
@@ -98,6 +106,23 @@ static int user_version(sqlite3 *db)
     return version;
 }
 
+static bool bring_up_to_date(sqlite3 *db, const char *file, struct error *err)
+{
+    const int version = user_version(db);
+
+    if (version < 0 || version > SCHEMA_VERSION) {
+        return error_set(err, ERROR_INVALID, file, "written by another version: %d, not %d",
+                         version, SCHEMA_VERSION);
+    }
+    for (int i = version; i < SCHEMA_VERSION; i++) {
+        if (!execute(db, "BEGIN IMMEDIATE", err) || !execute(db, schema[i], err) ||
+            !execute(db, "COMMIT", err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool open_writer(struct store_sqlite *db, const char *file, struct error *err)
 {
     if (sqlite3_open_v2(file, &db->writer,
@@ -109,17 +134,8 @@ static bool open_writer(struct store_sqlite *db, const char *file, struct error 
     if (!execute(db->writer, "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL", err)) {
         return false;
     }
-    int version = user_version(db->writer);
-    if (version == 0) {
-        char sql[sizeof(schema) + 32];
-
-        snprintf(sql, sizeof(sql), "BEGIN IMMEDIATE;%sCOMMIT", schema);
-        if (!execute(db->writer, sql, err)) {
-            return false;
-        }
-    } else if (version != SCHEMA_VERSION) {
-        return error_set(err, ERROR_INVALID, file, "written by another version: %d, not %d",
-                         version, SCHEMA_VERSION);
+    if (!bring_up_to_date(db->writer, file, err)) {
+        return false;
     }
     for (int i = 0; i < STATEMENT_COUNT; i++) {
         if (sqlite3_prepare_v2(db->writer, texts[i], -1, &db->statements[i], NULL) != SQLITE_OK) {
@@ -171,6 +187,15 @@ static void bind_text(sqlite3_stmt *statement, int index, const char *text)
     sqlite3_bind_text(statement, index, text ? text : "", -1, SQLITE_STATIC);
 }
 
+static void bind_asset(sqlite3_stmt *statement, const struct store_asset *asset)
+{
+    bind_text(statement, 10, asset->id);
+    bind_text(statement, 11, asset->info.type);
+    sqlite3_bind_int(statement, 12, asset->info.width);
+    sqlite3_bind_int(statement, 13, asset->info.height);
+    sqlite3_bind_blob64(statement, 14, asset->bytes, asset->length, SQLITE_STATIC);
+}
+
 static bool run_statement(struct store_sqlite *db, int which, const struct store_write *write,
                           struct error *err)
 {
@@ -185,6 +210,9 @@ static bool run_statement(struct store_sqlite *db, int which, const struct store
     sqlite3_bind_int64(statement, 7, (sqlite3_int64)write->nodes);
     sqlite3_bind_int64(statement, 8, write->time_ms);
     sqlite3_bind_int64(statement, 9, STORE_LOG_KEPT);
+    if (write->asset) {
+        bind_asset(statement, write->asset);
+    }
     bool ok = sqlite3_step(statement) == SQLITE_DONE;
     if (!ok) {
         error_set(err, ERROR_INTERNAL, write->scene, "revision %llu: %s",
@@ -348,5 +376,69 @@ bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_
     if (!ok) {
         store_loaded_finish(out);
     }
+    return ok;
+}
+
+/* --- files --- */
+
+struct asset_call {
+    void (*each)(void *data, const struct store_asset *asset);
+    void *data;
+};
+
+static void asset_row(void *data, sqlite3_stmt *statement)
+{
+    struct asset_call *call = data;
+    struct store_asset asset = {
+        .info = {.type = (const char *)sqlite3_column_text(statement, 1),
+                 .width = sqlite3_column_int(statement, 2),
+                 .height = sqlite3_column_int(statement, 3)},
+        .length = (size_t)sqlite3_column_int64(statement, 4),
+    };
+
+    column_id(statement, 0, asset.id);
+    call->each(call->data, &asset);
+}
+
+bool store_sqlite_list_assets(struct store_sqlite *db,
+                              void (*each)(void *data, const struct store_asset *asset), void *data,
+                              struct error *err)
+{
+    struct asset_call call = {each, data};
+
+    pthread_mutex_lock(&db->read_lock);
+    bool ok = query(db, "SELECT id, type, width, height, length(bytes) FROM assets ORDER BY rowid",
+                    "", 0, asset_row, &call, err);
+    pthread_mutex_unlock(&db->read_lock);
+    return ok;
+}
+
+struct bytes_call {
+    void *bytes;
+    size_t length;
+};
+
+static void bytes_row(void *data, sqlite3_stmt *statement)
+{
+    struct bytes_call *call = data;
+
+    call->length = (size_t)sqlite3_column_bytes(statement, 0);
+    call->bytes = memory_alloc(call->length, 1);
+    memcpy(call->bytes, sqlite3_column_blob(statement, 0), call->length);
+}
+
+bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
+                             size_t *out_length, struct error *err)
+{
+    struct bytes_call call = {0};
+
+    pthread_mutex_lock(&db->read_lock);
+    bool ok = query(db, "SELECT bytes FROM assets WHERE id=?1", id, 0, bytes_row, &call, err);
+    pthread_mutex_unlock(&db->read_lock);
+    if (ok && !call.bytes) {
+        ok = error_set(err, ERROR_NOT_FOUND, "", "there is no asset %s", id);
+    }
+    *out_bytes = call.bytes;
+    *out_length = call.length;
     return ok;
 }

@@ -18,5 +18,10 @@ bool store_sqlite_list(struct store_sqlite *db,
                        struct error *err);
 bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
                        struct error *err);
+bool store_sqlite_list_assets(struct store_sqlite *db,
+                              void (*each)(void *data, const struct store_asset *asset), void *data,
+                              struct error *err);
+bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
+                             size_t *out_length, struct error *err);
 
 #endif

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+/* Files that scenes name by their SHA-256, over HTTP: sent, listed, read. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+#include "routes.h"
+#include "server/digest.h"
+#include "server/live/frames.h"
+#include "server/live/hub.h"
+#include "server/live/room.h"
+#include "server/live/room_worker.h"
+#include "server/live/session.h"
+
+/* A file on its way to the disk. */
+struct waiting {
+    struct request *request;
+    struct hub *hub;
+    struct store_asset asset; /* without its bytes, which the store may have freed */
+};
+
+static cJSON *describe(const struct upload *upload)
+{
+    cJSON *json = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(json, "id", upload->id);
+    cJSON_AddStringToObject(json, "type", upload->type);
+    cJSON_AddNumberToObject(json, "width", upload->width);
+    cJSON_AddNumberToObject(json, "height", upload->height);
+    cJSON_AddNumberToObject(json, "bytes", (double)upload->length);
+    return json;
+}
+
+void assets_list(struct request *request)
+{
+    struct hub *hub = request->hub;
+    cJSON *json = cJSON_CreateObject();
+    cJSON *list = cJSON_AddArrayToObject(json, "assets");
+
+    hub_lock(hub);
+    for (size_t i = 0; i < hub->uploads.count; i++) {
+        cJSON_AddItemToArray(list, describe(&hub->uploads.items[i]));
+    }
+    hub_unlock(hub);
+    request_reply_json(request, 200, json);
+}
+
+/* Under the hub's lock: scenes that named the file before it was there get to show it. */
+static void tell_rooms(struct hub *hub, const char *id)
+{
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (!room_worker_upload(room, id)) {
+            continue;
+        }
+        for (struct session *session = room->sessions; session; session = session->next) {
+            frames_changed(session);
+        }
+    }
+}
+
+static void reply(struct request *request, int status, cJSON *json, const char *id)
+{
+    struct response response = response_json(status, json);
+
+    response_add(&response, "Location", "/v1/assets/%s", id);
+    request_reply(request, &response);
+}
+
+/* On the store's thread. */
+static void on_stored(void *data)
+{
+    struct waiting *waiting = data;
+    struct hub *hub = waiting->hub;
+    cJSON *json;
+
+    hub_lock(hub);
+    uploads_add(&hub->uploads, &waiting->asset);
+    tell_rooms(hub, waiting->asset.id);
+    json = describe(uploads_find(&hub->uploads, waiting->asset.id));
+    hub_unlock(hub);
+    reply(waiting->request, 201, json, waiting->asset.id);
+    free(waiting);
+}
+
+/* Takes `asset`. */
+static void store_asset(struct request *request, struct store_asset *asset)
+{
+    struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
+    struct store_write *write = memory_alloc(1, sizeof(*write));
+
+    *waiting = (struct waiting){request, request->hub, *asset};
+    *write = (struct store_write){
+        .kind = STORE_ASSET, .asset = asset, .on_durable = on_stored, .data = waiting};
+    store_push(request->hub->store, write);
+}
+
+/* Under the hub's lock. What it is, where it is known; NULL and `err` where there is no room. */
+static cJSON *find_known(const struct hub *hub, const char *id, struct error *err)
+{
+    const struct upload *known = uploads_find(&hub->uploads, id);
+
+    if (!known && hub->uploads.count >= LIMIT_ASSETS) {
+        error_set(err, ERROR_LIMIT, "", "%zu files are kept already; the limit is %d",
+                  hub->uploads.count, LIMIT_ASSETS);
+    }
+    return known ? describe(known) : NULL;
+}
+
+void assets_create(struct request *request)
+{
+    static const char *const queries[] = {NULL};
+    struct hub *hub = request->hub;
+    struct store_asset *asset = memory_alloc(1, sizeof(*asset));
+    struct error err = {0};
+    cJSON *known = NULL;
+
+    if (request_check_query(request, queries, &err) &&
+        asset_inspect((const uint8_t *)request->body, request->body_length, &asset->info, &err)) {
+        digest_text(request->body, request->body_length, asset->id);
+        hub_lock(hub);
+        known = find_known(hub, asset->id, &err);
+        hub_unlock(hub);
+    }
+    if (known) {
+        reply(request, 200, known, asset->id);
+    } else if (err.kind != ERROR_NONE) {
+        request_reply_error(request, &err);
+    } else {
+        asset->bytes = request->body;
+        asset->length = request->body_length;
+        request->body = NULL;
+        store_asset(request, asset);
+        return;
+    }
+    free(asset);
+}
+
+/* What a file is named by never changes. */
+void assets_read(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct response response = {.status = 200};
+    struct error err = {0};
+    char type[sizeof(hub->uploads.items->type)] = "";
+
+    hub_lock(hub);
+    const struct upload *upload = uploads_find(&hub->uploads, request->capture[0]);
+    if (upload) {
+        memcpy(type, upload->type, sizeof(type));
+    }
+    hub_unlock(hub);
+    response.body = uploads_load(hub, request->capture[0], &response.length, &err);
+    if (!response.body) {
+        request_reply_error(request, &err);
+        return;
+    }
+    response.type = type;
+    response_add(&response, "Cache-Control", "public, max-age=31536000, immutable");
+    request_reply(request, &response);
+}
