@@ -229,9 +229,9 @@ static void compare(struct tally *tally, const struct oracle *oracle, int place,
 
 static struct tally tally_picture(const char *path, const struct oracle *oracle)
 {
-    const struct job_desc desc = {
-        .width = EVERY * WIDTH, .height = EVERY * HEIGHT, .as_floats = true};
-    struct resident *resident = resident_create(renderer, drawing_read(path), 1);
+    struct job_desc desc = drawing_desc(EVERY * WIDTH, EVERY * HEIGHT);
+    struct resident *resident = drawing_resident(renderer, path);
+    desc.as_floats = true;
     struct image depth = drawing_of(resident, &desc, AOV_DEPTH);
     struct image normal = drawing_of(resident, &desc, AOV_NORMAL);
     struct image id = drawing_of(resident, &desc, AOV_ID);
@@ -337,7 +337,7 @@ static void another_scene_is_noticed(void **state)
 static int start(void **state)
 {
     (void)state;
-    renderer = drawing_renderer();
+    renderer = drawing_renderer(0);
     return 0;
 }
 

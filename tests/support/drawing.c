@@ -11,10 +11,10 @@
 
 #include "text_file.h"
 
-struct renderer *drawing_renderer(void)
+struct renderer *drawing_renderer(int tile_side)
 {
-    const struct renderer_params params = {.device_index = -1,
-                                           .cache_dir = getenv("FIELDCAST_CACHE")};
+    const struct renderer_params params = {
+        .device_index = -1, .tile_side = tile_side, .cache_dir = getenv("FIELDCAST_CACHE")};
     struct error err = {0};
     struct renderer *renderer = renderer_create(&params, &err);
 
@@ -45,17 +45,32 @@ struct scene *drawing_read(const char *path)
     return scene;
 }
 
+struct resident *drawing_resident(struct renderer *renderer, const char *path)
+{
+    return resident_create(renderer, drawing_read(path), 1);
+}
+
+struct job_desc drawing_desc(int width, int height)
+{
+    return (struct job_desc){
+        .width = width, .height = height, .level = -1, .transparent = -1, .exact = true};
+}
+
 struct image drawing_of(struct resident *resident, const struct job_desc *desc, enum aov aov)
 {
     struct job_desc one = *desc;
     struct error err = {0};
     struct image image = {0};
 
-    one.exact = true;
     memset(one.aovs, 0, sizeof one.aovs);
     one.aovs[aov] = true;
     if (!renderer_render(resident, &one, &image, &err)) {
-        fail_msg("%s: %s", err.place, err.message);
+        fail_msg("%s: %s: %s", aov_name(aov), err.place, err.message);
     }
     return image;
+}
+
+bool drawing_is_same(const struct image *a, const struct image *b)
+{
+    return a->bytes == b->bytes && memcmp(a->pixels, b->pixels, a->bytes) == 0;
 }

@@ -5,11 +5,19 @@
 
 #include "renderer/renderer.h"
 
-/* On the best device, with the shader cache of the environment's FIELDCAST_CACHE, if any. */
-struct renderer *drawing_renderer(void);
+/* Has everything at once: mirrors, glass, a volume, fog, every type of light, adaptive samples. */
+#define DRAWING_RICH "tests/golden/everything/rich/scene.json"
+
+/* On the best device, with the shader cache of the environment's FIELDCAST_CACHE, if any; `tile_side`
+ * as in renderer_params. */
+struct renderer *drawing_renderer(int tile_side);
 struct scene *drawing_parse(const char *text);
 struct scene *drawing_read(const char *path);
+struct resident *drawing_resident(struct renderer *renderer, const char *path);
+/* Whole and plain: the scene says the rest. */
+struct job_desc drawing_desc(int width, int height);
 /* One output, of the newest revision. `desc` says the rest. */
 struct image drawing_of(struct resident *resident, const struct job_desc *desc, enum aov aov);
+bool drawing_is_same(const struct image *a, const struct image *b);
 
 #endif
