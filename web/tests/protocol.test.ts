@@ -7,7 +7,7 @@ import { frameInfo, retryDelay } from "../src/link/engine.ts";
 import { Meter } from "../src/link/meter.ts";
 import { fitSize } from "../src/link/picture.ts";
 import {
-    FRAME_HEADER_BYTES,
+    FRAME_FIXED_BYTES,
     type FrameHeader,
     packFrame,
     packPart,
@@ -41,6 +41,10 @@ const SCHEMA = readSchema({
         { type: "cone", group: "primitive", params: [{ name: "height", type: "float" }] },
         { type: "model", group: "structure", params: [{ name: "model", type: "model" }] },
         { type: "field", group: "structure", params: [{ name: "primitive", type: "function" }] },
+    ],
+    volumes: [
+        { type: "box", params: [{ name: "density", type: "float" }] },
+        { type: "sphere", params: [{ name: "source", type: "enum", choices: ["noise"] }] },
     ],
     resources: {
         primitive: [
@@ -87,8 +91,9 @@ test("each edit of the protocol's page applies to its scene and back", () => {
         const result = apply(document, edit as unknown as Operation[], SCHEMA);
         expect(result).toMatchObject({ ok: true });
         if (result.ok) {
-            const changed = result.document.nodes.get(i === 0 ? "body" : "pawn-body");
-            expect(changed?.params.radius).toBe(i === 0 ? 1.2 : 0.4);
+            const { nodes } = result.document;
+            const radii = ["body", "pawn-body"].map((id) => nodes.get(id)?.params.radius);
+            expect(radii).toContain([1.2, undefined, 0.4][i]);
             const back = apply(result.document, result.inverse, SCHEMA);
             expect(
                 back.ok && equalJson(printDocument(back.document), printDocument(document)),
@@ -150,11 +155,7 @@ const HEADER: FrameHeader = {
     height: 360,
     viewWidth: 1280,
     viewHeight: 720,
-    queue: 1,
-    march: 2,
-    light: 3,
-    read: 4,
-    encode: 5,
+    stages: [1, 2, 0x01020304],
 };
 
 test("the header stands at the offsets of the protocol's page", () => {
@@ -162,15 +163,14 @@ test("the header stands at the offsets of the protocol's page", () => {
     const hex = [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
     expect(hex).toBe(
         "46434631" /* FCF1 */ +
-            "01010d00" +
+            "02010d03" +
             "04030201" +
             "05000000" +
             "9a78563412000000" +
             "4d000000" +
             "8002680100" +
             "05d002" +
-            "0100000002000000030000000400000005000000" +
-            "0000000000000000" +
+            "010000000200000004030201" +
             "010203",
     );
     expect(readPacket(bytes.buffer)).toMatchObject({ kind: "head", header: HEADER });
@@ -199,9 +199,11 @@ test("what is no frame is not taken for one", () => {
         return copy;
     };
     expect(readPacket(broken(0, 0))).toBeNull();
-    expect(readPacket(broken(4, 2))).toBeNull();
+    expect(readPacket(broken(4, 1))).toBeNull();
     expect(readPacket(broken(5, 9))).toBeNull();
-    for (const length of [0, 4, 7, 8, FRAME_HEADER_BYTES - 1]) {
+    expect(readPacket(broken(7, 4))).toBeNull(); /* more stages than there are bytes */
+    const whole = FRAME_FIXED_BYTES + 4 * HEADER.stages.length;
+    for (const length of [0, 4, 7, 8, FRAME_FIXED_BYTES - 1, whole - 1]) {
         expect(readPacket(good.slice(0, length))).toBeNull();
     }
 });
@@ -304,9 +306,30 @@ test("the time from view to picture counts each view once", () => {
     show(1, 170);
     show(2, 190);
     const statistics = meter.read(200);
-    expect(statistics).toMatchObject({ fps: 3, receive: 4, decode: 3, present: 2, march: 0.002 });
+    expect(statistics).toMatchObject({ fps: 3, receive: 4, present: 2 });
+    expect(statistics.decode).toBeCloseTo(3, 9);
+    expect(statistics.stages[1]).toBeCloseTo(0.002, 9);
     expect([statistics.photonP50, statistics.photonP95]).toEqual([60, 60]);
-    expect(meter.read(5000)).toMatchObject({ fps: 0, decode: 3 });
+    expect(meter.read(5000)).toMatchObject({ fps: 0, stages: statistics.stages });
+});
+
+test("times are of frames like the newest, which counts most", () => {
+    const meter = new Meter();
+    const show = (lossless: boolean, us: number, at: number) =>
+        meter.frameShown(
+            { header: { ...HEADER, lossless, stages: [us] }, parts: [], firstAt: at, lastAt: at },
+            at,
+            at,
+        );
+    show(false, 8000, 10);
+    expect(meter.read(10)).toMatchObject({ state: "moving", stages: [8] });
+    show(true, 1000, 20);
+    expect(meter.read(20)).toMatchObject({ state: "lossless", stages: [1] });
+    show(true, 2000, 30);
+    const [mean = 0] = meter.read(30).stages;
+    expect(mean).toBeCloseTo((2 + 0.8 * 1) / 1.8, 9);
+    show(false, 8000, 40);
+    expect(meter.read(40).stages).toEqual([8]);
 });
 
 test("a view is never larger than the server makes it", () => {

@@ -11,14 +11,13 @@ import {
     frame,
     orbit,
     pan,
+    pointUnder,
     printCamera,
-    ray,
     unitsPerPixel,
     viewFrom,
 } from "../src/model/camera.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import {
-    add,
     anglesOf,
     apply,
     dot,
@@ -26,7 +25,6 @@ import {
     length,
     type Matrix,
     rotation,
-    scale,
     subtract,
     toWorld,
     transformUnder,
@@ -106,7 +104,24 @@ test("world and own space are inverse, and a new parent keeps the place", () => 
     expect(transformUnder(NESTED, "x", "c")).toBeNull();
 });
 
-const CAMERA: Camera = { position: [0, 1, 5], target: [0, 1, 0], up: [0, 1, 0], fov: 45 };
+const CAMERA: Camera = {
+    position: [0, 1, 5],
+    target: [0, 1, 0],
+    up: [0, 1, 0],
+    fov: 45,
+    height: null,
+};
+const FLAT: Camera = { ...CAMERA, height: 3 };
+
+/* Where a point of the world is seen, in pixels of a view. */
+function seenAt(camera: Camera, point: Vector, width: number, height: number): number[] {
+    const { right, up, forward } = axes(camera);
+    const to = subtract(point, camera.position);
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const half = camera.height === null ? dot(to, forward) * tangent : camera.height / 2;
+    const scaled = height / 2 / half;
+    return [width / 2 + dot(to, right) * scaled, height / 2 - dot(to, up) * scaled];
+}
 
 test("orbit keeps the distance, goes right and up, and stops at the poles", () => {
     const right = orbit(CAMERA, 0.1, 0);
@@ -128,22 +143,37 @@ test("pan moves what is at the target by exactly the pointer's way", () => {
     expect(pan(CAMERA, 0, 10, height).target[1]).toBeGreaterThan(1);
 });
 
-test("dolly keeps what lies under the pointer", () => {
+test("dolly keeps what lies under the pointer, with perspective or without", () => {
     const pointer = { x: 100, y: 50, width: 640, height: 360 };
-    const hit = (camera: Camera): Vector => {
-        const direction = ray(camera, pointer);
-        const { forward } = axes(camera);
-        const along = scale(direction, distance(camera) / dot(direction, forward));
-        return add(camera.position, along);
-    };
-    const nearer = dolly(CAMERA, 0.5, pointer);
-    expect(distance(nearer)).toBeCloseTo(2.5, 9);
-    close(hit(nearer), hit(CAMERA), 1e-9);
+    for (const camera of [CAMERA, FLAT, { ...CAMERA, position: [2, 4, 1] as Vector }]) {
+        const point = pointUnder(camera, pointer);
+        const nearer = dolly(camera, 0.5, pointer);
+        for (const one of [camera, nearer]) {
+            const [x = 0, y = 0] = seenAt(one, point, pointer.width, pointer.height);
+            expect([x, y].map((side) => Math.round(side * 1e6) / 1e6)).toEqual([100, 50]);
+        }
+        expect(distance(nearer)).toBeCloseTo(distance(camera) / 2, 9);
+    }
+    expect(dolly(FLAT, 0.5).height).toBe(1.5);
     expect(distance(dolly(CAMERA, 0))).toBeGreaterThan(0);
 });
 
-test("the middle of the view is straight ahead", () => {
-    close(ray(CAMERA, { x: 320, y: 180, width: 640, height: 360 }), [0, 0, -1]);
+test("the middle of the view is the target", () => {
+    close(pointUnder(FLAT, { x: 320, y: 180, width: 640, height: 360 }), FLAT.target);
+});
+
+test("a camera without perspective keeps its height where it frames, reads and prints", () => {
+    const ball = { center: [3, 0, 0] as Vector, radius: 2 };
+    for (const aspect of [0.5, 1, 2]) {
+        const high = frame(FLAT, ball, aspect).height ?? 0;
+        expect(Math.min(high, high * aspect)).toBeGreaterThan(4);
+        expect(Math.min(high, high * aspect)).toBeLessThan(5);
+    }
+    const read = cameraOf({ type: "orthographic" }, { height: 4, fov: 30 });
+    expect(read.height).toBe(4);
+    expect(printCamera(read)).toMatchObject({ height: 4 });
+    expect(printCamera(read)).not.toHaveProperty("fov");
+    expect(cameraOf({ type: "perspective", height: 9 }).height).toBeNull();
 });
 
 test("framing shows the whole ball, high or wide", () => {

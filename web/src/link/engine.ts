@@ -10,6 +10,7 @@ import { Presenter, type Surface } from "./present.ts";
 import {
     type ClientMessage,
     type FrameHeader,
+    frameState,
     readMessage,
     readPacket,
     type ServerMessage,
@@ -82,7 +83,7 @@ function soon(callback: () => void): void {
 
 export function frameInfo(header: FrameHeader): FrameInfo {
     return {
-        state: header.lossless ? "lossless" : header.still ? "still" : "moving",
+        state: frameState(header),
         stale: header.stale,
         number: header.number,
         revision: header.revision,

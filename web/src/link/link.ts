@@ -475,21 +475,26 @@ class SceneLink implements Link {
 
     /* --- view --- */
 
-    /* Until the user looks around, the camera is the document's. */
+    /* Until the user looks around, the camera is the document's; then all but its place is. */
     #followCamera(): void {
         const { document: shown, schema } = this.#stores.document.getState();
         const { camera, own } = this.#stores.camera.getState();
-        if (!shown || own) {
+        if (!shown) {
             return;
         }
         const defaults: Record<string, Value> = {};
         for (const param of schema.camera) {
             defaults[param.name] = param.default;
         }
-        const followed = cameraOf(shown.camera, defaults as Values);
+        const { position, target, up } = camera;
+        const followed = {
+            ...cameraOf(shown.camera, defaults as Values),
+            ...(own ? { position, target, up } : {}),
+        };
         if (!equalCamera(camera, followed)) {
             this.#stores.camera.setState({ camera: followed });
         }
+        this.#sendView();
     }
 
     #sendView(): void {
@@ -498,10 +503,11 @@ class SceneLink implements Link {
         }
         const { aov, preferences } = this.#stores.view.getState();
         const { camera, own } = this.#stores.camera.getState();
+        const { document: shown } = this.#stores.document.getState();
         const view: ViewState = {
             width: this.#size.width,
             height: this.#size.height,
-            ...(own ? { camera: printCamera(camera) } : {}),
+            ...(own ? { camera: { ...shown?.camera, ...printCamera(camera) } } : {}),
             aov,
             quality: preferences.quality,
             visible: document.visibilityState === "visible" && this.#element !== null,

@@ -1,19 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* Measures the stream: frames per second, milliseconds per stage, bytes, and the time from
  * sending a view to showing it. Only this machine's clock is used. */
-import type { Statistics } from "../model/stores.ts";
+import type { FrameState, Statistics } from "../model/stores.ts";
 import type { Frame } from "./decode.ts";
+import { frameState } from "./protocol.ts";
 
 interface Sample {
     readonly at: number;
     readonly bytes: number;
-    /* queue, march, light, read, encode, receive, decode, present */
+    readonly state: FrameState;
     readonly stages: readonly number[];
+    readonly receive: number;
+    readonly decode: number;
+    readonly present: number;
 }
 
 const WINDOW_MS = 1000;
-/* Stage times stay on screen when the picture rests: averages of the last frames. */
+/* Times stay on screen when the picture rests: averages of the last frames, in which each counts
+ * FADE times the one after it, so that numbers can be read and yet follow. */
 const STAGE_FRAMES = 20;
+const FADE = 0.8;
 const PHOTON_SAMPLES = 200;
 const VIEWS_KEPT = 512;
 
@@ -44,16 +50,14 @@ export class Meter {
 
     frameShown(frame: Frame, decodedAt: number, now: number): void {
         const { header } = frame;
-        const server = [header.queue, header.march, header.light, header.read, header.encode];
         this.#samples.push({
             at: now,
             bytes: header.payloadBytes,
-            stages: [
-                ...server.map((us) => us / 1000),
-                frame.lastAt - frame.firstAt,
-                decodedAt - frame.lastAt,
-                now - decodedAt,
-            ],
+            state: frameState(header),
+            stages: header.stages.map((us) => us / 1000),
+            receive: frame.lastAt - frame.firstAt,
+            decode: decodedAt - frame.lastAt,
+            present: now - decodedAt,
         });
         const sent = this.#sentAt.get(header.input);
         if (header.input > this.#shownInput && sent !== undefined) {
@@ -77,24 +81,24 @@ export class Meter {
 
     read(now: number): Statistics {
         const recent = this.#samples.filter((sample) => sample.at >= now - WINDOW_MS);
-        const last = this.#samples.slice(-STAGE_FRAMES);
+        const newest = this.#samples.at(-1);
+        const alike = this.#samples.filter(({ state }) => state === newest?.state).reverse();
+        const weights = alike.map((_, age) => FADE ** age);
+        const sum = weights.reduce((total, weight) => total + weight, 0);
         const mean = (pick: (sample: Sample) => number): number =>
-            last.reduce((sum, sample) => sum + pick(sample), 0) / Math.max(1, last.length);
-        const stage = (index: number): number => mean((sample) => sample.stages[index] ?? 0);
+            alike.reduce((total, sample, age) => total + pick(sample) * (weights[age] ?? 0), 0) /
+            Math.max(1, sum);
         const sorted = [...this.#photons].sort((a, b) => a - b);
         return {
             fps: recent.length / (WINDOW_MS / 1000),
-            queue: stage(0),
-            march: stage(1),
-            light: stage(2),
-            read: stage(3),
-            encode: stage(4),
-            receive: stage(5),
-            decode: stage(6),
-            present: stage(7),
+            state: newest?.state ?? "none",
+            stages: (newest?.stages ?? []).map((_, i) => mean(({ stages }) => stages[i] ?? 0)),
+            receive: mean(({ receive }) => receive),
+            decode: mean(({ decode }) => decode),
+            present: mean(({ present }) => present),
             photonP50: percentile(sorted, 0.5),
             photonP95: percentile(sorted, 0.95),
-            bytesPerFrame: mean((sample) => sample.bytes),
+            bytesPerFrame: mean(({ bytes }) => bytes),
             bytesPerSecond:
                 recent.reduce((sum, sample) => sum + sample.bytes, 0) / (WINDOW_MS / 1000),
             dropped: this.#dropped,

@@ -3,8 +3,8 @@
  * frames. Mirrors protocol/README.md, whose examples run against this file. */
 import { isObject, type Json, type JsonObject } from "../model/json.ts";
 import type { OutgoingEdit, SessionMessage } from "../model/session.ts";
-import type { Level, RendererInfo } from "../model/stores.ts";
-import type { Aov, Quality } from "../model/view.ts";
+import type { FrameState, Level, RendererInfo } from "../model/stores.ts";
+import type { Quality } from "../model/view.ts";
 
 export const SUBPROTOCOL = "fieldcast.v1";
 export const TOKEN_PREFIX = "fieldcast.token.";
@@ -26,7 +26,7 @@ export interface ViewMessage {
     readonly width: number;
     readonly height: number;
     readonly camera?: JsonObject;
-    readonly aov: Aov;
+    readonly aov: string;
     readonly quality: Quality;
     readonly visible: boolean;
 }
@@ -116,7 +116,8 @@ export function readMessage(text: string): ServerMessage | null {
 
 /* --- frames --- */
 
-export const FRAME_HEADER_BYTES = 64;
+/* What stands before the times of the stages, four bytes each. */
+export const FRAME_FIXED_BYTES = 36;
 export const FRAME_PART_HEADER_BYTES = 8;
 
 export type Codec = "jpeg" | "png";
@@ -143,12 +144,19 @@ export interface FrameHeader {
     readonly height: number;
     readonly viewWidth: number;
     readonly viewHeight: number;
-    /* Microseconds. */
-    readonly queue: number;
-    readonly march: number;
-    readonly light: number;
-    readonly read: number;
-    readonly encode: number;
+    /* Microseconds, in the order of the schema's stages. */
+    readonly stages: readonly number[];
+}
+
+const FRAME_VERSION = 2;
+
+function headerBytes(stages: number): number {
+    return FRAME_FIXED_BYTES + 4 * stages;
+}
+
+/* The strongest that its flags say. */
+export function frameState(header: FrameHeader): Exclude<FrameState, "none"> {
+    return header.lossless ? "lossless" : header.still ? "still" : "moving";
 }
 
 /* "FCF1" and "FCFP", read little-endian. */
@@ -168,8 +176,13 @@ export type Packet =
       };
 
 function readHeader(view: DataView): FrameHeader | null {
+    if (view.byteLength < FRAME_FIXED_BYTES) {
+        return null;
+    }
     const codec = CODECS[view.getUint8(5)];
-    if (view.byteLength < FRAME_HEADER_BYTES || view.getUint8(4) !== 1 || !codec) {
+    const stages = view.getUint8(7);
+    const bytes = headerBytes(stages);
+    if (view.getUint8(4) !== FRAME_VERSION || !codec || view.byteLength < bytes) {
         return null;
     }
     const flags = view.getUint8(6);
@@ -187,11 +200,9 @@ function readHeader(view: DataView): FrameHeader | null {
         height: view.getUint16(30, true),
         viewWidth: view.getUint16(32, true),
         viewHeight: view.getUint16(34, true),
-        queue: view.getUint32(36, true),
-        march: view.getUint32(40, true),
-        light: view.getUint32(44, true),
-        read: view.getUint32(48, true),
-        encode: view.getUint32(52, true),
+        stages: Array.from({ length: stages }, (_, i) =>
+            view.getUint32(FRAME_FIXED_BYTES + 4 * i, true),
+        ),
     };
 }
 
@@ -210,18 +221,23 @@ export function readPacket(data: ArrayBuffer): Packet | null {
         };
     }
     const header = magic === MAGIC_FRAME ? readHeader(view) : null;
-    return header
-        ? { kind: "head", header, payload: new Uint8Array(data, FRAME_HEADER_BYTES) }
-        : null;
+    return (
+        header && {
+            kind: "head",
+            header,
+            payload: new Uint8Array(data, headerBytes(header.stages.length)),
+        }
+    );
 }
 
 /* The first message of a frame, as the server writes it; for tests and recordings. */
 export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer {
-    const data = new ArrayBuffer(FRAME_HEADER_BYTES + payload.length);
+    const start = headerBytes(header.stages.length);
+    const data = new ArrayBuffer(start + payload.length);
     const view = new DataView(data);
     const flag = (on: boolean, bit: number): number => (on ? bit : 0);
     view.setUint32(0, MAGIC_FRAME, true);
-    view.setUint8(4, 1);
+    view.setUint8(4, FRAME_VERSION);
     view.setUint8(5, header.codec === "jpeg" ? 1 : 2);
     view.setUint8(
         6,
@@ -230,6 +246,7 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
             flag(header.lossless, FLAG_LOSSLESS) |
             flag(header.stale, FLAG_STALE),
     );
+    view.setUint8(7, header.stages.length);
     view.setUint32(8, header.number, true);
     view.setUint32(12, header.payloadBytes, true);
     view.setBigUint64(16, BigInt(header.revision), true);
@@ -237,10 +254,10 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
     [header.width, header.height, header.viewWidth, header.viewHeight].forEach((size, i) => {
         view.setUint16(28 + 2 * i, size, true);
     });
-    [header.queue, header.march, header.light, header.read, header.encode].forEach((time, i) => {
-        view.setUint32(36 + 4 * i, time, true);
+    header.stages.forEach((time, i) => {
+        view.setUint32(FRAME_FIXED_BYTES + 4 * i, time, true);
     });
-    new Uint8Array(data, FRAME_HEADER_BYTES).set(payload);
+    new Uint8Array(data, start).set(payload);
     return data;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The REST side of the server: scenes, examples, pictures, schema, files. */
-import { isObject, type Json, listOf, numberOf, textOf } from "../model/json.ts";
+import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "../model/json.ts";
 import type { Operation } from "../model/operation.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
 
@@ -18,6 +18,26 @@ export interface ExampleEntry {
     readonly id: string;
     readonly name: string;
     readonly description: string;
+}
+
+/* An uploaded picture. */
+export interface Asset {
+    readonly id: string;
+    /* A media type. */
+    readonly type: string;
+    readonly width: number;
+    readonly height: number;
+}
+
+/* What a picture asks for; what is absent, the scene says. */
+export interface PictureWish {
+    readonly width: number;
+    readonly height: number;
+    readonly format: "png" | "jpg" | "npy";
+    readonly outputs?: readonly string[];
+    readonly level?: string;
+    readonly transparent?: boolean;
+    readonly camera?: JsonObject;
 }
 
 export interface Imported {
@@ -69,12 +89,17 @@ export interface Rest {
     editScene(id: string, ops: readonly Operation[]): Promise<void>;
     listExamples(): Promise<readonly ExampleEntry[]>;
     readSchema(): Promise<Schema>;
-    /* Addresses for <img> and links. */
-    imageUrl(id: string, width: number, height: number, format?: "jpg" | "png"): string;
+    listAssets(): Promise<readonly Asset[]>;
+    uploadAsset(file: Blob): Promise<Asset>;
+    /* Addresses for <img> and links. Of several outputs a ZIP comes. */
+    imageUrl(id: string, wish: PictureWish): string;
+    assetUrl(id: string): string;
     exampleImageUrl(id: string): string;
     /* A picture of a node type; there may be none. */
     referenceImageUrl(type: string): string;
-    /* The picture as an object URL, with the token where there is one; the caller revokes it. */
+    /* The file at an address, with the token where there is one. */
+    fetchFile(url: string, signal?: AbortSignal): Promise<Blob>;
+    /* The same as an object URL, which the caller revokes. */
     fetchImage(url: string): Promise<string>;
     readonly token: string | null;
 }
@@ -99,6 +124,32 @@ async function problemOf(response: Response): Promise<RestError> {
 }
 
 const segment = encodeURIComponent;
+
+function queryOf({ width, height, outputs, level, transparent, camera }: PictureWish): string {
+    const query = new URLSearchParams({ width: String(width), height: String(height) });
+    if (outputs) {
+        query.set("aov", outputs.join(","));
+    }
+    if (level !== undefined) {
+        query.set("level", level);
+    }
+    if (transparent !== undefined) {
+        query.set("transparent", transparent ? "1" : "0");
+    }
+    for (const [name, value] of Object.entries(camera ?? {})) {
+        query.set(name, String(value));
+    }
+    return query.toString();
+}
+
+function readAsset(json: JsonObject): Asset {
+    return {
+        id: textOf(json.id),
+        type: textOf(json.type),
+        width: numberOf(json.width),
+        height: numberOf(json.height),
+    };
+}
 
 /* `base` is the server's address without a slash at the end; "" is the page's own server. */
 export function createRest(base: string, token: string | null): Rest {
@@ -137,6 +188,10 @@ export function createRest(base: string, token: string | null): Rest {
     const list = async (path: string, member: string) => {
         const json = await get(path);
         return listOf(isObject(json) ? json[member] : []).filter(isObject);
+    };
+    const fetchFile = async (url: string, signal?: AbortSignal): Promise<Blob> => {
+        const path = url.startsWith(base) ? url.slice(base.length) : url;
+        return (await request(path, signal ? { signal } : {})).blob();
     };
     return {
         token,
@@ -178,15 +233,21 @@ export function createRest(base: string, token: string | null): Rest {
                 name: textOf(example.name),
                 description: textOf(example.description),
             })),
+        listAssets: async () => (await list("/v1/assets", "assets")).map(readAsset),
+        uploadAsset: async (file) => {
+            const headers = { "Content-Type": "application/octet-stream" };
+            const response = await request("/v1/assets", { method: "POST", body: file, headers });
+            const json = (await response.json()) as Json;
+            return readAsset(isObject(json) ? json : {});
+        },
         readSchema: async () => readSchema(await get("/v1/schema.json")),
-        imageUrl: (id, width, height, format = "jpg") =>
-            `${base}/v1/scenes/${segment(id)}/image.${format}?width=${width}&height=${height}`,
+        imageUrl: (id, wish) =>
+            `${base}/v1/scenes/${segment(id)}/image.${wish.format}?${queryOf(wish)}`,
+        assetUrl: (id) => `${base}/v1/assets/${segment(id)}`,
         exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
         referenceImageUrl: (type) => `${base}/v1/reference/${segment(type)}.jpg`,
-        fetchImage: async (url) => {
-            const path = url.startsWith(base) ? url.slice(base.length) : url;
-            return URL.createObjectURL(await (await request(path)).blob());
-        },
+        fetchFile,
+        fetchImage: async (url) => URL.createObjectURL(await fetchFile(url)),
     };
 }
 
@@ -203,12 +264,11 @@ export function takeToken(location: Location, storage: Storage): string | null {
     return storage.getItem(TOKEN_KEY);
 }
 
-/* Offers a document as a file. */
-export function download(name: string, json: Json): void {
-    const blob = new Blob([JSON.stringify(json, null, 2)], { type: "application/json" });
+/* Offers a file; what no file's name should hold becomes "-". */
+export function download(name: string, extension: string, blob: Blob): void {
     const anchor = document.createElement("a");
     anchor.href = URL.createObjectURL(blob);
-    anchor.download = `${name.replace(/[^\w.-]+/g, "-") || "scene"}.json`;
+    anchor.download = `${name.replace(/[^\w.-]+/g, "-") || "scene"}.${extension}`;
     anchor.click();
     setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
 }

@@ -2,6 +2,7 @@
 /* What commands look at and do; the table that names them is commands.ts. */
 import { ballOf } from "./bounds.ts";
 import {
+    axes,
     type Camera,
     distance,
     dolly,
@@ -20,6 +21,7 @@ import type { Operation } from "./operation.ts";
 import type { Schema } from "./schema.ts";
 import { addNotice, type Stores } from "./stores.ts";
 import { text } from "./texts.ts";
+import { dot, subtract, type Vector } from "./transform.ts";
 
 /* What commands need from the page around the model. */
 export interface App {
@@ -97,6 +99,11 @@ export const canDissolve: Reason = (app) => {
     const node = document?.nodes.get(selectionOf(app)[0] ?? "");
     const reason = needsOne(app) ?? needsMovable(1)(app);
     return reason ?? (node && node.children.length > 0 ? null : text("why.noChildren"));
+};
+
+export const needsLens: Reason = (app) => {
+    const aperture = documentOf(app)?.camera.aperture;
+    return needsScene(app) ?? (Number(aperture ?? 0) > 0 ? null : text("why.noLens"));
 };
 
 export function hiddenNodes(document: SceneDocument): string[] {
@@ -223,9 +230,17 @@ export const dollyBy = (steps: number) => (app: App) =>
 export const lookFrom = (name: ViewName) => (app: App) =>
     moveCamera(app, (camera) => viewFrom(camera, name));
 
+/* What is at `place` will be sharp, as seen by the camera of the view. */
+export function focusOn(app: App, place: Vector): void {
+    const { camera } = app.stores.camera.getState();
+    const away = dot(subtract(place, camera.position), axes(camera).forward);
+    const focus = Number(away.toPrecision(4));
+    app.edit([{ op: "set", at: "/camera/focus", value: focus }], { label: "focus" });
+}
+
 export function saveCamera(app: App): void {
     const { camera } = app.stores.camera.getState();
-    const value = printCamera(camera);
+    const value = { ...documentOf(app)?.camera, ...printCamera(camera) };
     if (
         distance(camera) > 0 &&
         app.edit([{ op: "set", at: "/camera", value }], { label: "set camera" })

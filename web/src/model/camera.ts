@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Camera moves as pure functions of the camera before: orbit, pan, dolly, frame, fixed views.
- * Right-handed, +Y up unless the camera's `up` says else; `fov` is vertical, in degrees. */
+ * Right-handed, +Y up unless the camera's `up` says else; `fov` is vertical, in degrees. What else
+ * a camera has, such as its lens, is the document's alone. */
 import type { JsonObject } from "./json.ts";
 import type { Values } from "./schema.ts";
 import {
@@ -21,6 +22,8 @@ export interface Camera {
     readonly target: Vector;
     readonly up: Vector;
     readonly fov: number;
+    /* Of the whole picture, in scene units, where there is no perspective; else null. */
+    readonly height: number | null;
 }
 
 export const DEFAULT_CAMERA: Camera = {
@@ -28,6 +31,7 @@ export const DEFAULT_CAMERA: Camera = {
     target: [0, 0, 0],
     up: [0, 1, 0],
     fov: 45,
+    height: null,
 };
 
 /* The camera that a document (or its absence) describes; `defaults` come from the schema. */
@@ -41,6 +45,8 @@ export function cameraOf(values: Values, defaults: Values = {}): Camera {
         target: read("target"),
         up: read("up"),
         fov: Number(values.fov ?? defaults.fov ?? DEFAULT_CAMERA.fov),
+        height:
+            values.type === "orthographic" ? Number(values.height ?? defaults.height ?? 1) : null,
     };
 }
 
@@ -53,7 +59,7 @@ export function printCamera(camera: Camera): JsonObject {
         position: camera.position.map(tidy),
         target: camera.target.map(tidy),
         up: camera.up.map(tidy),
-        fov: tidy(camera.fov),
+        ...(camera.height === null ? { fov: tidy(camera.fov) } : { height: tidy(camera.height) }),
     };
 }
 
@@ -96,7 +102,8 @@ export function orbit(camera: Camera, azimuth: number, elevation: number): Camer
 
 /* World units per pixel at the target's distance. */
 export function unitsPerPixel(camera: Camera, height: number): number {
-    return (2 * distance(camera) * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, height);
+    const seen = camera.height ?? 2 * distance(camera) * Math.tan((camera.fov * Math.PI) / 360);
+    return seen / Math.max(1, height);
 }
 
 /* Moves position and target so that what is at the target's distance follows the pointer. */
@@ -119,14 +126,12 @@ export interface Pointer {
     readonly height: number;
 }
 
-/* Unit direction of the ray through a point of the view. */
-export function ray(camera: Camera, pointer: Pointer): Vector {
-    const { right, up, forward } = axes(camera);
-    const tangent = Math.tan((camera.fov * Math.PI) / 360);
-    const aspect = pointer.width / Math.max(1, pointer.height);
-    const u = ((2 * pointer.x) / Math.max(1, pointer.width) - 1) * tangent * aspect;
-    const v = (1 - (2 * pointer.y) / Math.max(1, pointer.height)) * tangent;
-    return normalize(add(forward, add(scale(right, u), scale(up, v))));
+/* What lies under a point of the view at the target's distance. */
+export function pointUnder(camera: Camera, { x, y, width, height }: Pointer): Vector {
+    const { right, up } = axes(camera);
+    const units = unitsPerPixel(camera, height);
+    const aside = scale(right, (x - width / 2) * units);
+    return add(camera.target, add(aside, scale(up, (height / 2 - y) * units)));
 }
 
 /* Changes the distance by `factor` (< 1 is nearer), keeping what lies under the pointer at the
@@ -135,14 +140,14 @@ export function dolly(camera: Camera, factor: number, pointer?: Pointer): Camera
     const before = distance(camera);
     const after = Math.min(FARTHEST, Math.max(NEAREST, before * factor));
     const applied = before > 0 ? after / before : 1;
-    const { forward } = axes(camera);
-    let anchor = camera.target;
-    if (pointer) {
-        const direction = ray(camera, pointer);
-        anchor = add(camera.position, scale(direction, before / dot(direction, forward)));
-    }
+    const anchor = pointer ? pointUnder(camera, pointer) : camera.target;
     const shrink = (p: Vector): Vector => add(anchor, scale(subtract(p, anchor), applied));
-    return { ...camera, position: shrink(camera.position), target: shrink(camera.target) };
+    return {
+        ...camera,
+        position: shrink(camera.position),
+        target: shrink(camera.target),
+        height: camera.height === null ? null : camera.height * applied,
+    };
 }
 
 export interface Ball {
@@ -160,6 +165,7 @@ export function frame(camera: Camera, ball: Ball, aspect: number): Camera {
         ...camera,
         target: ball.center,
         position: subtract(ball.center, scale(forward, away)),
+        height: camera.height === null ? null : (2.3 * ball.radius) / Math.min(1, aspect),
     };
 }
 
@@ -184,6 +190,7 @@ export function viewFrom(camera: Camera, name: ViewName): Camera {
 export function equalCamera(a: Camera, b: Camera): boolean {
     return (
         a.fov === b.fov &&
+        a.height === b.height &&
         (["position", "target", "up"] as const).every((name) =>
             a[name].every((x, i) => x === b[name][i]),
         )

@@ -15,6 +15,7 @@ import {
     hideOthers,
     lookFrom,
     needsInstance,
+    needsLens,
     needsMovable,
     needsOne,
     needsScene,
@@ -32,9 +33,10 @@ import {
 } from "./actions.ts";
 import { dissolve, duplicate, removeNodes, reorder, wrap } from "./edits.ts";
 import { makeModel, unpackModel } from "./models.ts";
+import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
-import { AOVS, peel, type Theme, type View } from "./view.ts";
+import { COLOR, peel, type Theme, type View } from "./view.ts";
 
 /* Where a key works: `anywhere` outside of text fields, or only with the focus in that region. */
 export type Context = "anywhere" | "view" | "tree";
@@ -330,6 +332,13 @@ export const COMMANDS: readonly Command[] = [
         group: "camera",
         run: saveCamera,
     }),
+    row({
+        id: "camera.focus",
+        title: "Focus on what is clicked next",
+        group: "camera",
+        whyNot: needsLens,
+        run: show({ aiming: true }),
+    }),
     ...(
         [
             ["front", "Num1"],
@@ -389,10 +398,21 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "view.output",
-        title: "Next output: colour, depth, normals, ids",
+        title: "Next output: colour, depth, normals …",
         group: "view",
         keys: ["Z"],
-        run: (app) => app.stores.view.setState(({ aov }) => ({ aov: next(AOVS, aov) })),
+        run: ({ stores }) => {
+            const names = outputsShown(stores.document.getState().schema).map(({ name }) => name);
+            stores.view.setState(({ aov }) => ({ aov: next(names, aov) }));
+        },
+    }),
+    row({
+        id: "view.color",
+        title: "Back to the colours",
+        group: "view",
+        keys: ["Shift+Z"],
+        whyNot: ({ stores }) => (stores.view.getState().aov === COLOR ? text("why.colors") : null),
+        run: show({ aov: COLOR }),
     }),
     row({
         id: "view.chrome",
@@ -447,6 +467,14 @@ export const COMMANDS: readonly Command[] = [
         title: "Download as JSON",
         group: "scene",
         run: (app) => app.download(),
+    }),
+    row({
+        id: "scene.picture",
+        title: "Download a picture …",
+        group: "scene",
+        keys: ["Ctrl+Shift+S"],
+        inFields: true,
+        run: show({ popup: "picture" }),
     }),
     row({
         id: "scene.upload",

@@ -2,7 +2,14 @@
 /* Parameters that a document declares for its distance functions and shaders: the list that stands
  * in the document, and the rows that make forms of it. */
 import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "./json.ts";
-import { type DeclaredRow, type Param, type ParamType, type Value, zeroOf } from "./schema.ts";
+import {
+    type DeclaredRow,
+    numberParam,
+    type Param,
+    type ParamType,
+    type Value,
+    zeroOf,
+} from "./schema.ts";
 
 /* HLSL's spellings. */
 const OTHER_NAMES: Record<string, ParamType> = { float2: "vec2", float3: "vec3", float4: "vec4" };
@@ -34,22 +41,13 @@ function paramOf(row: JsonObject): Param {
     const type = typeOf(textOf(row.type, "float"));
     const range = listOf(row.range);
     const [min, max] = range.length === 2 ? range.map((x) => numberOf(x)) : [null, null];
-    return {
-        name: textOf(row.name),
+    return numberParam(textOf(row.name), {
         type,
-        unit: null,
         default: (row.default as Value | undefined) ?? plainDefault(type, min ?? null, max ?? null),
         min: min ?? null,
         max: max ?? null,
-        aboveMin: false,
-        nonzero: false,
-        uniform: false,
-        direction: false,
-        step: null,
-        choices: [],
-        main: false,
         doc: textOf(row.doc),
-    };
+    });
 }
 
 const known = new WeakMap<object, readonly Param[]>();

@@ -3,8 +3,8 @@
  * versions. Walks, names, and which row describes a value. Its JSON is documentJson.ts. */
 import { declaredParams } from "./declared.ts";
 import { LISTS, type ListName, parsePlace } from "./places.ts";
-import type { Param, Schema, Values } from "./schema.ts";
-import { findParam, lightType, nodeType, shaderType } from "./schema.ts";
+import type { Param, Schema, TypeRow, Values } from "./schema.ts";
+import { findParam, nodeType } from "./schema.ts";
 
 export interface SceneNode {
     readonly id: string;
@@ -20,7 +20,7 @@ export interface SceneNode {
 /* Something with a name of its own beside the tree. */
 export interface Resource {
     readonly name: string;
-    /* A light's type, a material's shader; "" for others. */
+    /* The type of a light or a volume, a material's shader; "" for others. */
     readonly type: string;
     readonly values: Values;
     /* A model's root node; "" for others. */
@@ -43,6 +43,7 @@ export interface SceneDocument extends ResourceLists {
 
 /* The same one always, as what is shown of it is not drawn anew then. */
 const NO_ROWS: readonly Param[] = [];
+const NO_TYPES: readonly TypeRow[] = [];
 
 /* What a distance function or a shader of the document declares. */
 export function declaredBy(
@@ -96,6 +97,12 @@ export function nodeParams(
     return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
 }
 
+/* The built-in types of a list; none for lists without. */
+export function typesOf(schema: Schema, list: ListName): readonly TypeRow[] {
+    const { types } = LISTS[list];
+    return types === null ? NO_TYPES : schema[types];
+}
+
 /* The rows of a resource's values. */
 export function resourceParams(
     schema: Schema,
@@ -104,36 +111,29 @@ export function resourceParams(
     type: string,
 ): readonly Param[] {
     switch (list) {
-        case "lights":
-            return lightType(schema, type)?.params ?? NO_ROWS;
-        case "materials":
-            return (
-                shaderType(schema, type)?.params ??
-                declaredBy(schema, "shaders", findResource(document, "shaders", type))
-            );
         case "primitives":
             return schema.primitive;
         case "shaders":
             return schema.shader;
-        case "models":
-            return NO_ROWS;
+        default: {
+            const builtIn = typesOf(schema, list).find((row) => row.type === type)?.params;
+            const own = list === "materials" && findResource(document, "shaders", type);
+            return builtIn ?? (own ? declaredBy(schema, "shaders", own) : NO_ROWS);
+        }
     }
 }
 
-/* Is there such a type of light, such a shader? Others have none. */
+/* Is there such a type of light or volume, such a shader? Others have none. */
 export function knowsType(
     schema: Schema,
     document: SceneDocument,
     list: ListName,
     type: string,
 ): boolean {
-    if (list === "lights") {
-        return lightType(schema, type) !== null;
-    }
     return (
-        list !== "materials" ||
-        shaderType(schema, type) !== null ||
-        findResource(document, "shaders", type) !== null
+        LISTS[list].types === null ||
+        typesOf(schema, list).some((row) => row.type === type) ||
+        (list === "materials" && findResource(document, "shaders", type) !== null)
     );
 }
 

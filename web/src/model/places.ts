@@ -4,13 +4,15 @@
 export type RecordName = "camera" | "environment" | "render";
 
 /* The named resources of a document. */
-export type ListName = "lights" | "materials" | "primitives" | "shaders" | "models";
+export type ListName = "lights" | "volumes" | "materials" | "primitives" | "shaders" | "models";
 
 interface ListRow {
     /* The word for one of them. */
     readonly one: string;
     /* The member that says what it is an instance of. */
     readonly type: "type" | "shader" | null;
+    /* The table of the schema with the types that are built in. */
+    readonly types: "lights" | "volumes" | "shaders" | null;
     /* The member that holds its values; null: they stand beside the type. */
     readonly values: "properties" | null;
     /* It carries its name itself, as `id`. */
@@ -19,11 +21,18 @@ interface ListRow {
 
 /* THE TABLE of lists. Order is that of panels. */
 export const LISTS: Readonly<Record<ListName, ListRow>> = {
-    models: { one: "model", type: null, values: null, id: false },
-    materials: { one: "material", type: "shader", values: "properties", id: false },
-    lights: { one: "light", type: "type", values: null, id: true },
-    primitives: { one: "primitive", type: null, values: null, id: false },
-    shaders: { one: "shader", type: null, values: null, id: false },
+    models: { one: "model", type: null, types: null, values: null, id: false },
+    materials: {
+        one: "material",
+        type: "shader",
+        types: "shaders",
+        values: "properties",
+        id: false,
+    },
+    lights: { one: "light", type: "type", types: "lights", values: null, id: true },
+    volumes: { one: "volume", type: "type", types: "volumes", values: null, id: true },
+    primitives: { one: "primitive", type: null, types: null, values: null, id: false },
+    shaders: { one: "shader", type: null, types: null, values: null, id: false },
 };
 
 export const LIST_NAMES = Object.keys(LISTS) as readonly ListName[];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Edits about materials, lights, models, distance functions and shaders: each answers operations,
- * the undo label, what to select, and the resource that it is about. */
+/* Edits about materials, lights, volumes, models, distance functions and shaders: each answers
+ * operations, the undo label, what to select, and the resource that it is about. */
 import { spotFor, typeNaming } from "./add.ts";
 import {
     declaredBy,
@@ -96,9 +96,10 @@ export function newResource(
     return { ops, label: `add ${name}`, select: use === null ? select : selection, name };
 }
 
-export function newLight(document: SceneDocument, type: string): ResourceEdit {
-    const name = freeName(document, "lights", type);
-    const ops = [insertResource("lights", name, { type }, null)];
+/* A light or a volume. */
+export function newTyped(document: SceneDocument, list: ListName, type: string): ResourceEdit {
+    const name = freeName(document, list, type);
+    const ops = [insertResource(list, name, { type }, null)];
     return { ops, label: `add ${name}`, select: NO_NODES, name };
 }
 

@@ -20,6 +20,7 @@ export type ParamType =
     | "code" /* GLSL, several lines */
     | "model" /* the name of a model of the document, or "" */
     | "function" /* the name of one of its primitives, or "" */
+    | "asset" /* the id of an uploaded file, or "" */
     | "rows" /* parameters that a document declares: DeclaredRow[] */;
 
 export type Unit = "length" | "angle" | "degrees";
@@ -48,6 +49,13 @@ export interface Values {
     readonly [name: string]: Value;
 }
 
+/* The value of another row of the record that makes a row matter; `not`: any other value does. */
+export interface Condition {
+    readonly name: string;
+    readonly value: Value;
+    readonly not: boolean;
+}
+
 export interface Param {
     readonly name: string;
     readonly type: ParamType;
@@ -64,6 +72,10 @@ export interface Param {
     readonly step: number | null;
     readonly choices: readonly string[];
     readonly main: boolean;
+    /* The heading that it stands under; "": none. */
+    readonly group: string;
+    /* Null: it matters always. */
+    readonly when: Condition | null;
     readonly doc: string;
 }
 
@@ -82,6 +94,17 @@ export interface NodeType extends TypeRow {
     readonly children: "none" | "one" | "many";
 }
 
+/* An output of the renderer, a level of quality, or a stage of a frame. */
+export interface NamedRow {
+    readonly name: string;
+    readonly doc: string;
+}
+
+export interface Output extends NamedRow {
+    /* It has a picture form, not only numbers. */
+    readonly picture: boolean;
+}
+
 export interface Limit {
     readonly name: string;
     readonly value: number;
@@ -92,6 +115,7 @@ export interface Limit {
 export interface Schema {
     readonly nodes: readonly NodeType[];
     readonly lights: readonly TypeRow[];
+    readonly volumes: readonly TypeRow[];
     readonly shaders: readonly TypeRow[];
     readonly node: readonly Param[];
     readonly transform: readonly Param[];
@@ -103,6 +127,9 @@ export interface Schema {
     readonly shader: readonly Param[];
     /* Types that their parameters may have. */
     readonly declared: readonly ParamType[];
+    readonly outputs: readonly Output[];
+    readonly levels: readonly NamedRow[];
+    readonly stages: readonly NamedRow[];
     readonly limits: readonly Limit[];
 }
 
@@ -123,6 +150,7 @@ const COMPONENTS: Record<ParamType, number> = {
     code: 0,
     model: 0,
     function: 0,
+    asset: 0,
     rows: 0,
 };
 
@@ -148,12 +176,49 @@ const ZERO: Record<ParamType, Value> = {
     code: "",
     model: "",
     function: "",
+    asset: "",
     rows: [],
 };
 
 /* What a value of a type is where nothing says otherwise. */
 export function zeroOf(type: ParamType): Value {
     return ZERO[type] ?? 0;
+}
+
+/* A number without bounds, and what `part` says of it. */
+export function numberParam(name: string, part: Partial<Param> = {}): Param {
+    return {
+        name,
+        type: "float",
+        unit: null,
+        default: 0,
+        min: null,
+        max: null,
+        aboveMin: false,
+        nonzero: false,
+        uniform: false,
+        direction: false,
+        step: null,
+        choices: [],
+        main: false,
+        group: "",
+        when: null,
+        doc: "",
+        ...part,
+    };
+}
+
+/* "type=sky", "opacity!=1": a word, or a number or a truth as JSON writes it. */
+function readCondition(text: string): Condition | null {
+    const found = /^(\w+)(!?)=(.+)$/.exec(text);
+    const [, name = "", not, word = ""] = found ?? [];
+    if (found === null) {
+        return null;
+    }
+    const number = Number(word);
+    const truth = word === "true" || word === "false";
+    const value = truth ? word === "true" : Number.isNaN(number) ? word : number;
+    return { name, value, not: not === "!" };
 }
 
 function readParam(json: JsonObject): Param {
@@ -172,6 +237,8 @@ function readParam(json: JsonObject): Param {
         step: typeof json.step === "number" && json.step > 0 ? json.step : null,
         choices: listOf(json.choices).map((choice) => textOf(choice)),
         main: json.main === true,
+        group: textOf(json.group),
+        when: readCondition(textOf(json.when)),
         doc: textOf(json.doc),
     };
 }
@@ -186,6 +253,10 @@ function readRow(json: JsonObject): TypeRow {
         doc: textOf(json.doc),
         params: readParams(json.params),
     };
+}
+
+function readNamed(json: JsonObject): NamedRow {
+    return { name: textOf(json.name), doc: textOf(json.doc) };
 }
 
 function readWords(json: Json | undefined): string {
@@ -212,6 +283,7 @@ export function readSchema(json: Json): Schema {
     return {
         nodes: listOf(tables.nodes).filter(isObject).map(readNodeType),
         lights: listOf(tables.lights).filter(isObject).map(readRow),
+        volumes: listOf(tables.volumes).filter(isObject).map(readRow),
         shaders: listOf(tables.shaders).filter(isObject).map(readRow),
         node: readParams(tables.node),
         transform: readParams(tables.transform),
@@ -221,6 +293,11 @@ export function readSchema(json: Json): Schema {
         primitive: readParams(resources.primitive),
         shader: readParams(resources.shader),
         declared: listOf(resources.declared_types).map((type) => textOf(type) as ParamType),
+        outputs: listOf(tables.outputs)
+            .filter(isObject)
+            .map((json) => ({ ...readNamed(json), picture: json.picture === true })),
+        levels: listOf(tables.levels).filter(isObject).map(readNamed),
+        stages: listOf(tables.stages).filter(isObject).map(readNamed),
         limits: listOf(tables.limits)
             .filter(isObject)
             .map((row) => ({
@@ -246,16 +323,17 @@ export function nodeType(schema: Schema, type: string): NodeType | null {
     return rows.get(type) ?? null;
 }
 
-export function lightType(schema: Schema, type: string): TypeRow | null {
-    return schema.lights.find((row) => row.type === type) ?? null;
-}
-
 export function shaderType(schema: Schema, type: string): TypeRow | null {
     return schema.shaders.find((row) => row.type === type) ?? null;
 }
 
 export function findParam(params: readonly Param[], name: string): Param | null {
     return params.find((param) => param.name === name) ?? null;
+}
+
+/* Outputs that a view can show. */
+export function outputsShown(schema: Schema): readonly Output[] {
+    return schema.outputs.filter(({ picture }) => picture);
 }
 
 export function limitOf(schema: Schema, name: string, fallback: number): number {
@@ -265,4 +343,27 @@ export function limitOf(schema: Schema, name: string, fallback: number): number 
 /* What holds at `param`: the set value or the default. */
 export function valueIn(values: Values, param: Param): Value {
     return values[param.name] ?? param.default;
+}
+
+/* Does it make a difference what stands at `param`? What it hangs on must matter itself. */
+export function matters(params: readonly Param[], values: Values, param: Param): boolean {
+    if (param.when === null) {
+        return true;
+    }
+    const { name, value, not } = param.when;
+    const other = findParam(params, name);
+    return (
+        other === null ||
+        ((valueIn(values, other) === value) !== not && matters(params, values, other))
+    );
+}
+
+/* Rows under their headings, in the order of the first of each; those under none come first. */
+export function grouped(params: readonly Param[]): readonly (readonly [string, Param[]])[] {
+    const groups = new Map<string, Param[]>([["", []]]);
+    for (const param of params) {
+        const group = groups.get(param.group) ?? [];
+        groups.set(param.group, [...group, param]);
+    }
+    return [...groups].filter(([, rows]) => rows.length > 0);
 }

@@ -8,7 +8,7 @@ import type { SceneDocument } from "./document.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
-import { INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
+import { COLOR, INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
 
 /* --- document: what is shown, confirmed plus pending --- */
 
@@ -71,14 +71,13 @@ export interface FrameInfo {
     readonly scale: number;
 }
 
-/* Averages over the last second, milliseconds; what was not measured is null. */
+/* Rates over the last second; milliseconds and bytes of the last frames of the newest one's kind,
+ * the newest counting most. What was not measured is null. */
 export interface Statistics {
     readonly fps: number;
-    readonly queue: number;
-    readonly march: number;
-    readonly light: number;
-    readonly read: number;
-    readonly encode: number;
+    readonly state: FrameState;
+    /* In the order of the schema's stages. */
+    readonly stages: readonly number[];
     /* First byte of a frame here until its last. */
     readonly receive: number;
     readonly decode: number;
@@ -186,11 +185,17 @@ export interface Storage {
 }
 
 const PREFERENCES_KEY = "fieldcast.preferences";
+const OUTPUT_KEY = "fieldcast.output";
 
-export function createStores(storage: Storage | null): Stores {
+/* `tab`: what is kept for this tab alone, the output shown. */
+export function createStores(storage: Storage | null, tab: Storage | null = null): Stores {
     const preferences = readPreferences(storage?.getItem(PREFERENCES_KEY) ?? null);
-    const view = createStore<View>(() => ({ ...INITIAL_VIEW, preferences }));
+    const aov = tab?.getItem(OUTPUT_KEY) ?? COLOR;
+    const view = createStore<View>(() => ({ ...INITIAL_VIEW, aov, preferences }));
     view.subscribe((now, before) => {
+        if (now.aov !== before.aov) {
+            tab?.setItem(OUTPUT_KEY, now.aov);
+        }
         if (now.preferences !== before.preferences) {
             storage?.setItem(PREFERENCES_KEY, JSON.stringify(now.preferences));
         }

@@ -72,6 +72,7 @@ function checkForm(param: Param, value: Value): string | null {
         case "code":
         case "model":
         case "function":
+        case "asset":
             return expected("text is", typeof value === "string");
         default:
             return null;

@@ -5,7 +5,6 @@
 import type { ListName, RecordName } from "./places.ts";
 
 export type Theme = "auto" | "light" | "dark";
-export type Aov = "color" | "depth" | "normal" | "id";
 export type Quality = "auto" | "smooth" | "sharp";
 export type Pointing = "mouse" | "trackpad";
 /* What covers the page; one at a time, Esc closes it. `wrap`: what can go around the selection. */
@@ -17,9 +16,11 @@ export type Popup =
     | "help"
     | "reference"
     | "statistics"
+    | "picture"
     | null;
 
-export const AOVS: readonly Aov[] = ["color", "depth", "normal", "id"];
+/* The output that is the picture itself. */
+export const COLOR = "color";
 export const QUALITIES: readonly Quality[] = ["auto", "smooth", "sharp"];
 
 /* What stays from visit to visit. */
@@ -67,7 +68,10 @@ export interface View {
     readonly topic: string | null;
     /* Ctrl+\ hides all but the picture. */
     readonly chromeHidden: boolean;
-    readonly aov: Aov;
+    /* The output shown: a name of the schema's. */
+    readonly aov: string;
+    /* The next click says what the camera focuses on. */
+    readonly aiming: boolean;
     readonly preferences: Preferences;
 }
 
@@ -81,7 +85,8 @@ export const INITIAL_VIEW: View = {
     code: null,
     topic: null,
     chromeHidden: false,
-    aov: "color",
+    aov: COLOR,
+    aiming: false,
     preferences: PREFERENCES,
 };
 
@@ -111,6 +116,9 @@ export function peel(view: View): Partial<View> | null {
     }
     if (view.popup !== null) {
         return { popup: null };
+    }
+    if (view.aiming) {
+        return { aiming: false };
     }
     if (view.chromeHidden) {
         return { chromeHidden: false };

@@ -8,9 +8,9 @@ import { findResource, type Resource, type SceneDocument } from "../model/docume
 import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import {
     duplicateResource,
-    newLight,
     newMaterialOf,
     newResource,
+    newTyped,
     type ResourceEdit,
     removeResource,
     renameResource,
@@ -106,8 +106,9 @@ export function addResource(editor: Editor, list: ListName, use: string | null):
     );
 }
 
-export function addLight(editor: Editor, type: string): void {
-    performOn(editor, (document) => newLight(document, type), showIt(editor, "lights"));
+/* A light or a volume of a type. */
+export function addTyped(editor: Editor, list: ListName, type: string): void {
+    performOn(editor, (document) => newTyped(document, list, type), showIt(editor, list));
 }
 
 /* Something made of it: an instance of a model, a node of a distance function, a material. */

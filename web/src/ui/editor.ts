@@ -3,10 +3,10 @@
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
 import type { App } from "../model/actions.ts";
-import { EMPTY_SCHEMA } from "../model/schema.ts";
+import { EMPTY_SCHEMA, outputsShown } from "../model/schema.ts";
 import { createStores, type Stores } from "../model/stores.ts";
-import { INITIAL_VIEW, type Subject } from "../model/view.ts";
-import { chooseFiles, saveDocument } from "./files.ts";
+import { COLOR, INITIAL_VIEW, type Subject } from "../model/view.ts";
+import { chooseFiles, SCENE_FILES, saveDocument } from "./files.ts";
 import { openFiles, readFiles } from "./import.ts";
 
 export interface Editor extends App {
@@ -24,7 +24,7 @@ export interface Editor extends App {
 export function createEditor(): Editor {
     const token = takeToken(window.location, window.sessionStorage);
     const rest = createRest("", token);
-    const stores = createStores(window.localStorage);
+    const stores = createStores(window.localStorage, window.sessionStorage);
     const link = createLink(stores, { base: "", token });
     let picture: HTMLElement | null = null;
     const editor: Editor = {
@@ -39,7 +39,7 @@ export function createEditor(): Editor {
         readClipboard: () => navigator.clipboard.readText(),
         download: () => void saveDocument(editor),
         upload: () =>
-            chooseFiles(false, async (files) => openFiles(editor, await readFiles(files))),
+            chooseFiles(SCENE_FILES, async (files) => openFiles(editor, await readFiles(files))),
         open: (scene) => void openScene(editor, scene),
         show: (subject) =>
             stores.view.setState(
@@ -55,13 +55,17 @@ export function createEditor(): Editor {
 async function openScene(editor: Editor, scene: string | null): Promise<void> {
     const { stores, link, rest } = editor;
     link.disconnect();
-    stores.view.setState(({ preferences }) => ({ ...INITIAL_VIEW, preferences }));
+    stores.view.setState(({ aov, preferences }) => ({ ...INITIAL_VIEW, aov, preferences }));
     if (scene === null) {
         return;
     }
     let { schema } = stores.document.getState();
     if (schema === EMPTY_SCHEMA) {
         schema = await rest.readSchema();
+    }
+    const { aov } = stores.view.getState();
+    if (!outputsShown(schema).some(({ name }) => name === aov)) {
+        stores.view.setState({ aov: COLOR });
     }
     link.connect(scene, schema);
 }

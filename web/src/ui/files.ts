@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes as files: down as JSON or a picture, up by a chooser; import.ts makes scenes of them. */
+/* Scenes as files: down as JSON, up by a chooser; import.ts makes scenes of them. */
 import { download, RestError } from "../link/rest.ts";
 import { printDocument } from "../model/documentJson.ts";
+import type { Json } from "../model/json.ts";
 import { addNotice } from "../model/stores.ts";
 import type { Editor } from "./editor.ts";
 
@@ -11,46 +12,28 @@ export async function saveDocument(editor: Editor): Promise<void> {
     if (scene === null || document === null) {
         return;
     }
-    const name = String(document.info.name ?? scene);
-    try {
-        download(name, await editor.rest.readScene(scene));
-    } catch {
-        download(name, printDocument(document));
-    }
+    const json = await editor.rest.readScene(scene).catch(() => printDocument(document));
+    downloadJson(String(document.info.name ?? scene), json);
 }
 
-const PICTURE_WIDTH = 1920;
-const PICTURE_HEIGHT = 1080;
-
-export async function savePicture(editor: Editor): Promise<void> {
-    const { scene, document } = editor.stores.document.getState();
-    if (scene === null) {
-        return;
-    }
-    try {
-        const { camera, own } = editor.stores.camera.getState();
-        let url = editor.rest.imageUrl(scene, PICTURE_WIDTH, PICTURE_HEIGHT, "png");
-        if (own) {
-            url += `&position=${camera.position}&target=${camera.target}&fov=${camera.fov}`;
-        }
-        const anchor = window.document.createElement("a");
-        anchor.href = await editor.rest.fetchImage(url);
-        anchor.download = `${String(document?.info.name ?? scene)}.png`;
-        anchor.click();
-        URL.revokeObjectURL(anchor.href);
-    } catch (error) {
-        report(editor, error);
-    }
+export function downloadJson(name: string, json: Json): void {
+    const blob = new Blob([JSON.stringify(json, null, 2)], { type: "application/json" });
+    download(name, "json", blob);
 }
 
-/* Opens the chooser for files, or for a folder. */
-export function chooseFiles(folder: boolean, onFiles: (files: readonly File[]) => void): void {
+export const SCENE_FILES = ".json,application/json";
+
+/* Opens the chooser for files that `accept` names, or for a folder. */
+export function chooseFiles(
+    accept: string | "folder",
+    onFiles: (files: readonly File[]) => void,
+): void {
     const input = window.document.createElement("input");
     input.type = "file";
     input.multiple = true;
-    input.webkitdirectory = folder;
-    if (!folder) {
-        input.accept = ".json,application/json";
+    input.webkitdirectory = accept === "folder";
+    if (accept !== "folder") {
+        input.accept = accept;
     }
     input.addEventListener("change", () => {
         const files = [...(input.files ?? [])];

@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* Forms from the schema: one row of a table becomes one labelled field. The only place that knows
  * which field a type gets; a type it does not know gets checked JSON, never nothing. */
-import { memo, type ReactNode, useEffect, useId, useRef, useState } from "react";
+import { Fragment, memo, type ReactNode, useEffect, useId, useRef, useState } from "react";
 import type { Gesture } from "../link/link.ts";
 import { paramAt, type SceneDocument } from "../model/document.ts";
 import { equalJson } from "../model/json.ts";
 import type { Operation } from "../model/operation.ts";
 import { problemIn } from "../model/problems.ts";
-import { type DeclaredRow, type Param, type Value, valueIn } from "../model/schema.ts";
+import {
+    type DeclaredRow,
+    grouped,
+    matters,
+    type Param,
+    type Value,
+    valueIn,
+} from "../model/schema.ts";
 import { spread } from "../model/spread.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
@@ -19,7 +26,7 @@ import { TextField } from "./fields/Text.tsx";
 import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
 import { later } from "./later.tsx";
-import { paramTitle } from "./names.ts";
+import { paramTitle, words } from "./names.ts";
 import { useDocument, useEditor } from "./state.ts";
 import { t } from "./texts.ts";
 import "./inspector/inspector.css";
@@ -36,6 +43,7 @@ const reference: Make = (param, props, place) => (
     <ReferenceField param={param} place={place} {...as<string>(props)} />
 );
 
+const AssetField = later(() => import("./fields/Asset.tsx"));
 const ColourField = later(() => import("./fields/Colour.tsx"));
 const PointsField = later(() => import("./fields/Points.tsx"));
 const RowsField = later(() => import("./fields/Rows.tsx"));
@@ -55,6 +63,7 @@ const fields: Record<string, Make> = {
     material: reference,
     model: reference,
     function: reference,
+    asset: (_param, props) => <AssetField {...as<string>(props)} />,
     code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
     points: (param, props) => (
         <PointsField param={param} {...as<readonly (readonly number[])[]>(props)} />
@@ -65,7 +74,7 @@ const fields: Record<string, Make> = {
 };
 
 /* Fields that take the whole width, below their name. */
-const WIDE = ["code", "points", "rows"];
+const WIDE = ["asset", "code", "points", "rows"];
 
 const unknown: Make = (_param, props) => <JsonField {...as<Value>(props)} />;
 
@@ -82,15 +91,39 @@ interface FormProps {
 }
 
 export const Form = memo(function Form({ params, base, owner }: FormProps) {
-    return params.map((param) => (
-        <FormRow
-            key={`${base}/${param.name}`}
-            param={param}
-            place={`${base}/${param.name}`}
-            owner={owner}
-        />
+    return grouped(params).map(([group, rows]) => (
+        <Fragment key={group}>
+            {group !== "" && <h3 className="form-group">{words(group)}</h3>}
+            {rows.map((param) => {
+                const place = `${base}/${param.name}`;
+                const row = <FormRow key={place} param={param} place={place} owner={owner} />;
+                return param.when === null ? (
+                    row
+                ) : (
+                    <Where key={place} param={param} params={params} place={place}>
+                        {row}
+                    </Where>
+                );
+            })}
+        </Fragment>
     ));
 });
+
+interface WhereProps {
+    param: Param;
+    params: readonly Param[];
+    place: string;
+    children: ReactNode;
+}
+
+/* A row that is there while it makes a difference. */
+function Where({ param, params, place, children }: WhereProps) {
+    const shown = useDocument(({ schema, document }) => {
+        const found = document && paramAt(schema, document, place);
+        return found !== null && matters(params, found.values, param);
+    });
+    return shown ? children : null;
+}
 
 interface RowProps {
     param: Param;

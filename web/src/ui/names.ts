@@ -24,6 +24,17 @@ export function paramTitle(param: Param): string {
     return spoken[param.name] ?? words(param.name);
 }
 
+const outputs: Record<string, string> = {
+    color: "Colour",
+    normal: "Normals",
+    id: "Node ids",
+};
+
+/* Of an output of the renderer. */
+export function outputTitle(name: string): string {
+    return outputs[name] ?? typeTitle(name);
+}
+
 /* With a capital: for headings and menus. */
 export function typeTitle(type: string): string {
     const text = words(type);

@@ -3,7 +3,7 @@
  * times a strength. */
 import { useRef, useState } from "react";
 import { HexColorPicker } from "react-colorful";
-import type { Param } from "../../model/schema.ts";
+import { numberParam } from "../../model/schema.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { fromHex, printNumber, splitStrength, tidy, toHex } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
@@ -16,22 +16,7 @@ import "./fields.css";
 
 const MOST_STRENGTH = 1000;
 
-const strengthParam: Param = {
-    name: "strength",
-    type: "float",
-    unit: null,
-    default: 1,
-    min: 1,
-    max: MOST_STRENGTH,
-    aboveMin: false,
-    nonzero: false,
-    uniform: false,
-    direction: false,
-    step: null,
-    choices: [],
-    main: false,
-    doc: "",
-};
+const strengthParam = numberParam("strength", { default: 1, min: 1, max: MOST_STRENGTH });
 
 export default function ColourField(props: FieldProps<readonly number[]>) {
     const { label, value, describedBy, onInput, onCommit, onCancel, onRefuse } = props;

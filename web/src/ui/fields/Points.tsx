@@ -3,7 +3,7 @@
  * in the picture at once; by keys, a point is moved by its arrows. */
 import { Minus, Plus } from "lucide-react";
 import { useRef, useState } from "react";
-import type { Param } from "../../model/schema.ts";
+import { numberParam, type Param } from "../../model/schema.ts";
 import { snap, tidy } from "../../model/units.ts";
 import { pointsOf } from "../../model/values.ts";
 import { IconButton } from "../parts/Button.tsx";
@@ -17,24 +17,9 @@ interface Props extends FieldProps<readonly (readonly number[])[]> {
     param: Param;
 }
 
-const coordinate: Omit<Param, "name"> = {
-    type: "float",
-    unit: "length",
-    default: 0,
-    min: null,
-    max: null,
-    aboveMin: false,
-    nonzero: false,
-    uniform: false,
-    direction: false,
-    step: null,
-    choices: [],
-    main: false,
-    doc: "",
-};
 const axisParams = [
-    { ...coordinate, name: "x" },
-    { ...coordinate, name: "y" },
+    numberParam("x", { unit: "length" }),
+    numberParam("y", { unit: "length" }),
 ] as const;
 
 export default function PointsField(props: Props) {

@@ -16,6 +16,7 @@ interface Props {
 function useReason(id: string): string | null {
     const editor = useEditor();
     useDocument((state) => state.document === null);
+    useDocument((state) => state.document?.camera);
     useDocument((state) => state.canUndo);
     useDocument((state) => state.canRedo);
     useView((view) => view.selection);

@@ -19,7 +19,7 @@ import { useState } from "react";
 import { redoTitle, undoTitle } from "../../model/history.ts";
 import { setPreferences } from "../../model/stores.ts";
 import type { Theme } from "../../model/view.ts";
-import { report, savePicture } from "../files.ts";
+import { report } from "../files.ts";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { Logo } from "../parts/Logo.tsx";
 import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
@@ -130,8 +130,12 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
             <MenuItem icon={<FileJson size={14} />} onSelect={() => editor.download()}>
                 {t("bar.downloadJson")}
             </MenuItem>
-            <MenuItem icon={<FileImage size={14} />} onSelect={() => void savePicture(editor)}>
-                {t("bar.downloadPng")}
+            <MenuItem
+                icon={<FileImage size={14} />}
+                keys={keyText("Ctrl+Shift+S")}
+                onSelect={() => editor.stores.view.setState({ popup: "picture" })}
+            >
+                {t("bar.downloadPicture")}
             </MenuItem>
             <MenuItem icon={<Upload size={14} />} onSelect={() => editor.upload()}>
                 {t("bar.upload")}

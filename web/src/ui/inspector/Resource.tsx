@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The forms of a resource: a material or a light with its values, a distance function or a shader
- * with what it declares and its code, a model. */
+/* The forms of a resource: a material, a light or a volume with its values, a distance function or
+ * a shader with what it declares and its code, a model. */
 import { useMemo, useState } from "react";
-import { findResource, resourceParams } from "../../model/document.ts";
+import { findResource, resourceParams, typesOf } from "../../model/document.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "../../model/places.ts";
 import { problemIn } from "../../model/problems.ts";
 import { type User, usersOf } from "../../model/usage.ts";
@@ -48,7 +48,7 @@ export function ResourceInspector({ list, name }: Props) {
                     </div>
                 </Section>
             )}
-            {list !== "lights" && <Users list={list} name={name} />}
+            {!LISTS[list].id && <Users list={list} name={name} />}
         </div>
     );
 }
@@ -58,8 +58,8 @@ function Head({ list, name, type }: Props & { type: string }) {
     const [refused, setRefused] = useState<string | null>(null);
     const resource = useDocument(({ document }) => document && findResource(document, list, name));
     const doc = useDocument(({ schema }) => {
-        const rows = list === "lights" ? schema.lights : list === "materials" ? schema.shaders : [];
-        return rows.find((row) => row.type === type)?.doc ?? t(`${list}.doc`);
+        const row = typesOf(schema, list).find((one) => one.type === type);
+        return row?.doc ?? t(`${list}.doc`);
     });
     const problem = useDocument(({ problems }) => {
         const found = problemIn(problems, resourcePlace(list, name));
@@ -135,7 +135,7 @@ function Acts({ list, name }: Props) {
 /* A material's shader may be one of the document's; those come last. */
 function TypeSelect({ list, name, type }: Props & { type: string }) {
     const { link } = useEditor();
-    const rows = useDocument(({ schema }) => schema[list === "lights" ? "lights" : "shaders"]);
+    const rows = useDocument(({ schema }) => typesOf(schema, list));
     const own = useDocument((state) => (list === "materials" ? state.document?.shaders : null));
     const options = useMemo<Option[]>(
         () => [
@@ -149,7 +149,7 @@ function TypeSelect({ list, name, type }: Props & { type: string }) {
         <Select
             quiet
             value={type}
-            label={t(list === "lights" ? "inspector.type" : "inspector.shader")}
+            label={t(list === "materials" ? "inspector.shader" : "inspector.type")}
             options={options}
             onChange={(value) =>
                 link.edit([{ op: "set", at: place, value }], {

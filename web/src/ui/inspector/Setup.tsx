@@ -2,6 +2,7 @@
 /* The forms of the camera, the environment and the render settings. */
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { Form } from "../form.tsx";
+import { CommandButton } from "../frame/Act.tsx";
 import { Button } from "../parts/Button.tsx";
 import { setups } from "../scene/Resources.tsx";
 import { useDocument, useEditor } from "../state.ts";
@@ -45,6 +46,7 @@ function CameraActs() {
             <Button look="outline" onClick={run("camera.document")}>
                 {t("inspector.backToView")}
             </Button>
+            <CommandButton id="camera.focus" />
         </div>
     );
 }

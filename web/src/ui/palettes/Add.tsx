@@ -6,7 +6,7 @@ import { whatAdding } from "../../model/add.ts";
 import type { SceneDocument } from "../../model/document.ts";
 import { nodeType } from "../../model/schema.ts";
 import { addNode } from "../acts.ts";
-import { ListIcon } from "../scene/ResourceIcon.tsx";
+import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { groupTitle, type Offer, offersOf, searchOffers, wrappersOf } from "./additions.ts";
@@ -103,7 +103,7 @@ function TilePicture({ offer: { type, group, named } }: { offer: Offer }) {
     if (named !== undefined) {
         return (
             <span className="type-picture">
-                <ListIcon list={group === "models" ? "models" : "primitives"} size={26} />
+                <TypeIcon list={group === "models" ? "models" : "primitives"} size={26} />
             </span>
         );
     }

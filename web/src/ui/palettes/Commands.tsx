@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The command palette: commands, what can be added, nodes by name, resources, scenes. */
-import { Box, ChevronRight } from "lucide-react";
+/* The command palette: commands, what can be added, nodes by name, resources, outputs, scenes. */
+import { Box, ChevronRight, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchCommands } from "../../model/commandLookup.ts";
 import { nodeLabel, type SceneDocument } from "../../model/document.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
-import { nodeType, type Schema } from "../../model/schema.ts";
+import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
 import { addNotice } from "../../model/stores.ts";
 import { addNode, selectNode } from "../acts.ts";
 import type { Editor } from "../editor.ts";
 import { keyText } from "../frame/keys.ts";
-import { typeTitle } from "../names.ts";
+import { outputTitle, typeTitle } from "../names.ts";
 import { Glyph } from "../parts/Glyph.tsx";
 import { goTo } from "../route.ts";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
@@ -100,6 +100,19 @@ function resourceEntries(editor: Editor, document: SceneDocument, query: string)
         );
 }
 
+function outputEntries(editor: Editor, schema: Schema, query: string): Entry[] {
+    return search(outputsShown(schema), query, ({ name, doc }) => ({
+        name: t("output.show", { name: outputTitle(name) }),
+        words: `${name} output`,
+        doc,
+    })).map(({ name }) => ({
+        id: `output-${name}`,
+        title: t("output.show", { name: outputTitle(name) }),
+        icon: <Layers2 size={15} aria-hidden="true" />,
+        run: () => editor.stores.view.setState({ aov: name }),
+    }));
+}
+
 function sceneEntries(scenes: readonly SceneEntry[], query: string): Entry[] {
     return search(scenes, query, ({ id, name }) => ({ name: name || id, words: id }))
         .slice(0, MOST_OTHERS)
@@ -158,8 +171,12 @@ export function CommandPalette() {
                 title: t("commands.resources"),
                 items: searched ? resourceEntries(editor, document, query) : [],
             };
+            const outputs = {
+                title: t("commands.outputs"),
+                items: searched ? outputEntries(editor, schema, query) : [],
+            };
             const groups = searched
-                ? [offers, nodes, resources, commands, others]
+                ? [offers, nodes, resources, commands, outputs, others]
                 : [commands, nodes, others];
             return groups.filter(({ items }) => items.length > 0);
         },

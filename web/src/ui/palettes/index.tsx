@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Everything that floats over the page: palettes, keys, the reference. One part, loaded later. */
+/* Everything that floats over the page: palettes, keys, the picture as a file, the reference. One part, loaded later. */
 import { ReferenceDialog } from "../reference/ReferenceDialog.tsx";
 import { Add } from "./Add.tsx";
 import { CommandPalette } from "./Commands.tsx";
 import { Keys } from "./Keys.tsx";
+import { PictureDialog } from "./PictureDialog.tsx";
 
 export default function Palettes() {
     return (
@@ -11,6 +12,7 @@ export default function Palettes() {
             <Add />
             <CommandPalette />
             <Keys />
+            <PictureDialog />
             <ReferenceDialog />
         </>
     );

@@ -48,13 +48,15 @@ export function PointMenu({ at, label, onClose, children }: PointMenuProps) {
 interface ItemProps {
     icon?: ReactNode;
     keys?: string;
+    /* What it is, in a smaller line below. */
+    doc?: string;
     danger?: boolean;
     disabled?: boolean;
     onSelect: () => void;
     children: ReactNode;
 }
 
-export function MenuItem({ icon, keys, danger, disabled, onSelect, children }: ItemProps) {
+export function MenuItem({ icon, keys, doc, danger, disabled, onSelect, children }: ItemProps) {
     return (
         <Base.Item
             className="menu-item"
@@ -63,7 +65,10 @@ export function MenuItem({ icon, keys, danger, disabled, onSelect, children }: I
             onClick={onSelect}
         >
             <span className="menu-icon">{icon}</span>
-            <span className="menu-text">{children}</span>
+            <span className="menu-text">
+                {children}
+                {doc && <span className="menu-doc">{doc}</span>}
+            </span>
             {keys && <span className="menu-keys">{keys}</span>}
         </Base.Item>
     );

@@ -54,6 +54,7 @@ export function topicsOf(schema: Schema): readonly Topic[] {
             }),
         ),
         ...schema.lights.map((row) => topic(row, "light", t("lights.title"))),
+        ...schema.volumes.map((row) => topic(row, "volume", t("volumes.title"))),
         ...schema.shaders.map((row) => topic(row, "shader", t("shaders.title"))),
         ...RECORDS.map(record),
     ];

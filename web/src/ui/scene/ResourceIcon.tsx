@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* What stands for a resource in lists and menus: a material's ball, else a sign of its kind. */
 import {
+    Cloud,
     Component,
     Lightbulb,
     type LucideIcon,
     Paintbrush,
+    Spotlight,
     SquareFunction,
     Sun,
 } from "lucide-react";
@@ -17,17 +19,22 @@ const icons: Record<ListName, LucideIcon> = {
     models: Component,
     materials: Paintbrush,
     lights: Lightbulb,
+    volumes: Cloud,
     primitives: SquareFunction,
     shaders: Paintbrush,
 };
 
-export function ListIcon({ list, size = 15 }: { list: ListName; size?: number }) {
-    const Icon = icons[list];
-    return <Icon size={size} aria-hidden="true" />;
+const lightIcons: Record<string, LucideIcon> = { directional: Sun, spot: Spotlight };
+
+interface TypeProps {
+    list: ListName;
+    type?: string;
+    size?: number;
 }
 
-export function LightIcon({ type, size = 15 }: { type: string; size?: number }) {
-    const Icon = type === "directional" ? Sun : Lightbulb;
+/* Of a list, or of a type where types look different. */
+export function TypeIcon({ list, type = "", size = 15 }: TypeProps) {
+    const Icon = (list === "lights" && lightIcons[type]) || icons[list];
     return <Icon size={size} aria-hidden="true" />;
 }
 
@@ -44,9 +51,5 @@ export function ResourceIcon({ list, name, size = 15 }: Props) {
     if (list === "materials") {
         return <Swatch name={name} />;
     }
-    return list === "lights" ? (
-        <LightIcon type={type} size={size} />
-    ) : (
-        <ListIcon list={list} size={size} />
-    );
+    return <TypeIcon list={list} type={type} size={size} />;
 }

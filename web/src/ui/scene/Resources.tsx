@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Below the tree: models, materials, lights, distance functions, shaders, each list in the same
- * way; and the camera, environment and render settings. */
+/* Below the tree: models, materials, lights, volumes, distance functions, shaders, each list in the
+ * same way; and the camera, environment and render settings. */
 import { Camera, CircleAlert, Image, type LucideIcon, Plus, SlidersHorizontal } from "lucide-react";
-import type { Resource } from "../../model/document.ts";
-import { LIST_NAMES, type ListName, type RecordName, resourcePlace } from "../../model/places.ts";
+import { type Resource, typesOf } from "../../model/document.ts";
+import {
+    LIST_NAMES,
+    LISTS,
+    type ListName,
+    type RecordName,
+    resourcePlace,
+} from "../../model/places.ts";
 import { problemIn } from "../../model/problems.ts";
 import { usersOf } from "../../model/usage.ts";
-import { addLight, addResource } from "../acts.ts";
+import { addResource, addTyped } from "../acts.ts";
 import { sentence } from "../form.tsx";
 import { Section } from "../inspector/Section.tsx";
 import { typeTitle } from "../names.ts";
@@ -14,7 +20,7 @@ import { IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem } from "../parts/Menu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
-import { LightIcon, ResourceIcon } from "./ResourceIcon.tsx";
+import { ResourceIcon, TypeIcon } from "./ResourceIcon.tsx";
 import { ResourceMenu } from "./ResourceMenu.tsx";
 import "../inspector/inspector.css";
 
@@ -34,7 +40,7 @@ function List({ list }: { list: ListName }) {
         <Section
             title={t(`${list}.title`)}
             count={resources?.length ?? 0}
-            action={list === "lights" ? <AddLight /> : <AddButton list={list} />}
+            action={LISTS[list].id ? <AddTyped list={list} /> : <AddButton list={list} />}
         >
             {resources?.length === 0 && <p className="empty-note">{t(`${list}.empty`)}</p>}
             <ul className="resource-list">
@@ -46,7 +52,7 @@ function List({ list }: { list: ListName }) {
     );
 }
 
-function AddButton({ list }: { list: Exclude<ListName, "lights"> }) {
+function AddButton({ list }: { list: ListName }) {
     const editor = useEditor();
     return (
         <IconButton
@@ -59,14 +65,15 @@ function AddButton({ list }: { list: Exclude<ListName, "lights"> }) {
     );
 }
 
-function AddLight() {
+/* Of which built-in type? */
+function AddTyped({ list }: { list: ListName }) {
     const editor = useEditor();
-    const types = useDocument((state) => state.schema.lights);
+    const types = useDocument(({ schema }) => typesOf(schema, list));
     return (
         <Menu
             align="end"
             trigger={
-                <IconButton title={t("lights.add")} data-size="s">
+                <IconButton title={t(`${list}.add`)} data-size="s">
                     <Plus size={14} />
                 </IconButton>
             }
@@ -74,8 +81,8 @@ function AddLight() {
             {types.map(({ type }) => (
                 <MenuItem
                     key={type}
-                    icon={<LightIcon type={type} />}
-                    onSelect={() => addLight(editor, type)}
+                    icon={<TypeIcon list={list} type={type} />}
+                    onSelect={() => addTyped(editor, list, type)}
                 >
                     {typeTitle(type)}
                 </MenuItem>

@@ -12,7 +12,7 @@ import { Glyph } from "../parts/Glyph.tsx";
 import { Swatch } from "../parts/Swatch.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { ListIcon } from "./ResourceIcon.tsx";
+import { TypeIcon } from "./ResourceIcon.tsx";
 import "./scene.css";
 
 /* What the tree keeps of a row; the heading of the models is no node. */
@@ -101,7 +101,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             }}
         >
             <Twist item={item} foldable={foldable} name={name} />
-            {model === null ? <Glyph type={node.type} group={group} /> : <ListIcon list="models" />}
+            {model === null ? <Glyph type={node.type} group={group} /> : <TypeIcon list="models" />}
             {renaming ? (
                 <Rename node={node} />
             ) : (

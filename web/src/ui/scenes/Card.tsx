@@ -2,8 +2,8 @@
 /* Cards of the start page: a picture, a name, and for own scenes what can be done with them. */
 import { Copy, Download, Ellipsis, Pencil, Trash2 } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
-import { download, type ExampleEntry, type SceneEntry } from "../../link/rest.ts";
-import { report } from "../files.ts";
+import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
+import { downloadJson, report } from "../files.ts";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
 import { addressOf, follow } from "../route.ts";
@@ -65,7 +65,11 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
             )();
         }
     };
-    const picture = rest.imageUrl(id, PICTURE_WIDTH, PICTURE_HEIGHT);
+    const picture = rest.imageUrl(id, {
+        width: PICTURE_WIDTH,
+        height: PICTURE_HEIGHT,
+        format: "jpg",
+    });
     return (
         <li className="card" data-scene={id}>
             <a className="card-open" href={addressOf(id)} onClick={follow(id)} aria-label={name}>
@@ -97,7 +101,7 @@ export function SceneCard({ scene, onChange, onLeave }: SceneProps) {
                     <MenuItem
                         icon={<Download size={14} />}
                         onSelect={() =>
-                            void attempt(async () => download(name, await rest.readScene(id)))()
+                            void attempt(async () => downloadJson(name, await rest.readScene(id)))()
                         }
                     >
                         {t("bar.downloadJson")}

@@ -3,7 +3,7 @@
 import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
-import { chooseFiles, report } from "../files.ts";
+import { chooseFiles, report, SCENE_FILES } from "../files.ts";
 import { ThemeButton } from "../frame/Bar.tsx";
 import { type ImportProblem, openFiles, readFiles, type TextFile } from "../import.ts";
 import { later } from "../later.tsx";
@@ -105,7 +105,7 @@ export default function ScenesPage() {
     const take = (files: readonly TextFile[]): void => void openFiles(editor, files, setProblem);
     const dropping = useDrop(take);
     const choose = (folder: boolean) => (): void =>
-        chooseFiles(folder, async (files) => take(await readFiles(files)));
+        chooseFiles(folder ? "folder" : SCENE_FILES, async (files) => take(await readFiles(files)));
     const start = async (make: () => Promise<string>): Promise<void> => {
         try {
             goTo(await make());

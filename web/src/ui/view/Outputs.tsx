@@ -1,35 +1,76 @@
 /* SPDX-License-Identifier: MIT */
-/* Which output is shown, and how sharp while moving. */
-import { Check, Layers2 } from "lucide-react";
+/* Which output is shown, and how sharp while moving. What is not the picture itself is marked, with
+ * the way back beside it. */
+import { Check, Layers2, X } from "lucide-react";
+import { outputsShown } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
-import { AOVS, QUALITIES } from "../../model/view.ts";
+import { COLOR, QUALITIES } from "../../model/view.ts";
+import { keyText } from "../frame/keys.ts";
+import { outputTitle } from "../names.ts";
 import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
-import { useEditor, useView } from "../state.ts";
+import { Tip } from "../parts/Tip.tsx";
+import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import "./view.css";
 
 export function Outputs() {
+    const aov = useView((view) => view.aov);
+    const name = outputTitle(aov);
+    return (
+        <div className="glass outputs" data-other={aov !== COLOR || undefined}>
+            <Menu
+                align="end"
+                trigger={
+                    <button
+                        type="button"
+                        className="pill"
+                        data-testid="outputs"
+                        aria-label={t("output.menu", { name })}
+                    >
+                        <Layers2 size={14} aria-hidden="true" />
+                        {name}
+                    </button>
+                }
+            >
+                <Choices />
+            </Menu>
+            {aov !== COLOR && <Back />}
+        </div>
+    );
+}
+
+function Back() {
     const { stores } = useEditor();
+    return (
+        <Tip text={t("output.back")} keys={keyText("Shift+Z")}>
+            <button
+                type="button"
+                className="pill outputs-back"
+                aria-label={t("output.back")}
+                onClick={() => stores.view.setState({ aov: COLOR })}
+            >
+                <X size={14} aria-hidden="true" />
+            </button>
+        </Tip>
+    );
+}
+
+function Choices() {
+    const { stores } = useEditor();
+    const schema = useDocument((state) => state.schema);
     const aov = useView((view) => view.aov);
     const quality = useView((view) => view.preferences.quality);
     const mark = (on: boolean) => (on ? <Check size={14} /> : undefined);
     return (
-        <Menu
-            align="end"
-            trigger={
-                <button type="button" className="glass pill" data-testid="outputs">
-                    <Layers2 size={14} aria-hidden="true" />
-                    {t(`aov.${aov}`)}
-                </button>
-            }
-        >
-            {AOVS.map((one) => (
+        <>
+            {outputsShown(schema).map(({ name, doc }) => (
                 <MenuItem
-                    key={one}
-                    icon={mark(one === aov)}
-                    onSelect={() => stores.view.setState({ aov: one })}
+                    key={name}
+                    icon={mark(name === aov)}
+                    doc={doc}
+                    onSelect={() => stores.view.setState({ aov: name })}
                 >
-                    {t(`aov.${one}`)}
+                    {outputTitle(name)}
                 </MenuItem>
             ))}
             <MenuLine />
@@ -42,6 +83,6 @@ export function Outputs() {
                     {t(`quality.${one}`)}
                 </MenuItem>
             ))}
-        </Menu>
+        </>
     );
 }

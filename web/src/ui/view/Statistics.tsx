@@ -1,32 +1,66 @@
 /* SPDX-License-Identifier: MIT */
 /* Frames per second and milliseconds in a pill; a press shows where the time goes. */
 import { Gauge } from "lucide-react";
+import type { Schema } from "../../model/schema.ts";
 import type { LinkState, Statistics as Numbers } from "../../model/stores.ts";
+import { words } from "../names.ts";
 import { Button } from "../parts/Button.tsx";
 import { Popover } from "../parts/Popover.tsx";
-import { useEditor, useLink, useView } from "../state.ts";
+import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import "./view.css";
 
+/* Where the time of a frame goes, in milliseconds. */
 interface Stage {
-    title: TextKey;
-    colour: string;
-    of: (numbers: Numbers) => number;
+    title: string;
+    doc: string;
+    time: number;
 }
 
-const stages: readonly Stage[] = [
-    { title: "stats.queue", colour: "#8f8f8f", of: (n) => n.queue },
-    { title: "stats.march", colour: "#5cc8c2", of: (n) => n.march },
-    { title: "stats.light", colour: "#f0a868", of: (n) => n.light },
-    { title: "stats.read", colour: "#c3a2f2", of: (n) => n.read },
-    { title: "stats.encode", colour: "#86b4ff", of: (n) => n.encode },
-    { title: "stats.net", colour: "#8bd280", of: (n) => n.receive },
-    { title: "stats.decode", colour: "#ff8f85", of: (n) => n.decode + n.present },
+/* Neighbours differ in colour and in lightness. */
+const COLOURS: readonly string[] = [
+    "#8f8f8f",
+    "#c3a2f2",
+    "#2f9c95",
+    "#8be0d9",
+    "#b4662a",
+    "#f0b97e",
+    "#c94f45",
+    "#ff9f96",
+    "#4b7fd6",
+    "#a9c8ff",
+    "#4f9a45",
+    "#a3dd98",
+    "#6b6b6b",
+    "#d0d0d0",
 ];
+const colourOf = (i: number): string => COLOURS[i % COLOURS.length] ?? "";
 
-function total(numbers: Numbers): number {
-    return stages.reduce((sum, stage) => sum + stage.of(numbers), 0);
+/* The server's stages, then what happens here. */
+function stagesOf(schema: Schema, numbers: Numbers): readonly Stage[] {
+    const here = (key: "net" | "decode" | "present", time: number): Stage => ({
+        title: t(`stats.${key}`),
+        doc: t(`stats.${key}Doc`),
+        time,
+    });
+    return [
+        ...schema.stages.map(({ name, doc }, i) => ({
+            title: words(name),
+            doc,
+            time: numbers.stages[i] ?? 0,
+        })),
+        here("net", numbers.receive),
+        here("decode", numbers.decode),
+        here("present", numbers.present),
+    ];
 }
+
+function total({ stages, receive, decode, present }: Numbers): number {
+    return stages.reduce((sum, time) => sum + time, receive + decode + present);
+}
+
+/* Milliseconds; less is written 0.0. */
+const LEAST_SHOWN = 0.05;
 
 const round = (x: number): string => (x >= 10 ? x.toFixed(0) : x.toFixed(1));
 
@@ -67,33 +101,37 @@ export default function StatisticsPill() {
 
 function Sheet() {
     const link = useLink((state) => state);
+    const schema = useDocument((state) => state.schema);
     const numbers = link.statistics;
     if (numbers === null) {
         return <p className="stats">{t("stats.none")}</p>;
     }
+    const stages = stagesOf(schema, numbers);
     const sum = Math.max(0.001, total(numbers));
     return (
         <div className="stats">
             <div className="stats-title">
-                <span>{t("stats.title")}</span>
+                <span>
+                    {t(numbers.state === "none" ? "stats.title" : `stats.${numbers.state}`)}
+                </span>
                 <span>{round(sum)} ms</span>
             </div>
             <div className="stats-bar" aria-hidden="true">
-                {stages.map(({ title, colour, of }) => (
+                {stages.map(({ title, time }, i) => (
                     <span
                         key={title}
-                        style={{ background: colour, flexGrow: Math.max(0, of(numbers)) / sum }}
+                        style={{ background: colourOf(i), flexGrow: Math.max(0, time) / sum }}
                     />
                 ))}
             </div>
             <dl className="stats-table">
-                {stages.map(({ title, colour, of }) => (
-                    <div key={title} className="stats-row">
+                {stages.map(({ title, doc, time }, i) => (
+                    <div key={title} className="stats-row" title={doc}>
                         <dt>
-                            <span className="stats-key" style={{ background: colour }} />
-                            {t(title)}
+                            <span className="stats-key" style={{ background: colourOf(i) }} />
+                            {title}
                         </dt>
-                        <dd>{round(of(numbers))} ms</dd>
+                        <dd data-none={time < LEAST_SHOWN || undefined}>{round(time)} ms</dd>
                     </div>
                 ))}
             </dl>

@@ -30,6 +30,7 @@ export function View() {
                 <Outputs />
             </div>
             <div className="view-bottom">
+                <Aim />
                 <Hint />
                 <div className="view-pills">
                     <StatePill />
@@ -45,6 +46,7 @@ export function View() {
 function Picture() {
     const editor = useEditor();
     const place = useRef<HTMLDivElement>(null);
+    const aiming = useView((view) => view.aiming);
     const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
     useEffect(() => {
         const element = place.current;
@@ -68,6 +70,7 @@ function Picture() {
                 ref={place}
                 className="view-picture"
                 data-testid="picture"
+                data-aiming={aiming || undefined}
                 data-region-focus=""
                 role="application"
                 aria-label={t("view.picture")}
@@ -80,6 +83,16 @@ function Picture() {
             </p>
             <NodeMenu at={menu} onClose={() => setMenu(null)} />
         </>
+    );
+}
+
+/* What the next click does, when it is not to select. */
+function Aim() {
+    const aiming = useView((view) => view.aiming);
+    return (
+        <div role="status" className="view-aim">
+            {aiming && <p className="glass view-hint">{t("view.aim")}</p>}
+        </div>
     );
 }
 

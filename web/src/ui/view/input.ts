@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* What pointing at the picture does to the stores: the camera, the selection, the menu. */
 
-import { moveCamera } from "../../model/actions.ts";
+import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf } from "../../model/document.ts";
+import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import type { InputActions } from "../../overlay/input.ts";
 import type { Editor } from "../editor.ts";
@@ -37,7 +38,18 @@ export function inputActions(
             selection: select(selection, node, mode),
             subject: { kind: "nodes" },
         }));
+    const aim = async (x: number, y: number): Promise<void> => {
+        stores.view.setState({ aiming: false });
+        const picked = await link.pick(x, y).catch(() => null);
+        if (picked?.position) {
+            focusOn(editor, vectorOf(picked.position));
+        }
+    };
     const click = async (x: number, y: number, mode: SelectMode): Promise<void> => {
+        if (stores.view.getState().aiming) {
+            await aim(x, y);
+            return;
+        }
         const node = await pick(x, y);
         const { document } = stores.document.getState();
         const { selection } = stores.view.getState();
