@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* Smoke, clouds and banks of fog: the light that they add along a ray, and the part that they let
+ * through. Light is scattered once on its way from a lamp to the eye. */
+
+/* What is at one place; all but the density is for each unit of it. */
+struct Smoke {
+    float density;
+    vec3 color, emission;
+    float anisotropy;
+};
+
+/* Where a ray is inside of a volume: entry and exit; exit < entry where it misses it. */
+vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
+{
+    vec3 from = origin - volume.place.xyz;
+    if (int(volume.place.w) == VOLUME_BOX) {
+        /* Along a side, and on it, 0 / 0 would be no number. */
+        vec3 along = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
+        return box_span(-volume.extent.xyz, volume.extent.xyz, from, along);
+    }
+    float middle = -dot(from, direction);
+    vec3 aside = from + middle * direction;
+    float half_way = volume.extent.x * volume.extent.x - dot(aside, aside);
+    return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
+}
+
+/* Density at p, which is d from the scene. */
+float volume_density(Volume volume, vec3 p, float d)
+{
+    vec3 from = p - volume.place.xyz, sides = volume.extent.xyz - abs(from);
+    float rim = int(volume.place.w) == VOLUME_BOX ? min(sides.x, min(sides.y, sides.z))
+                                                  : volume.extent.x - length(from);
+    float density = volume.color.w * smoothstep(0.0, max(volume.extent.w, 1e-6), rim);
+    int source = int(volume.source.x);
+    int octaves = source == DENSITY_NOISE && rim > 0.0 ? int(volume.noise.y) : 0;
+    float waves = noise_octaves(from * volume.noise.x, octaves, uint(volume.noise.z));
+    float part = source == DENSITY_NOISE   ? smoothstep(0.0, 0.6, waves - volume.noise.w)
+                 : source == DENSITY_FIELD ? exp(-max(d, 0.0) / volume.source.y)
+                                           : 1.0;
+    return density * part;
+}
+
+/* Where volumes overlap, their densities add up. */
+Smoke smoke_at(vec3 p, float d)
+{
+    Smoke sum = Smoke(0.0, vec3(0.0), vec3(0.0), 0.0);
+    for (int i = zero; i < effects.w; i++) {
+        float density = volume_density(volumes[i], p, d);
+        sum.density += density;
+        sum.color += density * volumes[i].color.rgb;
+        sum.emission += density * volumes[i].emission.rgb;
+        sum.anisotropy += density * volumes[i].emission.w;
+    }
+    float part = 1.0 / max(sum.density, 1e-20);
+    return Smoke(sum.density, part * sum.color, part * sum.emission, part * sum.anisotropy);
+}
+
+/* What is known of the volumes along a ray after a way of `at`. */
+struct Crossing {
+    float next;  /* where it enters or leaves one next; INFINITY: nowhere */
+    float last;  /* where it leaves the last one */
+    float whole; /* way in all of them together, up to `far` */
+    bool inside; /* of any at `at` */
+};
+
+Crossing crossing(vec3 origin, vec3 direction, float at, float far)
+{
+    Crossing c = Crossing(INFINITY, 0.0, 0.0, false);
+    for (int i = zero; i < effects.w; i++) {
+        vec2 span = volume_span(volumes[i], origin, direction);
+        bool inside = span.x <= at && at < span.y;
+        float edge = inside ? span.y : span.x;
+        c.next = span.x < span.y && edge > at ? min(c.next, edge) : c.next;
+        c.last = span.x < span.y ? max(c.last, span.y) : c.last;
+        c.whole += max(min(span.y, far) - max(span.x, at), 0.0);
+        c.inside = c.inside || inside;
+    }
+    return c;
+}
+
+/* Part of the light that is scattered to where its way is bent by an angle (Henyey and Greenstein:
+ * Diffuse radiation in the galaxy, 1941). In the unit of lamps: a white matt surface that faces one
+ * has its colour. */
+float phase(float cosine, float g)
+{
+    return 0.25 * (1.0 - g * g) * pow(max(1.0 + g * g - 2.0 * g * cosine, 1e-6), -1.5);
+}
+
+/* How sharp a lamp's shadow is in the air; 0: it throws none. */
+float shadow_sharpness(Light light)
+{
+    int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
+    return kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+}
+
+/* The light of all lamps that is scattered at p into `view`, for a colour of 1, and what is there.
+ *
+ * Each lamp is a walk from p towards it, whose first step tells what is at p. While it is in a
+ * volume its steps are counts.y parts of the way to the end of the last volume, or as much less as
+ * the scene is near; then it goes on through free space until the scene ends. */
+vec3 scattered(vec3 p, vec3 view, out Smoke here)
+{
+    vec3 sum = vec3(0.0);
+    here = Smoke(1.0, vec3(0.0), vec3(0.0), 0.0);
+    for (int i = zero; i < max(modes.x, 1) && here.density > 0.0; i++) {
+        Light light = lights[i];
+        Incoming lamp = incoming(light, p);
+        float sharpness = shadow_sharpness(light);
+        float thick = 0.9999 * min(crossing(p, lamp.direction, 0.0, 0.0).last, lamp.reach);
+        float free = min(bounds_span(p, lamp.direction).y, bounds_max.w);
+        float end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), thick) : thick;
+        float longest = thick / float(max(counts.y, 1));
+        float at = 0.0, stride = 0.0, depth = 0.0, before = 0.0, open = 1.0;
+        end = i < modes.x ? end : -1.0;
+
+        for (int k = zero; k <= 3 * counts.y; k++) {
+            through = k == 0 ? 0.0 : FAR;
+            float d = map(p + lamp.direction * at);
+            Smoke smoke = smoke_at(p + lamp.direction * at, d);
+            if (k == 0) {
+                here = smoke;
+            } else {
+                depth += 0.5 * stride * (before + smoke.density);
+                open = sharpness > 0.0 ? min(open, sharpness * d / at) : 1.0;
+            }
+            if (here.density == 0.0 || at >= end || open < 0.004) {
+                break;
+            }
+            float room = at < thick ? min(longest, thick - at) : end - at;
+            stride = sharpness > 0.0 ? min(max(d, 0.1 * longest), room) : room;
+            before = smoke.density;
+            at += stride;
+        }
+        open = max(open, 0.0);
+        float arrives = exp(-depth) * open * open * (3.0 - 2.0 * open);
+        float bent = phase(dot(view, lamp.direction), here.anisotropy);
+        sum += i < modes.x ? lamp.color * arrives * bent : vec3(0.0);
+    }
+    through = 0.0;
+    return sum;
+}
+
+/* The environment's light from everywhere. */
+vec3 sky_mean()
+{
+    vec3 x = vec3(1.0, 0.0, 0.0);
+    vec3 sum = sky_irradiance(x) + sky_irradiance(-x) + sky_irradiance(x.yxy) +
+               sky_irradiance(-x.yxy) + sky_irradiance(x.yyx) + sky_irradiance(-x.yyx);
+    return sum / 6.0;
+}
+
+/* Light added before distance t, and the part of the light from there that is let through. The ray
+ * goes by slabs, none of them across the rim of a volume; each is taken to be everywhere as it is
+ * at `place` of it, 0 to 1, and summed up in closed form (Hillaire: Physically based and unified
+ * volumetric rendering in Frostbite, SIGGRAPH 2015 course). */
+vec4 haze(Ray ray, float t, float place)
+{
+    float far = ray.inside ? 0.0 : min(t, bounds_max.w), at = 0.0, left = 1.0;
+    vec3 sum = vec3(0.0), around = sky_mean();
+    float stride =
+        crossing(ray.origin, ray.direction, 0.0, far).whole / float(max(counts.x, 1));
+    int most = stride > 0.0 ? counts.x + 2 * effects.w : 0;
+
+    for (int i = zero; i < most; i++) {
+        Crossing c = crossing(ray.origin, ray.direction, at, far);
+        float end = min(c.next, far);
+        bool whole = end - at < 1.001 * stride;
+        float slab = c.inside ? whole ? end - at : stride : 0.0;
+        Smoke here;
+        vec3 light = scattered(ray.origin + ray.direction * (at + place * slab), ray.direction, here);
+
+        float met = 1.0 - exp(-here.density * slab);
+        sum += left * met * (here.color * (light + around) + here.emission);
+        left *= 1.0 - met;
+        at = c.inside && !whole ? at + stride : end;
+        if (at >= far || left < 0.002) {
+            break;
+        }
+    }
+    return vec4(sum, left);
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* What volumes add to each sample's ray. */
+
+layout(binding = 0) uniform sampler2D geometry;
+layout(rgba16f, binding = 6) writeonly uniform image2D out_haze;
+
+void main()
+{
+    preload();
+    ivec2 here = group_place();
+    bool some = here.x >= 0;
+    Ray ray = ray_load(here);
+    float t = some ? abs(texelFetch(geometry, here, 0).w) : 0.0;
+    /* Where in its slabs a ray looks differs from pixel to pixel, and so no slab is seen. */
+    float place = fract(pixel_noise(tile.xy + here) + 0.61803399 * float(turn.x));
+    vec4 found = haze(ray, t, place);
+    if (some) {
+        imageStore(out_haze, here, vec4(min(found.rgb, 60000.0), found.a));
+    }
+}
