@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "limits.h"
+
 /* X(NAME, "name", channels, whole, picture, "what it is") */
 /* clang-format off */
 #define OUTPUTS(X) \
@@ -147,6 +149,26 @@ int quality_find(const char *name)
     }
     return -1;
 }
+
+/* clang-format off */
+const struct record_type picture_type = {"picture", "What is asked of a picture.",
+    (const struct param[]){
+    {"width", PARAM_INT, .def = {1280}, .min = 1, .max = LIMIT_IMAGE_SIDE,
+     .doc = "Pixels of the whole picture."},
+    {"height", PARAM_INT, .def = {720}, .min = 1, .max = LIMIT_IMAGE_SIDE,
+     .doc = "Pixels of the whole picture."},
+    {"region", PARAM_VEC4, .min = 0, .max = LIMIT_IMAGE_SIDE,
+     .doc = "x, y, width, height: the pixels of the picture that are wanted; absent: all."},
+    {"aov", PARAM_TEXT, .doc = "Outputs, with commas between them; several come as a ZIP."},
+    {"level", PARAM_ENUM, .def = {-1}, .choices = quality_names,
+     .doc = "Quality level; absent: the scene's."},
+    {"samples", PARAM_INT, .min = 1, .max = 4,
+     .doc = "Samples for each pixel along one axis; absent: the level's or the scene's."},
+    {"transparent", PARAM_BOOL, .def = {-1},
+     .doc = "Whether the background is left out; absent: as the scene says."},
+    {"quality", PARAM_INT, .min = 1, .max = 100, .doc = "Quality of a JPEG; absent: 90."},
+    {.name = NULL}}};
+/* clang-format on */
 
 static const struct stage_row stages[FRAME_STAGES] = {
     [FRAME_QUEUE] = {"queue", "Waiting for other pictures."},

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "error.h"
+#include "record.h"
 
 /* --- outputs --- */
 
@@ -82,6 +82,12 @@ struct quality {
 const struct quality *quality_row(enum quality_level level);
 int quality_find(const char *name);       /* -1: none */
 extern const char *const quality_names[]; /* NULL-terminated */
+
+/* --- a request --- */
+
+/* What may be asked of one picture besides its scene, camera and format. A level or transparency of
+ * -1: as the scene says. A region of width 0: all. */
+extern const struct record_type picture_type;
 
 /* --- time --- */
 

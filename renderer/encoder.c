@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Two lists under one lock: what is to be encoded, and what is done. */
+/* Two lists under one lock: pictures that are encoded, and those that are done. The thread works on
+ * one picture without the lock; meanwhile others only append to its rows. */
 #include "encoder.h"
 
 #include <pthread.h>
@@ -9,11 +10,35 @@
 
 #include "protocol/memory.h"
 
+enum {
+    SLICE_PIXELS = 1 << 18, /* encoded at a time: some 30 ms of PNG */
+    FULL_BYTES = 32 << 20,
+};
+
+struct rows {
+    enum aov aov;
+    struct image image;
+    int taken; /* rows of it that are encoded */
+    struct rows *next;
+};
+
+struct work {
+    struct encoding result; /* the first member: what the owner holds */
+    struct picture_file *file;
+    FILE *out; /* into `bytes` */
+    char *bytes;
+    size_t length;
+    struct rows *rows; /* the oldest first */
+    size_t waiting_bytes;
+    bool ended, whole, failed;
+    struct work *next;
+};
+
 struct encoder {
     pthread_t thread;
     pthread_mutex_t lock;
-    pthread_cond_t work;
-    struct encoding *waiting, *done;
+    pthread_cond_t change;
+    struct work *works, *done; /* in order of arrival */
     bool stop;
     int wake_fd;
 };
@@ -26,65 +51,134 @@ static uint64_t now_us(void)
     return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
 }
 
-static void append(struct encoding **list, struct encoding *encoding)
+static void append(struct work **list, struct work *work)
 {
     while (*list) {
         list = &(*list)->next;
     }
-    encoding->next = NULL;
-    *list = encoding;
+    work->next = NULL;
+    *list = work;
 }
 
-static struct encoding *take_first(struct encoding **list)
+static struct work *take_first(struct work **list)
 {
-    struct encoding **best = list;
-    struct encoding *taken;
+    struct work *first = *list;
 
-    for (struct encoding **at = list; *at; at = &(*at)->next) {
-        if ((*at)->priority < (*best)->priority) {
-            best = at;
+    if (first) {
+        *list = first->next;
+    }
+    return first;
+}
+
+static void drop_rows(struct work *work)
+{
+    struct rows *first = work->rows;
+
+    work->rows = first->next;
+    work->waiting_bytes -= first->image.bytes;
+    image_finish(&first->image);
+    free(first);
+}
+
+/* --- the thread --- */
+
+static struct work *most_urgent(const struct encoder *encoder)
+{
+    struct work *best = NULL;
+
+    for (struct work *work = encoder->works; work; work = work->next) {
+        if ((work->rows || work->ended) &&
+            (!best || work->result.priority < best->result.priority)) {
+            best = work;
         }
     }
-    taken = *best;
-    if (taken) {
-        *best = taken->next;
-        taken->next = NULL;
-    }
-    return taken;
+    return best;
 }
 
-static void encode(struct encoding *e)
+/* The next few of the oldest rows. */
+static struct image slice_of(const struct rows *rows)
 {
+    const int left = rows->image.height - rows->taken, some = SLICE_PIXELS / rows->image.width + 1;
+    const size_t stride = rows->image.bytes / (size_t)rows->image.height;
+    struct image slice = rows->image;
+
+    slice.height = left < some ? left : some;
+    slice.bytes = (size_t)slice.height * stride;
+    slice.pixels = (uint8_t *)rows->image.pixels + (size_t)rows->taken * stride;
+    return slice;
+}
+
+static bool encode_slice(struct work *work, struct rows *rows)
+{
+    const struct image slice = slice_of(rows);
+
+    rows->taken += slice.height;
+    return picture_file_add(work->file, rows->aov, &slice, &work->result.error);
+}
+
+static void wake_owner(const struct encoder *encoder)
+{
+    const uint64_t one = 1;
+
+    if (write(encoder->wake_fd, &one, sizeof one) < 0) {
+        /* The counter is full, so the reader is awake anyway. */
+    }
+}
+
+static void finish(struct encoder *encoder, struct work *work)
+{
+    struct work **at = &encoder->works;
+
+    while (*at != work) {
+        at = &(*at)->next;
+    }
+    *at = work->next;
+    append(&encoder->done, work);
+    wake_owner(encoder);
+}
+
+/* One step of a picture, without the lock. */
+static void encode(struct encoder *encoder, struct work *work)
+{
+    struct rows *rows = work->rows;
+    const bool wanted = !work->ended || work->whole;
     const uint64_t start = now_us();
 
-    e->ok = image_encode(&e->image, &e->params, &e->bytes, &e->length, &e->error);
-    e->encode_us = (uint32_t)(now_us() - start);
-    image_finish(&e->image);
+    pthread_mutex_unlock(&encoder->lock);
+    if (wanted && rows) {
+        work->failed = !encode_slice(work, rows);
+    } else if (wanted) {
+        work->result.ok = picture_file_end(work->file, &work->result.error);
+    }
+    work->result.encode_us += (uint32_t)(now_us() - start);
+    pthread_mutex_lock(&encoder->lock);
+    if (!wanted || !rows || work->failed) {
+        finish(encoder, work);
+    } else if (rows->taken == rows->image.height) {
+        drop_rows(work);
+        wake_owner(encoder);
+    }
 }
 
 static void *thread_main(void *data)
 {
     struct encoder *encoder = data;
-    const uint64_t one = 1;
 
     pthread_mutex_lock(&encoder->lock);
     while (!encoder->stop) {
-        struct encoding *encoding = take_first(&encoder->waiting);
-        if (!encoding) {
-            pthread_cond_wait(&encoder->work, &encoder->lock);
-            continue;
-        }
-        pthread_mutex_unlock(&encoder->lock);
-        encode(encoding);
-        pthread_mutex_lock(&encoder->lock);
-        append(&encoder->done, encoding);
-        if (write(encoder->wake_fd, &one, sizeof one) < 0) {
-            /* The counter is full, so the reader is awake anyway. */
+        struct work *work = most_urgent(encoder);
+
+        if (work) {
+            encode(encoder, work);
+        } else {
+            pthread_cond_wait(&encoder->change, &encoder->lock);
         }
     }
     pthread_mutex_unlock(&encoder->lock);
     return NULL;
 }
+
+/* --- for the owner --- */
 
 struct encoder *encoder_create(int wake_fd, struct error *err)
 {
@@ -92,10 +186,10 @@ struct encoder *encoder_create(int wake_fd, struct error *err)
 
     encoder->wake_fd = wake_fd;
     pthread_mutex_init(&encoder->lock, NULL);
-    pthread_cond_init(&encoder->work, NULL);
+    pthread_cond_init(&encoder->change, NULL);
     if (pthread_create(&encoder->thread, NULL, thread_main, encoder) != 0) {
         error_set(err, ERROR_UNAVAILABLE, "", "no thread for encoding pictures");
-        pthread_cond_destroy(&encoder->work);
+        pthread_cond_destroy(&encoder->change);
         pthread_mutex_destroy(&encoder->lock);
         free(encoder);
         return NULL;
@@ -105,51 +199,123 @@ struct encoder *encoder_create(int wake_fd, struct error *err)
 
 void encoder_destroy(struct encoder *encoder)
 {
-    struct encoding *left;
+    struct work *left;
 
     if (!encoder) {
         return;
     }
     pthread_mutex_lock(&encoder->lock);
     encoder->stop = true;
-    pthread_cond_signal(&encoder->work);
+    pthread_cond_signal(&encoder->change);
     pthread_mutex_unlock(&encoder->lock);
     pthread_join(encoder->thread, NULL);
-    while ((left = take_first(&encoder->waiting)) || (left = take_first(&encoder->done))) {
-        encoding_destroy(left);
+    while ((left = take_first(&encoder->works)) || (left = take_first(&encoder->done))) {
+        encoding_destroy(&left->result);
     }
-    pthread_cond_destroy(&encoder->work);
+    pthread_cond_destroy(&encoder->change);
     pthread_mutex_destroy(&encoder->lock);
     free(encoder);
 }
 
-void encoder_add(struct encoder *encoder, struct encoding *encoding)
+struct encoding *encoder_begin(struct encoder *encoder, const struct image shapes[AOV_COUNT],
+                               const struct encode_params *params, int priority, void *data,
+                               struct error *err)
 {
+    struct work *work = memory_alloc(1, sizeof *work);
+
+    work->out = open_memstream(&work->bytes, &work->length);
+    if (!work->out) {
+        abort();
+    }
+    work->file = picture_file_create(shapes, params, work->out, err);
+    if (!work->file) {
+        encoding_destroy(&work->result);
+        return NULL;
+    }
+    work->result.mime = picture_file_mime(work->file);
+    work->result.priority = priority;
+    work->result.data = data;
     pthread_mutex_lock(&encoder->lock);
-    append(&encoder->waiting, encoding);
-    pthread_cond_signal(&encoder->work);
+    append(&encoder->works, work);
     pthread_mutex_unlock(&encoder->lock);
+    return &work->result;
+}
+
+static struct work *work_of(struct encoding *encoding)
+{
+    return (struct work *)(void *)encoding;
+}
+
+void encoder_add(struct encoder *encoder, struct encoding *encoding, enum aov aov,
+                 struct image image)
+{
+    struct work *work = work_of(encoding);
+    struct rows *rows = memory_alloc(1, sizeof *rows), **end = &work->rows;
+
+    *rows = (struct rows){.aov = aov, .image = image};
+    pthread_mutex_lock(&encoder->lock);
+    while (*end) {
+        end = &(*end)->next;
+    }
+    *end = rows;
+    work->waiting_bytes += image.bytes;
+    pthread_cond_signal(&encoder->change);
+    pthread_mutex_unlock(&encoder->lock);
+}
+
+void encoder_end(struct encoder *encoder, struct encoding *encoding, bool whole)
+{
+    struct work *work = work_of(encoding);
+
+    pthread_mutex_lock(&encoder->lock);
+    work->ended = true;
+    work->whole = whole;
+    pthread_cond_signal(&encoder->change);
+    pthread_mutex_unlock(&encoder->lock);
+}
+
+bool encoder_is_full(struct encoder *encoder, const struct encoding *encoding)
+{
+    const struct work *work = (const struct work *)(const void *)encoding;
+    bool full;
+
+    pthread_mutex_lock(&encoder->lock);
+    full = work->waiting_bytes > FULL_BYTES;
+    pthread_mutex_unlock(&encoder->lock);
+    return full;
 }
 
 struct encoding *encoder_take(struct encoder *encoder)
 {
-    struct encoding *encoding;
+    struct work *work;
 
     pthread_mutex_lock(&encoder->lock);
-    encoding = encoder->done;
-    if (encoding) {
-        encoder->done = encoding->next;
-        encoding->next = NULL;
-    }
+    work = take_first(&encoder->done);
     pthread_mutex_unlock(&encoder->lock);
-    return encoding;
+    if (!work) {
+        return NULL;
+    }
+    fclose(work->out); /* sets `bytes` and `length` */
+    work->out = NULL;
+    work->result.bytes = (uint8_t *)work->bytes;
+    work->result.length = work->length;
+    return &work->result;
 }
 
 void encoding_destroy(struct encoding *encoding)
 {
-    if (encoding) {
-        image_finish(&encoding->image);
-        free(encoding->bytes);
-        free(encoding);
+    struct work *work = encoding ? work_of(encoding) : NULL;
+
+    if (!work) {
+        return;
     }
+    while (work->rows) {
+        drop_rows(work);
+    }
+    picture_file_destroy(work->file);
+    if (work->out) {
+        fclose(work->out);
+    }
+    free(work->bytes);
+    free(work);
 }

@@ -9,9 +9,9 @@
 
 enum {
     HEAD_BYTES = 8,
-    JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES, /* a document, printed anew, in its envelope */
-    PAYLOAD_MAX = 1 << 30,               /* raw values of the largest picture */
-    READER_KEEPS = 1 << 20,              /* capacity kept between packets */
+    JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES,     /* a document, printed anew, in its envelope */
+    PAYLOAD_MAX = LIMIT_IMAGE_BYTES + 65536, /* a picture, in a ZIP */
+    READER_KEEPS = 1 << 20,                  /* capacity kept between packets */
 };
 
 void packet_finish(struct packet *packet)

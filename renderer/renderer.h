@@ -9,6 +9,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "protocol/limits.h"
 #include "protocol/picture.h"
@@ -23,6 +24,7 @@ enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_SOFTWARE };
 struct renderer_params {
     enum device_kind device; /* DEVICE_GPU: an error where there is only software */
     int device_index;        /* among renderer_devices(); -1: the best */
+    int tile_side;           /* pixels, a multiple of 8; 0: what is good for the device */
     const char *cache_dir;   /* for Mesa's shader cache; NULL: the driver's default */
     void (*log)(void *data, const char *line);
     void *log_data;
@@ -57,6 +59,7 @@ struct renderer_counters {
     uint64_t compilations; /* programs compiled and linked since the start */
     uint64_t cache_hits;   /* scenes whose shape was there already */
     uint64_t tiles, pictures;
+    uint64_t rays; /* mirrored and broken ones */
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
@@ -64,6 +67,10 @@ struct renderer_counters renderer_counters(const struct renderer *renderer);
 bool renderer_stuck(const struct renderer *renderer);
 /* Scenes of this shape are never compiled: ERROR_QUARANTINED. For those that ended a process. */
 void renderer_refuse(struct renderer *renderer, uint64_t shape);
+
+/* A file that scenes name by its SHA-256, copied; it stays while a scene names it, and for some
+ * others after it. Before the first scene that does, or those are looked at anew. */
+void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length);
 
 /* --- scenes --- */
 
@@ -90,16 +97,30 @@ bool renderer_poll(struct renderer *renderer, int wait_ms);
 
 /* --- pictures --- */
 
-struct job_desc {
-    int width, height;
-    const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
-    enum aov aov;
-    int samples;    /* per axis, 1..4; 0: the scene's render settings. Only AOV_COLOR uses it */
-    bool exact;     /* wait for the newest revision's shader; else draw the newest drawable */
-    bool as_floats; /* give raw values (NPY), not 8/16-bit pixels */
+struct job_region {
+    int x, y, width, height; /* pixels of the whole picture, y down */
 };
 
-enum job_state { JOB_WAITING /* for a compilation */, JOB_RUNNING, JOB_DONE, JOB_FAILED };
+struct job_desc {
+    int width, height;           /* of the whole picture */
+    struct job_region region;    /* what of it is drawn; width 0: all */
+    const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
+    bool aovs[AOV_COUNT];        /* what it shows; none: color */
+    int level;                   /* enum quality_level; -1: the scene's render settings say it */
+    int samples;     /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
+    int transparent; /* 1: the background is left out, 0: not; -1: the scene's render settings */
+    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
+    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
+    bool from_camera; /* one program for everything instead of passes: for comparison */
+};
+
+enum job_state {
+    JOB_WAITING, /* for a compilation */
+    JOB_RUNNING,
+    JOB_ROWS, /* some rows are finished: job_take_rows */
+    JOB_DONE,
+    JOB_FAILED
+};
 
 /* The job draws the scene as it is now: later edits do not touch it. */
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
@@ -111,13 +132,15 @@ const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
 /* The shape of what it draws where there is code of users in it; else 0. */
 uint64_t job_shape_with_code(const struct job *job);
+/* Microseconds by enum frame_stage; those that only others know are 0. */
 struct job_times {
-    uint32_t march_us, light_us, read_us;
+    uint32_t us[FRAME_STAGES];
 };
 struct job_times job_times(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 
-/* Rows from the top, no padding. */
+/* Rows from the top, no padding. PIXEL_RGBA8 has four bytes for each pixel also with 3 channels: the
+ * fourth means nothing then. */
 enum pixel_format { PIXEL_RGBA8, PIXEL_GRAY16, PIXEL_FLOAT, PIXEL_UINT32 };
 struct image {
     int width, height;
@@ -127,24 +150,47 @@ struct image {
     size_t bytes;
 };
 void image_finish(struct image *image);
-/* Hands the finished picture over; valid once, after JOB_DONE. */
-struct image job_take_image(struct job *job);
-/* create + poll + step until done; for the command line and tests. */
+/* In state JOB_ROWS: the next rows of an output, full width, as an image of so many rows. A job
+ * holds one row of tiles at a time, so that the size of a picture is not bounded by memory. When
+ * all outputs' rows were taken, job_step goes on. */
+struct image job_take_rows(struct job *job, enum aov aov);
+/* What the whole picture of an output will be, without pixels; width 0: it was not asked for. */
+struct image job_image_shape(const struct job *job, enum aov aov);
+/* create + poll + step until done; for the command line and tests. One output. */
 bool renderer_render(struct resident *resident, const struct job_desc *desc,
                      struct image *out_image, struct error *err);
 
 enum image_format { IMAGE_PNG, IMAGE_JPEG, IMAGE_NPY };
 int image_format_find(const char *name); /* "png" "jpg" "jpeg" "npy"; -1: none */
+const char *image_format_name(enum image_format format);
 const char *image_format_mime(enum image_format format);
 struct encode_params {
     enum image_format format;
     int quality;        /* JPEG 1..100; 0: 90 */
     bool chroma_halved; /* JPEG 4:2:0 */
     bool fast;          /* PNG level 1, filter SUB: for streaming; the pixels are the same */
+    bool zipped;        /* a ZIP also of one output */
+    size_t limit_bytes; /* of the file; 0: none */
 };
 /* `*out_bytes` is malloc'ed. */
 bool image_encode(const struct image *image, const struct encode_params *params,
                   uint8_t **out_bytes, size_t *out_length, struct error *err);
+
+/* The file of a picture, written as its rows come: one output in its format, several in a ZIP of
+ * color.png, depth.png and so on; they wait in temporary files meanwhile. Any thread, one at a
+ * time. */
+struct picture_file;
+/* `shapes`: those of job_image_shape. `out` stays the caller's. NULL and `err` where the format
+ * cannot hold them. */
+struct picture_file *picture_file_create(const struct image shapes[AOV_COUNT],
+                                         const struct encode_params *params, FILE *out,
+                                         struct error *err);
+const char *picture_file_mime(const struct picture_file *file);
+bool picture_file_add(struct picture_file *file, enum aov aov, const struct image *rows,
+                      struct error *err);
+/* When all rows of all outputs were added. */
+bool picture_file_end(struct picture_file *file, struct error *err);
+void picture_file_destroy(struct picture_file *file);
 
 /* --- questions --- */
 

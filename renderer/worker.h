@@ -7,21 +7,24 @@
  * killed in the middle.
  *
  * front -> worker                                     worker -> front
+ *   asset  {asset} + payload, before a scene names it
  *   scene  {scene, revision, document}                  ready    {renderer{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, ERROR}
  *   refuse {shapes: [hex, ...]}                         warned   {scene, revision, ERROR}
  *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width,
- *           camera?, aov, samples, format, quality,               height, mime, march_us, light_us,
- *           chroma_halved, fast, exact}                           read_us, encode_us, queue_us}
- *                                                                 + payload
- *   cancel {job}                                        failed   {job, ERROR}
+ *           camera?, region? [x, y, width, height],               height, mime, STAGE_us...}
+ *           aov, level?, samples, transparent?,                   + payload
+ *           format, quality, chroma_halved, fast,       progress {job}  (now and then)
+ *           zipped, exact}                              failed   {job, ERROR}
+ *   cancel {job}
  *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position,
  *                                                                 normal, distance}
  *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
  *   stop   {}                                                     tiles, pictures, resident_bytes}
  *                                                       compiling, drawing {scene, revision, shape}
- * ERROR is code, place, message, and line and column where there are any.
+ * ERROR is code, place, message, and line and column where there are any. STAGE is each of the
+ * stages of protocol/picture.h. Several outputs (aov: names with commas) come as one ZIP.
  *
  * Before code of users is compiled, or drawn with, the worker names its scene, and an empty one
  * afterwards; it waits until the front has that. So it is known whose code ended it. A shape that

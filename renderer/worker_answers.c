@@ -12,6 +12,8 @@
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
+enum { OUT_KEEPS = 1 << 22 }; /* capacity kept between pictures */
+
 void worker_flush(struct worker *w)
 {
     while (w->out_sent < w->out_length) {
@@ -24,6 +26,11 @@ void worker_flush(struct worker *w)
             return;
         }
         w->out_sent += (size_t)sent;
+    }
+    if (w->out_capacity > OUT_KEEPS) {
+        free(w->out);
+        w->out = NULL;
+        w->out_sent = w->out_length = w->out_capacity = 0;
     }
 }
 
@@ -151,8 +158,17 @@ void worker_on_ping(struct worker *w, const cJSON *ping)
     worker_send(w, json, NULL, 0);
 }
 
-void worker_send_frame(struct worker *w, const struct task *task, const struct encoding *encoding)
+void worker_send_progress(struct worker *w, const struct task *task)
 {
+    cJSON *json = worker_answer("progress");
+
+    cJSON_AddNumberToObject(json, "job", (double)task->number);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_frame(struct worker *w, const struct task *task)
+{
+    const struct encoding *encoding = task->encoding;
     cJSON *json = worker_answer("frame");
 
     cJSON_AddNumberToObject(json, "job", (double)task->number);
@@ -160,11 +176,12 @@ void worker_send_frame(struct worker *w, const struct task *task, const struct e
     cJSON_AddBoolToObject(json, "newest", task->newest);
     cJSON_AddNumberToObject(json, "width", task->width);
     cJSON_AddNumberToObject(json, "height", task->height);
-    cJSON_AddStringToObject(json, "mime", image_format_mime(task->encode.format));
-    cJSON_AddNumberToObject(json, "march_us", task->times.march_us);
-    cJSON_AddNumberToObject(json, "light_us", task->times.light_us);
-    cJSON_AddNumberToObject(json, "read_us", task->times.read_us);
-    cJSON_AddNumberToObject(json, "encode_us", encoding->encode_us);
-    cJSON_AddNumberToObject(json, "queue_us", (double)(task->begun_us - task->received_us));
+    cJSON_AddStringToObject(json, "mime", encoding->mime);
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        char name[STAGE_MEMBER_BYTES];
+
+        stage_member((enum frame_stage)i, name);
+        cJSON_AddNumberToObject(json, name, task->times.us[i]);
+    }
     worker_send(w, json, encoding->bytes, encoding->length);
 }

@@ -20,11 +20,11 @@ struct task {
     uint64_t number; /* the front's */
     char *scene;
     int priority;
-    struct job *job; /* NULL once the picture is with the encoder */
-    struct encode_params encode;
+    struct job *job; /* NULL once it is drawn, or given up */
+    struct encoding *encoding;
     bool newest;
-    bool cancelled; /* while with the encoder */
-    uint64_t received_us, begun_us;
+    bool answered; /* failed or cancelled: nobody waits for what is encoded */
+    uint64_t received_us, begun_us, told_us;
     uint64_t revision;
     int width, height;
     struct job_times times;
@@ -61,7 +61,8 @@ void worker_send_failed(struct worker *w, uint64_t job, const struct error *err)
 void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
                        const struct error *err);
 void worker_send_ready(struct worker *w);
-void worker_send_frame(struct worker *w, const struct task *task, const struct encoding *encoding);
+void worker_send_progress(struct worker *w, const struct task *task);
+void worker_send_frame(struct worker *w, const struct task *task);
 /* `compiling` or `drawing`: whose code is at work from here on; scene "": nobody's. */
 void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
                          uint64_t shape);
@@ -83,7 +84,6 @@ void worker_on_pick(struct worker *w, const cJSON *packet);
 
 /* --- worker_pictures.c --- */
 
-uint64_t worker_now_us(void);
 void worker_drop_task(struct task **at);
 /* The most urgent picture that can go on; NULL: none. */
 struct task **worker_choose_task(struct worker *w);

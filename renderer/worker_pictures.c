@@ -9,9 +9,12 @@
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
-enum { OLDEST_EVERY = 8 }; /* tiles */
+enum {
+    OLDEST_EVERY = 8,      /* tiles */
+    PROGRESS_US = 1000000, /* how often a long picture is told to go on */
+};
 
-uint64_t worker_now_us(void)
+static uint64_t now_us(void)
 {
     struct timespec t;
 
@@ -42,6 +45,8 @@ static bool read_format(const cJSON *packet, struct encode_params *out, struct e
         .quality = (int)json_member_number(packet, "quality", 0),
         .chroma_halved = json_member_bool(packet, "chroma_halved", false),
         .fast = json_member_bool(packet, "fast", false),
+        .zipped = json_member_bool(packet, "zipped", false),
+        .limit_bytes = LIMIT_IMAGE_BYTES,
     };
     return true;
 }
@@ -61,47 +66,94 @@ int worker_read_int(const cJSON *packet, const char *name, int fallback)
     return value >= 0 && value < 1e9 ? (int)value : -1;
 }
 
-static struct job *make_job(struct worker *w, const cJSON *packet, struct task *task,
+/* The member's value in the packet: a region of so many whole numbers. */
+static bool read_region(const cJSON *packet, struct job_region *out, struct error *err)
+{
+    const cJSON *region = cJSON_GetObjectItemCaseSensitive(packet, "region");
+    int numbers[4] = {0};
+
+    for (int i = 0; region && i < 4; i++) {
+        const cJSON *number = cJSON_GetArrayItem(region, i);
+
+        if (!cJSON_IsNumber(number)) {
+            return error_set(err, ERROR_INVALID, "region", "is not x, y, width, height");
+        }
+        numbers[i] = number->valueint;
+    }
+    *out = (struct job_region){numbers[0], numbers[1], numbers[2], numbers[3]};
+    return true;
+}
+
+static bool read_level(const cJSON *packet, int *out, struct error *err)
+{
+    const char *name = json_member_text(packet, "level", NULL);
+
+    *out = name ? quality_find(name) : -1;
+    return !name || *out >= 0 || error_set(err, ERROR_INVALID, "level", "\"%s\" is unknown", name);
+}
+
+/* All but the camera. */
+static bool read_desc(const cJSON *packet, bool as_floats, struct job_desc *out, struct error *err)
+{
+    *out = (struct job_desc){
+        .width = worker_read_int(packet, "width", 0),
+        .height = worker_read_int(packet, "height", 0),
+        .samples = worker_read_int(packet, "samples", 0),
+        .transparent = json_member_bool(packet, "transparent", false),
+        .exact = json_member_bool(packet, "exact", false),
+        .as_floats = as_floats,
+    };
+    if (!cJSON_HasObjectItem(packet, "transparent")) {
+        out->transparent = -1;
+    }
+    return aovs_read(json_member_text(packet, "aov", "color"), out->aovs, "aov", err) &&
+           read_level(packet, &out->level, err) && read_region(packet, &out->region, err);
+}
+
+static struct job *make_job(struct resident *resident, const cJSON *packet, bool as_floats,
                             struct error *err)
 {
-    const char *name = json_member_text(packet, "scene", "");
-    const char *aov_text = json_member_text(packet, "aov", "color");
-    const int aov = aov_find(aov_text);
-    struct held *held = *worker_find_scene(w, name);
     struct record camera;
+    struct job_desc desc;
     struct job *job = NULL;
     bool given;
 
-    if (!held) {
-        error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", name);
-        return NULL;
-    }
-    if (aov < 0) {
-        error_set(err, ERROR_INVALID, "aov", "\"%s\" is not color, depth, normal or id", aov_text);
-        return NULL;
-    }
     record_init(&camera, &camera_type);
-    if (read_format(packet, &task->encode, err) &&
-        worker_read_camera(packet, &camera, &given, err)) {
-        const struct job_desc desc = {
-            .width = worker_read_int(packet, "width", 0),
-            .height = worker_read_int(packet, "height", 0),
-            .camera = given ? &camera : NULL,
-            .aov = (enum aov)aov,
-            .samples = worker_read_int(packet, "samples", 0),
-            .exact = json_member_bool(packet, "exact", false),
-            .as_floats = task->encode.format == IMAGE_NPY,
-        };
-        task->width = desc.width;
-        task->height = desc.height;
-        job = job_create(held->resident, &desc, err);
+    if (worker_read_camera(packet, &camera, &given, err) &&
+        read_desc(packet, as_floats, &desc, err)) {
+        desc.camera = given ? &camera : NULL;
+        job = job_create(resident, &desc, err);
     }
     record_finish(&camera);
-    if (job) {
-        task->revision = job_revision(job);
-        task->newest = task->revision == resident_revision(held->resident);
-    }
     return job;
+}
+
+/* The picture's job and its encoding. */
+static bool begin_task(struct worker *w, const cJSON *packet, struct task *task, struct error *err)
+{
+    const struct held *held = *worker_find_scene(w, task->scene);
+    struct image shapes[AOV_COUNT];
+    struct encode_params encode;
+
+    if (!held) {
+        return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
+    }
+    if (!read_format(packet, &encode, err)) {
+        return false;
+    }
+    task->job = make_job(held->resident, packet, encode.format == IMAGE_NPY, err);
+    if (!task->job) {
+        return false;
+    }
+    for (int i = 0; i < AOV_COUNT; i++) {
+        shapes[i] = job_image_shape(task->job, (enum aov)i);
+        task->width = shapes[i].width ? shapes[i].width : task->width;
+        task->height = shapes[i].width ? shapes[i].height : task->height;
+    }
+    task->revision = job_revision(task->job);
+    task->newest = task->revision == resident_revision(held->resident);
+    task->encoding = encoder_begin(w->encoder, shapes, &encode, task->priority, task, err);
+    return task->encoding;
 }
 
 void worker_on_render(struct worker *w, const cJSON *packet)
@@ -113,9 +165,8 @@ void worker_on_render(struct worker *w, const cJSON *packet)
     task->number = (uint64_t)json_member_number(packet, "job", 0);
     task->scene = memory_text(json_member_text(packet, "scene", ""));
     task->priority = (int)json_member_number(packet, "priority", 0);
-    task->received_us = worker_now_us();
-    task->job = make_job(w, packet, task, &err);
-    if (!task->job) {
+    task->received_us = task->told_us = now_us();
+    if (!begin_task(w, packet, task, &err)) {
         worker_send_failed(w, task->number, &err);
         worker_drop_task(&task);
         return;
@@ -126,24 +177,29 @@ void worker_on_render(struct worker *w, const cJSON *packet)
     *last = task;
 }
 
+/* It stays until the encoder gives it back. */
+static void give_up(struct worker *w, struct task *task)
+{
+    task->answered = true;
+    job_destroy(task->job);
+    task->job = NULL;
+    encoder_end(w->encoder, task->encoding, false);
+}
+
 void worker_on_cancel(struct worker *w, const cJSON *packet)
 {
     const uint64_t number = (uint64_t)json_member_number(packet, "job", 0);
 
-    for (struct task **at = &w->tasks; *at; at = &(*at)->next) {
-        if ((*at)->number == number) {
-            if ((*at)->job) {
-                worker_drop_task(at);
-            } else {
-                (*at)->cancelled = true;
-            }
+    for (struct task *task = w->tasks; task; task = task->next) {
+        if (task->number == number) {
+            give_up(w, task);
             return;
         }
     }
 }
 
 /* Now and then the oldest, so that a stream of urgent ones cannot stop a picture for good.
- * Those waiting for a compiler let others pass. */
+ * Those waiting for a compiler or the encoder let others pass. */
 struct task **worker_choose_task(struct worker *w)
 {
     const bool oldest = w->steps % OLDEST_EVERY == 0;
@@ -151,26 +207,35 @@ struct task **worker_choose_task(struct worker *w)
 
     for (struct task **at = &w->tasks; *at; at = &(*at)->next) {
         if ((*at)->job && (!best || (!oldest && (*at)->priority < (*best)->priority)) &&
-            job_step_possible((*at)->job)) {
+            job_step_possible((*at)->job) && !encoder_is_full(w->encoder, (*at)->encoding)) {
             best = at;
         }
     }
     return best;
 }
 
-static void hand_to_encoder(struct worker *w, struct task *task)
+static void hand_rows_over(struct worker *w, struct task *task)
 {
-    struct encoding *encoding = memory_alloc(1, sizeof *encoding);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const enum aov aov = (enum aov)i;
 
-    encoding->job = task->number;
-    encoding->priority = task->priority;
-    encoding->params = task->encode;
-    encoding->data = task;
+        if (job_image_shape(task->job, aov).width > 0) {
+            encoder_add(w->encoder, task->encoding, aov, job_take_rows(task->job, aov));
+        }
+    }
+    if (now_us() - task->told_us > PROGRESS_US) {
+        task->told_us = now_us();
+        worker_send_progress(w, task);
+    }
+}
+
+static void finish_drawing(struct worker *w, struct task *task)
+{
     task->times = job_times(task->job);
-    encoding->image = job_take_image(task->job);
+    task->times.us[FRAME_QUEUE] = (uint32_t)(task->begun_us - task->received_us);
     job_destroy(task->job);
     task->job = NULL;
-    encoder_add(w->encoder, encoding);
+    encoder_end(w->encoder, task->encoding, true);
 }
 
 /* Whose code draws from here on, if anybody's. */
@@ -198,22 +263,38 @@ void worker_step(struct worker *w, struct task **at)
     }
     w->steps++;
     if (task->begun_us == 0) {
-        task->begun_us = worker_now_us();
+        task->begun_us = now_us();
     }
     switch (job_step(task->job)) {
     case JOB_WAITING:
     case JOB_RUNNING:
         break;
+    case JOB_ROWS:
+        hand_rows_over(w, task);
+        break;
     case JOB_DONE:
-        hand_to_encoder(w, task);
+        finish_drawing(w, task);
         break;
     case JOB_FAILED:
         worker_send_failed(w, task->number, job_error(task->job));
         if (job_error(task->job)->kind == ERROR_UNAVAILABLE) {
             w->status = WORKER_DEVICE_LOST;
         }
-        worker_drop_task(at);
+        give_up(w, task);
         break;
+    }
+}
+
+static void answer(struct worker *w, struct task *task)
+{
+    if (task->answered) {
+        return;
+    }
+    task->times.us[FRAME_ENCODE] = task->encoding->encode_us;
+    if (task->encoding->ok) {
+        worker_send_frame(w, task);
+    } else {
+        worker_send_failed(w, task->number, &task->encoding->error);
     }
 }
 
@@ -230,11 +311,7 @@ void worker_collect_encodings(struct worker *w)
         while (*at != encoding->data) {
             at = &(*at)->next;
         }
-        if (!(*at)->cancelled && encoding->ok) {
-            worker_send_frame(w, *at, encoding);
-        } else if (!(*at)->cancelled) {
-            worker_send_failed(w, (*at)->number, &encoding->error);
-        }
+        answer(w, *at);
         worker_drop_task(at);
         encoding_destroy(encoding);
     }

@@ -1,20 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Formats by name, and the way to their encoders. */
+/* Formats by name, and the way of rows into files. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "encode.h"
 
-static const struct format {
-    const char *name, *mime;
-    bool (*encode)(const struct image *image, const struct encode_params *params,
-                   uint8_t **out_bytes, size_t *out_length, struct error *err);
-} formats[] = {
-    [IMAGE_PNG] = {"png", "image/png", png_encode},
-    [IMAGE_JPEG] = {"jpg", "image/jpeg", jpeg_encode},
-    [IMAGE_NPY] = {"npy", "application/x-npy", npy_encode},
-};
-enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+static const struct encoder_class *const classes[] = {
+    [IMAGE_PNG] = &png_class, [IMAGE_JPEG] = &jpeg_class, [IMAGE_NPY] = &npy_class};
+enum { FORMAT_COUNT = sizeof classes / sizeof classes[0] };
 
 void image_finish(struct image *image)
 {
@@ -25,23 +19,81 @@ void image_finish(struct image *image)
 int image_format_find(const char *name)
 {
     for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (strcmp(formats[i].name, name) == 0) {
+        if (strcmp(classes[i]->name, name) == 0) {
             return i;
         }
     }
     return strcmp(name, "jpeg") == 0 ? IMAGE_JPEG : -1;
 }
 
+const char *image_format_name(enum image_format format)
+{
+    return classes[format]->name;
+}
+
 const char *image_format_mime(enum image_format format)
 {
-    return formats[format].mime;
+    return classes[format]->mime;
+}
+
+bool encode_flush(FILE *out, struct error *err)
+{
+    return (fflush(out) == 0 && !ferror(out)) ||
+           error_set(err, ERROR_UNAVAILABLE, "", "the picture cannot be written: %s",
+                     strerror(errno));
+}
+
+bool image_encoder_begin(struct image_encoder *encoder, const struct image *shape,
+                         const struct encode_params *params, FILE *out, struct error *err)
+{
+    if ((int)params->format < 0 || (int)params->format >= FORMAT_COUNT) {
+        return error_set(err, ERROR_INVALID, "format", "unknown");
+    }
+    encoder->class = classes[params->format];
+    encoder->out = out;
+    encoder->state = encoder->class->begin(shape, params, out, err);
+    return encoder->state;
+}
+
+bool image_encoder_add(struct image_encoder *encoder, const struct image *rows, struct error *err)
+{
+    return encoder->class->add(encoder->state, rows, err);
+}
+
+bool image_encoder_end(struct image_encoder *encoder, struct error *err)
+{
+    return encoder->class->end(encoder->state, err) && encode_flush(encoder->out, err);
+}
+
+void image_encoder_finish(struct image_encoder *encoder)
+{
+    if (encoder->state) {
+        encoder->class->destroy(encoder->state);
+    }
+    *encoder = (struct image_encoder){0};
 }
 
 bool image_encode(const struct image *image, const struct encode_params *params,
                   uint8_t **out_bytes, size_t *out_length, struct error *err)
 {
-    if ((int)params->format < 0 || (int)params->format >= FORMAT_COUNT) {
-        return error_set(err, ERROR_INVALID, "format", "unknown");
+    struct image_encoder encoder = {0};
+    char *bytes = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&bytes, &length);
+    bool ok;
+
+    if (!out) {
+        abort();
     }
-    return formats[params->format].encode(image, params, out_bytes, out_length, err);
+    ok = image_encoder_begin(&encoder, image, params, out, err) &&
+         image_encoder_add(&encoder, image, err) && image_encoder_end(&encoder, err);
+    image_encoder_finish(&encoder);
+    fclose(out);
+    if (!ok) {
+        free(bytes);
+        return false;
+    }
+    *out_bytes = (uint8_t *)bytes;
+    *out_length = length;
+    return true;
 }

@@ -1,60 +1,145 @@
 /* SPDX-License-Identifier: MIT */
 /* JPEG by libjpeg-turbo: colour from 8-bit pixels, grey from the upper half of 16 bits. */
+#include <setjmp.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <turbojpeg.h>
+
+#include <jpeglib.h>
 
 #include "encode.h"
 #include "protocol/memory.h"
 
 enum { QUALITY_DEFAULT = 90 };
 
-static uint8_t *gray_bytes(const struct image *image)
-{
-    const size_t count = (size_t)image->width * (size_t)image->height;
-    const uint16_t *from = image->pixels;
-    uint8_t *to = memory_alloc(count, 1);
+struct writer {
+    struct jpeg_error_mgr errors; /* the first, for the way back from the library's pointer to it */
+    struct jpeg_compress_struct jpeg;
+    jmp_buf back;
+    uint8_t *grays; /* one row; NULL: colours */
+};
 
-    for (size_t i = 0; i < count; i++) {
-        to[i] = (uint8_t)(from[i] >> 8);
-    }
-    return to;
+static void on_error(j_common_ptr jpeg)
+{
+    longjmp(((struct writer *)(void *)jpeg->err)->back, 1);
 }
 
-bool jpeg_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
-                 size_t *out_length, struct error *err)
+static void on_message(j_common_ptr jpeg)
 {
-    const bool gray = image->format == PIXEL_GRAY16;
-    const int quality = params->quality ? params->quality : QUALITY_DEFAULT;
-    const int sampling = gray ? TJSAMP_GRAY : params->chroma_halved ? TJSAMP_420 : TJSAMP_444;
-    uint8_t *grays = NULL, *bytes = NULL;
-    unsigned long length = 0;
-    tjhandle jpeg;
-    bool ok;
+    (void)jpeg;
+}
 
-    if (image->format != PIXEL_RGBA8 && !gray) {
+static bool fail(struct writer *w, struct error *err)
+{
+    char text[JMSG_LENGTH_MAX];
+
+    w->errors.format_message((j_common_ptr)&w->jpeg, text);
+    return error_set(err, ERROR_INTERNAL, "jpeg", "%s", text);
+}
+
+static bool accepts(const struct image *shape, const struct encode_params *params,
+                    struct error *err)
+{
+    if (shape->format != PIXEL_RGBA8 && shape->format != PIXEL_GRAY16) {
         return error_set(err, ERROR_INVALID, "format", "JPEG holds no raw values; npy does");
     }
-    if (quality < 1 || quality > 100) {
-        return error_set(err, ERROR_LIMIT, "quality", "%d is not in 1..100", quality);
+    if (shape->format == PIXEL_RGBA8 && shape->channels == 4) {
+        return error_set(err, ERROR_INVALID, "format",
+                         "JPEG holds no transparent background; png does");
     }
-    jpeg = tjInitCompress();
-    if (!jpeg) {
-        return error_set(err, ERROR_INTERNAL, "jpeg", "%s", tjGetErrorStr2(NULL));
+    if (params->quality < 0 || params->quality > 100) {
+        return error_set(err, ERROR_LIMIT, "quality", "%d is not in 1..100", params->quality);
     }
-    grays = gray ? gray_bytes(image) : NULL;
-    ok = tjCompress2(jpeg, gray ? grays : image->pixels, image->width, 0, image->height,
-                     gray ? TJPF_GRAY : TJPF_RGBX, &bytes, &length, sampling, quality, 0) == 0;
-    if (ok) {
-        /* The library's memory has its own way to be freed; ours is malloc's. */
-        *out_bytes = memory_alloc(length, 1);
-        memcpy(*out_bytes, bytes, length);
-        *out_length = length;
-    } else {
-        error_set(err, ERROR_INTERNAL, "jpeg", "%s", tjGetErrorStr2(jpeg));
-    }
-    tjFree(bytes);
-    tjDestroy(jpeg);
-    free(grays);
-    return ok;
+    return true;
 }
+
+static bool start(struct writer *w, const struct image *shape, const struct encode_params *params,
+                  FILE *out, struct error *err)
+{
+    if (setjmp(w->back)) {
+        return fail(w, err);
+    }
+    jpeg_create_compress(&w->jpeg);
+    jpeg_stdio_dest(&w->jpeg, out);
+    w->jpeg.image_width = (JDIMENSION)shape->width;
+    w->jpeg.image_height = (JDIMENSION)shape->height;
+    w->jpeg.input_components = w->grays ? 1 : 4;
+    w->jpeg.in_color_space = w->grays ? JCS_GRAYSCALE : JCS_EXT_RGBX;
+    jpeg_set_defaults(&w->jpeg);
+    jpeg_set_quality(&w->jpeg, params->quality ? params->quality : QUALITY_DEFAULT, TRUE);
+    w->jpeg.dct_method = params->fast ? JDCT_IFAST : JDCT_ISLOW;
+    if (!params->chroma_halved) {
+        w->jpeg.comp_info[0].h_samp_factor = w->jpeg.comp_info[0].v_samp_factor = 1;
+    }
+    jpeg_start_compress(&w->jpeg, TRUE);
+    return true;
+}
+
+static void destroy(void *state)
+{
+    struct writer *w = state;
+
+    jpeg_destroy_compress(&w->jpeg);
+    free(w->grays);
+    free(w);
+}
+
+static void *begin(const struct image *shape, const struct encode_params *params, FILE *out,
+                   struct error *err)
+{
+    struct writer *w;
+
+    if (!accepts(shape, params, err)) {
+        return NULL;
+    }
+    w = memory_alloc(1, sizeof *w);
+    w->jpeg.err = jpeg_std_error(&w->errors);
+    w->errors.error_exit = on_error;
+    w->errors.output_message = on_message;
+    w->grays = shape->format == PIXEL_GRAY16 ? memory_alloc((size_t)shape->width, 1) : NULL;
+    if (!start(w, shape, params, out, err)) {
+        destroy(w);
+        return NULL;
+    }
+    return w;
+}
+
+static JSAMPROW row_of(const struct writer *w, const struct image *rows, int y)
+{
+    const size_t width = (size_t)rows->width;
+    const uint16_t *from = (const uint16_t *)rows->pixels + (size_t)y * width;
+
+    if (!w->grays) {
+        return (JSAMPROW)rows->pixels + (size_t)y * width * 4;
+    }
+    for (size_t x = 0; x < width; x++) {
+        w->grays[x] = (uint8_t)(from[x] >> 8);
+    }
+    return w->grays;
+}
+
+static bool add(void *state, const struct image *rows, struct error *err)
+{
+    struct writer *w = state;
+
+    if (setjmp(w->back)) {
+        return fail(w, err);
+    }
+    for (int y = 0; y < rows->height; y++) {
+        JSAMPROW row = row_of(w, rows, y);
+        jpeg_write_scanlines(&w->jpeg, &row, 1);
+    }
+    return true;
+}
+
+static bool end(void *state, struct error *err)
+{
+    struct writer *w = state;
+
+    if (setjmp(w->back)) {
+        return fail(w, err);
+    }
+    jpeg_finish_compress(&w->jpeg);
+    return true;
+}
+
+const struct encoder_class jpeg_class = {"jpg", "image/jpeg", begin, add, end, destroy};

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* NPY, version 1.0: the raw values with a header that NumPy reads (numpy.lib.format). */
-#include <stdlib.h>
 #include <string.h>
 
 #include "encode.h"
-#include "protocol/memory.h"
 
 enum { ALIGNMENT = 64, HEAD_BYTES = 10 };
 
@@ -23,30 +21,48 @@ static const char *type_name(enum pixel_format format)
     return "|u1";
 }
 
-bool npy_encode(const struct image *image, const struct encode_params *params, uint8_t **out_bytes,
-                size_t *out_length, struct error *err)
+static void *begin(const struct image *shape, const struct encode_params *params, FILE *out,
+                   struct error *err)
 {
-    char text[3 * ALIGNMENT], shape[48];
+    char head[3 * ALIGNMENT], sides[48];
     size_t length, padded;
-    uint8_t *bytes;
 
     (void)params;
     (void)err;
-    snprintf(shape, sizeof shape, image->channels > 1 ? "%d, %d, %d" : "%d, %d", image->height,
-             image->width, image->channels);
-    snprintf(text, sizeof text, "{'descr': '%s', 'fortran_order': False, 'shape': (%s), }",
-             type_name(image->format), shape);
-    length = strlen(text);
-    padded = (HEAD_BYTES + length + 1 + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    bytes = memory_alloc(padded + image->bytes, 1);
-    memset(bytes, ' ', padded);
-    memcpy(bytes, "\x93NUMPY\x01\x00", 8);
-    bytes[8] = (uint8_t)((padded - HEAD_BYTES) & 255);
-    bytes[9] = (uint8_t)((padded - HEAD_BYTES) >> 8);
-    memcpy(bytes + HEAD_BYTES, text, length);
-    bytes[padded - 1] = '\n';
-    memcpy(bytes + padded, image->pixels, image->bytes);
-    *out_bytes = bytes;
-    *out_length = padded + image->bytes;
+    snprintf(sides, sizeof sides, shape->channels > 1 ? "%d, %d, %d" : "%d, %d", shape->height,
+             shape->width, shape->channels);
+    memset(head, ' ', sizeof head);
+    length =
+        HEAD_BYTES + (size_t)snprintf(head + HEAD_BYTES, sizeof head - HEAD_BYTES,
+                                      "{'descr': '%s', 'fortran_order': False, 'shape': (%s), }",
+                                      type_name(shape->format), sides);
+    padded = (length + 1 + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    memcpy(head, "\x93NUMPY\x01\x00", 8);
+    head[8] = (char)((padded - HEAD_BYTES) & 255);
+    head[9] = (char)((padded - HEAD_BYTES) >> 8);
+    head[length] = ' '; /* the end of the text */
+    head[padded - 1] = '\n';
+    fwrite(head, 1, padded, out);
+    return out;
+}
+
+static bool add(void *state, const struct image *rows, struct error *err)
+{
+    (void)err;
+    fwrite(rows->pixels, 1, rows->bytes, state);
     return true;
 }
+
+static bool end(void *state, struct error *err)
+{
+    (void)state;
+    (void)err;
+    return true;
+}
+
+static void destroy(void *state)
+{
+    (void)state;
+}
+
+const struct encoder_class npy_class = {"npy", "application/x-npy", begin, add, end, destroy};

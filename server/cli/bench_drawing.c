@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How long drawing takes: from a scene never seen to its first picture, then by size and pass, and
+/* How long drawing takes: from a scene never seen to its first picture, then by size and stage, and
  * what the encoders make of it. */
 #include <errno.h>
 #include <stdlib.h>
@@ -42,9 +42,9 @@ static double ms_since(int64_t start_us)
     return (double)(clock_us() - start_us) / 1000;
 }
 
-/* renderer_render with the times of the passes kept. */
+/* One picture, for its times alone. */
 static bool draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
-                 struct image *out_image, struct job_times *out_times, struct error *err)
+                 struct job_times *out_times, struct error *err)
 {
     struct job *job = job_create(resident, desc, err);
     enum job_state state = JOB_FAILED;
@@ -52,11 +52,14 @@ static bool draw(struct renderer *renderer, struct resident *resident, const str
         return false;
     }
     while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
+        if (state == JOB_ROWS) {
+            struct image rows = job_take_rows(job, AOV_COLOR);
+            image_finish(&rows);
+        }
         renderer_poll(renderer, state == JOB_WAITING ? PATIENCE_MS : 0);
     }
     if (state == JOB_DONE) {
         *out_times = job_times(job);
-        *out_image = job_take_image(job);
     } else {
         *err = *job_error(job);
     }
@@ -159,23 +162,21 @@ static struct resident *open_example(struct renderer *renderer, const struct emb
  * so its own programs are there and only the scene's is measured. */
 static cJSON *measure_first(const struct task *task, struct error *err)
 {
-    struct job_desc desc = {.width = FIRST_SIDE, .height = FIRST_SIDE, .samples = 1, .exact = true};
+    const struct job_desc desc = {
+        .width = FIRST_SIDE, .height = FIRST_SIDE, .level = QUALITY_INTERACTIVE, .exact = true};
     struct job_times times;
-    struct image image = {0};
     struct resident *other = NULL, *resident = NULL;
     cJSON *row = NULL;
     struct renderer *renderer = renderer_create(task->params, err);
     if (renderer) {
         other = resident_create(renderer, scene_create_empty(), 1);
     }
-    if (other && draw(renderer, other, &desc, &image, &times, err)) {
-        image_finish(&image);
+    if (other && draw(renderer, other, &desc, &times, err)) {
         int64_t start = clock_us();
         resident = open_example(renderer, task->example, err);
-        if (resident && draw(renderer, resident, &desc, &image, &times, err)) {
+        if (resident && draw(renderer, resident, &desc, &times, err)) {
             row = cJSON_CreateObject();
             bench_add(row, "ms", ms_since(start));
-            image_finish(&image);
         }
     }
     resident_destroy(resident);
@@ -217,39 +218,57 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
 
 /* --- pictures --- */
 
-/* The picture of the last round is left in `out_image`. */
-static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
-                           const struct job_desc *desc, int rounds, struct image *out_image,
-                           struct error *err)
+/* Medians over the rounds: `ms` of the whole, and of each stage that took any. */
+static cJSON *measure_way(struct renderer *renderer, struct resident *resident,
+                          const struct job_desc *desc, int rounds, struct error *err)
 {
-    enum { WHOLE, MARCH, LIGHT, READ, KINDS };
-    static const char *const names[] = {"ms", "march_ms", "light_ms", "read_ms"};
-    double *numbers = memory_alloc((size_t)rounds * KINDS, sizeof *numbers);
+    double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
+    double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
     bool ok = true;
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
         struct job_times times = {0};
         int64_t start = clock_us();
-        image_finish(out_image);
-        *out_image = (struct image){0};
-        ok = draw(renderer, resident, desc, out_image, &times, err);
-        if (i < 0) {
-            continue;
+        ok = draw(renderer, resident, desc, &times, err);
+        for (int stage = 0; i >= 0 && stage < FRAME_STAGES; stage++) {
+            numbers[stage * rounds + i] = times.us[stage] / 1000.0;
         }
-        numbers[WHOLE * rounds + i] = ms_since(start);
-        numbers[MARCH * rounds + i] = times.march_us / 1000.0;
-        numbers[LIGHT * rounds + i] = times.light_us / 1000.0;
-        numbers[READ * rounds + i] = times.read_us / 1000.0;
+        if (i >= 0) {
+            whole[i] = ms_since(start);
+        }
     }
     cJSON *row = ok ? cJSON_CreateObject() : NULL;
     if (ok) {
-        cJSON_AddNumberToObject(row, "width", desc->width);
-        cJSON_AddNumberToObject(row, "height", desc->height);
-        for (int kind = 0; kind < KINDS; kind++) {
-            double *of_kind = numbers + (ptrdiff_t)kind * rounds;
-            bench_add(row, names[kind], bench_quantile(of_kind, (size_t)rounds, 0.5));
+        bench_add(row, "ms", bench_quantile(whole, (size_t)rounds, 0.5));
+        cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
+        for (int stage = 0; stage < FRAME_STAGES; stage++) {
+            double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
+            if (ms > 0) {
+                bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
+            }
         }
     }
     free(numbers);
+    return row;
+}
+
+/* Both ways to the same picture: passes over what the rays met, and one program from the camera to
+ * the light. */
+static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
+                           const struct job_desc *desc, int rounds, struct error *err)
+{
+    struct job_desc at_once = *desc;
+    at_once.from_camera = true;
+    cJSON *row = measure_way(renderer, resident, desc, rounds, err);
+    cJSON *other = row ? measure_way(renderer, resident, &at_once, rounds, err) : NULL;
+    if (!other) {
+        cJSON_Delete(row);
+        return NULL;
+    }
+    cJSON_AddNumberToObject(row, "width", desc->width);
+    cJSON_AddNumberToObject(row, "height", desc->height);
+    bench_add(row, "from_camera_ms", number_in(other, "ms"));
+    bench_add(row, "from_camera_by_passes", number_in(other, "ms") / number_in(row, "ms"));
+    cJSON_Delete(other);
     return row;
 }
 
@@ -285,20 +304,20 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
 static bool add_pictures(struct renderer *renderer, struct resident *resident, int rounds,
                          cJSON *row, struct error *err)
 {
+    struct job_desc desc = {.level = QUALITY_INTERACTIVE, .exact = true};
     struct image image = {0};
-    cJSON *pictures = cJSON_AddArrayToObject(row, "pictures");
-    cJSON *item = NULL;
+    cJSON *pictures = cJSON_AddArrayToObject(row, "pictures"), *encoders = NULL;
     for (size_t i = 0; i < SIZE_COUNT; i++) {
-        struct job_desc desc = {
-            .width = sizes[i].width, .height = sizes[i].height, .samples = 1, .exact = true};
-        item = measure_size(renderer, resident, &desc, rounds, &image, err);
+        desc.width = sizes[i].width;
+        desc.height = sizes[i].height;
+        cJSON *item = measure_size(renderer, resident, &desc, rounds, err);
         if (!item) {
-            break;
+            return false;
         }
         cJSON_AddItemToArray(pictures, item);
     }
-    cJSON *encoders = item ? measure_encoders(&image, rounds, err) : NULL;
-    if (encoders) {
+    if (renderer_render(resident, &desc, &image, err)) {
+        encoders = measure_encoders(&image, rounds, err);
         cJSON_AddItemToObject(row, "encoders", encoders);
     }
     image_finish(&image);

@@ -7,26 +7,42 @@
 #include "drawing.h"
 #include "files.h"
 
+enum { PATIENCE_MS = 50 };
+
 /* What --format says, else the extension of the output. */
-static bool choose_format(const struct options *options, enum image_format *out, struct error *err)
+static bool choose_format(const struct options *options, struct encode_params *out,
+                          struct error *err)
 {
+    static const struct {
+        const char *extension;
+        enum image_format inside;
+    } archives[] = {{"zip", IMAGE_PNG}, {"npz", IMAGE_NPY}};
     const char *name = option_text(options, OPTION_FORMAT);
     const char *output = option_text(options, OPTION_OUTPUT);
     if (!output) {
         return error_set(err, ERROR_INVALID, "--output", "is needed: the picture to write");
     }
-    if (!name) {
-        const char *slash = strrchr(output, '/');
-        name = strrchr(slash ? slash : output, '.');
-        name = name ? name + 1 : "";
+    const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+    const char *extension = dot ? dot + 1 : "";
+    int format = image_format_find(name ? name : extension);
+    *out = (struct encode_params){.quality = option_int(options, OPTION_QUALITY)};
+    for (size_t i = 0; i < sizeof archives / sizeof *archives; i++) {
+        if (strcmp(archives[i].extension, extension) == 0) {
+            out->zipped = true;
+            format = name ? format : (int)archives[i].inside;
+        }
     }
-    int format = image_format_find(name);
     if (format < 0) {
         return error_set(err, ERROR_INVALID, "--output",
                          "%s has no known extension; --format png, jpg or npy says what to write",
                          output);
     }
-    *out = (enum image_format)format;
+    int outputs = option_int(options, OPTION_AOV);
+    if ((outputs & (outputs - 1)) && dot && !out->zipped) {
+        return error_set(err, ERROR_INVALID, "--output",
+                         "%s holds one picture; several go into a .zip or .npz", output);
+    }
+    out->format = (enum image_format)format;
     return true;
 }
 
@@ -55,51 +71,104 @@ static bool read_camera(struct record *camera, const struct options *options, st
            set_camera(camera, "fov", options, OPTION_FOV, err);
 }
 
-static bool write_image(const struct image *image, const struct options *options,
-                        enum image_format format, struct error *err)
+/* -1 where the option was not given. */
+static int choice_or_none(const struct options *options, enum option option)
 {
-    struct encode_params params = {.format = format,
-                                   .quality = option_int(options, OPTION_QUALITY)};
-    uint8_t *bytes = NULL;
-    size_t length = 0;
-    if (!image_encode(image, &params, &bytes, &length, err)) {
-        return false;
+    return option_text(options, option) ? option_int(options, option) : -1;
+}
+
+static void read_desc(const struct options *options, const struct record *camera,
+                      enum image_format format, struct job_desc *out)
+{
+    const double *region = option_vector(options, OPTION_REGION);
+    *out = (struct job_desc){.width = option_int(options, OPTION_WIDTH),
+                             .height = option_int(options, OPTION_HEIGHT),
+                             .camera = camera,
+                             .level = choice_or_none(options, OPTION_LEVEL),
+                             .samples = option_int(options, OPTION_SAMPLES),
+                             .transparent = choice_or_none(options, OPTION_TRANSPARENT),
+                             .exact = true,
+                             .as_floats = format == IMAGE_NPY};
+    for (int i = 0; i < AOV_COUNT; i++) {
+        out->aovs[i] = option_int(options, OPTION_AOV) >> i & 1;
     }
-    bool ok = file_replace(option_text(options, OPTION_OUTPUT), bytes, length, err);
-    free(bytes);
+    if (region) {
+        out->region =
+            (struct job_region){(int)region[0], (int)region[1], (int)region[2], (int)region[3]};
+    }
+}
+
+static bool add_rows(struct job *job, struct picture_file *file, struct error *err)
+{
+    bool ok = true;
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (job_image_shape(job, (enum aov)i).width > 0) {
+            struct image rows = job_take_rows(job, (enum aov)i);
+            ok = ok && picture_file_add(file, (enum aov)i, &rows, err);
+            image_finish(&rows);
+        }
+    }
     return ok;
 }
 
+static bool draw_rows(struct renderer *renderer, struct job *job, struct picture_file *file,
+                      struct error *err)
+{
+    enum job_state state;
+    while ((state = job_step(job)) != JOB_DONE) {
+        if (state == JOB_FAILED) {
+            *err = *job_error(job);
+            return false;
+        }
+        if (state == JOB_ROWS && !add_rows(job, file, err)) {
+            return false;
+        }
+        renderer_poll(renderer, state == JOB_WAITING ? PATIENCE_MS : 0);
+    }
+    return picture_file_end(file, err);
+}
+
+/* The picture goes to the file as it is drawn, however large it is. */
+static bool write_picture(struct renderer *renderer, struct job *job,
+                          const struct encode_params *params, const char *path, struct error *err)
+{
+    struct image shapes[AOV_COUNT];
+    struct file_writer writer;
+    for (int i = 0; i < AOV_COUNT; i++) {
+        shapes[i] = job_image_shape(job, (enum aov)i);
+    }
+    if (!file_writer_open(&writer, path, err)) {
+        return false;
+    }
+    struct picture_file *file = picture_file_create(shapes, params, writer.file, err);
+    bool ok = file && draw_rows(renderer, job, file, err);
+    picture_file_destroy(file);
+    return file_writer_close(&writer, ok, err);
+}
+
 /* Takes `scene`. */
-static bool draw(struct scene *scene, const struct options *options, enum image_format format,
-                 struct error *err)
+static bool draw(struct scene *scene, const struct options *options,
+                 const struct encode_params *params, struct error *err)
 {
     struct record camera = {0};
     struct renderer *renderer = NULL;
     struct resident *resident = NULL;
-    struct image image = {0};
-    struct renderer_params params;
-    struct job_desc desc = {.width = option_int(options, OPTION_WIDTH),
-                            .height = option_int(options, OPTION_HEIGHT),
-                            .camera = &camera,
-                            .aov = (enum aov)option_int(options, OPTION_AOV),
-                            .samples = option_int(options, OPTION_SAMPLES),
-                            .exact = true,
-                            .as_floats = format == IMAGE_NPY};
+    struct job *job = NULL;
+    struct renderer_params device;
+    struct job_desc desc;
     record_copy(&camera, &scene->camera);
-    bool ok = read_camera(&camera, options, err);
-    if (ok) {
-        drawing_params(options, &params);
-        renderer = renderer_create(&params, err);
+    if (read_camera(&camera, options, err)) {
+        drawing_params(options, &device);
+        renderer = renderer_create(&device, err);
     }
     if (renderer) {
         resident = resident_create(renderer, scene, 1);
         scene = NULL;
-        ok = renderer_render(resident, &desc, &image, err) &&
-             write_image(&image, options, format, err);
+        read_desc(options, &camera, params->format, &desc);
+        job = job_create(resident, &desc, err);
     }
-    ok = ok && renderer;
-    image_finish(&image);
+    bool ok = job && write_picture(renderer, job, params, option_text(options, OPTION_OUTPUT), err);
+    job_destroy(job);
     resident_destroy(resident);
     renderer_destroy(renderer);
     scene_destroy(scene);
@@ -110,12 +179,12 @@ static bool draw(struct scene *scene, const struct options *options, enum image_
 int command_render(const struct options *options)
 {
     struct error err = {0};
-    enum image_format format = IMAGE_PNG;
+    struct encode_params params;
     int status = EXIT_USAGE;
-    if (choose_format(options, &format, &err)) {
+    if (choose_format(options, &params, &err)) {
         status = EXIT_FAILED;
         struct scene *scene = scene_open(options->operands[0], &err);
-        if (scene && draw(scene, options, format, &err)) {
+        if (scene && draw(scene, options, &params, &err)) {
             return EXIT_OK;
         }
     }

@@ -63,68 +63,76 @@ char *file_read(const char *path, size_t limit, size_t *out_length, struct error
     return text;
 }
 
-static bool write_all(int fd, const char *bytes, size_t length)
+static bool is_special(const char *path)
 {
-    while (length > 0) {
-        ssize_t wrote = write(fd, bytes, length);
-        if (wrote < 0 && errno == EINTR) {
-            continue;
-        }
-        if (wrote < 0) {
-            return false;
-        }
-        bytes += wrote;
-        length -= (size_t)wrote;
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+static int open_temporary(struct file_writer *writer)
+{
+    if (asprintf(&writer->temporary, "%s.XXXXXX", writer->path) < 0) {
+        abort();
+    }
+    return mkostemp(writer->temporary, O_CLOEXEC);
+}
+
+static void writer_free(struct file_writer *writer)
+{
+    free(writer->path);
+    free(writer->temporary);
+    *writer = (struct file_writer){0};
+}
+
+bool file_writer_open(struct file_writer *writer, const char *path, struct error *err)
+{
+    *writer = (struct file_writer){.path = memory_text(path)};
+    int fd = strcmp(path, "-") == 0 ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+             : is_special(path)     ? open(path, O_WRONLY | O_CLOEXEC)
+                                    : open_temporary(writer);
+    writer->file = fd < 0 ? NULL : fdopen(fd, "w");
+    if (!writer->file) {
+        failed(path, err);
+        writer_free(writer);
+        return false;
     }
     return true;
 }
 
-static bool write_in_place(const char *path, const void *bytes, size_t length, struct error *err)
-{
-    int fd = open(path, O_WRONLY | O_CLOEXEC);
-    if (fd < 0) {
-        return failed(path, err);
-    }
-    bool ok = write_all(fd, bytes, length) || failed(path, err);
-    close(fd);
-    return ok;
-}
-
 /* mkstemp makes files for the user alone; this one gets the mode that open() would give. */
-static bool finish_temporary(int fd, const void *bytes, size_t length)
+static bool finish_temporary(FILE *file)
 {
     mode_t mask = umask(0);
     umask(mask);
-    return write_all(fd, bytes, length) && fchmod(fd, 0666 & ~mask) == 0 && fsync(fd) == 0;
+    return fchmod(fileno(file), 0666 & ~mask) == 0 && fsync(fileno(file)) == 0;
+}
+
+bool file_writer_close(struct file_writer *writer, bool whole, struct error *err)
+{
+    bool ok = fflush(writer->file) == 0 && !ferror(writer->file);
+    if (writer->temporary) {
+        ok = whole && ok && finish_temporary(writer->file) &&
+             rename(writer->temporary, writer->path) == 0;
+    }
+    if (whole && !ok) {
+        failed(strcmp(writer->path, "-") == 0 ? "stdout" : writer->path, err);
+    }
+    if (writer->temporary && !ok) {
+        unlink(writer->temporary);
+    }
+    fclose(writer->file);
+    writer_free(writer);
+    return whole && ok;
 }
 
 bool file_replace(const char *path, const void *bytes, size_t length, struct error *err)
 {
-    if (strcmp(path, "-") == 0) {
-        return write_all(STDOUT_FILENO, bytes, length) || failed("stdout", err);
+    struct file_writer writer;
+    if (!file_writer_open(&writer, path, err)) {
+        return false;
     }
-    struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return write_in_place(path, bytes, length, err);
-    }
-
-    char *temporary = NULL;
-    if (asprintf(&temporary, "%s.XXXXXX", path) < 0) {
-        abort();
-    }
-    int fd = mkostemp(temporary, O_CLOEXEC);
-    bool ok = fd >= 0 && finish_temporary(fd, bytes, length) && rename(temporary, path) == 0;
-    if (!ok) {
-        failed(path, err);
-        if (fd >= 0) {
-            unlink(temporary);
-        }
-    }
-    if (fd >= 0) {
-        close(fd);
-    }
-    free(temporary);
-    return ok;
+    fwrite(bytes, 1, length, writer.file);
+    return file_writer_close(&writer, true, err);
 }
 
 bool directory_make(const char *path, struct error *err)

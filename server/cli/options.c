@@ -32,6 +32,11 @@ static const char *format_choice(size_t index)
     return word_of(words, 3, index);
 }
 
+static const char *level_choice(size_t index)
+{
+    return word_of(quality_names, QUALITY_COUNT, index);
+}
+
 static const char *device_choice(size_t index)
 {
     static const char *const words[] = {
@@ -109,15 +114,26 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_HEIGHT] = {"height", 0, "PIXELS", OPTION_INT, .fallback = "720",
         .min = 1, .max = LIMIT_IMAGE_SIDE, .commands = FOR(RENDER),
         .doc = "Height of the picture."},
-    [OPTION_AOV] = {"aov", 0, "WHAT", OPTION_CHOICE, .choice = aov_choice, .fallback = "color",
+    [OPTION_AOV] = {"aov", 0, "WHAT", OPTION_CHOICES, .choice = aov_choice, .fallback = "color",
         .commands = FOR(RENDER),
-        .doc = "What the picture shows."},
+        .doc = "What the picture shows. Several, with commas between them, go into a .zip or "
+               ".npz."},
     [OPTION_FORMAT] = {"format", 0, "FORMAT", OPTION_CHOICE, .choice = format_choice,
         .commands = FOR(RENDER),
-        .doc = "Format of the picture. By default the output's extension says it."},
+        .doc = "Format of the picture. By default the output's extension says it: also .zip "
+               "(png) and .npz (npy)."},
+    [OPTION_LEVEL] = {"level", 0, "LEVEL", OPTION_CHOICE, .choice = level_choice,
+        .commands = FOR(RENDER),
+        .doc = "Quality level; by default the scene's."},
     [OPTION_SAMPLES] = {"samples", 0, "N", OPTION_INT, .fallback = "0", .min = 0, .max = 4,
         .commands = FOR(RENDER),
-        .doc = "Samples per pixel along each axis; 0 takes the scene's."},
+        .doc = "Samples per pixel along each axis; 0 takes the level's or the scene's."},
+    [OPTION_TRANSPARENT] = {"transparent", 0, "WORD", OPTION_CHOICE, .choice = switch_choice,
+        .commands = FOR(RENDER),
+        .doc = "Whether the background is left out; by default as the scene says."},
+    [OPTION_REGION] = {"region", 0, "X,Y,W,H", OPTION_PIXELS, .min = 0, .max = LIMIT_IMAGE_SIDE,
+        .commands = FOR(RENDER),
+        .doc = "The pixels of the picture that are wanted; by default all."},
     [OPTION_QUALITY] = {"quality", 0, "N", OPTION_INT, .fallback = "90", .min = 1, .max = 100,
         .commands = FOR(RENDER),
         .doc = "Quality of a JPEG."},
@@ -199,6 +215,7 @@ char *option_default(const struct option_row *row)
 static bool read_number(const struct option_row *row, const char *text, const char *end,
                         double *out, const char *place, struct error *err)
 {
+    const bool whole = row->type == OPTION_INT || row->type == OPTION_PIXELS;
     char *stop;
     errno = 0;
     double number = strtod(text, &stop);
@@ -206,7 +223,7 @@ static bool read_number(const struct option_row *row, const char *text, const ch
     if (stop != end || length == 0 || isspace((unsigned char)*text) || !isfinite(number)) {
         return error_set(err, ERROR_INVALID, place, "'%.*s' is not a number", length, text);
     }
-    if (row->type == OPTION_INT && number != floor(number)) {
+    if (whole && number != floor(number)) {
         return error_set(err, ERROR_INVALID, place, "%.*s is not a whole number", length, text);
     }
     if (number < row->min) {
@@ -221,13 +238,13 @@ static bool read_number(const struct option_row *row, const char *text, const ch
     return true;
 }
 
-static bool read_vector(const struct option_row *row, const char *text, double *out,
-                        const char *place, struct error *err)
+static bool read_numbers(const struct option_row *row, const char *text, int count,
+                         const char *expected, double *out, const char *place, struct error *err)
 {
-    for (int i = 0; i < 3; i++) {
-        const char *end = i < 2 ? strchr(text, ',') : text + strlen(text);
-        if (!end || (i == 2 && strchr(text, ','))) {
-            return error_set(err, ERROR_INVALID, place, "needs three numbers, as 0,1.5,6");
+    for (int i = 0; i < count; i++) {
+        const char *end = text + strcspn(text, ",");
+        if ((*end == ',') != (i + 1 < count)) {
+            return error_set(err, ERROR_INVALID, place, "needs %s", expected);
         }
         if (!read_number(row, text, end, &out[i], place, err)) {
             return false;
@@ -237,19 +254,48 @@ static bool read_vector(const struct option_row *row, const char *text, double *
     return true;
 }
 
-static bool read_choice(const struct option_row *row, const char *text, double *out,
-                        const char *place, struct error *err)
+/* One word out of `length` characters; its index. */
+static bool read_word(const struct option_row *row, const char *text, size_t length, size_t *out,
+                      const char *place, struct error *err)
 {
     char list[128] = "";
     for (size_t i = 0; row->choice(i); i++) {
-        if (strcmp(row->choice(i), text) == 0) {
-            *out = (double)i;
+        if (strlen(row->choice(i)) == length && memcmp(row->choice(i), text, length) == 0) {
+            *out = i;
             return true;
         }
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", row->choice(i));
     }
-    return error_set(err, ERROR_INVALID, place, "'%s' is none of %s", text, list);
+    return error_set(err, ERROR_INVALID, place, "'%.*s' is none of %s", (int)length, text, list);
+}
+
+static bool read_choice(const struct option_row *row, const char *text, double *out,
+                        const char *place, struct error *err)
+{
+    size_t index;
+    bool ok = read_word(row, text, strlen(text), &index, place, err);
+    *out = ok ? (double)index : 0;
+    return ok;
+}
+
+static bool read_choices(const struct option_row *row, const char *text, double *out,
+                         const char *place, struct error *err)
+{
+    unsigned bits = 0;
+    size_t index, length;
+    for (const char *word = text;; word += length + 1) {
+        length = strcspn(word, ",");
+        if (!read_word(row, word, length, &index, place, err)) {
+            return false;
+        }
+        bits |= 1U << index;
+        if (word[length] == '\0') {
+            break;
+        }
+    }
+    *out = bits;
+    return true;
 }
 
 static bool read_flag(const char *text, double *out, const char *place, struct error *err)
@@ -272,9 +318,13 @@ static bool read_value(const struct option_row *row, const char *text, double *n
     case OPTION_NUMBER:
         return read_number(row, text, text + strlen(text), number, place, err);
     case OPTION_VECTOR:
-        return read_vector(row, text, number, place, err);
+        return read_numbers(row, text, 3, "three numbers, as 0,1.5,6", number, place, err);
+    case OPTION_PIXELS:
+        return read_numbers(row, text, 4, "x,y,width,height", number, place, err);
     case OPTION_CHOICE:
         return read_choice(row, text, number, place, err);
+    case OPTION_CHOICES:
+        return read_choices(row, text, number, place, err);
     case OPTION_TEXT:
     case OPTION_LIST:
     case OPTION_PATH:

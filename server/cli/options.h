@@ -37,7 +37,10 @@ enum option {
     OPTION_HEIGHT,
     OPTION_AOV,
     OPTION_FORMAT,
+    OPTION_LEVEL,
     OPTION_SAMPLES,
+    OPTION_TRANSPARENT,
+    OPTION_REGION,
     OPTION_QUALITY,
     OPTION_POSITION,
     OPTION_TARGET,
@@ -55,10 +58,12 @@ enum option_type {
     OPTION_INT,
     OPTION_NUMBER,
     OPTION_VECTOR, /* x,y,z */
+    OPTION_PIXELS, /* x,y,width,height: whole numbers */
     OPTION_TEXT,
     OPTION_LIST, /* texts with commas between them */
     OPTION_PATH, /* a leading ~/ is the home directory */
     OPTION_CHOICE,
+    OPTION_CHOICES, /* several of them, with commas between them */
 };
 
 /* Where a relative default path starts: the XDG base directories. */
@@ -71,8 +76,8 @@ struct option_row {
     enum option_type type;
     enum option_base base; /* OPTION_PATH: what the default is relative to */
     const char *fallback;  /* the default as text; NULL: not set */
-    double min, max;       /* OPTION_INT, OPTION_NUMBER and every component of OPTION_VECTOR */
-    const char *(*choice)(size_t index); /* OPTION_CHOICE: its words; NULL past the last */
+    double min, max;       /* of numbers, and of every part of a vector or of pixels */
+    const char *(*choice)(size_t index); /* the words of choices; NULL past the last */
     unsigned commands;                   /* bits 1 << enum command_id */
     bool stored;                         /* also read from environment and config file */
     const char *doc;
@@ -95,7 +100,7 @@ enum option_source {
 struct option_value {
     enum option_source source; /* SOURCE_NONE: not set and no default */
     char *text;                /* owned; NULL where not set */
-    double number[3];          /* flags 0 or 1; choices their index */
+    double number[4];          /* flags 0 or 1; a choice its index, several 1 << each */
 };
 
 struct command;
@@ -120,7 +125,8 @@ bool option_set(struct options *options, enum option option, const char *text,
 
 const char *option_text(const struct options *options, enum option option); /* NULL: not set */
 double option_number(const struct options *options, enum option option);
-int option_int(const struct options *options, enum option option); /* also a choice's index */
+/* Also a choice's index, or the bits of several. */
+int option_int(const struct options *options, enum option option);
 bool option_flag(const struct options *options, enum option option);
 const double *option_vector(const struct options *options, enum option option); /* NULL: not set */
 

@@ -61,7 +61,8 @@ static void print_option(FILE *out, const struct option_row *row)
     int used = snprintf(text, sizeof text, "%s", row->doc);
     choice_words(row, words, sizeof words);
     if (*words) {
-        used += snprintf(text + used, sizeof text - (size_t)used, " One of %s.", words);
+        used += snprintf(text + used, sizeof text - (size_t)used, " %s of %s.",
+                         row->type == OPTION_CHOICES ? "Any" : "One", words);
     }
     if (row->type == OPTION_INT) {
         used +=
@@ -132,7 +133,8 @@ void options_table(FILE *out)
                 row->value ? row->value : "", *words ? "`" : "", words, *words ? "`" : "");
         print_commands(out, row);
         choice_words(row, words, sizeof words);
+        const char *of = row->type == OPTION_CHOICES ? " Any of " : " One of ";
         fprintf(out, " | %s%s%s | %s%s%s%s |\n", *variable ? "`" : "", variable,
-                *variable ? "`" : "", row->doc, *words ? " One of " : "", words, *words ? "." : "");
+                *variable ? "`" : "", row->doc, *words ? of : "", words, *words ? "." : "");
     }
 }
