@@ -159,7 +159,7 @@ programs: $(OUT)/fieldcast $(test_programs) $(preloaded) $(BUILD)/compile_comman
 
 $(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
-	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka $(packages_libs)
+	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka -lturbojpeg $(packages_libs)
 
 # Loaded in front of everything else, so without the sanitizers' own libraries.
 $(preloaded): $(OUT)/%.so: $(S)/%.c

@@ -25,10 +25,10 @@ static struct image make_image(enum pixel_format format, int channels, size_t pi
     return image;
 }
 
-/* A smooth picture, opaque unless `alpha` says otherwise. */
+/* A smooth picture; with 255 it has no alpha channel. */
 static struct image make_colors(uint8_t alpha)
 {
-    struct image image = make_image(PIXEL_RGBA8, 4, 4);
+    struct image image = make_image(PIXEL_RGBA8, alpha == 255 ? 3 : 4, 4);
     uint8_t *p = image.pixels;
 
     for (int y = 0; y < HEIGHT; y++) {
@@ -159,10 +159,147 @@ static void test_npy(void **state)
     check_npy(PIXEL_UINT32, 1, "{'descr': '<u4', 'fortran_order': False, 'shape': (21, 37), }");
 }
 
+/* The outputs of a picture, in the file that picture_file makes of them by so many rows at once. */
+static uint8_t *write_file(const struct image images[AOV_COUNT], const struct encode_params *params,
+                           int rows, size_t *out_length, struct error *err)
+{
+    char *bytes = NULL;
+    FILE *out = open_memstream(&bytes, out_length);
+    struct image shapes[AOV_COUNT];
+    struct picture_file *file;
+    bool ok;
+
+    memcpy(shapes, images, sizeof shapes);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        shapes[i].pixels = NULL;
+    }
+    file = picture_file_create(shapes, params, out, err);
+    ok = file;
+    for (int y = 0; ok && y < HEIGHT; y += rows) {
+        for (int i = 0; ok && i < AOV_COUNT; i++) {
+            struct image part = images[i];
+            const size_t stride = part.bytes / HEIGHT;
+
+            part.height = rows < HEIGHT - y ? rows : HEIGHT - y;
+            part.pixels = (uint8_t *)part.pixels + (size_t)y * stride;
+            part.bytes = stride * (size_t)part.height;
+            ok = part.width == 0 || picture_file_add(file, (enum aov)i, &part, err);
+        }
+    }
+    ok = ok && picture_file_end(file, err);
+    picture_file_destroy(file);
+    fclose(out);
+    if (!ok) {
+        free(bytes);
+        return NULL;
+    }
+    return (uint8_t *)bytes;
+}
+
+static void check_rows(const struct image *image, struct encode_params params)
+{
+    struct image images[AOV_COUNT] = {[AOV_COLOR] = *image};
+    size_t length, whole_length;
+    uint8_t *whole = encode(image, &params, &whole_length);
+
+    for (int rows = 1; rows < HEIGHT; rows += 4) {
+        uint8_t *bytes = write_file(images, &params, rows, &length, NULL);
+
+        assert_non_null(bytes);
+        assert_int_equal(length, whole_length);
+        assert_memory_equal(bytes, whole, length);
+        free(bytes);
+    }
+    free(whole);
+}
+
+/* Where a picture is cut does not show in its file. */
+static void test_rows(void **state)
+{
+    struct image colors = make_colors(255), clear = make_colors(9);
+    struct image floats = make_image(PIXEL_FLOAT, 3, 12);
+
+    (void)state;
+    memset(floats.pixels, 0x41, floats.bytes);
+    check_rows(&colors, (struct encode_params){.format = IMAGE_PNG});
+    check_rows(&clear, (struct encode_params){.format = IMAGE_PNG, .fast = true});
+    check_rows(&colors, (struct encode_params){.format = IMAGE_JPEG, .chroma_halved = true});
+    check_rows(&floats, (struct encode_params){.format = IMAGE_NPY});
+    image_finish(&colors);
+    image_finish(&clear);
+    image_finish(&floats);
+}
+
+/* The member's bytes stand in the ZIP as they are, behind its name. */
+static void check_member(const uint8_t *zip, size_t length, const char *name, const uint8_t *bytes,
+                         size_t count)
+{
+    const uint8_t *at = memmem(zip, length, name, strlen(name));
+
+    assert_non_null(at);
+    assert_non_null(memmem(at, length - (size_t)(at - zip), bytes, count));
+}
+
+static void test_zip(void **state)
+{
+    struct image images[AOV_COUNT] = {
+        [AOV_COLOR] = make_colors(255), [AOV_NORMAL] = make_colors(255)};
+    const struct encode_params params = {.format = IMAGE_PNG};
+    size_t length, again_length, part_length;
+    uint8_t *zip, *again, *part;
+
+    (void)state;
+    memset(images[AOV_NORMAL].pixels, 7, images[AOV_NORMAL].bytes);
+    zip = write_file(images, &params, 5, &length, NULL);
+    again = write_file(images, &params, 8, &again_length, NULL);
+    assert_memory_equal(zip, "PK\3\4", 4);
+    assert_int_equal(length, again_length);
+    assert_memory_equal(zip, again, length);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (images[i].width > 0) {
+            part = encode(&images[i], &params, &part_length);
+            check_member(zip, length, i == AOV_COLOR ? "color.png" : "normal.png", part,
+                         part_length);
+            free(part);
+            image_finish(&images[i]);
+        }
+    }
+    free(zip);
+    free(again);
+}
+
+static void test_length_limit(void **state)
+{
+    struct image images[AOV_COUNT] = {[AOV_COLOR] = make_image(PIXEL_FLOAT, 4, 16)};
+    struct image colors[AOV_COUNT] = {[AOV_COLOR] = make_colors(255)};
+    struct encode_params params = {.format = IMAGE_NPY, .limit_bytes = WIDTH * HEIGHT * 16};
+    struct error err = {0};
+    size_t length;
+    uint8_t *bytes;
+
+    (void)state;
+    params.limit_bytes--;
+    assert_null(write_file(images, &params, HEIGHT, &length, &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.message, "12432 bytes of values are above the maximum 12431");
+    params = (struct encode_params){.format = IMAGE_PNG};
+    bytes = write_file(colors, &params, 4, &length, &err);
+    free(bytes);
+    params.limit_bytes = length;
+    bytes = write_file(colors, &params, 4, &length, &err);
+    assert_non_null(bytes);
+    free(bytes);
+    params.limit_bytes = length - 1;
+    assert_null(write_file(colors, &params, 4, &length, &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    image_finish(&images[AOV_COLOR]);
+    image_finish(&colors[AOV_COLOR]);
+}
+
 static void test_refusals(void **state)
 {
     struct image floats = make_image(PIXEL_FLOAT, 4, 16);
-    struct image colors = make_colors(255);
+    struct image colors = make_colors(255), clear = make_colors(9);
     struct error err = {0};
     uint8_t *bytes;
     size_t length;
@@ -177,6 +314,10 @@ static void test_refusals(void **state)
                               &(struct encode_params){.format = IMAGE_JPEG, .quality = 101}, &bytes,
                               &length, &err));
     assert_string_equal(err.place, "quality");
+    assert_false(
+        image_encode(&clear, &(struct encode_params){.format = IMAGE_JPEG}, &bytes, &length, &err));
+    assert_string_equal(err.place, "format");
+    image_finish(&clear);
     image_finish(&floats);
     image_finish(&colors);
 }
@@ -196,11 +337,54 @@ static void test_names(void **state)
     assert_int_equal(aov_find("none"), -1);
 }
 
+static void check_outputs(const char *text, const char *again)
+{
+    bool outputs[AOV_COUNT];
+    char printed[AOVS_TEXT_BYTES];
+
+    assert_true(aovs_read(text, outputs, "aov", NULL));
+    aovs_print(outputs, printed);
+    assert_string_equal(printed, again);
+}
+
+static void check_no_outputs(const char *text, const char *message)
+{
+    bool outputs[AOV_COUNT];
+    struct error err = {0};
+
+    assert_false(aovs_read(text, outputs, "aov", &err));
+    assert_string_equal(err.message, message);
+}
+
+static void test_outputs(void **state)
+{
+    static const char all[] =
+        "color,depth,normal,position,id,steps,albedo,specular,optical,shadow,occlusion";
+
+    (void)state;
+    check_outputs("color", "color");
+    check_outputs("normal,id,depth", "depth,normal,id");
+    check_outputs(all, all);
+    check_no_outputs("depth,depth", "depth is named twice");
+    check_no_outputs("", "\"\" is none of "
+                         "color,depth,normal,position,id,steps,albedo,specular,optical,shadow,"
+                         "occlusion");
+    check_no_outputs("color,dep", "\"dep\" is none of "
+                                  "color,depth,normal,position,id,steps,albedo,specular,optical,"
+                                  "shadow,occlusion");
+    for (int i = 0; aov_picture_names[i]; i++) {
+        assert_true(aov_row((enum aov)aov_find(aov_picture_names[i]))->picture);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png), cmocka_unit_test(test_png_gray), cmocka_unit_test(test_jpeg),
-        cmocka_unit_test(test_npy), cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_png),          cmocka_unit_test(test_png_gray),
+        cmocka_unit_test(test_jpeg),         cmocka_unit_test(test_npy),
+        cmocka_unit_test(test_rows),         cmocka_unit_test(test_zip),
+        cmocka_unit_test(test_length_limit), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_names),        cmocka_unit_test(test_outputs),
     };
 
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);
