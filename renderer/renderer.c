@@ -49,8 +49,12 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     }
     gl_debug(&renderer->gl, &renderer->sink);
     read_info(renderer);
-    renderer->draw = draw_create(&renderer->gl, renderer->info.software, 0, err);
+    renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side, err);
     if (!renderer->draw) {
+        goto fail;
+    }
+    renderer->environments = environments_create(&renderer->gl, err);
+    if (!renderer->environments) {
         goto fail;
     }
     renderer->programs = program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, err);
@@ -72,6 +76,8 @@ void renderer_destroy(struct renderer *renderer)
         resident_destroy(renderer->residents);
     }
     program_cache_destroy(renderer->programs);
+    environments_destroy(renderer->environments);
+    assets_finish(&renderer->assets);
     draw_destroy(renderer->draw);
     egl_finish(&renderer->egl);
     free(renderer->refused);
@@ -94,6 +100,7 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
 
     counters.compilations =
         program_cache_compilations(renderer->programs) + draw_compilations(renderer->draw);
+    counters.rays = draw_rays(renderer->draw);
     return counters;
 }
 
@@ -104,27 +111,84 @@ void renderer_refuse(struct renderer *renderer, uint64_t shape)
     renderer->refused[renderer->refused_count++] = shape;
 }
 
+static bool is_named_by(const struct resident *resident, const char *id)
+{
+    return strcmp(record_text(&resident->scene->environment, "image"), id) == 0;
+}
+
+static bool is_named(void *data, const char *id)
+{
+    const struct resident *resident = ((const struct renderer *)data)->residents;
+
+    while (resident && !is_named_by(resident, id)) {
+        resident = resident->next;
+    }
+    return resident != NULL;
+}
+
+void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length)
+{
+    if (!assets_add(&renderer->assets, id, bytes, length, is_named, renderer)) {
+        return;
+    }
+    for (struct resident *resident = renderer->residents; resident; resident = resident->next) {
+        if (is_named_by(resident, id)) {
+            resident_renew(resident);
+        }
+    }
+}
+
 bool renderer_stuck(const struct renderer *renderer)
 {
     return program_cache_stuck(renderer->programs);
 }
 
+/* Rows below those that are there. */
+static void append(struct image *whole, struct image *rows, size_t *filled)
+{
+    memcpy((uint8_t *)whole->pixels + *filled, rows->pixels, rows->bytes);
+    *filled += rows->bytes;
+    image_finish(rows);
+}
+
+static enum aov first_output(const struct job_desc *desc)
+{
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (desc->aovs[i]) {
+            return (enum aov)i;
+        }
+    }
+    return AOV_COLOR;
+}
+
 bool renderer_render(struct resident *resident, const struct job_desc *desc,
                      struct image *out_image, struct error *err)
 {
+    const enum aov aov = first_output(desc);
     struct job *job = job_create(resident, desc, err);
     enum job_state state = JOB_FAILED;
+    struct image whole;
+    size_t filled = 0;
 
     if (!job) {
         return false;
     }
+    whole = job_image_shape(job, aov);
+    whole.pixels = memory_alloc(1, whole.bytes);
     while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
+        if (state == JOB_ROWS) {
+            struct image rows = job_take_rows(job, aov);
+            append(&whole, &rows, &filled);
+        }
         renderer_poll(resident->renderer, state == JOB_WAITING ? POLL_MS : 0);
     }
     if (state == JOB_DONE) {
-        *out_image = job_take_image(job);
-    } else if (err) {
-        *err = *job_error(job);
+        *out_image = whole;
+    } else {
+        if (err) {
+            *err = *job_error(job);
+        }
+        image_finish(&whole);
     }
     job_destroy(job);
     return state == JOB_DONE;

@@ -107,10 +107,10 @@ struct job_desc {
     const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
     bool aovs[AOV_COUNT];        /* what it shows; none: color */
     int level;                   /* enum quality_level; -1: the scene's render settings say it */
-    int samples;     /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
-    int transparent; /* 1: the background is left out, 0: not; -1: the scene's render settings */
-    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
-    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
+    int samples;      /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
+    int transparent;  /* 1: the background is left out, 0: not; -1: the scene's render settings */
+    bool exact;       /* wait for the newest revision's shader; else draw the newest drawable */
+    bool as_floats;   /* give raw values (NPY), not 8/16-bit pixels */
     bool from_camera; /* one program for everything instead of passes: for comparison */
 };
 

@@ -31,6 +31,16 @@ static bool normalize(double v[3])
     return true;
 }
 
+/* From the eye to the target, or 1. */
+static double target_distance(const struct record *record)
+{
+    const double *a = record_vector(record, "position"), *b = record_vector(record, "target");
+    const double way[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double distance = sqrt(dot(way, way));
+
+    return distance > 1e-6 ? distance : 1;
+}
+
 /* Right-handed: right, up, -forward. */
 static void make_basis(const struct record *record, double forward[3], double right[3],
                        double up[3])
@@ -72,6 +82,9 @@ struct camera camera_from_record(const struct record *record, int width, int hei
         camera.up[i] *= half;
     }
     camera.pixel_radius = half / height;
+    camera.lens = record_number(record, "aperture");
+    camera.focus = record_number(record, "focus");
+    camera.focus = camera.focus > 0 ? camera.focus : target_distance(record);
     return camera;
 }
 

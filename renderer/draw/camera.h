@@ -12,6 +12,7 @@ struct camera {
     double right[3], up[3]; /* half the width and height of the picture, at distance 1 if
                                perspective */
     double pixel_radius;    /* per unit of distance, or absolute if orthographic */
+    double lens, focus;     /* radius; distance along `forward` that is in focus */
     bool orthographic;
 };
 

@@ -15,6 +15,8 @@ struct renderer {
     struct egl egl;
     struct gl gl;
     struct draw *draw;
+    struct environments *environments;
+    struct asset *assets; /* a list */
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;
@@ -32,6 +34,9 @@ struct resident {
     struct snapshot *drawable; /* the newest whose program is ready; NULL: none yet */
     struct error error;
 };
+
+/* A snapshot of the scene as it is now becomes the newest. */
+void resident_renew(struct resident *resident);
 
 void renderer_log(const struct renderer *renderer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -6,25 +6,46 @@
 #include <string.h>
 #include <time.h>
 
+#include "common.h"
 #include "protocol/memory.h"
+#include "wave.h"
 
 enum {
     /* Of 64, 128, 256 and 512 none was clearly faster on two llvmpipe threads; with this one an
      * urgent picture waits for about a tenth of a second. A GPU wants more work at once. */
     TILE_SOFTWARE = 256,
-    TILE_GPU = 1024,
+    TILE_GPU = 512,
+    MARGIN = 1,            /* pixels around a tile, which edges are found by */
     FENCE_WAIT_MS = 60000, /* beyond it the device is taken for lost */
 };
 
+#define BYTES OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4
+#define FLOATS_1 OUT_FLOATS, GL_RED, GL_FLOAT, 4
+#define FLOATS_3 OUT_FLOATS, GL_RGB, GL_FLOAT, 12
+#define FLOATS_4 OUT_FLOATS, GL_RGBA, GL_FLOAT, 16
+
 static const struct draw_form forms[] = {
-    {AOV_COLOR, false, "OUT_COLOR", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, true, true},
-    {AOV_COLOR, true, "OUT_LINEAR", OUT_FLOATS, GL_RGBA, GL_FLOAT, 16, true, true},
-    {AOV_DEPTH, false, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false, false},
-    {AOV_DEPTH, true, "OUT_DEPTH", OUT_FLOATS, GL_RED, GL_FLOAT, 4, false, false},
-    {AOV_NORMAL, false, "OUT_NORMAL", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, false, false},
-    {AOV_NORMAL, true, "OUT_NORMAL_RAW", OUT_FLOATS, GL_RGB, GL_FLOAT, 12, false, false},
-    {AOV_ID, false, "OUT_ID", OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4, true, false},
-    {AOV_ID, true, "OUT_ID_RAW", OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, true, false},
+    {AOV_COLOR, false, "OUT_COLOR", BYTES, STAGE_COUNT},
+    {AOV_COLOR, true, "OUT_LINEAR", FLOATS_4, STAGE_COUNT},
+    {AOV_DEPTH, false, "OUT_DEPTH", FLOATS_1, STAGE_MARCH},
+    {AOV_DEPTH, true, "OUT_DEPTH", FLOATS_1, STAGE_MARCH},
+    {AOV_NORMAL, false, "OUT_NORMAL", BYTES, STAGE_MARCH},
+    {AOV_NORMAL, true, "OUT_NORMAL_RAW", FLOATS_3, STAGE_MARCH},
+    {AOV_POSITION, true, "OUT_POSITION", FLOATS_3, STAGE_MARCH},
+    {AOV_ID, false, "OUT_ID", BYTES, STAGE_MATTER},
+    {AOV_ID, true, "OUT_ID_RAW", OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, STAGE_MATTER},
+    {AOV_STEPS, false, "OUT_STEPS", BYTES, STAGE_MARCH},
+    {AOV_STEPS, true, "OUT_STEPS_RAW", FLOATS_1, STAGE_MARCH},
+    {AOV_ALBEDO, false, "OUT_ALBEDO", BYTES, STAGE_MATTER},
+    {AOV_ALBEDO, true, "OUT_ALBEDO_RAW", FLOATS_3, STAGE_MATTER},
+    {AOV_SPECULAR, false, "OUT_SPECULAR", BYTES, STAGE_MATTER},
+    {AOV_SPECULAR, true, "OUT_SPECULAR_RAW", FLOATS_3, STAGE_MATTER},
+    {AOV_OPTICAL, false, "OUT_OPTICAL", BYTES, STAGE_MATTER},
+    {AOV_OPTICAL, true, "OUT_OPTICAL_RAW", FLOATS_4, STAGE_MATTER},
+    {AOV_SHADOW, false, "OUT_SHADOW", BYTES, STAGE_SHADOW},
+    {AOV_SHADOW, true, "OUT_SHADOW_RAW", FLOATS_3, STAGE_SHADOW},
+    {AOV_OCCLUSION, false, "OUT_OCCLUSION", BYTES, STAGE_SHADOW},
+    {AOV_OCCLUSION, true, "OUT_OCCLUSION_RAW", FLOATS_1, STAGE_SHADOW},
 };
 enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
 
@@ -32,8 +53,9 @@ struct draw {
     const struct gl *gl;
     bool software;
     struct targets targets;
+    struct common common;
     struct pass resolve[FORM_COUNT]; /* linked when first needed */
-    uint64_t compilations;
+    uint64_t compilations, rays;
 };
 
 static uint64_t now_us(void)
@@ -100,10 +122,15 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_side, stru
 
     draw->gl = gl;
     draw->software = software;
-    if (!targets_init(&draw->targets, gl, side, side, err)) {
+    if (!targets_init(&draw->targets, gl, side, err)) {
         free(draw);
         return NULL;
     }
+    if (!common_init(&draw->common, gl, err)) {
+        draw_destroy(draw);
+        return NULL;
+    }
+    draw->compilations = COMMON_COUNT;
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     return draw;
 }
@@ -116,15 +143,14 @@ void draw_destroy(struct draw *draw)
     for (size_t i = 0; i < FORM_COUNT; i++) {
         pass_finish(&draw->resolve[i], draw->gl);
     }
+    common_finish(&draw->common, draw->gl);
     targets_finish(&draw->targets, draw->gl);
     free(draw);
 }
 
-void draw_tile_size(const struct draw *draw, int samples, int *out_width, int *out_height)
+int draw_tile_side(const struct draw *draw)
 {
-    /* Whole blocks, so that a block has the same rays whatever the size of tiles. */
-    *out_width = draw->targets.width / samples / BLOCK_SIDE * BLOCK_SIDE;
-    *out_height = draw->targets.height / samples / BLOCK_SIDE * BLOCK_SIDE;
+    return draw->targets.side - 2 * MARGIN;
 }
 
 uint64_t draw_compilations(const struct draw *draw)
@@ -132,10 +158,17 @@ uint64_t draw_compilations(const struct draw *draw)
     return draw->compilations;
 }
 
+uint64_t draw_rays(const struct draw *draw)
+{
+    return draw->rays;
+}
+
 /* The resolve pass of a form. */
 static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form, struct error *err)
 {
-    static const char *const files[] = {"frame.glsl", "resolve.glsl", NULL};
+    static const char *const files[] = {"frame.glsl",   "ray.glsl",     "camera.glsl",
+                                        "surface.glsl", "gbuffer.glsl", "tone.glsl",
+                                        "edges.glsl",   "resolve.glsl", NULL};
     struct pass *pass = &draw->resolve[form - forms];
     char defines[64];
 
@@ -150,29 +183,43 @@ static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form
     return pass;
 }
 
-bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
-                const struct draw_form *form, struct error *err)
+static void make_slot(const struct draw *draw, struct draw_slot *slot,
+                      const struct draw_form *const wanted[AOV_COUNT])
 {
     const struct gl *gl = draw->gl;
-    struct draw_picture picture = {.form = form, .samples = block->size[2]};
-    int width, height;
+    const GLsizeiptr pixels = (GLsizeiptr)draw->targets.side * draw->targets.side;
 
-    if (!resolve_pass(draw, form, err)) {
-        return false;
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (wanted[i]) {
+            gl->GenBuffers(1, &slot->buffers[i]);
+            gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[i]);
+            gl->BufferData(GL_PIXEL_PACK_BUFFER, pixels * wanted[i]->read_bytes, NULL,
+                           GL_STREAM_READ);
+        }
     }
-    draw_tile_size(draw, picture.samples, &width, &height);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
+bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
+                const struct draw_form *const wanted[AOV_COUNT], const struct draw_plan *plan,
+                struct error *err)
+{
+    const struct gl *gl = draw->gl;
+    struct draw_picture picture = {
+        .plan = *plan, .lights = block->modes[0], .clear = block->clear_min[3] > 0};
+
+    for (int i = 0; i < AOV_COUNT; i++) {
+        picture.forms[i] = wanted[i];
+        if (wanted[i] && !resolve_pass(draw, wanted[i], err)) {
+            return false;
+        }
+    }
     gl->GenBuffers(1, &picture.frame);
     gl->BindBuffer(GL_UNIFORM_BUFFER, picture.frame);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_STATIC_DRAW);
     for (int i = 0; i < DRAW_SLOTS; i++) {
-        struct draw_slot *slot = &picture.slots[i];
-        gl->GenBuffers(1, &slot->buffer);
-        gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffer);
-        gl->BufferData(GL_PIXEL_PACK_BUFFER, (GLsizeiptr)width * height * form->read_bytes, NULL,
-                       GL_STREAM_READ);
-        gl->GenQueries(3, slot->queries);
+        make_slot(draw, &picture.slots[i], wanted);
     }
-    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     if (!gl_check(gl, "making the buffers of a picture", err)) {
         draw_end(draw, &picture);
         return false;
@@ -191,84 +238,133 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
         if (slot->fence) {
             gl->DeleteSync(slot->fence);
         }
-        gl->DeleteBuffers(1, &slot->buffer);
-        gl->DeleteQueries(3, slot->queries);
+        gl->DeleteBuffers(AOV_COUNT, slot->buffers);
+        gl->DeleteQueries(DRAW_MARKS, slot->queries);
     }
     *picture = (struct draw_picture){0};
 }
 
-/* Marks a moment: on a GPU in its queue, on the CPU after all work so far. */
-static void mark(const struct draw *draw, struct draw_slot *slot, int index, uint64_t *out_us)
+/* --- a tile --- */
+
+/* Pixels of the tile around which the passes see a margin. */
+static int margin_of(const struct draw_plan *plan)
 {
-    if (draw->software) {
-        draw->gl->Finish();
-        *out_us = now_us();
-    } else {
-        draw->gl->QueryCounter(slot->queries[index], GL_TIMESTAMP);
-    }
+    return plan->antialiasing == ANTIALIASING_EDGES || plan->antialiasing == ANTIALIASING_ADAPTIVE
+               ? MARGIN
+               : 0;
 }
 
-static void start_read(const struct draw *draw, const struct draw_form *form,
-                       struct draw_slot *slot)
+/* One output becomes pixels and starts on its way back. */
+static void resolve(struct draw *draw, const struct wave *wave, const struct draw_form *form)
 {
     const struct gl *gl = draw->gl;
+    const struct draw_slot *slot = wave->slot;
+    struct pass_place place = wave->tile;
 
-    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffer);
+    place.turn[2] = margin_of(wave->plan);
+    place.turn[3] = wave->plan->antialiasing == ANTIALIASING_EDGES;
+    targets_bind_common(&draw->targets, gl, &draw->targets.eye, &draw->targets.eye);
+    gl->Viewport(0, 0, slot->tile.width, slot->tile.height);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.out_buffers[form->kind]);
+    pass_draw(&draw->resolve[form - forms], gl, &place);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[form->aov]);
     gl->ReadPixels(0, 0, slot->tile.width, slot->tile.height, form->read_format, form->read_type,
                    NULL);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    slot->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl->Flush();
 }
 
-bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct program *program,
-               const struct draw_numbers *numbers, struct tile tile, int index, struct error *err)
+/* Those outputs that wait for nothing after the stages from `first` to `last`. */
+static void resolve_after(struct draw *draw, struct wave *wave, const struct draw_picture *picture,
+                          enum program_stage first, enum program_stage last)
+{
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct draw_form *form = picture->forms[i];
+        if (form && form->last >= first && form->last <= last) {
+            resolve(draw, wave, form);
+        }
+    }
+    wave_mark(wave, FRAME_RESOLVE);
+}
+
+static enum program_stage last_stage(const struct draw_picture *picture)
+{
+    enum program_stage last = STAGE_MARCH;
+
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct draw_form *form = picture->forms[i];
+        last = form && form->last > last ? form->last : last;
+    }
+    return last;
+}
+
+static void draw_passes(struct draw *draw, struct wave *wave, const struct draw_picture *picture)
+{
+    const enum program_stage last = last_stage(picture);
+
+    wave_find(wave, last);
+    resolve_after(draw, wave, picture, STAGE_MARCH, STAGE_MATTER);
+    if (last >= STAGE_SHADOW) {
+        wave_shadow(wave);
+        resolve_after(draw, wave, picture, STAGE_SHADOW, STAGE_SHADOW);
+    }
+    if (last == STAGE_COUNT) {
+        wave_shade(wave);
+        wave_sample_again(wave);
+        resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
+    }
+}
+
+static void bind_scene(const struct draw *draw, const struct draw_picture *picture,
+                       const struct draw_scene *scene)
 {
     const struct gl *gl = draw->gl;
-    const struct draw_form *form = picture->form;
-    struct draw_slot *slot = &picture->slots[index];
-    const int width = tile.width * picture->samples, height = tile.height * picture->samples;
-    uint64_t times[3] = {0};
+    const struct {
+        GLenum unit;
+        GLuint texture;
+    } rows[] = {{UNIT_PANORAMA, scene->environment->panorama},
+                {UNIT_MIRRORED, scene->environment->mirrored},
+                {UNIT_IRRADIANCE, scene->environment->irradiance}};
 
-    slot->tile = tile;
-    slot->times = (struct job_times){0};
-    gl->BindVertexArray(draw->targets.vertices);
     targets_bind(&draw->targets, gl);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
-    bind_numbers(numbers, gl);
-    mark(draw, slot, 0, &times[0]);
-    pass_compute_coarse(program_pass(program, STAGE_MARCH), gl, tile.x, tile.y, width, height);
-    pass_compute(program_pass(program, STAGE_MARCH), gl, tile.x, tile.y, width, height);
-    if (form->matter) {
-        pass_compute(program_pass(program, STAGE_MATTER), gl, tile.x, tile.y, width, height);
+    bind_numbers(scene->numbers, gl);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
+        gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);
     }
-    mark(draw, slot, 1, &times[1]);
-    if (form->light) {
-        pass_compute(program_pass(program, STAGE_LIGHT), gl, tile.x, tile.y, width, height);
-    }
-    gl->Viewport(0, 0, tile.width, tile.height);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.out_buffers[form->kind]);
-    pass_draw(&draw->resolve[form - forms], gl, tile.x, tile.y);
-    mark(draw, slot, 2, &times[2]);
-    slot->times.march_us = (uint32_t)(times[1] - times[0]);
-    slot->times.light_us = (uint32_t)(times[2] - times[1]);
-    start_read(draw, form, slot);
-    return gl_check(gl, "drawing a tile", err);
 }
 
-static void fetch_times(const struct draw *draw, struct draw_slot *slot)
+bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+               struct tile tile, int index, struct error *err)
 {
-    GLuint64 ns[3] = {0};
+    const int margin = margin_of(&picture->plan);
+    struct wave wave = {
+        .gl = draw->gl,
+        .software = draw->software,
+        .targets = &draw->targets,
+        .common = &draw->common,
+        .program = scene->program,
+        .plan = &picture->plan,
+        .lights = picture->lights,
+        .clear = picture->clear,
+        .linear = picture->forms[AOV_COLOR] && picture->forms[AOV_COLOR]->floats,
+        .tile = {.x = tile.x - margin,
+                 .y = tile.y - margin,
+                 .width = tile.width + 2 * margin,
+                 .height = tile.height + 2 * margin},
+        .slot = &picture->slots[index],
+    };
 
-    if (draw->software) {
-        return;
-    }
-    for (int i = 0; i < 3; i++) {
-        draw->gl->GetQueryObjectui64v(slot->queries[i], GL_QUERY_RESULT, &ns[i]);
-    }
-    slot->times.march_us = (uint32_t)((ns[1] - ns[0]) / 1000);
-    slot->times.light_us = (uint32_t)((ns[2] - ns[1]) / 1000);
+    wave.slot->tile = tile;
+    bind_scene(draw, picture, scene);
+    wave_start_clock(&wave);
+    draw_passes(draw, &wave, picture);
+    wave.slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    draw->gl->Flush();
+    return gl_check(draw->gl, "drawing a tile", err);
 }
+
+/* --- the way back --- */
 
 static bool wait_fence(const struct draw *draw, struct draw_slot *slot, struct error *err)
 {
@@ -288,19 +384,56 @@ static bool wait_fence(const struct draw *draw, struct draw_slot *slot, struct e
     return true;
 }
 
-bool draw_collect(struct draw *draw, struct draw_picture *picture, int index, uint8_t *to,
-                  size_t stride, struct error *err)
+static void fetch_times(const struct draw *draw, struct draw_slot *slot)
 {
-    const struct gl *gl = draw->gl;
+    GLuint64 before = 0;
+
+    for (int i = 0; i < slot->marks; i++) {
+        GLuint64 ns = 0;
+        draw->gl->GetQueryObjectui64v(slot->queries[i], GL_QUERY_RESULT, &ns);
+        if (i > 0) {
+            slot->stage_us[slot->stages[i]] += (ns - before) / 1000;
+        }
+        before = ns;
+    }
+}
+
+/* The counter in the stack's head runs through all tiles, and over. */
+static void count_rays(struct draw *draw)
+{
+    uint32_t count = 0;
+
+    draw->gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, draw->targets.stack);
+    draw->gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof count, &count);
+    draw->rays += count - (uint32_t)draw->rays;
+}
+
+bool draw_wait(struct draw *draw, struct draw_picture *picture, int index, struct error *err)
+{
     struct draw_slot *slot = &picture->slots[index];
-    const size_t row = (size_t)slot->tile.width * (size_t)picture->form->read_bytes;
     const uint64_t start = now_us();
-    const uint8_t *from;
 
     if (!wait_fence(draw, slot, err)) {
         return false;
     }
-    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffer);
+    fetch_times(draw, slot);
+    if (picture->plan.rays > 0) {
+        count_rays(draw);
+    }
+    slot->stage_us[FRAME_READ] += now_us() - start;
+    return true;
+}
+
+bool draw_collect(struct draw *draw, struct draw_picture *picture, int index, enum aov aov,
+                  uint8_t *to, size_t stride, struct error *err)
+{
+    const struct gl *gl = draw->gl;
+    struct draw_slot *slot = &picture->slots[index];
+    const size_t row = (size_t)slot->tile.width * (size_t)picture->forms[aov]->read_bytes;
+    const uint64_t start = now_us();
+    const uint8_t *from;
+
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[aov]);
     from = gl->MapBufferRange(GL_PIXEL_PACK_BUFFER, 0,
                               (GLsizeiptr)(row * (size_t)slot->tile.height), GL_MAP_READ_BIT);
     if (from) {
@@ -310,8 +443,7 @@ bool draw_collect(struct draw *draw, struct draw_picture *picture, int index, ui
         gl->UnmapBuffer(GL_PIXEL_PACK_BUFFER);
     }
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    fetch_times(draw, slot);
-    slot->times.read_us = (uint32_t)(now_us() - start);
+    slot->stage_us[FRAME_READ] += now_us() - start;
     return from ? gl_check(gl, "reading pixels", err)
                 : error_set(err, ERROR_UNAVAILABLE, "", "the pixels of a tile cannot be mapped");
 }

@@ -1,29 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* Draws tiles: march, light, resolve, and the way of the pixels back. Knows no scenes.
+/* Draws tiles: the passes over their samples, and the way of the pixels back. Knows no scenes.
  *
- * A tile's pixels are fetched while the next one is drawn: draw_tile starts, draw_collect waits. */
+ * A tile's pixels are fetched while the next one is drawn: draw_tile starts, draw_collect waits.
+ * Several outputs of one tile are drawn at once and collected one by one. */
 #ifndef RENDERER_DRAW_H
 #define RENDERER_DRAW_H
 
-#include "frame.h"
+#include "environment.h"
+#include "plan.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
 
 enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
 
-struct draw; /* targets and resolve passes of one context */
+struct draw; /* targets and passes of one context */
 
-/* What a picture shows, and how its pixels come back. */
+/* An output, and how its pixels come back. */
 struct draw_form {
     enum aov aov;
     bool floats;
     const char *define; /* for glsl/resolve.glsl */
     enum out_kind kind;
     GLenum read_format, read_type;
-    int read_bytes;     /* of a pixel as read */
-    bool matter, light; /* the passes that it needs besides march */
+    int read_bytes;          /* of a pixel as read */
+    enum program_stage last; /* of the passes that it needs */
 };
 
+/* NULL where the output has no such form. */
 const struct draw_form *draw_form_find(enum aov aov, bool floats);
 
 /* The numbers of a field on the GPU. */
@@ -39,38 +42,58 @@ struct tile {
     int x, y, width, height; /* pixels of the picture, y down */
 };
 
+/* What a tile is drawn from. */
+struct draw_scene {
+    const struct program *program;
+    const struct draw_numbers *numbers;
+    const struct environment *environment;
+};
+
+enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts with the last */
+
 /* A tile on its way. */
 struct draw_slot {
-    GLuint buffer;
-    GLuint queries[3];
+    GLuint buffers[AOV_COUNT];
     GLsync fence;
     struct tile tile;
-    struct job_times times;
+    GLuint queries[DRAW_MARKS]; /* on a GPU: made where they are first needed */
+    uint8_t stages[DRAW_MARKS]; /* what ended at each */
+    int marks;
+    uint64_t last_us; /* on the CPU: the last mark */
+    uint64_t stage_us[FRAME_STAGES];
 };
 
 /* One picture's own objects. */
 struct draw_picture {
-    const struct draw_form *form;
-    int samples;
+    const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
+    struct draw_plan plan;
+    int lights;
+    bool clear; /* light goes through something */
     GLuint frame;
     struct draw_slot slots[DRAW_SLOTS];
 };
 
-/* `tile_side`: how many samples a tile is wide and high, a multiple of 32; 0: what is good for the
+/* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the
  * device. */
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err);
 void draw_destroy(struct draw *draw);
-/* Largest tile in pixels. */
-void draw_tile_size(const struct draw *draw, int samples, int *out_width, int *out_height);
+/* Side of the largest tile that a picture can be drawn in, in pixels. */
+int draw_tile_side(const struct draw *draw);
 uint64_t draw_compilations(const struct draw *draw);
+/* Mirrored and broken rays that were started. */
+uint64_t draw_rays(const struct draw *draw);
 
+/* `forms`: for each output NULL or its form. */
 bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
-                const struct draw_form *form, struct error *err);
+                const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
+                struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
-bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct program *program,
-               const struct draw_numbers *numbers, struct tile tile, int slot, struct error *err);
-/* Waits for the tile in `slot` and copies its rows to `to`, which are `stride` bytes apart. */
-bool draw_collect(struct draw *draw, struct draw_picture *picture, int slot, uint8_t *to,
-                  size_t stride, struct error *err);
+bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+               struct tile tile, int slot, struct error *err);
+/* Waits for the tile in `slot`. True when it is there; its times are in the slot then. */
+bool draw_wait(struct draw *draw, struct draw_picture *picture, int slot, struct error *err);
+/* After draw_wait: copies the rows of one output to `to`, which are `stride` bytes apart. */
+bool draw_collect(struct draw *draw, struct draw_picture *picture, int slot, enum aov aov,
+                  uint8_t *to, size_t stride, struct error *err);
 
 #endif

@@ -5,19 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    SHADOW_STEPS = 64,
-    OCCLUSION_SAMPLES = 5,
-    /* llvmpipe (Mesa 22.3, lp_bld_limits.h) ends all loops of a shader after 65,535 iterations
-     * together, silently. Some are left for loops around the marching. */
-    LOOP_BUDGET = 65000,
-};
-
 /* Stands for infinity where products of it must stay numbers. */
 static const double FAR_AWAY = 1e9;
-
-/* Values of glsl/frame.glsl and glsl/resolve.glsl. */
-enum { LIGHT_DIRECTIONAL, LIGHT_POINT };
 
 static void set3(float out[4], const double *v, double scale)
 {
@@ -36,37 +25,121 @@ static int choice(const struct record *record, const char *name)
     return (int)record_number(record, name);
 }
 
+/* Of length 1, times `sign`; any direction of length 0 stays. */
+static void set_direction(float out[4], const double *d, double sign)
+{
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+
+    set3(out, d, length > 0 ? sign / length : sign);
+}
+
 static struct frame_light make_light(const struct record *record)
 {
     struct frame_light light = {0};
-    const double intensity = record_number(record, "intensity");
+    const bool directional = strcmp(record->type->name, "directional") == 0;
+    const bool spot = strcmp(record->type->name, "spot") == 0;
 
-    if (strcmp(record->type->name, "directional") == 0) {
-        const double *d = record_vector(record, "direction");
-        const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        set3(light.place, d, length > 0 ? -1 / length : -1);
-        light.place[3] = LIGHT_DIRECTIONAL;
+    if (directional) {
+        set_direction(light.place, record_vector(record, "direction"), -1);
     } else {
         set3(light.place, record_vector(record, "position"), 1);
-        light.place[3] = LIGHT_POINT;
         light.extent[0] = (float)record_number(record, "radius");
         light.extent[1] = (float)record_number(record, "range");
     }
-    set3(light.color, record_vector(record, "color"), intensity);
+    if (spot) {
+        const double angle = record_number(record, "angle");
+        set_direction(light.axis, record_vector(record, "direction"), 1);
+        light.axis[3] = (float)cos(angle * (1 - record_number(record, "softness")));
+        light.extent[3] = (float)cos(angle);
+    }
+    light.place[3] = directional ? LIGHT_DIRECTIONAL : spot ? LIGHT_SPOT : LIGHT_POINT;
+    set3(light.color, record_vector(record, "color"), record_number(record, "intensity"));
     light.color[3] = (float)record_number(record, "size");
     light.extent[2] = (float)choice(record, "shadow");
     return light;
 }
 
+static void set_fog(struct frame_block *block, const struct record *environment)
+{
+    const double height = record_number(environment, "fog_height");
+
+    set3(block->fog_color, record_vector(environment, "fog_color"), 1);
+    block->fog_color[3] = (float)record_number(environment, "fog");
+    block->fog_shape[0] = height > 0 ? (float)fmin(1 / height, LIMIT_COORDINATE) : 0;
+    block->fog_shape[1] = (float)record_number(environment, "fog_base");
+}
+
 static void set_environment(struct frame_block *block, const struct record *environment)
 {
-    const bool solid = record_is(environment, "type", "solid");
+    const int kind = choice(environment, "type");
+    const bool gradient = kind == SKY_GRADIENT, image = kind == SKY_IMAGE;
+    const double turn = image ? record_number(environment, "rotation") : 0;
 
-    set3(block->zenith, record_vector(environment, solid ? "color" : "zenith"), 1);
+    /* What stands for a picture that cannot be shown is the one colour. */
+    set3(block->zenith, record_vector(environment, gradient ? "zenith" : "color"), 1);
     set3(block->horizon, record_vector(environment, "horizon"), 1);
     set3(block->ground, record_vector(environment, "ground"), 1);
     block->horizon[3] = (float)record_number(environment, "intensity");
-    block->modes[1] = choice(environment, "type");
+    block->panorama[0] = (float)cos(turn);
+    block->panorama[1] = (float)sin(turn);
+    block->panorama[2] = image ? (float)record_number(environment, "brightness") : 1;
+    block->modes[1] = kind;
+    block->effects[2] |= gradient && record_number(environment, "sun") > 0 ? EFFECT_SUN : 0;
+    set_fog(block, environment);
+}
+
+/* The height above which waves of noise fill this part of space: they are spread about like the
+ * logistic distribution, with the deviation of their sum of octaves. */
+static double waves_above(double part, int octaves)
+{
+    const double deviation = 0.4 * sqrt((1 - pow(0.25, octaves)) / 0.75);
+    const double odds = fmax(1 - part, 1e-6) / fmax(part, 1e-6);
+
+    return deviation * sqrt(3) / M_PI * log(odds);
+}
+
+static struct frame_volume make_volume(const struct record *record)
+{
+    struct frame_volume volume = {0};
+    const int octaves = (int)record_number(record, "octaves");
+
+    set3(volume.place, record_vector(record, "position"), 1);
+    if (strcmp(record->type->name, "box") == 0) {
+        set3(volume.extent, record_vector(record, "size"), 0.5);
+        volume.place[3] = VOLUME_BOX;
+    } else {
+        volume.extent[0] = (float)record_number(record, "radius");
+        volume.place[3] = VOLUME_SPHERE;
+    }
+    volume.extent[3] = (float)record_number(record, "falloff");
+    set3(volume.color, record_vector(record, "color"), 1);
+    volume.color[3] = (float)record_number(record, "density");
+    set3(volume.emission, record_vector(record, "emission"), 1);
+    volume.emission[3] = (float)record_number(record, "anisotropy");
+    volume.noise[0] = (float)record_number(record, "frequency");
+    volume.noise[1] = (float)octaves;
+    volume.noise[2] = (float)record_number(record, "seed");
+    volume.noise[3] = (float)waves_above(record_number(record, "cover"), octaves);
+    volume.source[0] = (float)choice(record, "source");
+    volume.source[1] = (float)fmax(record_number(record, "reach"), 1e-6);
+    return volume;
+}
+
+static void set_volumes(struct frame_block *block, const struct resource_list *volumes)
+{
+    for (size_t i = 0; i < volumes->count && i < LIMIT_VOLUMES; i++) {
+        block->volumes[i] = make_volume(&volumes->items[i]->record);
+        block->effects[3]++;
+    }
+}
+
+static void set_clear(struct frame_block *block, const struct frame_extent *extent)
+{
+    for (int i = 0; i < 3; i++) {
+        block->clear_min[i] = (float)clamp(extent->clear_min[i], -FAR_AWAY, FAR_AWAY);
+        block->clear_max[i] = (float)clamp(extent->clear_max[i], -FAR_AWAY, FAR_AWAY);
+    }
+    block->clear_min[3] = extent->clear;
 }
 
 static void set_bounds(struct frame_block *block, const struct frame_extent *extent)
@@ -79,26 +152,7 @@ static void set_bounds(struct frame_block *block, const struct frame_extent *ext
     }
 }
 
-/* Steps such that marching, or all shadows, stay within the driver's budget of iterations. */
-static bool set_steps(struct frame_block *block, int wanted, const struct frame_extent *extent)
-{
-    const int each = 1 + extent->loop_trips;
-    const int lights = block->modes[0] > 0 ? block->modes[0] : 1;
-    int steps = wanted, shadow_steps = SHADOW_STEPS;
-
-    if (extent->limit_loops) {
-        /* Four points for the normal, and one evaluation of the surface. */
-        const int most = LOOP_BUDGET / each - 5;
-        const int most_shadow = (LOOP_BUDGET / each - OCCLUSION_SAMPLES) / lights - 1;
-        steps = most < steps ? most : steps;
-        shadow_steps = most_shadow < shadow_steps ? most_shadow : shadow_steps;
-    }
-    block->size[3] = steps > 1 ? steps : 1;
-    block->modes[3] = shadow_steps > 1 ? shadow_steps : 1;
-    return steps < wanted || shadow_steps < SHADOW_STEPS;
-}
-
-bool frame_set_scene(struct frame_block *block, const struct scene *scene,
+void frame_set_scene(struct frame_block *block, const struct scene *scene,
                      const struct frame_extent *extent)
 {
     const struct record *render = &scene->render;
@@ -108,17 +162,17 @@ bool frame_set_scene(struct frame_block *block, const struct scene *scene,
         block->lights[i] = make_light(&scene->lights.items[i]->record);
         block->modes[0]++;
     }
+    set_volumes(block, &scene->volumes);
     set_environment(block, &scene->environment);
     set_bounds(block, extent);
+    set_clear(block, extent);
     block->bounds_max[3] = (float)record_number(render, "max_distance");
     block->zenith[3] = (float)exp2(record_number(render, "exposure"));
     block->ground[3] = (float)(0.06 * extent->scale);
     block->modes[2] = choice(render, "tone_map");
-    return set_steps(block, (int)record_number(render, "max_steps"), extent);
 }
 
-void frame_set_camera(struct frame_block *block, const struct camera *camera, int width, int height,
-                      int samples)
+void frame_set_camera(struct frame_block *block, const struct camera *camera, int width, int height)
 {
     set3(block->eye, camera->eye, 1);
     set3(block->forward, camera->forward, 1);
@@ -126,7 +180,8 @@ void frame_set_camera(struct frame_block *block, const struct camera *camera, in
     set3(block->up, camera->up, 1);
     block->eye[3] = camera->orthographic ? 1 : 0;
     block->forward[3] = (float)camera->pixel_radius;
+    block->right[3] = (float)camera->lens;
+    block->up[3] = (float)camera->focus;
     block->size[0] = width;
     block->size[1] = height;
-    block->size[2] = samples;
 }

@@ -35,17 +35,15 @@ static bool is_refused(const struct renderer *renderer, uint64_t shape)
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
-                                   struct error *out_warning, struct error *err)
+                                   bool volumes, struct error *out_warning, struct error *err)
 {
     const size_t capacity = number_capacity(field);
-    const uint64_t key = field->shape_hash ^ (capacity * UINT64_C(0x9e3779b97f4a7c15));
-    const bool user_code = field->code_count + field->shader_count > 0;
+    const uint64_t key = field->shape_hash ^ ((capacity + volumes) * UINT64_C(0x9e3779b97f4a7c15));
     struct program *program;
     char *map, *surface;
 
-    if (user_code && is_refused(renderer, key)) {
-        error_set(err, ERROR_QUARANTINED,
-                  field->code_count ? field->codes[0].place : field->shaders[0].place,
+    if (field->user_code && is_refused(renderer, key)) {
+        error_set(err, ERROR_QUARANTINED, field->user_code->place,
                   "the shader with this code ended the render process");
         return NULL;
     }
@@ -65,7 +63,8 @@ static struct program *get_program(struct renderer *renderer, const struct field
                                                          .surface_text = surface,
                                                          .number_count = capacity,
                                                          .user_shaders = field->shader_count > 0,
-                                                         .user_code = user_code,
+                                                         .user_code = field->user_code != NULL,
+                                                         .volumes = volumes,
                                                          .shape_count = field->shape_count,
                                                          .map_count = field->material_base});
     free(map);
@@ -102,6 +101,49 @@ static struct field *make_field(const struct scene *scene, struct error *err)
     return field;
 }
 
+static struct frame_extent extent_of(const struct renderer *renderer, const struct field *field,
+                                     const struct record *camera)
+{
+    struct frame_extent extent = {.scale = scene_scale(camera),
+                                  .clear = field->clear,
+                                  .loop_trips = (int)field->loop_trips,
+                                  .limit_loops = renderer->info.software};
+
+    for (int i = 0; i < 3; i++) {
+        extent.min[i] = field->bounds.low[i];
+        extent.max[i] = field->bounds.high[i];
+        extent.clear_min[i] = field->clear_bounds.low[i];
+        extent.clear_max[i] = field->clear_bounds.high[i];
+    }
+    return extent;
+}
+
+static bool has_fewer_steps(const struct snapshot *snapshot)
+{
+    struct frame_block block = snapshot->frame;
+    struct draw_plan plan;
+
+    return plan_make(&plan, &block, &snapshot->render, &(struct plan_wish){.level = -1},
+                     &snapshot->extent);
+}
+
+/* What does not depend on the program. */
+static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
+                        const struct scene *scene, struct error *err)
+{
+    struct error problem = {0};
+    struct asset *image = assets_find(renderer->assets, record_text(&scene->environment, "image"));
+
+    frame_set_scene(&snapshot->frame, scene, &snapshot->extent);
+    snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
+                                             &problem, &snapshot->environment_us, err);
+    if (snapshot->warning.kind == ERROR_NONE) {
+        snapshot->warning = problem;
+    }
+    snapshot->fewer_steps = has_fewer_steps(snapshot);
+    return snapshot->environment != NULL;
+}
+
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, struct error *err)
 {
@@ -109,21 +151,14 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     struct snapshot *snapshot;
     struct program *program;
     struct error warning = {0};
-    struct frame_extent extent = {.scale = scene_scale(&scene->camera),
-                                  .limit_loops = renderer->info.software};
 
     if (!field) {
         return NULL;
     }
-    program = get_program(renderer, field, &warning, err);
+    program = get_program(renderer, field, scene->volumes.count > 0, &warning, err);
     if (!program) {
         field_unref(field);
         return NULL;
-    }
-    extent.loop_trips = (int)field->loop_trips;
-    for (int i = 0; i < 3; i++) {
-        extent.min[i] = field->bounds.low[i];
-        extent.max[i] = field->bounds.high[i];
     }
     snapshot = memory_alloc(1, sizeof *snapshot);
     snapshot->references = 1;
@@ -132,8 +167,12 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->program = program;
     snapshot->warning = warning;
     record_copy(&snapshot->camera, &scene->camera);
-    snapshot->samples = (int)record_number(&scene->render, "samples");
-    snapshot->fewer_steps = frame_set_scene(&snapshot->frame, scene, &extent);
+    record_copy(&snapshot->render, &scene->render);
+    snapshot->extent = extent_of(renderer, field, &scene->camera);
+    if (!look_around(renderer, snapshot, scene, err)) {
+        snapshot_unref(renderer, snapshot);
+        return NULL;
+    }
     return snapshot;
 }
 
@@ -156,7 +195,9 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     draw_numbers_finish(&snapshot->numbers, &renderer->gl);
     program_unref(renderer->programs, snapshot->program);
     field_unref(snapshot->field);
+    environment_unref(renderer->environments, snapshot->environment);
     record_finish(&snapshot->camera);
+    record_finish(&snapshot->render);
     free(snapshot);
 }
 

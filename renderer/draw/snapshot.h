@@ -13,11 +13,14 @@ struct snapshot {
     struct field *field;
     struct program *program;
     struct record camera;     /* the document's */
-    struct frame_block frame; /* without a camera */
-    int samples;              /* the document's */
+    struct record render;     /* the document's */
+    struct frame_block frame; /* without camera and level */
+    struct frame_extent extent;
+    struct environment *environment;
+    uint32_t environment_us; /* time that it took */
+    bool fewer_steps;        /* than the scene asks for: the driver's bound on loops */
     struct draw_numbers numbers;
     struct error warning; /* of users' code, when the program was new; ERROR_NONE: nothing */
-    bool fewer_steps;     /* than the scene asks for: the driver's bound on loops */
 };
 
 struct renderer;

@@ -20,6 +20,7 @@
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
     X(BUFFERDATA, BufferData)                                                                      \
+    X(BUFFERSUBDATA, BufferSubData)                                                                \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                              \
     X(COMPILESHADER, CompileShader)                                                                \
@@ -36,6 +37,7 @@
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                      \
     X(DISABLE, Disable)                                                                            \
     X(DISPATCHCOMPUTE, DispatchCompute)                                                            \
+    X(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect)                                            \
     X(DRAWARRAYS, DrawArrays)                                                                      \
     X(DRAWBUFFERS, DrawBuffers)                                                                    \
     X(ENABLE, Enable)                                                                              \
@@ -44,10 +46,12 @@
     X(FLUSH, Flush)                                                                                \
     X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                                                  \
     X(GENBUFFERS, GenBuffers)                                                                      \
+    X(GENERATEMIPMAP, GenerateMipmap)                                                              \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
     X(GENQUERIES, GenQueries)                                                                      \
     X(GENTEXTURES, GenTextures)                                                                    \
     X(GENVERTEXARRAYS, GenVertexArrays)                                                            \
+    X(GETBUFFERSUBDATA, GetBufferSubData)                                                          \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                                        \
@@ -69,6 +73,8 @@
     X(TEXBUFFER, TexBuffer)                                                                        \
     X(TEXPARAMETERI, TexParameteri)                                                                \
     X(TEXSTORAGE2D, TexStorage2D)                                                                  \
+    X(TEXSTORAGE3D, TexStorage3D)                                                                  \
+    X(TEXSUBIMAGE2D, TexSubImage2D)                                                                \
     X(UNIFORM1I, Uniform1i)                                                                        \
     X(UNIFORM4I, Uniform4i)                                                                        \
     X(UNIFORMBLOCKBINDING, UniformBlockBinding)                                                    \

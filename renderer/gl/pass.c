@@ -157,13 +157,15 @@ bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_sou
 {
     static const char *const vertex_files[] = {"full.glsl", NULL};
     const struct pass_source vertex = {.defines = "", .files = vertex_files};
-    const size_t head_size = strlen(source->defines) + 64;
+    const size_t head_size = strlen(source->defines) + 128;
     char *head = memory_alloc(1, head_size);
     struct pass pass = {.program = gl->CreateProgram()};
     bool ok;
 
-    snprintf(head, head_size, "#version 430 core\n#define LIGHTS_MAX %d\n%s", LIMIT_LIGHTS,
-             source->defines);
+    snprintf(head, head_size,
+             "#version 430 core\n#define LIGHTS_MAX %d\n#define VOLUMES_MAX %d\n"
+             "#define STACK_DEPTH %d\n%s",
+             LIMIT_LIGHTS, LIMIT_VOLUMES, STACK_DEPTH, source->defines);
     ok = (source->compute || attach(gl, pass.program, GL_VERTEX_SHADER, head, &vertex, err)) &&
          attach(gl, pass.program, source->compute ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER, head,
                 source, err) &&
@@ -174,6 +176,7 @@ bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_sou
         return false;
     }
     pass.tile = gl->GetUniformLocation(pass.program, "tile");
+    pass.turn = gl->GetUniformLocation(pass.program, "turn");
     *out_pass = pass;
     return true;
 }
@@ -186,11 +189,14 @@ void pass_finish(struct pass *pass, const struct gl *gl)
     *pass = (struct pass){0};
 }
 
-static void use(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int mode)
+static void use(const struct pass *pass, const struct gl *gl, const struct pass_place *place)
 {
     gl->UseProgram(pass->program);
     if (pass->tile >= 0) {
-        gl->Uniform4i(pass->tile, tile_x, tile_y, 0, mode);
+        gl->Uniform4i(pass->tile, place->x, place->y, 0, (GLint)place->mode);
+    }
+    if (pass->turn >= 0) {
+        gl->Uniform4i(pass->turn, place->turn[0], place->turn[1], place->turn[2], place->turn[3]);
     }
 }
 
@@ -199,26 +205,27 @@ static GLuint parts(int length, int part)
     return (GLuint)((length + part - 1) / part);
 }
 
-void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y)
+void pass_draw(const struct pass *pass, const struct gl *gl, const struct pass_place *place)
 {
-    use(pass, gl, tile_x, tile_y, 0);
+    use(pass, gl, place);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
-                  int height)
+/* Blocks lie where they do in the whole picture, so a tile may touch one more than it is long. */
+void pass_compute(const struct pass *pass, const struct gl *gl, const struct pass_place *place)
 {
-    use(pass, gl, tile_x, tile_y, 0);
-    gl->DispatchCompute(parts(width, GROUP_SIDE), parts(height, GROUP_SIDE), 1);
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-}
+    const int more = place->mode == PASS_COARSE ? BLOCK_SIDE : 0;
+    const int side = place->mode == PASS_COARSE ? GROUP_SIDE * BLOCK_SIDE : GROUP_SIDE;
 
-void pass_compute_coarse(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y,
-                         int width, int height)
-{
-    const int side = GROUP_SIDE * BLOCK_SIDE;
-
-    use(pass, gl, tile_x, tile_y, 1);
-    gl->DispatchCompute(parts(width, side), parts(height, side), 1);
-    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    use(pass, gl, place);
+    if (place->mode == PASS_LIST) {
+        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIST, place->list);
+        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, place->list);
+        gl->DispatchComputeIndirect(0);
+    } else {
+        gl->DispatchCompute(parts(place->width + more, side), parts(place->height + more, side), 1);
+    }
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                      GL_BUFFER_UPDATE_BARRIER_BIT);
 }

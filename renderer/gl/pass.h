@@ -11,26 +11,69 @@
 #include "gl.h"
 
 /* Bindings that the shaders name (layout(binding = ...)). */
-enum { BINDING_FRAME = 0, BINDING_NUMBERS = 1 };
+enum { BINDING_FRAME = 0, BINDING_NUMBERS = 1 };                /* uniform blocks */
+enum { BINDING_LIST = 0, BINDING_NEXT = 1, BINDING_STACK = 2 }; /* storage blocks */
 enum {
-    UNIT_GEOMETRY = 0,
-    UNIT_MATTER = 1,
-    UNIT_MORE = 2,
-    UNIT_NUMBERS = 3,
-    UNIT_RADIANCE = 4,
+    UNIT_GEOMETRY,
+    UNIT_MATTER,
+    UNIT_MORE,
+    UNIT_NUMBERS,
+    UNIT_TOTAL,
+    UNIT_RAY_FROM,
+    UNIT_RAY_ALONG,
+    UNIT_VISIBILITY,
+    UNIT_PANORAMA,
+    UNIT_MIRRORED,
+    UNIT_IRRADIANCE,
+    UNIT_HAZE,
+    UNIT_STEPS,
+    UNIT_PIXELS,
+    UNIT_COUNTED,
+    UNIT_COUNT
 };
 
-/* Units of the images that are written. */
-enum { IMAGE_GEOMETRY = 0, IMAGE_MATTER = 1, IMAGE_MORE = 2, IMAGE_RADIANCE = 3, IMAGE_STARTS = 4 };
+/* Images that are written. There may be but eight at once, so the passes with a field in them and
+ * the others have sets of their own. */
+enum {
+    IMAGE_GEOMETRY,
+    IMAGE_MATTER,
+    IMAGE_MORE,
+    IMAGE_STEPS,
+    IMAGE_STARTS,
+    IMAGE_VISIBILITY,
+    IMAGE_HAZE
+};
+enum {
+    IMAGE_RAY_FROM,
+    IMAGE_RAY_ALONG,
+    IMAGE_WEIGHT,
+    IMAGE_MEDIUM,
+    IMAGE_TOTAL,
+    IMAGE_SEEN, /* visibility */
+    IMAGE_PIXELS,
+    IMAGE_COUNTED
+};
 
 enum {
-    GROUP_SIDE = 8, /* samples that one work group covers: glsl/group.glsl */
-    BLOCK_SIDE = 8, /* samples that share a start: glsl/march.glsl */
+    GROUP_SIDE = 8,  /* samples that one work group covers: glsl/group.glsl */
+    BLOCK_SIDE = 8,  /* pixels that share a start: glsl/march_pass.glsl */
+    STACK_DEPTH = 8, /* rays of a sample that wait: glsl/stack.glsl */
+};
+
+/* Which samples a pass is for: glsl/frame.glsl. */
+enum pass_mode { PASS_TILE, PASS_COARSE, PASS_LIST };
+
+/* What a pass is told of where it is at. */
+struct pass_place {
+    int x, y, width, height; /* of the tile with its margin, in pixels of the picture */
+    enum pass_mode mode;
+    GLuint list; /* PASS_LIST: buffer of glsl/group.glsl, with the arguments of the dispatch */
+    int turn[4]; /* glsl/frame.glsl */
 };
 
 struct pass {
     GLuint program;
-    GLint tile; /* location of the uniform of that name, -1: not used */
+    GLint tile, turn; /* locations of the uniforms of these names, -1: not used */
 };
 
 struct pass_source {
@@ -44,13 +87,9 @@ struct pass_source {
 bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_source *source,
                struct error *err);
 void pass_finish(struct pass *pass, const struct gl *gl);
-/* Draws into the current framebuffer; the tile's place becomes the uniform `tile`. */
-void pass_draw(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y);
-/* Runs a compute shader for at least width x height samples. */
-void pass_compute(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y, int width,
-                  int height);
-/* The coarse run of march.glsl, before the fine one. */
-void pass_compute_coarse(const struct pass *pass, const struct gl *gl, int tile_x, int tile_y,
-                         int width, int height);
+/* Draws into the current framebuffer. */
+void pass_draw(const struct pass *pass, const struct gl *gl, const struct pass_place *place);
+/* Runs a compute shader over the samples of the place. */
+void pass_compute(const struct pass *pass, const struct gl *gl, const struct pass_place *place);
 
 #endif

@@ -92,7 +92,7 @@ static void evict(struct program_cache *cache)
                 continue;
             }
             unused++;
-            if (p->taken < STAGE_COUNT || p->state == PROGRAM_FAILED) {
+            if (p->taken < p->stages || p->state == PROGRAM_FAILED) {
                 victim = at;
                 unused = PROGRAMS_KEPT + 1;
                 break;
@@ -142,6 +142,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->shape_count = source->shape_count;
     program->user_shaders = source->user_shaders;
     program->user_code = source->user_code;
+    program->stages = source->volumes ? STAGE_COUNT : STAGE_VOLUME;
     program->refs = 1;
     pthread_mutex_lock(&cache->lock);
     program->last_use = ++cache->uses;

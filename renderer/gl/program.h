@@ -15,8 +15,8 @@ enum { PROGRAMS_KEPT = 64 }; /* without a user, the least recently used go beyon
 
 enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 
-/* What is compiled for each shape; glsl/ has a file of each name. */
-enum program_stage { STAGE_MARCH, STAGE_MATTER, STAGE_LIGHT, STAGE_COUNT };
+/* What is compiled for each shape: glsl/NAME_pass.glsl. The last only where there are volumes. */
+enum program_stage { STAGE_MARCH, STAGE_MATTER, STAGE_SHADOW, STAGE_VOLUME, STAGE_COUNT };
 
 struct program; /* reference counted */
 struct program_cache;
@@ -27,6 +27,7 @@ struct program_source {
     size_t number_count;                 /* vec4s in the buffer; at least 1 */
     bool user_shaders;                   /* USER_SHADERS is defined */
     bool user_code;                      /* it waits for program_cache_allow */
+    bool volumes;                        /* STAGE_VOLUME is wanted */
     size_t shape_count;
     size_t map_count; /* the first so many are those that the map reads */
 };

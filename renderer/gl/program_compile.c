@@ -13,7 +13,8 @@
 
 enum {
     PRELOAD_MAX = 4096, /* vec4s */
-    WALL_FACTOR = 2,    /* a compiler that waits for others may take so much longer */
+    FILES_MAX = 32,
+    WALL_FACTOR = 2, /* a compiler that waits for others may take so much longer */
 };
 
 bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
@@ -56,13 +57,18 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
 static bool link_stage(const struct gl *gl, const struct program *program, bool software,
                        enum program_stage stage, struct pass *out_pass, struct error *err)
 {
-    static const char *const files[STAGE_COUNT][24] = {
-        {"group.glsl", "numbers.glsl", "frame.glsl", FIELD_GLSL_FILES, "map", "camera.glsl",
-         "march.glsl", NULL},
-        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "surface",
-         "camera.glsl", "gbuffer.glsl", "matter.glsl", NULL},
-        {"group.glsl", "numbers.glsl", "frame.glsl", "surface.glsl", FIELD_GLSL_FILES, "map",
-         "camera.glsl", "gbuffer.glsl", "sky.glsl", "light.glsl", NULL},
+    static const char *const files[STAGE_COUNT][FILES_MAX] = {
+        [STAGE_MARCH] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
+                         "map", "ray_load.glsl", "camera.glsl", "march.glsl", "march_pass.glsl"},
+        [STAGE_MATTER] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", "surface.glsl",
+                          FIELD_GLSL_FILES, "surface", "ray_load.glsl", "gbuffer.glsl",
+                          "matter_pass.glsl"},
+        [STAGE_SHADOW] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
+                          "map", "ray_load.glsl", "lights.glsl", "shadow_store.glsl", "shadow.glsl",
+                          "shadow_pass.glsl"},
+        [STAGE_VOLUME] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
+                          "map", "ray_load.glsl", "camera.glsl", "lights.glsl", "sky.glsl",
+                          "volume.glsl", "volume_pass.glsl"},
     };
     char *defines =
         make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
@@ -99,7 +105,7 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
         gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
         gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
     }
-    pass_compute(pass, gl, 0, 0, targets->width, targets->height);
+    pass_compute(pass, gl, &(struct pass_place){.width = targets->side, .height = targets->side});
     gl->Finish();
     gl->DeleteBuffers(2, buffers);
     if (view) {
@@ -116,7 +122,7 @@ static void finish_stage(struct program_cache *cache, struct program *program,
         program->error = *err;
     }
     cache->compilations++;
-    if (++program->done == STAGE_COUNT) {
+    if (++program->done == program->stages) {
         program->state = program->error.kind == ERROR_NONE ? PROGRAM_READY : PROGRAM_FAILED;
         cache->finished++;
         pthread_cond_broadcast(&cache->done);
@@ -161,7 +167,7 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
 
 static bool is_waiting(const struct program *program)
 {
-    return program->taken < STAGE_COUNT && program->refs > 0;
+    return program->taken < program->stages && program->refs > 0;
 }
 
 static bool is_worked_at(const struct program *program)
@@ -238,8 +244,8 @@ void *program_compile_main(void *data)
     pthread_mutex_lock(&cache->lock);
     EGLContext context = cache->egl->compile[cache->started++];
     pthread_mutex_unlock(&cache->lock);
-    const bool ok = egl_bind(cache->egl, context, &err) &&
-                    targets_init(&targets, gl, GROUP_SIDE, GROUP_SIDE, &err);
+    const bool ok =
+        egl_bind(cache->egl, context, &err) && targets_init(&targets, gl, GROUP_SIDE, &err);
     pthread_mutex_lock(&cache->lock);
     cache->running += ok;
     cache->stop = cache->stop || !ok;
@@ -249,6 +255,7 @@ void *program_compile_main(void *data)
     if (ok) {
         gl_debug(gl, cache->sink);
         targets_bind(&targets, gl);
+        targets_bind_field(&targets, gl, &targets.eye);
         work(compiler, &targets);
         targets_finish(&targets, gl);
     }

@@ -15,6 +15,7 @@ struct program {
     char *map_text, *surface_text;
     size_t number_count, map_count, shape_count;
     bool user_shaders, user_code;
+    int stages;   /* how many there are */
     bool allowed; /* of those with user_code */
     int refs;
     uint64_t last_use;

@@ -1,22 +1,75 @@
 /* SPDX-License-Identifier: MIT */
-/* Textures and framebuffers of a tile. */
+/* Textures, lists and framebuffers of a tile. */
 #include "targets.h"
 
-#include "pass.h"
+#include <stddef.h>
+#include <stdint.h>
 
-static GLuint make_texture(const struct gl *gl, GLenum format, int width, int height)
+#include "pass.h"
+#include "protocol/limits.h"
+
+enum { STACK_HEAD_BYTES = 16, WAITING_BYTES = 64, LIST_HEAD_BYTES = 16 };
+
+/* All textures but the outputs and the array. */
+static const struct {
+    size_t offset; /* in struct targets */
+    GLenum format;
+} textures[] = {
+#define SET(name)                                                                                  \
+    {offsetof(struct targets, name.from), GL_RGBA32F},                                             \
+        {offsetof(struct targets, name.along), GL_RGBA32F},                                        \
+        {offsetof(struct targets, name.geometry), GL_RGBA32F},                                     \
+        {offsetof(struct targets, name.matter), GL_RGBA32UI},                                      \
+        {offsetof(struct targets, name.more), GL_RGBA32UI},                                        \
+        {offsetof(struct targets, name.weight), GL_RGBA32F},                                       \
+    {                                                                                              \
+        offsetof(struct targets, name.medium), GL_RGBA16F                                          \
+    }
+    SET(eye),
+    SET(light),
+#undef SET
+    {offsetof(struct targets, steps), GL_R32F},
+    {offsetof(struct targets, haze), GL_RGBA16F},
+    {offsetof(struct targets, total), GL_RGBA32F},
+    {offsetof(struct targets, pixels), GL_RGBA32F},
+    {offsetof(struct targets, counted), GL_R32F},
+};
+enum { TEXTURE_COUNT = sizeof textures / sizeof textures[0] };
+
+static GLuint *texture_at(struct targets *targets, int i)
+{
+    return (GLuint *)(void *)((char *)targets + textures[i].offset);
+}
+
+static void set_filter(const struct gl *gl, GLenum target)
+{
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+static GLuint make_texture(const struct gl *gl, GLenum format, int side)
 {
     GLuint texture = 0;
 
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, side, side);
+    set_filter(gl, GL_TEXTURE_2D);
     return texture;
 }
 
-static GLuint make_buffer(const struct gl *gl, GLuint texture)
+static GLuint make_layers(const struct gl *gl, GLenum format, int side, int layers)
+{
+    GLuint texture = 0;
+
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    gl->TexStorage3D(GL_TEXTURE_2D_ARRAY, 1, format, side, side, layers);
+    set_filter(gl, GL_TEXTURE_2D_ARRAY);
+    return texture;
+}
+
+static GLuint make_framebuffer(const struct gl *gl, GLuint texture)
 {
     const GLenum attachment = GL_COLOR_ATTACHMENT0;
     GLuint buffer = 0;
@@ -28,37 +81,63 @@ static GLuint make_buffer(const struct gl *gl, GLuint texture)
     return buffer;
 }
 
-static bool check_buffer(const struct gl *gl, GLuint buffer)
+static GLuint make_storage(const struct gl *gl, size_t bytes)
 {
-    gl->BindFramebuffer(GL_FRAMEBUFFER, buffer);
-    return gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    GLuint buffer = 0;
+
+    gl->GenBuffers(1, &buffer);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
+    gl->BufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)bytes, NULL, GL_DYNAMIC_COPY);
+    return buffer;
 }
 
-/* A whole number of work groups. */
-static int starts_side(int samples)
-{
-    const int side = GROUP_SIDE * BLOCK_SIDE;
-
-    return (samples + side - 1) / side * GROUP_SIDE;
-}
-
-bool targets_init(struct targets *out_targets, const struct gl *gl, int width, int height,
-                  struct error *err)
+static bool make_outputs(struct targets *targets, const struct gl *gl)
 {
     static const GLenum formats[OUT_KINDS] = {GL_RGBA8, GL_RGBA32F, GL_R32UI};
-    struct targets targets = {.width = width, .height = height};
     bool complete = true;
 
-    targets.geometry = make_texture(gl, GL_RGBA32F, width, height);
-    targets.matter = make_texture(gl, GL_RGBA32UI, width, height);
-    targets.more = make_texture(gl, GL_RGBA32UI, width, height);
-    targets.radiance = make_texture(gl, GL_RGBA32F, width, height);
-    targets.starts = make_texture(gl, GL_R32F, starts_side(width), starts_side(height));
     for (int i = 0; i < OUT_KINDS; i++) {
-        targets.out[i] = make_texture(gl, formats[i], width, height);
-        targets.out_buffers[i] = make_buffer(gl, targets.out[i]);
-        complete = complete && check_buffer(gl, targets.out_buffers[i]);
+        targets->out[i] = make_texture(gl, formats[i], targets->side);
+        targets->out_buffers[i] = make_framebuffer(gl, targets->out[i]);
+        complete =
+            complete && gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     }
+    return complete;
+}
+
+static void make_buffers(struct targets *targets, const struct gl *gl)
+{
+    const size_t samples = (size_t)targets->side * (size_t)targets->side;
+    const uint32_t head[4] = {0, (uint32_t)targets->side};
+
+    for (int i = 0; i < LIST_COUNT; i++) {
+        targets->lists[i] = make_storage(gl, LIST_HEAD_BYTES + 4 * samples);
+        targets_begin_list(targets, gl, (enum target_list)i);
+    }
+    targets->stack = make_storage(gl, STACK_HEAD_BYTES + WAITING_BYTES * STACK_DEPTH * samples);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof head, head);
+}
+
+/* Blocks lie where they do in the picture, so a tile may touch one more; whole work groups. */
+static int starts_side(int side)
+{
+    const int group = GROUP_SIDE * BLOCK_SIDE;
+
+    return (side + BLOCK_SIDE + group - 1) / group * GROUP_SIDE;
+}
+
+bool targets_init(struct targets *out_targets, const struct gl *gl, int side, struct error *err)
+{
+    struct targets targets = {.side = side};
+    bool complete;
+
+    for (int i = 0; i < TEXTURE_COUNT; i++) {
+        *texture_at(&targets, i) = make_texture(gl, textures[i].format, side);
+    }
+    targets.starts = make_texture(gl, GL_R32F, starts_side(side));
+    targets.visibility = make_layers(gl, GL_RGBA16F, side, LIMIT_LIGHTS);
+    complete = make_outputs(&targets, gl);
+    make_buffers(&targets, gl);
     /* The same state in every context: drivers compile anew for another one. */
     gl->Disable(GL_DITHER);
     gl->GenVertexArrays(1, &targets.vertices);
@@ -79,35 +158,86 @@ fail:
 
 void targets_finish(struct targets *targets, const struct gl *gl)
 {
-    const GLuint textures[] = {targets->geometry, targets->matter, targets->more, targets->radiance,
-                               targets->starts};
-
     gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
-    gl->DeleteTextures(5, textures);
+    for (int i = 0; i < TEXTURE_COUNT; i++) {
+        gl->DeleteTextures(1, texture_at(targets, i));
+    }
+    gl->DeleteTextures(1, &targets->starts);
+    gl->DeleteTextures(1, &targets->visibility);
     gl->DeleteTextures(OUT_KINDS, targets->out);
+    gl->DeleteBuffers(LIST_COUNT, targets->lists);
+    gl->DeleteBuffers(1, &targets->stack);
     gl->DeleteVertexArrays(1, &targets->vertices);
     *targets = (struct targets){0};
 }
 
+static void bind_unit(const struct gl *gl, GLenum unit, GLuint texture)
+{
+    gl->ActiveTexture(GL_TEXTURE0 + unit);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+}
+
+static void bind_image(const struct gl *gl, GLuint unit, GLuint texture, GLenum format)
+{
+    gl->BindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, format);
+}
+
 void targets_bind(const struct targets *targets, const struct gl *gl)
 {
-    const struct {
-        GLuint texture;
-        GLenum unit;
-        GLuint image;
-        GLenum format;
-    } rows[] = {
-        {targets->geometry, UNIT_GEOMETRY, IMAGE_GEOMETRY, GL_RGBA32F},
-        {targets->matter, UNIT_MATTER, IMAGE_MATTER, GL_RGBA32UI},
-        {targets->more, UNIT_MORE, IMAGE_MORE, GL_RGBA32UI},
-        {targets->radiance, UNIT_RADIANCE, IMAGE_RADIANCE, GL_RGBA32F},
-    };
+    gl->BindVertexArray(targets->vertices);
+    bind_unit(gl, UNIT_TOTAL, targets->total);
+    bind_unit(gl, UNIT_HAZE, targets->haze);
+    bind_unit(gl, UNIT_STEPS, targets->steps);
+    bind_unit(gl, UNIT_PIXELS, targets->pixels);
+    bind_unit(gl, UNIT_COUNTED, targets->counted);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VISIBILITY);
+    gl->BindTexture(GL_TEXTURE_2D_ARRAY, targets->visibility);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIST, targets->lists[LIST_EDGES]);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_NEXT, targets->lists[LIST_EDGES]);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_STACK, targets->stack);
+}
 
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
-        gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);
-        gl->BindImageTexture(rows[i].image, rows[i].texture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                             rows[i].format);
-    }
-    gl->BindImageTexture(IMAGE_STARTS, targets->starts, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+static void bind_set(const struct gl *gl, const struct ray_set *set)
+{
+    bind_unit(gl, UNIT_RAY_FROM, set->from);
+    bind_unit(gl, UNIT_RAY_ALONG, set->along);
+    bind_unit(gl, UNIT_GEOMETRY, set->geometry);
+    bind_unit(gl, UNIT_MATTER, set->matter);
+    bind_unit(gl, UNIT_MORE, set->more);
+}
+
+void targets_bind_field(const struct targets *targets, const struct gl *gl,
+                        const struct ray_set *set)
+{
+    bind_set(gl, set);
+    bind_image(gl, IMAGE_GEOMETRY, set->geometry, GL_RGBA32F);
+    bind_image(gl, IMAGE_MATTER, set->matter, GL_RGBA32UI);
+    bind_image(gl, IMAGE_MORE, set->more, GL_RGBA32UI);
+    bind_image(gl, IMAGE_STEPS, targets->steps, GL_R32F);
+    bind_image(gl, IMAGE_STARTS, targets->starts, GL_R32F);
+    bind_image(gl, IMAGE_VISIBILITY, targets->visibility, GL_RGBA16F);
+    bind_image(gl, IMAGE_HAZE, targets->haze, GL_RGBA16F);
+}
+
+void targets_bind_common(const struct targets *targets, const struct gl *gl,
+                         const struct ray_set *read, const struct ray_set *write)
+{
+    bind_set(gl, read);
+    bind_image(gl, IMAGE_RAY_FROM, write->from, GL_RGBA32F);
+    bind_image(gl, IMAGE_RAY_ALONG, write->along, GL_RGBA32F);
+    bind_image(gl, IMAGE_WEIGHT, write->weight, GL_RGBA32F);
+    bind_image(gl, IMAGE_MEDIUM, write->medium, GL_RGBA16F);
+    bind_image(gl, IMAGE_TOTAL, targets->total, GL_RGBA32F);
+    bind_image(gl, IMAGE_SEEN, targets->visibility, GL_RGBA16F);
+    bind_image(gl, IMAGE_PIXELS, targets->pixels, GL_RGBA32F);
+    bind_image(gl, IMAGE_COUNTED, targets->counted, GL_R32F);
+}
+
+void targets_begin_list(const struct targets *targets, const struct gl *gl, enum target_list list)
+{
+    static const uint32_t empty[4] = {0, 1, 1, 0};
+
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, targets->lists[list]);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof empty, empty);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_NEXT, targets->lists[list]);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the passes draw into: textures and framebuffers of one size, made once and used for every
- * tile. The formats stand here alone, because a program that draws into another format is compiled
- * again by some drivers. */
+/* What the passes read and write: textures, lists and framebuffers of one size, made once and used
+ * for every tile. The formats stand here alone, because a program that draws into another format is
+ * compiled again by some drivers. */
 #ifndef RENDERER_TARGETS_H
 #define RENDERER_TARGETS_H
 
@@ -10,19 +10,51 @@
 /* Kinds of finished pixels. */
 enum out_kind { OUT_BYTES /* rgba8 */, OUT_FLOATS /* rgba32f */, OUT_UINTS /* r32ui */, OUT_KINDS };
 
+/* Of each sample: its ray, and what that met. */
+struct ray_set {
+    GLuint from, along;            /* rgba32f: glsl/ray_load.glsl */
+    GLuint geometry, matter, more; /* rgba32f, rgba32ui twice: glsl/gbuffer.glsl */
+    GLuint weight, medium;         /* rgba32f, rgba16f: glsl/stack.glsl, glsl/clear_pass.glsl */
+};
+
+/* Lists of samples. */
+enum target_list {
+    LIST_EDGES, /* those that are sampled again */
+    LIST_RAYS,  /* those with a mirrored or broken ray, and the next ones */
+    LIST_RAYS_NEXT,
+    LIST_CLEAR, /* those with a ray to a light, and the next ones */
+    LIST_CLEAR_NEXT,
+    LIST_COUNT
+};
+
 struct targets {
-    int width, height; /* in samples; multiples of GROUP_SIDE */
-    GLuint geometry, matter, more, radiance, out[OUT_KINDS];
-    GLuint starts;                 /* one texel for each block of march.glsl */
-    GLuint out_buffers[OUT_KINDS]; /* framebuffers */
-    GLuint vertices;               /* the empty vertex array that core profiles want */
+    int side;             /* in samples; a multiple of GROUP_SIDE */
+    struct ray_set eye;   /* rays that end in the eye */
+    struct ray_set light; /* rays to lights, through clear things */
+    GLuint steps;         /* r32f */
+    GLuint starts;        /* r32f, one texel for each block of march_pass.glsl */
+    GLuint visibility;    /* rgba16f, a layer for each light */
+    GLuint haze;          /* rgba16f */
+    GLuint total, pixels; /* rgba32f: light of the sample, and summed up over the pixel's */
+    GLuint counted;       /* r32f: samples of the pixel */
+    GLuint out[OUT_KINDS], out_buffers[OUT_KINDS]; /* textures and their framebuffers */
+    GLuint lists[LIST_COUNT];
+    GLuint stack;    /* glsl/stack.glsl */
+    GLuint vertices; /* the empty vertex array that core profiles want */
 };
 
 /* For the current context: framebuffers are not shared. */
-bool targets_init(struct targets *out_targets, const struct gl *gl, int width, int height,
-                  struct error *err);
+bool targets_init(struct targets *out_targets, const struct gl *gl, int side, struct error *err);
 void targets_finish(struct targets *targets, const struct gl *gl);
-/* Binds everything that passes read or write to its unit, but the framebuffers. */
+/* Binds what all passes share. */
 void targets_bind(const struct targets *targets, const struct gl *gl);
+/* Binds a set for reading, and the images that passes with a field in them write. */
+void targets_bind_field(const struct targets *targets, const struct gl *gl,
+                        const struct ray_set *set);
+/* The same for the other passes: `read` is read, `write` is written. */
+void targets_bind_common(const struct targets *targets, const struct gl *gl,
+                         const struct ray_set *read, const struct ray_set *write);
+/* Empties a list and binds it as the one that is added to. */
+void targets_begin_list(const struct targets *targets, const struct gl *gl, enum target_list list);
 
 #endif

@@ -2,35 +2,50 @@
 /* Rays through pixels. Every number comes from whole pixel coordinates, so that a ray does not
  * depend on the tile it is drawn in. */
 
-struct Ray {
-    vec3 origin;
-    vec3 direction; /* of length 1 */
-};
-
-/* Where in its pixel a sample lies, in 0..1. With n x n samples: one in each cell of an n x n grid
- * and one in each of the n^2 columns and rows (Chiu, Shirley, Wang: Multi-jittered sampling,
- * Graphics Gems IV, 1994, the canonical arrangement): edges near the axes get n^2 shades. */
-vec2 sample_place(ivec2 cell, int n)
+/* The pinhole's ray through a place of the picture, in pixels from its left top. */
+Ray camera_ray(vec2 at)
 {
-    vec2 fine = (vec2(cell.y, n - 1 - cell.x) + 0.5) / float(n);
-    return (vec2(cell) + fine) / float(n);
-}
-
-/* The ray of a sample; `at` counts samples from the left top of the picture. */
-Ray camera_ray(ivec2 at)
-{
-    int n = size.z;
-    ivec2 pixel = at / n;
-    vec2 place = (vec2(pixel) + sample_place(at - pixel * n, n)) / vec2(size.xy);
+    vec2 place = at / vec2(size.xy);
     vec3 aside = right.xyz * (2.0 * place.x - 1.0) + up.xyz * (1.0 - 2.0 * place.y);
     if (eye.w > 0.5) {
-        return Ray(eye.xyz + aside, forward.xyz);
+        return Ray(eye.xyz + aside, forward.xyz, 0.0, false);
     }
-    return Ray(eye.xyz, normalize(forward.xyz + aside));
+    return Ray(eye.xyz, normalize(forward.xyz + aside), 0.0, false);
 }
 
-/* Radius of a pixel's footprint at distance t along its ray. */
-float footprint(float t)
+/* Where in its pixel sample i lies, in 0..1: the first in the middle, the others so that any number
+ * of them is spread evenly, also along each axis (Roberts: The unreasonable effectiveness of
+ * quasirandom sequences, 2018). */
+vec2 sample_place(int i)
 {
-    return forward.w * (eye.w > 0.5 ? 1.0 : t);
+    return fract(0.5 + float(i) * vec2(0.7548776662, 0.5698402910));
+}
+
+/* In 0..1, from the place in the picture alone (Jimenez: Next generation post processing in Call of
+ * Duty: Advanced Warfare, SIGGRAPH 2014). */
+float pixel_noise(ivec2 pixel)
+{
+    return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
+}
+
+/* A place on the lens, a disc of radius 1: a spiral with the golden angle, turned for each pixel. */
+vec2 lens_place(ivec2 pixel, int i, int count)
+{
+    float r = sqrt((float(i) + 0.5) / float(count));
+    float angle = 2.39996323 * float(i) + 6.2831853 * pixel_noise(pixel);
+    return r * vec2(cos(angle), sin(angle));
+}
+
+/* The ray of a sample of a pixel. What lies at the distance in focus, along the view, is hit at the
+ * same place from everywhere on the lens. */
+Ray camera_sample(ivec2 pixel, int i)
+{
+    Ray ray = camera_ray(vec2(pixel) + sample_place(i));
+    if (right.w > 0.0) {
+        vec3 sharp = ray.origin + ray.direction * (up.w / dot(ray.direction, forward.xyz));
+        vec2 lens = right.w * lens_place(pixel, i, counts.z);
+        ray.origin += normalize(right.xyz) * lens.x + normalize(up.xyz) * lens.y;
+        ray.direction = normalize(sharp - ray.origin);
+    }
+    return ray;
 }

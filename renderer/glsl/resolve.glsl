@@ -1,71 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* Last pass: samples become pixels. One of OUT_COLOR, OUT_LINEAR, OUT_DEPTH, OUT_NORMAL,
- * OUT_NORMAL_RAW, OUT_ID, OUT_ID_RAW is defined.
- *
- * Every sample is tone mapped before the average is taken: a bright highlight then has edges as
- * smooth as any other. The average is one of light, so it is taken before the sRGB curve. */
+/* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. turn.z: width
+ * of the tile's margin; turn.w: 1 where edges are blended. */
 
-layout(binding = 4) uniform sampler2D radiance;
-layout(binding = 0) uniform sampler2D geometry;
-layout(binding = 2) uniform usampler2D more;
-
-#define TONE_NONE 0
-#define TONE_REINHARD 1
-
+layout(binding = 14) uniform sampler2D counted;
+layout(binding = 7) uniform sampler2DArray visibility;
+layout(binding = 1) uniform usampler2D matter;
+layout(binding = 12) uniform sampler2D steps;
 #if defined(OUT_ID_RAW)
 layout(location = 0) out uvec4 out_pixel;
 #else
 layout(location = 0) out vec4 out_pixel;
 #endif
 
-/* Hill's fit of the ACES reference and output transforms, as matrices and a rational curve (Hill,
- * in the BakingLab of Pettineo and Neubelt, 2016). */
-vec3 aces(vec3 c)
+vec4 average(ivec2 here)
 {
-    const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383,
-                           0.04823, 0.01566, 0.83777);
-    const mat3 back = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276,
-                           -0.07367, -0.00605, 1.07602);
-    vec3 v = into * c;
-    v = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-    return back * v;
+    return texelFetch(pixels, here, 0) / max(texelFetch(counted, here, 0).x, 1.0);
 }
 
-vec3 tone_map(vec3 c)
+/* Edges are mixed with what is around them, the more the stronger they are (Sabino, Andrade, Clua,
+ * Montenegro, Pagliosa: A hybrid GPU rasterized and ray traced rendering pipeline for real time
+ * rendering of per pixel effects, 2012). */
+vec4 blended(ivec2 here)
 {
-    if (modes.z == TONE_NONE) {
-        return clamp(c, 0.0, 1.0);
+    vec4 c = average(here);
+    float edge = clamp(edge_at(here), 0.0, 1.0);
+    vec4 sum = 2.0 * c;
+    float weights = 2.0;
+    for (int i = zero; i < 4; i++) {
+        ivec2 aside = (i < 2 ? ivec2(1, 0) : ivec2(0, 1)) * (1 - 2 * (i & 1));
+        sum += average(here + aside);
+        weights += 1.0;
     }
-    if (modes.z == TONE_REINHARD) {
-        return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
-    }
-    return clamp(aces(c / 0.85), 0.0, 1.0);
-}
-
-/* IEC 61966-2-1 */
-vec3 srgb(vec3 c)
-{
-    c = clamp(c, 0.0, 1.0);
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-}
-
-/* In -0.5..0.5, from the place in the picture alone (Jimenez: Next generation post processing in
- * Call of Duty: Advanced Warfare, SIGGRAPH 2014): hides the steps of 8 bits in gradients, and
- * leaves alone what is already a whole step. */
-float dither(ivec2 pixel)
-{
-    return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715)))) - 0.5;
-}
-
-vec3 average(ivec2 pixel, bool display)
-{
-    int n = size.z;
-    vec3 sum = vec3(0.0);
-    for (int i = zero; i < n * n; i++) {
-        vec3 c = texelFetch(radiance, pixel * n + ivec2(i % n, i / n), 0).rgb;
-        sum += display ? tone_map(c * zenith.w) : c;
-    }
-    return sum / float(n * n);
+    return mix(c, sum / weights, edge);
 }
 
 /* Neighbouring ids get hues far apart: steps of the golden ratio. */
@@ -77,24 +43,83 @@ vec3 id_color(uint id)
     return id == 0u ? vec3(0.0) : value * mix(vec3(1.0), c, 0.75);
 }
 
+/* From blue over green and yellow to red. */
+vec3 heat(float x)
+{
+    vec3 c = clamp(1.5 - abs(4.0 * clamp(x, 0.0, 1.0) - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
+    return c * c * (3.0 - 2.0 * c);
+}
+
+vec3 color_of(vec4 c, float coverage)
+{
+    return srgb(coverage > 0.0 ? c.rgb / coverage : vec3(0.0));
+}
+
+/* Part of the lights' light that arrives, all of them together. */
+vec3 light_seen(ivec2 here)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = zero; i < modes.x; i++) {
+        sum += texelFetch(visibility, ivec3(here, i), 0).rgb;
+    }
+    return modes.x > 0 ? sum / float(modes.x) : vec3(1.0);
+}
+
 void main()
 {
-    ivec2 here = ivec2(gl_FragCoord.xy);
-#if defined(OUT_COLOR)
-    vec3 c = srgb(average(here, true));
-    out_pixel = vec4(c + dither(tile.xy + here) * 0.98 / 255.0, 1.0);
-#elif defined(OUT_LINEAR)
-    out_pixel = vec4(average(here, false), 1.0);
-#elif defined(OUT_DEPTH)
-    out_pixel = vec4(texelFetch(geometry, here, 0).w);
-#elif defined(OUT_NORMAL)
+    ivec2 here = ivec2(gl_FragCoord.xy) + turn.z;
+    ivec2 pixel = tile.xy + here;
     vec4 g = texelFetch(geometry, here, 0);
-    out_pixel = vec4(g.w < INFINITY ? g.xyz * 0.5 + 0.5 : vec3(0.0), 1.0);
+    bool hit = g.w < INFINITY;
+    Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
+    float rough = s.model == MODEL_STANDARD ? s.gloss : sqrt(2.0 / (s.gloss + 2.0));
+    vec4 optical = vec4(s.reflectivity, s.ior, 1.0 - s.transmission, rough);
+    float dither = (pixel_noise(pixel) - 0.5) * 0.98 / 255.0;
+    vec4 c = turn.w == 1 ? blended(here) : average(here);
+    bool transparent = (effects.z & EFFECT_TRANSPARENT) != 0;
+    float coverage = transparent ? c.a : 1.0;
+
+    vec4 none = vec4(0.0);
+#if defined(OUT_COLOR)
+    out_pixel = vec4(color_of(c, coverage) + dither, coverage);
+#elif defined(OUT_LINEAR)
+    out_pixel = vec4(c.rgb, coverage);
+#elif defined(OUT_DEPTH)
+    out_pixel = vec4(g.w);
+#elif defined(OUT_NORMAL)
+    out_pixel = hit ? vec4(g.xyz * 0.5 + 0.5, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
 #elif defined(OUT_NORMAL_RAW)
-    out_pixel = vec4(texelFetch(geometry, here, 0).xyz, 1.0);
+    out_pixel = hit ? vec4(g.xyz, 1.0) : none;
+#elif defined(OUT_POSITION)
+    Ray ray = camera_sample(pixel, 0);
+    out_pixel = hit ? vec4(ray.origin + ray.direction * g.w, 1.0) : none;
 #elif defined(OUT_ID)
-    out_pixel = vec4(id_color(texelFetch(more, here, 0).w), 1.0);
+    out_pixel = vec4(id_color(s.id), 1.0);
 #elif defined(OUT_ID_RAW)
-    out_pixel = uvec4(texelFetch(more, here, 0).w);
+    out_pixel = uvec4(s.id);
+#elif defined(OUT_STEPS)
+    out_pixel = vec4(heat(texelFetch(steps, here, 0).x / float(size.w)), 1.0);
+#elif defined(OUT_STEPS_RAW)
+    out_pixel = texelFetch(steps, here, 0).xxxx;
+#elif defined(OUT_ALBEDO)
+    out_pixel = vec4(srgb(hit ? s.diffuse : vec3(0.0)), 1.0);
+#elif defined(OUT_ALBEDO_RAW)
+    out_pixel = hit ? vec4(s.diffuse, 1.0) : none;
+#elif defined(OUT_SPECULAR)
+    out_pixel = vec4(srgb(hit ? s.specular : vec3(0.0)), 1.0);
+#elif defined(OUT_SPECULAR_RAW)
+    out_pixel = hit ? vec4(s.specular, 1.0) : none;
+#elif defined(OUT_OPTICAL)
+    out_pixel = vec4(hit ? vec3(optical.x, (optical.y - 1.0) / 3.0, optical.z) : vec3(0.0), 1.0);
+#elif defined(OUT_OPTICAL_RAW)
+    out_pixel = hit ? optical : none;
+#elif defined(OUT_SHADOW)
+    out_pixel = vec4(hit ? light_seen(here) : vec3(1.0), 1.0);
+#elif defined(OUT_SHADOW_RAW)
+    out_pixel = vec4(hit ? light_seen(here) : vec3(1.0), 1.0);
+#elif defined(OUT_OCCLUSION)
+    out_pixel = vec4(vec3(hit ? texelFetch(visibility, ivec3(here, 0), 0).a : 1.0), 1.0);
+#elif defined(OUT_OCCLUSION_RAW)
+    out_pixel = vec4(hit ? texelFetch(visibility, ivec3(here, 0), 0).a : 1.0);
 #endif
 }

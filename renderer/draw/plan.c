@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT */
+#include "plan.h"
+
+enum {
+    /* llvmpipe (Mesa 22.3, lp_bld_limits.h) ends all loops of a shader after 65,535 iterations
+     * together, silently. Some are left for loops around the marching. */
+    LOOP_BUDGET = 65000,
+};
+
+static bool is_on(const struct record *render, const char *name)
+{
+    return record_number(render, name) != 0;
+}
+
+/* The scene's own number, or the level's where that is 0. */
+static int own_or(const struct record *render, const char *name, int level)
+{
+    const int own = (int)record_number(render, name);
+
+    return own > 0 ? own : level;
+}
+
+/* Steps such that marching, or all shadows, stay within the driver's budget of iterations. */
+static bool set_steps(struct frame_block *block, int wanted, int wanted_shadow,
+                      const struct frame_extent *extent)
+{
+    const int each = 1 + extent->loop_trips;
+    const int lights = block->modes[0] > 0 ? block->modes[0] : 1;
+    const int rounds = block->clear_min[3] > 0 ? 2 : 1; /* of a ray inside, for each step */
+    int steps = wanted, shadow_steps = wanted_shadow;
+
+    if (extent->limit_loops) {
+        /* Four points for the normal, and one evaluation of the surface. */
+        const int most = (LOOP_BUDGET / each - 5) / rounds;
+        const int most_shadow = (LOOP_BUDGET / each - block->effects[0]) / lights - 1;
+        steps = most < steps ? most : steps;
+        shadow_steps = most_shadow < shadow_steps ? most_shadow : shadow_steps;
+    }
+    block->size[3] = steps > 1 ? steps : 1;
+    block->modes[3] = shadow_steps > 1 ? shadow_steps : 1;
+    return steps < wanted || shadow_steps < wanted_shadow;
+}
+
+/* Rounds of the loops in glsl/volume.glsl for one step of a ray, when map() takes `each`. */
+static int volume_rounds(const struct frame_block *block, int each)
+{
+    const int lights = block->modes[0] > 0 ? block->modes[0] : 1;
+    int density = 0;
+
+    for (int i = 0; i < block->effects[3]; i++) {
+        density += 1 + (int)block->volumes[i].noise[1];
+    }
+    const int step_to_light = each + density;
+    return 1 + block->effects[3] +
+           lights * (1 + block->effects[3] + (1 + 3 * block->counts[1]) * step_to_light);
+}
+
+/* The same for volumes: light in them is looked at less closely first, then they are. */
+static void set_volume_steps(struct frame_block *block, const struct quality *q,
+                             const struct frame_extent *extent)
+{
+    const int edges = 2 * block->effects[3];
+    int most = q->volume_steps;
+
+    block->counts[0] = q->volume_steps;
+    block->counts[1] = q->volume_shadow_steps;
+    do {
+        most = LOOP_BUDGET / volume_rounds(block, 1 + extent->loop_trips) - edges;
+    } while (extent->limit_loops && most < block->counts[0] && --block->counts[1] > 1);
+    if (extent->limit_loops && most < block->counts[0]) {
+        block->counts[0] = most > 1 ? most : 1;
+    }
+}
+
+/* Of moving pictures the scene decides only that there is none. */
+static enum antialiasing choose_antialiasing(const struct record *render, const struct quality *q,
+                                             enum quality_level level, int samples)
+{
+    const enum antialiasing own = (enum antialiasing)record_number(render, "antialiasing");
+    const bool owns =
+        own == ANTIALIASING_NONE || (own != ANTIALIASING_AUTO && level >= QUALITY_STILL);
+    const enum antialiasing chosen = owns ? own : q->antialiasing;
+
+    return samples == 1 && chosen > ANTIALIASING_EDGES ? ANTIALIASING_NONE : chosen;
+}
+
+static void set_samples(struct draw_plan *plan, struct frame_block *block,
+                        const struct record *render, const struct quality *q,
+                        enum quality_level level, int wanted)
+{
+    const int own = q->samples ? q->samples : (int)record_number(render, "samples");
+    const int n = wanted ? wanted : own;
+
+    plan->antialiasing = choose_antialiasing(render, q, level, n);
+    plan->samples = plan->antialiasing > ANTIALIASING_EDGES ? n * n : 1;
+    if (q->lens_samples == 0) {
+        block->right[3] = 0; /* no lens */
+    } else if (block->right[3] > 0) {
+        plan->antialiasing = ANTIALIASING_FULL;
+        plan->samples = plan->samples > q->lens_samples ? plan->samples : q->lens_samples;
+    }
+    block->size[2] = n;
+    block->counts[2] = plan->samples;
+}
+
+static void set_effects(struct draw_plan *plan, struct frame_block *block,
+                        const struct record *render, const struct quality *q, bool transparent)
+{
+    const bool rays = is_on(render, "reflections") || is_on(render, "refractions");
+    const int depth = q->ray_depth ? own_or(render, "ray_depth", q->ray_depth) : 0;
+
+    block->effects[0] =
+        is_on(render, "occlusion") ? own_or(render, "occlusion_samples", q->occlusion_samples) : 0;
+    block->effects[1] = rays ? depth : 0;
+    block->effects[2] = (block->effects[2] & EFFECT_SUN) |
+                        (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
+                        (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
+                        (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
+                        (transparent ? EFFECT_TRANSPARENT : 0);
+    block->clear_max[3] = (float)q->ray_least;
+    block->counts[3] = q->clear_depth;
+    plan->rays = block->effects[1] ? q->rays : 0;
+    plan->clear_depth = is_on(render, "shadows") ? q->clear_depth : 0;
+    plan->volumes = block->effects[3] > 0;
+}
+
+bool plan_make(struct draw_plan *out_plan, struct frame_block *block, const struct record *render,
+               const struct plan_wish *wish, const struct frame_extent *extent)
+{
+    const int own = (int)record_number(render, "level");
+    const enum quality_level level = (enum quality_level)(wish->level >= 0 ? wish->level : own);
+    const struct quality *q = quality_row(level);
+    struct draw_plan plan = {.from_camera = wish->from_camera};
+
+    set_samples(&plan, block, render, q, level, wish->samples);
+    set_effects(&plan, block, render, q,
+                wish->transparent >= 0 ? wish->transparent : is_on(render, "transparent"));
+    *out_plan = plan;
+    set_volume_steps(block, q, extent);
+    return set_steps(block, (int)record_number(render, "max_steps"), q->shadow_steps, extent);
+}

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+#include "wave.h"
+
+#include <string.h>
+#include <time.h>
+
+/* --- time --- */
+
+static uint64_t now_us(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
+}
+
+/* On a GPU in its queue, on the CPU after all work so far. */
+void wave_mark(struct wave *wave, enum frame_stage stage)
+{
+    const struct gl *gl = wave->gl;
+    struct draw_slot *slot = wave->slot;
+
+    if (wave->software) {
+        gl->Finish();
+        const uint64_t now = now_us();
+        slot->stage_us[stage] += now - slot->last_us;
+        slot->last_us = now;
+    } else if (slot->marks < DRAW_MARKS) {
+        if (slot->queries[slot->marks] == 0) {
+            gl->GenQueries(1, &slot->queries[slot->marks]);
+        }
+        gl->QueryCounter(slot->queries[slot->marks], GL_TIMESTAMP);
+        slot->stages[slot->marks++] = (uint8_t)stage;
+    }
+}
+
+void wave_start_clock(struct wave *wave)
+{
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        wave->slot->stage_us[i] = 0;
+    }
+    wave->slot->marks = 0;
+    wave->slot->last_us = now_us();
+    if (!wave->software) {
+        wave_mark(wave, FRAME_MARCH);
+    }
+}
+
+/* --- the passes of one wave --- */
+
+/* Which samples, and where time goes. */
+struct round {
+    enum pass_mode mode;
+    enum target_list list; /* of PASS_LIST */
+    bool follows;          /* the rays are no first ones: all time is FRAME_RAYS */
+};
+
+static const struct round whole_tile = {.mode = PASS_TILE};
+
+static struct pass_place place_of(const struct wave *w, const struct round *round, int x, int y,
+                                  int z, int last)
+{
+    struct pass_place place = w->tile;
+    const int turn[4] = {x, y, z, last};
+
+    place.mode = round->mode;
+    place.list = w->targets->lists[round->list];
+    memcpy(place.turn, turn, sizeof turn);
+    return place;
+}
+
+static void mark(struct wave *w, const struct round *round, enum frame_stage stage)
+{
+    wave_mark(w, round->follows ? FRAME_RAYS : stage);
+}
+
+static void run_field(const struct wave *w, enum program_stage stage, const struct round *round)
+{
+    const struct pass_place place = place_of(w, round, 0, 0, 0, !round->follows);
+
+    pass_compute(program_pass(w->program, stage), w->gl, &place);
+}
+
+/* The last four: `turn` of glsl/frame.glsl. */
+static void run_common(const struct wave *w, enum common_pass pass, const struct round *round,
+                       int x, int y, int z, int last)
+{
+    const struct pass_place place = place_of(w, round, x, y, z, last);
+
+    pass_compute(&w->common->passes[pass], w->gl, &place);
+}
+
+static bool is_empty(const struct wave *w, enum target_list list)
+{
+    uint32_t head[4] = {0};
+
+    if (!w->software) {
+        return false; /* asking would wait for the device; nothing is soon done */
+    }
+    w->gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, w->targets->lists[list]);
+    w->gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof head, head);
+    return head[3] == 0;
+}
+
+static void find(struct wave *w, const struct round *round, int sample)
+{
+    const struct ray_set *eye = &w->targets->eye;
+
+    targets_bind_common(w->targets, w->gl, eye, eye);
+    run_common(w, COMMON_CAMERA, round, sample, 0, 0, 0);
+    targets_bind_field(w->targets, w->gl, eye);
+    if (sample == 0) {
+        run_field(w, STAGE_MARCH, &(struct round){.mode = PASS_COARSE});
+    }
+    run_field(w, STAGE_MARCH, round);
+    mark(w, round, FRAME_MARCH);
+}
+
+static void find_matter(struct wave *w, const struct round *round)
+{
+    targets_bind_field(w->targets, w->gl, &w->targets->eye);
+    run_field(w, STAGE_MATTER, round);
+    mark(w, round, FRAME_MATTER);
+}
+
+/* From all samples of the round to one light, through what is clear. */
+static void colour_light(struct wave *w, const struct round *round, int light)
+{
+    const struct targets *targets = w->targets;
+    const struct ray_set *eye = &targets->eye, *own = &targets->light;
+    struct round on = {.mode = PASS_LIST, .list = LIST_CLEAR, .follows = true};
+    enum target_list next = LIST_CLEAR_NEXT;
+
+    targets_bind_common(targets, w->gl, eye, own);
+    targets_begin_list(targets, w->gl, on.list);
+    run_common(w, COMMON_CLEAR, round, 0, light, 0, 0);
+    for (int i = 1; i <= w->plan->clear_depth && !is_empty(w, on.list); i++) {
+        const enum target_list before = on.list;
+
+        targets_bind_field(targets, w->gl, own);
+        run_field(w, STAGE_MARCH, &on);
+        run_field(w, STAGE_MATTER, &on);
+        targets_bind_common(targets, w->gl, own, own);
+        targets_begin_list(targets, w->gl, next);
+        run_common(w, COMMON_CLEAR, &on, 0, light, i == w->plan->clear_depth ? 2 : 1, 0);
+        on.list = next;
+        next = before;
+    }
+    wave_mark(w, FRAME_RAYS);
+}
+
+static void find_shadow(struct wave *w, const struct round *round)
+{
+    targets_bind_field(w->targets, w->gl, &w->targets->eye);
+    run_field(w, STAGE_SHADOW, round);
+    mark(w, round, FRAME_SHADOW);
+    for (int i = 0; i < w->lights && w->clear && w->plan->clear_depth > 0; i++) {
+        colour_light(w, round, i);
+    }
+}
+
+static void add_light(struct wave *w, const struct round *round, bool last)
+{
+    const struct ray_set *eye = &w->targets->eye;
+
+    if (w->plan->volumes) {
+        targets_bind_field(w->targets, w->gl, eye);
+        run_field(w, STAGE_VOLUME, round);
+        mark(w, round, FRAME_VOLUME);
+    }
+    targets_bind_common(w->targets, w->gl, eye, eye);
+    run_common(w, COMMON_SHADE, round, 0, last, w->plan->volumes, !round->follows);
+    mark(w, round, FRAME_SHADE);
+}
+
+/* All mirrored and broken rays of the samples, one of each sample in a round. */
+static void follow(struct wave *w)
+{
+    struct round on = {.mode = PASS_LIST, .list = LIST_RAYS, .follows = true};
+    enum target_list next = LIST_RAYS_NEXT;
+
+    for (int i = 1; i <= w->plan->rays && !is_empty(w, on.list); i++) {
+        const enum target_list before = on.list;
+
+        targets_bind_field(w->targets, w->gl, &w->targets->eye);
+        run_field(w, STAGE_MARCH, &on);
+        run_field(w, STAGE_MATTER, &on);
+        find_shadow(w, &on);
+        targets_begin_list(w->targets, w->gl, next);
+        add_light(w, &on, i == w->plan->rays);
+        on.list = next;
+        next = before;
+    }
+}
+
+static void shade(struct wave *w, const struct round *round, int sample)
+{
+    targets_begin_list(w->targets, w->gl, LIST_RAYS);
+    add_light(w, round, w->plan->rays == 0);
+    follow(w);
+    targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
+    run_common(w, COMMON_GATHER, round, sample, w->linear, 0, 0);
+    mark(w, round, FRAME_SHADE);
+}
+
+/* --- what draw.c asks for --- */
+
+void wave_find(struct wave *w, enum program_stage last)
+{
+    find(w, &whole_tile, 0);
+    if (last >= STAGE_MATTER) {
+        find_matter(w, &whole_tile);
+    }
+}
+
+void wave_shadow(struct wave *w)
+{
+    find_shadow(w, &whole_tile);
+}
+
+void wave_shade(struct wave *w)
+{
+    shade(w, &whole_tile, 0);
+}
+
+static void list_edges(struct wave *w)
+{
+    targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
+    targets_begin_list(w->targets, w->gl, LIST_EDGES);
+    run_common(w, COMMON_EDGES, &whole_tile, w->tile.width, w->tile.height, 0, 0);
+    wave_mark(w, FRAME_RESOLVE);
+}
+
+void wave_sample_again(struct wave *w)
+{
+    const bool adaptive = w->plan->antialiasing == ANTIALIASING_ADAPTIVE;
+    const struct round round = {.mode = adaptive ? PASS_LIST : PASS_TILE, .list = LIST_EDGES};
+
+    if (adaptive) {
+        list_edges(w);
+    }
+    for (int i = 1; i < w->plan->samples && !(adaptive && is_empty(w, LIST_EDGES)); i++) {
+        find(w, &round, i);
+        find_matter(w, &round);
+        find_shadow(w, &round);
+        shade(w, &round, i);
+    }
+}

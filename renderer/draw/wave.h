@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* The passes over the samples of one tile. Rays go in waves: all samples at once, one ray each,
+ * then those samples that want another ray. Private to draw.c. */
+#ifndef RENDERER_WAVE_H
+#define RENDERER_WAVE_H
+
+#include "common.h"
+#include "draw.h"
+
+/* A tile being drawn. */
+struct wave {
+    const struct gl *gl;
+    bool software;
+    const struct targets *targets;
+    const struct common *common;
+    const struct program *program;
+    const struct draw_plan *plan;
+    int lights;
+    bool clear, linear;     /* light goes through something; no tone mapping */
+    struct pass_place tile; /* with its margin */
+    struct draw_slot *slot; /* takes the time */
+};
+
+/* Time spent since the last mark goes to `stage`. */
+void wave_start_clock(struct wave *wave);
+void wave_mark(struct wave *wave, enum frame_stage stage);
+
+/* First rays of all samples, as far as stage `last`, which is before shadows. */
+void wave_find(struct wave *wave, enum program_stage last);
+/* What of lights and environment reaches them. */
+void wave_shadow(struct wave *wave);
+/* Their light, with that of all rays that follow, is added to the pixels. */
+void wave_shade(struct wave *wave);
+/* The same again for all other samples that the plan asks for. */
+void wave_sample_again(struct wave *wave);
+/* Everything in one program; sample by sample. */
+void wave_from_camera(struct wave *wave);
+
+#endif

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* The first rays of a sample. turn.x: which sample of its pixel. */
+
+layout(rgba32f, binding = 0) writeonly uniform image2D out_ray_from;
+layout(rgba32f, binding = 1) writeonly uniform image2D out_ray_along;
+
+void main()
+{
+    ivec2 here = group_place();
+    Ray ray = camera_sample(tile.xy + here, turn.x);
+    imageStore(out_ray_from, here, vec4(ray.origin, 0.0));
+    imageStore(out_ray_along, here, vec4(ray.direction, 0.0));
+}

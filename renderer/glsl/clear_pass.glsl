@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* Light on its way through clear things: straight on, dimmed and coloured by each surface and by
+ * what is between them. Solid things on the way are shadow.glsl's. Its rays have textures of their
+ * own. turn.y: which light; turn.z: 0 before the first march of a ray, 1 after one, 2 after the
+ * last. */
+
+layout(binding = 0) uniform sampler2D geometry; /* of the light's ray; with turn.z 0, the sample's */
+layout(binding = 1) uniform usampler2D matter;
+layout(binding = 2) uniform usampler2D more;
+layout(rgba32f, binding = 0) uniform image2D out_ray_from;
+layout(rgba32f, binding = 1) uniform image2D out_ray_along;
+layout(rgba32f, binding = 2) uniform image2D weights; /* w: length left */
+layout(rgba16f, binding = 3) uniform image2D media;
+layout(rgba16f, binding = 5) uniform image2DArray seen;
+
+void send(ivec2 here, Ray ray, vec4 weight, vec3 medium)
+{
+    imageStore(out_ray_from, here, vec4(ray.origin, ray.way));
+    imageStore(out_ray_along, here, vec4(ray.direction, ray.inside ? 1.0 : 0.0));
+    imageStore(weights, here, weight);
+    imageStore(media, here, vec4(medium, 0.0));
+    list_add(here);
+}
+
+/* Towards the light, where something clear may be between. A place within something clear is
+ * left as the ray that came to it was. */
+void aim(ivec2 here, Ray ray, vec4 g)
+{
+    float t = abs(g.w);
+    Light light = lights[turn.y];
+    vec3 p = ray.origin + ray.direction * (t < INFINITY ? t : 0.0);
+    Incoming in_light = incoming(light, p);
+    vec2 span = box_span(clear_min.xyz, clear_max.xyz, p, in_light.direction);
+    vec3 arrives = imageLoad(seen, ivec3(here, turn.y)).rgb;
+    bool leaving = ray.inside && g.w > 0.0;
+    bool crossed = span.y > max(span.x, 0.0) && span.x < in_light.reach;
+    if (t < INFINITY && crossed && !leaving && dot(g.xyz, in_light.direction) > 0.0 &&
+        any(greaterThan(arrives, vec3(0.0))) && int(light.extent.z) != SHADOW_NONE) {
+        float off = 2.0 * footprint(ray, t);
+        Ray next = Ray(p + g.xyz * off, in_light.direction, ray.way + t, ray.inside);
+        send(here, next, vec4(1.0, 1.0, 1.0, in_light.reach), vec3(0.0));
+    }
+}
+
+/* Through what the ray met, or to its end. */
+void pass_on(ivec2 here, Ray ray, vec4 g)
+{
+    Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
+    vec4 weight = imageLoad(weights, here);
+    vec3 medium = imageLoad(media, here).rgb;
+    float t = abs(g.w), left = weight.w;
+    bool leaving = ray.inside && g.w > 0.0;
+    bool through_it = t < left && t < INFINITY && (leaving || s.transmission > 0.0);
+    float c = max(-dot(ray.direction, g.xyz), 0.0);
+
+    weight.rgb *= exp(-medium * (ray.inside ? min(min(t, left), bounds_max.w) : 0.0));
+    if (through_it) {
+        float mirror = interface_mirror(s.ior, c, leaving);
+        weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * s.diffuse;
+    }
+    if (through_it && turn.z == 1) {
+        float off = 2.0 * footprint(ray, t) + t;
+        Ray next = Ray(ray.origin + ray.direction * off, ray.direction, ray.way, !leaving);
+        send(here, next, vec4(weight.rgb, left - off), leaving ? vec3(0.0) : s.absorption);
+    } else {
+        vec4 arrives = imageLoad(seen, ivec3(here, turn.y));
+        imageStore(seen, ivec3(here, turn.y), vec4(arrives.rgb * weight.rgb, arrives.a));
+    }
+}
+
+void main()
+{
+    ivec2 here = group_place();
+    if (here.x < 0) {
+        return;
+    }
+    Ray ray = ray_load(here);
+    vec4 g = texelFetch(geometry, here, 0);
+    if (turn.z == 0) {
+        aim(here, ray, g);
+    } else {
+        pass_on(here, ray, g);
+    }
+}

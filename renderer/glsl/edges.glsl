@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* Where a picture of one sample for each pixel has edges: surfaces that end or bend, and changes of
+ * colour that nothing of the surface tells of (shadows, patterns, mirror images). */
+
+layout(binding = 0) uniform sampler2D geometry;
+layout(binding = 2) uniform usampler2D more;
+layout(binding = 13) uniform sampler2D pixels;
+
+/* 0: the same surface; 1 and more: an edge. Depth is compared with the plane through the pixel. */
+float edge_between(ivec2 here, ivec2 there, vec4 g)
+{
+    vec4 h = texelFetch(geometry, there, 0);
+    bool a = g.w < INFINITY, b = h.w < INFINITY;
+    float bent = (1.0 - dot(g.xyz, h.xyz)) / 0.08;
+    float slope = max(-dot(g.xyz, camera_ray(vec2(tile.xy + here) + 0.5).direction), 0.05);
+    float apart = abs(h.w - g.w) * slope / (6.0 * forward.w * (eye.w > 0.5 ? 1.0 : g.w));
+    return a && b ? max(bent, apart) : a == b ? 0.0 : 2.0;
+}
+
+/* The strongest of the eight around. */
+float edge_at(ivec2 here)
+{
+    vec4 g = texelFetch(geometry, here, 0);
+    float most = 0.0;
+    for (int i = zero; i < 9; i++) {
+        most = max(most, i == 4 ? 0.0 : edge_between(here, here + ivec2(i % 3, i / 3) - 1, g));
+    }
+    return most;
+}
+
+/* How much the colours around differ from the pixel's, as eyes see them. */
+float contrast_at(ivec2 here)
+{
+    vec3 c = sqrt(clamp(texelFetch(pixels, here, 0).rgb, 0.0, 1.0));
+    vec3 most = vec3(0.0);
+    for (int i = zero; i < 9; i++) {
+        vec3 d = sqrt(clamp(texelFetch(pixels, here + ivec2(i % 3, i / 3) - 1, 0).rgb, 0.0, 1.0));
+        most = max(most, abs(d - c));
+    }
+    return max(most.r, max(most.g, most.b));
+}

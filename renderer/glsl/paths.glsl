@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* What the light of a sample's ray adds to the sample, and which rays it goes on with. Where these
+ * are kept is for stack.glsl, or forward.glsl. */
+
+/* A ray from the surface on, a little off it. */
+Waiting ray_off(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, vec4 weight,
+                vec3 medium)
+{
+    float off = 2.0 * footprint(ray, t);
+    vec3 origin = p + n * (dot(n, direction) < 0.0 ? -off : off);
+    return Waiting(vec4(origin, ray.way + t), vec4(direction, inside ? 1.0 : 0.0), weight,
+                   vec4(medium, 0.0));
+}
+
+/* What stands for a ray that is not followed. */
+vec3 guess(Waiting ray)
+{
+    return ray.weight.rgb * sky_mirrored(ray.along.xyz, 0.0);
+}
+
+/* The sample's next ray: one of those wanted here, else one that waited. `last`: none is followed.
+ * The light that stands for those that are not. */
+vec3 go_on(ivec2 here, Waiting mirror, bool has_mirror, Waiting passing, bool has_passing,
+           bool first, bool last)
+{
+    int count = first ? 0 : stack_count(here);
+    bool own = has_mirror || has_passing, both = has_mirror && has_passing;
+    bool room = count < STACK_DEPTH && !last;
+    Waiting next = has_passing ? passing : mirror;
+    vec3 guessed = vec3(0.0);
+
+    if (both && room) {
+        stack_put(here, count, mirror);
+        count++;
+    } else if (both) {
+        guessed = guess(mirror);
+    }
+    if (last) {
+        guessed += own ? guess(next) : vec3(0.0);
+        for (; count > 0; count--) {
+            guessed += guess(stack_get(here, count - 1));
+        }
+    } else if (own) {
+        ray_go(here, next);
+    } else if (count > 0) {
+        count--;
+        ray_go(here, stack_get(here, count));
+    }
+    stack_set_count(here, count);
+    return guessed;
+}
+
+/* `g`: normal and distance as march_pass.glsl left them; `open`: how little is in the way of the
+ * environment's light; `smoke`: light added on the way, and the part let through. Where the ray is
+ * the first, `total` is nothing. */
+void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, bool first, bool last,
+               vec4 weight, vec3 medium, inout vec4 total)
+{
+    float t = abs(g.w);
+    bool hit = t < INFINITY, solid = g.w < 0.0;
+    float way = hit ? t : bounds_max.w;
+    bool leaving = hit && ray.inside && !solid;
+    vec3 n = hit ? g.xyz : vec3(0.0, 1.0, 0.0);
+    vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
+
+    weight.rgb *= exp(-medium * (ray.inside ? way : 0.0));
+    bool deeper = hit && !last && int(weight.w) < effects.y;
+    bool empty = first && !hit && (effects.z & EFFECT_TRANSPARENT) != 0;
+    Ways w = ways_at(ray, n, s, leaving, weight.rgb, deeper);
+    vec3 around = sky(ray.direction);
+    vec3 light = hit ? surface_light(ray, p, n, s, w, leaving, open, here)
+                     : empty ? vec3(0.0) : around;
+    /* What is far fades into the sky, so that endless ground has no edge. */
+    float far = hit ? smoothstep(0.15, 1.0, (ray.way + t) / bounds_max.w) : 0.0;
+    vec4 air = ray.inside ? vec4(0.0, 0.0, 0.0, 1.0) : fog(ray, hit ? t : INFINITY);
+    light = (mix(light, around, far) * air.a + air.rgb) * smoke.a + smoke.rgb;
+
+    total.rgb += weight.rgb * light;
+    total.w = first ? (hit ? 1.0 : 1.0 - air.a * smoke.a) : total.w;
+    if (effects.y > 0) {
+        vec3 kept = weight.rgb * ((1.0 - far) * air.a * smoke.a);
+        float depth = weight.w + 1.0, sharp = leaving ? 1.0 : mirror_sharpness(s);
+        Waiting mirror = ray_off(ray, p, n, w.mirrored, ray.inside, t,
+                                 vec4(kept * w.mirror * sharp, depth), medium);
+        Waiting passing = ray_off(ray, p, n, w.passed, !leaving, t, vec4(kept * w.passing, depth),
+                                  leaving ? vec3(0.0) : s.absorption);
+        total.rgb += go_on(here, mirror, hit && w.mirror_ray, passing, hit && w.passing_ray, first,
+                           last);
+    }
+}

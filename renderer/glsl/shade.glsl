@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* Light at the end of a ray, out of what the passes before found; knows nothing of the field.
+ * What of the lights arrives is read from where shadow_pass.glsl left it, unless SEEN_AT says. */
+
+#ifndef SEEN_AT
+layout(binding = 7) uniform sampler2DArray visibility;
+#define SEEN_AT(here, i) texelFetch(visibility, ivec3(here, i), 0).rgb
+#endif
+
+/* How much of a mirror image rays bring: rough surfaces blur it, so the environment's will do. */
+float mirror_sharpness(Surface s)
+{
+    return s.model == MODEL_STANDARD ? 1.0 - smoothstep(0.15, 0.5, s.gloss)
+                                     : step(1e-4, s.reflectivity);
+}
+
+/* The ways by which light may have come to a surface and on along the ray: mirrored, and passing
+ * through. */
+struct Ways {
+    vec3 mirrored, passed;       /* directions */
+    vec3 mirror, passing;        /* what light from there counts */
+    bool mirror_ray, passing_ray; /* whether rays bring it, else the environment stands in */
+};
+
+/* `leaving`: the surface is the way out for a ray inside. `weight` is the ray's. */
+Ways ways_at(Ray ray, vec3 n, Surface s, bool leaving, vec3 weight, bool deeper)
+{
+    vec3 view = -ray.direction;
+    Ways w;
+    w.mirrored = reflect(ray.direction, n);
+    bool goes = bend(ray.direction, n, leaving ? s.ior : 1.0 / s.ior, w.passed);
+    float inner = goes ? interface_mirror(s.ior, max(dot(n, view), 0.0), true) : 1.0;
+    vec3 outer = mirror_part(s, n, view);
+    float left = 1.0 - max(outer.x, max(outer.y, outer.z));
+    w.mirror = leaving ? vec3(inner) : outer;
+    w.passing = leaving ? vec3(1.0 - inner) : left * s.transmission * s.diffuse;
+
+    vec3 least = vec3(deeper ? clear_max.w : INFINITY);
+    float sharp = leaving ? 1.0 : mirror_sharpness(s);
+    w.mirror_ray = (effects.z & EFFECT_REFLECTIONS) != 0 &&
+                   any(greaterThan(weight * w.mirror * sharp, least));
+    w.passing_ray = (effects.z & EFFECT_REFRACTIONS) != 0 &&
+                    any(greaterThan(weight * w.passing, least));
+    return w;
+}
+
+/* Light that a surface throws along the ray, but for what rays will bring. */
+vec3 surface_light(Ray ray, vec3 p, vec3 n, Surface s, Ways w, bool leaving, float open, ivec2 here)
+{
+    vec3 view = -ray.direction;
+    vec3 passed = w.passing_ray ? vec3(0.0) : w.passing * sky_mirrored(ray.direction, 0.0);
+    float traced = w.mirror_ray ? (leaving ? 1.0 : mirror_sharpness(s)) : 0.0;
+    vec3 around = sky_mirrored(w.mirrored, leaving ? 0.0 : roughness(s));
+    vec3 sum = s.emission + surroundings(s, n, view, open, sky_irradiance(n), around, traced);
+
+    for (int i = zero; i < modes.x; i++) {
+        Incoming light = incoming(lights[i], p);
+        sum += light.color * reflected(s, n, view, light.direction) * SEEN_AT(here, i);
+    }
+    return passed + (leaving ? w.mirror * around * (1.0 - traced) : sum);
+}
