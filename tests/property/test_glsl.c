@@ -91,9 +91,8 @@ static bool surface_agrees(const struct field *field, const float point[3],
         struct field_surface want = field_surface(field, q, NULL);
         bool same = want.number == answer->leaf;
         for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
-            /* Blends as narrow as 0.15 change by 1/(2k) per unit; shininess is up to 100. */
-            double room = j == 3 ? 0.5 : 0.005;
-            same = same && fabs(want.material[j] - answer->material[j]) <= room;
+            /* Blends as narrow as 0.15 change by 1/(2k) per unit; the numbers are up to 4. */
+            same = same && fabs(want.material[j] - answer->material[j]) <= 0.01;
         }
         if (same) {
             return true;

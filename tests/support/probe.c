@@ -99,7 +99,8 @@ static void write_question(FILE *out, size_t index, size_t first, bool surface)
     fprintf(out, "at += %du * count;\n", ANSWER_VEC4S);
 }
 
-static char *program_text(struct field *const *fields, size_t count, bool surface, bool in_block)
+static char *program_text(struct field *const *fields, size_t count, bool surface, bool in_block,
+                          float through)
 {
     static const char *const files[] = {"surface.glsl", FIELD_GLSL_FILES};
     char *text;
@@ -128,8 +129,9 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
             "uint count = gl_NumWorkGroups.x * uint(GROUP);\n"
             "uint at = %du * uint(i);\nSurface s;\n"
             "vec3 p = vec3(texelFetch(points, 3 * i).r, texelFetch(points, 3 * i + 1).r,\n"
-            "              texelFetch(points, 3 * i + 2).r);\n",
-            ANSWER_VEC4S);
+            "              texelFetch(points, 3 * i + 2).r);\n"
+            "through = float(%.9g);\n",
+            ANSWER_VEC4S, (double)through);
     numbers = 0;
     for (size_t i = 0; i < count; i++) {
         write_question(out, i, numbers, surface);
@@ -166,7 +168,7 @@ bool probe_program_init(struct probe_program *program, const struct probe *probe
                         struct field *const *fields, size_t count, bool surface, bool in_block,
                         struct error *err)
 {
-    char *text = program_text(fields, count, surface, in_block);
+    char *text = program_text(fields, count, surface, in_block, probe->through);
     *program = (struct probe_program){.program = probe->gl.CreateProgram(), .surface = surface};
     bool ok = link_program(&probe->gl, program->program, text, err);
     if (!ok) {

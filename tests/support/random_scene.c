@@ -306,18 +306,29 @@ void random_node(struct random *random, FILE *out, const struct node_type *type,
     fprintf(out, count ? "]}" : "}");
 }
 
+static void write_material(struct random *random, FILE *out, const struct record_type *shader)
+{
+    fprintf(out, "{\"shader\":\"%s\",\"properties\":{", shader->name);
+    for (const struct param *param = shader->params; param->name; param++) {
+        double low = fmax(param->min, 0.5), high = fmin(param->max, 4 * low);
+        fprintf(out, "%s\"%s\":", param == shader->params ? "" : ",", param->name);
+        if (param->type == PARAM_COLOR) {
+            fprintf(out, "[%.9g,%.9g,%.9g]", random_between(random, 0.2, 1),
+                    random_between(random, 0.2, 1), random_between(random, 0.2, 1));
+        } else {
+            fprintf(out, "%.9g", random_between(random, low, high));
+        }
+    }
+    fprintf(out, "}}");
+}
+
 static void write_materials(struct random *random, FILE *out)
 {
-    static const char *const names[] = {"diffuse", "specular", "emission", "ambient"};
+    static const char *const shaders[] = {"phong", "standard", "blinn"};
     fprintf(out, "\"materials\":{");
     for (int i = 0; i < 3; i++) {
-        fprintf(out, "%s\"m%d\":{\"shader\":\"phong\",\"properties\":{\"shininess\":%.9g",
-                i ? "," : "", i, random_between(random, 1, 100));
-        for (int j = 0; j < 4; j++) {
-            fprintf(out, ",\"%s\":[%.9g,%.9g,%.9g]", names[j], random_between(random, 0, 1),
-                    random_between(random, 0, 1), random_between(random, 0, 1));
-        }
-        fprintf(out, "}}");
+        fprintf(out, "%s\"m%d\":", i ? "," : "", i);
+        write_material(random, out, record_type_in(shader_types, shaders[i]));
     }
     fprintf(out, "}");
 }
