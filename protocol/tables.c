@@ -30,11 +30,11 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
     {"range", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.5, \
      .doc = "Beyond this distance there is no light; 0: no limit."}
 #define LIGHT_SHADOW \
+    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .group = "shadow", \
+     .doc = "Kind of shadow."}, \
     {"size", PARAM_FLOAT, .def = {8}, .min = 0, .max = 1000, .above_min = true, .step = 0.5, \
      .group = "shadow", .when = "shadow=soft", \
-     .doc = "Sharpness of soft shadows: larger is harder."}, \
-    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .group = "shadow", \
-     .doc = "Kind of shadow."}
+     .doc = "Sharpness of soft shadows: larger is harder."}
 
 const struct record_type node_common_type = {"node", "What every node has.", PARAMS(
     {"name", PARAM_TEXT, .doc = "Shown instead of the id."},
@@ -125,15 +125,8 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
     {"antialiasing", PARAM_ENUM, .choices = antialiasing_kinds,
      .doc = "How edges are softened: none; edges: blended with what is around them; adaptive: "
             "samples at edges, one elsewhere; full: samples everywhere; auto: as the level says."},
-    {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
-     .group = "limits", .doc = "Steps after which a ray gives up."},
-    {"max_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {200}, .min = 0, .max = LIMIT_COORDINATE,
-     .above_min = true, .step = 10, .group = "limits",
-     .doc = "Nothing farther from the eye is seen."},
-    {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
-     .group = "tone", .doc = "Brightness in stops: one more doubles the light."},
-    {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
-     .group = "tone", .doc = "How bright light is fitted into the picture."},
+    {"transparent", PARAM_BOOL,
+     .doc = "Whether the background is left out: pictures have an alpha channel."},
     {"shadows", PARAM_BOOL, .def = {1}, .group = "effects", .doc = "Whether lights cast shadows."},
     {"occlusion", PARAM_BOOL, .def = {1}, .group = "effects",
      .doc = "Whether ambient light is less in corners."},
@@ -147,8 +140,15 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
     {"ray_depth", PARAM_INT, .min = 0, .max = 8, .step = 1,
      .group = "effects",
      .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
-    {"transparent", PARAM_BOOL,
-     .doc = "Whether the background is left out: pictures have an alpha channel."})};
+    {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
+     .group = "tone", .doc = "Brightness in stops: one more doubles the light."},
+    {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
+     .group = "tone", .doc = "How bright light is fitted into the picture."},
+    {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
+     .group = "limits", .doc = "Steps after which a ray gives up."},
+    {"max_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {200}, .min = 0, .max = LIMIT_COORDINATE,
+     .above_min = true, .step = 10, .group = "limits",
+     .doc = "Nothing farther from the eye is seen."})};
 
 const struct record_type light_types[] = {
     {"directional", "Light from far away, like the sun's.", PARAMS(
