@@ -26,7 +26,7 @@ import { TextField } from "./fields/Text.tsx";
 import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
 import { later } from "./later.tsx";
-import { paramTitle, words } from "./names.ts";
+import { paramTitle, shortTitle, words } from "./names.ts";
 import { useDocument, useEditor } from "./state.ts";
 import { t } from "./texts.ts";
 import "./inspector/inspector.css";
@@ -161,7 +161,7 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
             data-shake={problem ? "" : undefined}
         >
             <span className="form-label" title={param.doc}>
-                {title}
+                {shortTitle(param)}
             </span>
             <div className="form-field">
                 {fieldFor(param.type)(

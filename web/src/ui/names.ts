@@ -14,6 +14,9 @@ const spoken: Record<string, string> = {
     params: "parameters",
     lipschitz: "steepness",
     doc: "help",
+    fog: "fog density",
+    floor: "floor shown",
+    shadow: "shadow kind",
 };
 
 export function words(name: string): string {
@@ -22,6 +25,13 @@ export function words(name: string): string {
 
 export function paramTitle(param: Param): string {
     return spoken[param.name] ?? words(param.name);
+}
+
+/* Below a heading that says the first word already: "fog density" -> density. */
+export function shortTitle(param: Param): string {
+    const title = paramTitle(param);
+    const start = `${words(param.group)} `;
+    return title.startsWith(start) ? title.slice(start.length) : title;
 }
 
 const outputs: Record<string, string> = {

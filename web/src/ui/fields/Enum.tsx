@@ -6,7 +6,8 @@ import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
 const MOST_SEGMENTS = 4;
-const MOST_LETTERS = 26;
+/* Segments are as wide as the longest. */
+const MOST_LETTERS = 28;
 
 interface Props extends FieldProps<string> {
     choices: readonly string[];
@@ -14,7 +15,7 @@ interface Props extends FieldProps<string> {
 
 export function EnumField({ label, value, choices, describedBy, onCommit }: Props) {
     const group = useRef<HTMLDivElement>(null);
-    const letters = choices.reduce((sum, choice) => sum + choice.length, 0);
+    const letters = choices.length * Math.max(...choices.map((choice) => choice.length));
     if (choices.length === 1 && value === choices[0]) {
         return <span className="only-choice">{words(value)}</span>;
     }

@@ -3,10 +3,10 @@
 import {
     Cloud,
     Component,
+    Flashlight,
     Lightbulb,
     type LucideIcon,
     Paintbrush,
-    Spotlight,
     SquareFunction,
     Sun,
 } from "lucide-react";
@@ -24,7 +24,7 @@ const icons: Record<ListName, LucideIcon> = {
     shaders: Paintbrush,
 };
 
-const lightIcons: Record<string, LucideIcon> = { directional: Sun, spot: Spotlight };
+const lightIcons: Record<string, LucideIcon> = { directional: Sun, spot: Flashlight };
 
 interface TypeProps {
     list: ListName;

@@ -117,12 +117,15 @@ function Sheet() {
                 <span>{round(sum)} ms</span>
             </div>
             <div className="stats-bar" aria-hidden="true">
-                {stages.map(({ title, time }, i) => (
-                    <span
-                        key={title}
-                        style={{ background: colourOf(i), flexGrow: Math.max(0, time) / sum }}
-                    />
-                ))}
+                {stages.map(
+                    ({ title, time }, i) =>
+                        time >= LEAST_SHOWN && (
+                            <span
+                                key={title}
+                                style={{ background: colourOf(i), flexGrow: time / sum }}
+                            />
+                        ),
+                )}
             </div>
             <dl className="stats-table">
                 {stages.map(({ title, doc, time }, i) => (
