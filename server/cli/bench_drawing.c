@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "bench.h"
+#include "drawing.h"
 #include "files.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -155,6 +156,9 @@ static struct resident *open_example(struct renderer *renderer, const struct emb
                                      struct error *err)
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
+    if (scene) {
+        drawing_give_example_file(renderer, scene);
+    }
     return scene ? resident_create(renderer, scene, 1) : NULL;
 }
 

@@ -161,13 +161,17 @@ static bool draw(struct scene *scene, const struct options *options,
         drawing_params(options, &device);
         renderer = renderer_create(&device, err);
     }
-    if (renderer) {
+    if (renderer && drawing_give_files(renderer, scene, options, err)) {
         resident = resident_create(renderer, scene, 1);
         scene = NULL;
         read_desc(options, &camera, params->format, &desc);
         job = job_create(resident, &desc, err);
     }
     bool ok = job && write_picture(renderer, job, params, option_text(options, OPTION_OUTPUT), err);
+    if (ok && resident_warning(resident)->kind != ERROR_NONE) {
+        fputs("fieldcast: warning: ", stderr);
+        error_print(resident_warning(resident), stderr);
+    }
     job_destroy(job);
     resident_destroy(resident);
     renderer_destroy(renderer);

@@ -6,7 +6,10 @@
 #include <string.h>
 
 #include "files.h"
+#include "protocol/asset.h"
+#include "protocol/memory.h"
 #include "protocol/nearest.h"
+#include "server/digest.h"
 #include "server/rest/embedded.h"
 
 static void print_line(void *data, const char *line)
@@ -30,6 +33,53 @@ void drawing_params(const struct options *options, struct renderer_params *out)
         .cache_dir = cache,
         .log = print_line,
     };
+}
+
+void drawing_give_example_file(struct renderer *renderer, const struct scene *scene)
+{
+    const char *id = record_text(&scene->environment, "image");
+    const struct embedded *file = example_files_find(id);
+    if (file) {
+        renderer_asset(renderer, id, file->bytes, file->length);
+    }
+}
+
+/* Nothing is given that the scene does not name. */
+static bool give_file(struct renderer *renderer, const struct scene *scene, const char *path,
+                      struct error *err)
+{
+    struct asset_info info;
+    struct error inner = {0};
+    size_t length;
+    char id[ASSET_ID_CHARACTERS + 1];
+    char *bytes = file_read(path, LIMIT_ASSET_BYTES, &length, err);
+    if (!bytes) {
+        return false;
+    }
+    bool ok = asset_inspect((const uint8_t *)bytes, length, &info, &inner) ||
+              error_set(err, inner.kind, path, "%s", inner.message);
+    if (ok) {
+        digest_text(bytes, length, id);
+    }
+    if (ok && strcmp(id, record_text(&scene->environment, "image")) == 0) {
+        renderer_asset(renderer, id, bytes, length);
+    }
+    free(bytes);
+    return ok;
+}
+
+bool drawing_give_files(struct renderer *renderer, const struct scene *scene,
+                        const struct options *options, struct error *err)
+{
+    const char *paths = option_text(options, OPTION_ASSET);
+    char *copy = memory_text(paths ? paths : ""), *rest = copy, *path;
+    bool ok = true;
+    drawing_give_example_file(renderer, scene);
+    while (ok && (path = strsep(&rest, "\n")) && *path) {
+        ok = give_file(renderer, scene, path, err);
+    }
+    free(copy);
+    return ok;
 }
 
 static struct scene *open_example(const char *name, const char *id, struct error *err)

@@ -10,6 +10,12 @@
  * stderr. Makes the cache directory, and does without one where that fails. */
 void drawing_params(const struct options *options, struct renderer_params *out);
 
+/* Gives the renderer the file that the scene names: one that is built in, or one of --asset. */
+bool drawing_give_files(struct renderer *renderer, const struct scene *scene,
+                        const struct options *options, struct error *err);
+/* One that is built in. */
+void drawing_give_example_file(struct renderer *renderer, const struct scene *scene);
+
 /* The scene called `name`: a file, "-" for stdin, or "example:NAME". NULL and `err`, whose place
  * starts with the name. Caller destroys. */
 struct scene *scene_open(const char *name, struct error *err);

@@ -125,6 +125,8 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_LEVEL] = {"level", 0, "LEVEL", OPTION_CHOICE, .choice = level_choice,
         .commands = FOR(RENDER),
         .doc = "Quality level; by default the scene's."},
+    [OPTION_ASSET] = {"asset", 0, "FILE", OPTION_FILES, .commands = FOR(RENDER),
+        .doc = "A file that the scene names by its SHA-256; may be given several times."},
     [OPTION_SAMPLES] = {"samples", 0, "N", OPTION_INT, .fallback = "0", .min = 0, .max = 4,
         .commands = FOR(RENDER),
         .doc = "Samples per pixel along each axis; 0 takes the level's or the scene's."},
@@ -327,6 +329,7 @@ static bool read_value(const struct option_row *row, const char *text, double *n
         return read_choices(row, text, number, place, err);
     case OPTION_TEXT:
     case OPTION_LIST:
+    case OPTION_FILES:
     case OPTION_PATH:
         break;
     }
@@ -334,6 +337,20 @@ static bool read_value(const struct option_row *row, const char *text, double *n
         return error_set(err, ERROR_INVALID, place, "is empty");
     }
     return true;
+}
+
+/* Of an option that may be named again: behind what was given before. */
+static char *appended(const struct option_value *before, enum option_source source, char *text)
+{
+    char *both = NULL;
+    if (!before->text || before->source != source) {
+        return text;
+    }
+    if (asprintf(&both, "%s\n%s", before->text, text) < 0) {
+        abort();
+    }
+    free(text);
+    return both;
 }
 
 bool option_set(struct options *options, enum option option, const char *text,
@@ -344,8 +361,12 @@ bool option_set(struct options *options, enum option option, const char *text,
     if (!read_value(row, text, value.number, place, err)) {
         return false;
     }
-    bool at_home = row->type == OPTION_PATH && text[0] == '~' && text[1] == '/';
+    bool is_path = row->type == OPTION_PATH || row->type == OPTION_FILES;
+    bool at_home = is_path && text[0] == '~' && text[1] == '/';
     value.text = at_home ? joined(home(), text + 2) : memory_text(text);
+    if (row->type == OPTION_FILES) {
+        value.text = appended(&options->values[option], source, value.text);
+    }
     free(options->values[option].text);
     options->values[option] = value;
     return true;

@@ -37,6 +37,7 @@ enum option {
     OPTION_HEIGHT,
     OPTION_AOV,
     OPTION_FORMAT,
+    OPTION_ASSET,
     OPTION_LEVEL,
     OPTION_SAMPLES,
     OPTION_TRANSPARENT,
@@ -61,6 +62,7 @@ enum option_type {
     OPTION_PIXELS, /* x,y,width,height: whole numbers */
     OPTION_TEXT,
     OPTION_LIST, /* texts with commas between them */
+    OPTION_FILES, /* may be named again: paths with line ends between them */
     OPTION_PATH, /* a leading ~/ is the home directory */
     OPTION_CHOICE,
     OPTION_CHOICES, /* several of them, with commas between them */
