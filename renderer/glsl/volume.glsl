@@ -24,6 +24,21 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
     return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
 }
 
+/* Sum of octaves, each with twice the frequency and half of the height of the one before, and turned
+ * against it, so that the noise's cubes are not seen. */
+float waves_at(vec3 p, int octaves, uint seed)
+{
+    const mat3 turned = mat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;
+    float height = 1.0, sum = 0.0;
+    p = turned * p;
+    for (int i = 0; i < octaves; i++) {
+        sum += height * noise_value(p, seed + uint(i));
+        height *= 0.5;
+        p = 2.0 * turned * p + 0.37;
+    }
+    return sum;
+}
+
 /* Density at p, which is d from the scene. */
 float volume_density(Volume volume, vec3 p, float d)
 {
@@ -33,7 +48,7 @@ float volume_density(Volume volume, vec3 p, float d)
     float density = volume.color.w * smoothstep(0.0, max(volume.extent.w, 1e-6), rim);
     int source = int(volume.source.x);
     int octaves = source == DENSITY_NOISE && rim > 0.0 ? int(volume.noise.y) : 0;
-    float waves = noise_octaves(from * volume.noise.x, octaves, uint(volume.noise.z));
+    float waves = waves_at(from * volume.noise.x, octaves, uint(volume.noise.z));
     float part = source == DENSITY_NOISE   ? smoothstep(0.0, 0.6, waves - volume.noise.w)
                  : source == DENSITY_FIELD ? exp(-max(d, 0.0) / volume.source.y)
                                            : 1.0;
@@ -155,10 +170,11 @@ vec3 sky_mean()
  * volumetric rendering in Frostbite, SIGGRAPH 2015 course). */
 vec4 haze(Ray ray, float t, float place)
 {
-    float far = ray.inside ? 0.0 : min(t, bounds_max.w), at = 0.0, left = 1.0;
+    float far = ray.inside ? 0.0 : min(t, bounds_max.w), left = 1.0;
     vec3 sum = vec3(0.0), around = sky_mean();
-    float stride =
-        crossing(ray.origin, ray.direction, 0.0, far).whole / float(max(counts.x, 1));
+    Crossing first = crossing(ray.origin, ray.direction, 0.0, far);
+    float at = first.inside ? 0.0 : first.next;
+    float stride = first.whole / float(max(counts.x, 1));
     int most = stride > 0.0 ? counts.x + 2 * effects.w : 0;
 
     for (int i = zero; i < most; i++) {
