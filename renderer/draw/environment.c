@@ -230,7 +230,7 @@ static bool load(struct asset *image, struct decoded *out, struct error *out_pro
     struct error err = {0};
 
     if (!image) {
-        return error_set(out_problem, ERROR_NOT_FOUND, place, "no such file has been uploaded");
+        return error_set(out_problem, ERROR_NOT_FOUND, place, "no such file is known here");
     }
     if (image->problem.kind == ERROR_NONE &&
         !image_decode(image->bytes, image->length, out, &err)) {

@@ -301,13 +301,15 @@ static void compiled(struct hub *hub, const struct packet *packet, bool broken)
     room_worker_done(room, revision);
 }
 
-/* Nothing that keeps it from being drawn. */
+/* Nothing that keeps it from being drawn: code that is too steep, or a picture that is none. */
 static void warned(struct hub *hub, const struct packet *packet)
 {
     struct room *room = find_room(hub, json_member_text(packet->json, "scene", ""));
+    const char *place = json_member_text(packet->json, "place", "");
+    const bool asset = strcmp(place, "/environment/image") == 0;
 
     if (room) {
-        room_tell_all(room, "warning", "lipschitz", json_member_text(packet->json, "place", ""),
+        room_tell_all(room, "warning", asset ? "asset" : "lipschitz", place,
                       json_member_text(packet->json, "message", ""));
     }
 }
