@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "wish.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,16 +48,6 @@ static bool check_region(const struct wish *wish, const char *place, struct erro
     return true;
 }
 
-static bool check_pixels(const struct wish *wish, struct error *err)
-{
-    const int width = whole(wish, "width"), height = whole(wish, "height");
-    const int64_t pixels = (int64_t)width * height;
-
-    return pixels <= LIMIT_IMAGE_PIXELS ||
-           error_set(err, ERROR_LIMIT, "", "%d x %d = %" PRId64 " pixels are above the maximum %d",
-                     width, height, pixels, LIMIT_IMAGE_PIXELS);
-}
-
 /* `prefix`: how places of members begin. */
 static bool check(struct wish *wish, const char *prefix, struct error *err)
 {
@@ -70,7 +59,7 @@ static bool check(struct wish *wish, const char *prefix, struct error *err)
         return false;
     }
     snprintf(place, sizeof(place), "%sregion", prefix);
-    return check_region(wish, place, err) && check_pixels(wish, err);
+    return check_region(wish, place, err);
 }
 
 /* --- from a query --- */

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/picture.h"
 #include "server/cli/command.h"
 #include "server/cli/options.h"
 
@@ -75,7 +76,8 @@ static void test_table_is_consistent(void **state)
         assert_non_null(row->doc);
         assert_true(row->commands != 0);
         assert_int_equal(row->type == OPTION_FLAG, row->value == NULL);
-        assert_int_equal(row->type == OPTION_CHOICE, row->choice != NULL);
+        assert_int_equal(row->type == OPTION_CHOICE || row->type == OPTION_CHOICES,
+                         row->choice != NULL);
         for (int j = 0; j < i; j++) {
             assert_string_not_equal(row->name, option_row((enum option)j)->name);
         }
@@ -159,6 +161,13 @@ static void test_values_are_checked(void **state)
     ASSERT_REFUSED("--position", "needs three numbers, as 0,1.5,6");
     assert_false(READ("render", "--position", "1,2,3,4", "a.json"));
     ASSERT_REFUSED("--position", "needs three numbers, as 0,1.5,6");
+    assert_false(READ("render", "--region", "1,2,3", "a.json"));
+    ASSERT_REFUSED("--region", "needs x,y,width,height");
+    assert_false(READ("render", "--region", "1,2,3.5,4", "a.json"));
+    ASSERT_REFUSED("--region", "3.5 is not a whole number");
+    assert_false(READ("render", "--aov", "color,,id", "a.json"));
+    ASSERT_REFUSED("--aov", "'' is none of color, depth, normal, position, id, steps, albedo, "
+                            "specular, optical, shadow, occlusion");
     assert_false(READ("render", "--width=0", "a.json"));
     ASSERT_REFUSED("--width", "0 is below the minimum 1");
 }
@@ -170,7 +179,11 @@ static void test_vectors_and_choices_have_numbers(void **state)
     const double *position = option_vector(&options, OPTION_POSITION);
     assert_true(position[0] == -1 && position[1] == 2.5 && position[2] == 30);
     assert_null(option_vector(&options, OPTION_TARGET));
-    assert_int_equal(option_int(&options, OPTION_AOV), 1);
+    assert_int_equal(option_int(&options, OPTION_AOV), 1 << AOV_DEPTH);
+    assert_true(READ("render", "--aov", "normal,color", "--region", "1,2,30,40", "a.json"));
+    assert_int_equal(option_int(&options, OPTION_AOV), 1 << AOV_NORMAL | 1 << AOV_COLOR);
+    assert_int_equal(option_vector(&options, OPTION_REGION)[3], 40);
+    assert_null(option_text(&options, OPTION_LEVEL));
     assert_string_equal(options.operands[0], "a.json");
 }
 

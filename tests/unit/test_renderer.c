@@ -53,7 +53,7 @@ static struct image draw(struct resident *resident, const struct job_desc *desc)
 }
 
 static const struct job_desc usual = {
-    .width = WIDTH, .height = HEIGHT, .samples = 2, .exact = true};
+    .width = WIDTH, .height = HEIGHT, .level = QUALITY_STILL, .samples = 2, .exact = true};
 
 static void edit(struct resident *resident, const char *ops)
 {
@@ -96,7 +96,8 @@ static void test_tiles_do_not_show(void **state)
     for (int aov = 0; aov < AOV_COUNT; aov++) {
         struct job_desc desc = usual;
         struct resident *resident = make_resident(document);
-        desc.aov = (enum aov)aov;
+        desc.aovs[aov] = true;
+        desc.as_floats = !aov_row((enum aov)aov)->picture;
         first = draw(resident, &desc);
         for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++) {
             struct resident *again = make_resident(document);
@@ -163,20 +164,83 @@ static void test_numbers_compile_nothing(void **state)
     resident_destroy(resident);
 }
 
-static struct image finish_job(struct job *job)
+/* Puts the next rows of every output below those that are there. */
+static void take_rows(struct job *job, struct image images[AOV_COUNT])
 {
-    struct image image;
+    for (int i = 0; i < AOV_COUNT; i++) {
+        struct image rows;
+
+        if (job_image_shape(job, (enum aov)i).width == 0) {
+            continue;
+        }
+        rows = job_take_rows(job, (enum aov)i);
+        images[i].pixels = memory_resize(images[i].pixels, images[i].bytes + rows.bytes, 1);
+        memcpy((uint8_t *)images[i].pixels + images[i].bytes, rows.pixels, rows.bytes);
+        images[i].bytes += rows.bytes;
+        images[i].height += rows.height;
+        image_finish(&rows);
+    }
+}
+
+static void finish_outputs(struct job *job, struct image images[AOV_COUNT])
+{
     enum job_state state;
 
     while ((state = job_step(job)) != JOB_DONE) {
         if (state == JOB_FAILED) {
             fail_msg("%s", job_error(job)->message);
         }
+        if (state == JOB_ROWS) {
+            take_rows(job, images);
+        }
         renderer_poll(renderer, state == JOB_WAITING ? 100 : 0);
     }
-    image = job_take_image(job);
     job_destroy(job);
-    return image;
+}
+
+static struct image finish_job(struct job *job)
+{
+    struct image images[AOV_COUNT] = {0};
+
+    finish_outputs(job, images);
+    return images[AOV_COLOR];
+}
+
+/* What is drawn together is what is drawn alone, and the shapes told beforehand are right. */
+static void test_outputs_together(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct image images[AOV_COUNT] = {0};
+    struct job_desc desc = usual;
+    struct job *job;
+
+    (void)state;
+    use_tiles(32);
+    desc.as_floats = true;
+    memset(desc.aovs, true, sizeof desc.aovs);
+    job = job_create(resident, &desc, NULL);
+    assert_non_null(job);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct image shape = job_image_shape(job, (enum aov)i);
+
+        assert_int_equal(shape.channels, aov_row((enum aov)i)->channels);
+        assert_int_equal(shape.format, aov_row((enum aov)i)->whole ? PIXEL_UINT32 : PIXEL_FLOAT);
+        assert_int_equal(shape.bytes, WIDTH * HEIGHT * shape.channels * 4);
+    }
+    finish_outputs(job, images);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        struct image alone;
+
+        memset(desc.aovs, false, sizeof desc.aovs);
+        desc.aovs[i] = true;
+        alone = draw(resident, &desc);
+        assert_int_equal(images[i].height, HEIGHT);
+        assert_same(&images[i], &alone);
+        image_finish(&alone);
+        image_finish(&images[i]);
+    }
+    use_tiles(0);
+    resident_destroy(resident);
 }
 
 static void test_pictures_are_not_torn(void **state)
@@ -189,7 +253,7 @@ static void test_pictures_are_not_torn(void **state)
     use_tiles(32);
     before = draw(resident, &usual);
     job = job_create(resident, &usual, NULL);
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 4; i++) {
         assert_int_equal(job_step(job), JOB_RUNNING);
     }
     edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":1.5},"
@@ -263,8 +327,10 @@ static void test_sizes(void **state)
     } bad[] = {
         {{.width = 0, .height = 5}, "width"},
         {{.width = 5, .height = LIMIT_IMAGE_SIDE + 1}, "height"},
-        {{.width = LIMIT_IMAGE_SIDE, .height = LIMIT_IMAGE_SIDE}, "height"},
         {{.width = 5, .height = 5, .samples = 5}, "samples"},
+        {{.width = 5, .height = 5, .region = {3, 0, 3, 2}}, "region"},
+        {{.width = 5, .height = 5, .region = {0, -1, 3, 2}}, "region"},
+        {{.width = 5, .height = 5, .region = {0, 0, 3, 0}}, "region"},
     };
     struct resident *resident = make_resident(document);
 
@@ -294,9 +360,10 @@ static void test_picking_agrees(void **state)
     int different = 0;
 
     (void)state;
-    desc.aov = AOV_DEPTH;
+    desc.aovs[AOV_DEPTH] = true;
     depth = draw(resident, &desc);
-    desc.aov = AOV_ID;
+    desc.aovs[AOV_DEPTH] = false;
+    desc.aovs[AOV_ID] = true;
     id = draw(resident, &desc);
     assert_int_equal(depth.format, PIXEL_FLOAT);
     assert_int_equal(id.format, PIXEL_UINT32);
@@ -457,6 +524,7 @@ int main(void)
         cmocka_unit_test(test_tiles_do_not_show),
         cmocka_unit_test(test_edits_and_back),
         cmocka_unit_test(test_numbers_compile_nothing),
+        cmocka_unit_test(test_outputs_together),
         cmocka_unit_test(test_pictures_are_not_torn),
         cmocka_unit_test(test_old_picture_while_compiling),
         cmocka_unit_test(test_cancel),

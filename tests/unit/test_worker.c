@@ -173,7 +173,8 @@ static void draw_here(const char *ops, struct picture *out)
 {
     const struct renderer_params params = {.device_index = -1};
     struct renderer *renderer = renderer_create(&params, NULL);
-    const struct job_desc desc = {.width = 80, .height = 60, .samples = 1, .exact = true};
+    const struct job_desc desc = {
+        .width = 80, .height = 60, .level = -1, .samples = 1, .transparent = -1, .exact = true};
     size_t length, bytes_length;
     char *document = text_file_read(EXAMPLE, &length);
     struct scene *scene = scene_parse(document, length, NULL);
@@ -211,7 +212,7 @@ static void test_render_and_edit(void **state)
     assert_true(json_member_bool(packet.json, "newest", false));
     assert_int_equal(number("width"), 80);
     assert_string_equal(text("mime"), "image/png");
-    assert_true(number("march_us") >= 0 && number("encode_us") >= 0 && number("queue_us") >= 0);
+    assert_true(number("march_us") > 0 && number("encode_us") > 0 && number("queue_us") >= 0);
     assert_true(picture_read_memory(&first, packet.payload, packet.payload_length));
 
     snprintf(line, sizeof line, "{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":%s}",
@@ -333,6 +334,38 @@ static void test_outputs(void **state)
     } while (number("job") != 3);
 }
 
+/* What a render with these members comes back as. */
+static void check_frame(const char *more, const char *mime, int width, int height)
+{
+    send_render(1, 0, 40, 30, more);
+    expect("frame");
+    assert_string_equal(text("mime"), mime);
+    assert_int_equal(number("width"), width);
+    assert_int_equal(number("height"), height);
+}
+
+static void test_what_is_asked(void **state)
+{
+    enum { COLOR_TYPE = 25, RGB = 2, RGB_ALPHA = 6 }; /* in the IHDR of a PNG */
+
+    (void)state;
+    send_scene("s", 1);
+    check_frame(",\"aov\":\"color,depth\"", "application/zip", 40, 30);
+    assert_memory_equal(packet.payload, "PK\3\4", 4);
+    check_frame(",\"zipped\":true", "application/zip", 40, 30);
+    check_frame(",\"region\":[30,7,10,2]", "image/png", 10, 2);
+    check_frame(",\"level\":\"draft\",\"transparent\":true", "image/png", 40, 30);
+    assert_int_equal(packet.payload[COLOR_TYPE], RGB_ALPHA);
+    check_frame(",\"transparent\":false", "image/png", 40, 30);
+    assert_int_equal(packet.payload[COLOR_TYPE], RGB);
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        char name[STAGE_MEMBER_BYTES];
+
+        stage_member((enum frame_stage)i, name);
+        assert_true(number(name) >= 0);
+    }
+}
+
 static void check_failed(const char *more, const char *code, const char *place)
 {
     char line[512];
@@ -355,6 +388,11 @@ static void test_refusals(void **state)
     expect("shown");
     check_failed(",\"aov\":\"smell\"", "invalid", "aov");
     check_failed(",\"format\":\"gif\"", "invalid", "format");
+    check_failed(",\"aov\":\"position\"", "invalid", "aov");
+    check_failed(",\"format\":\"jpg\",\"transparent\":true", "invalid", "format");
+    check_failed(",\"level\":\"best\"", "invalid", "level");
+    check_failed(",\"region\":[39,0,2,2]", "limit", "region");
+    check_failed(",\"region\":[1,2]", "invalid", "region");
     check_failed(",\"samples\":9", "limit", "samples");
     check_failed(",\"samples\":-1", "limit", "samples");
     check_failed(",\"format\":\"jpg\",\"quality\":400", "limit", "quality");
@@ -483,6 +521,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_cancel, start, stop),
         cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
         cmocka_unit_test_setup_teardown(test_outputs, start, stop),
+        cmocka_unit_test_setup_teardown(test_what_is_asked, start, stop),
         cmocka_unit_test_setup_teardown(test_refusals, start, stop),
         cmocka_unit_test_setup_teardown(test_pick, start, stop),
         cmocka_unit_test(test_stop),
