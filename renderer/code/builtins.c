@@ -159,9 +159,14 @@ static double product(double x, double y)
     return x * y;
 }
 
+static double between_walls(double x)
+{
+    return x - BUILTIN_WALL * sign_of(x - 0.5);
+}
+
 static double striped(double x)
 {
-    return stepped(0.5, fraction(x + BUILTIN_WALL));
+    return stepped(0.5, fraction(between_walls(x)));
 }
 
 static double is_nan(double x)
@@ -378,7 +383,7 @@ static void hash_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int 
     uint32_t at[3] = {0};
     bool finite = all_finite(in[0]);
     for (int i = 0; i < n && finite; i++) {
-        at[i] = (uint32_t)remainder_floor(floor(in[0][i] + BUILTIN_WALL), 65536);
+        at[i] = (uint32_t)remainder_floor(floor(between_walls(in[0][i])), 65536);
     }
     out[0] = finite ? 0.5 + 0.5 * noise_lattice(at[0], at[1], at[2], 0) : NAN;
 }
@@ -387,7 +392,7 @@ static void checker_of(double *out, const double *const in[BUILTIN_ARGUMENTS], i
 {
     double sum = 0;
     for (int i = 0; i < n; i++) {
-        sum += floor(in[0][i] + BUILTIN_WALL);
+        sum += floor(between_walls(in[0][i]));
     }
     out[0] = remainder_floor(sum, 2);
 }

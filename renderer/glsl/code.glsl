@@ -3,7 +3,7 @@
  * argument. */
 
 #define CODE_TINY 1e-30
-#define CODE_WALL 0.015625 /* how far the walls of patterns are below whole numbers */
+#define CODE_WALL 0.015625 /* how far the walls of patterns are beyond whole numbers */
 #define CODE_OCTAVES 8
 
 /* Distances and colours beyond these are none: the FAR of glsl/mixture.glsl, and half floats. */
@@ -25,7 +25,8 @@
     T code_acosh(T x) { return acosh(max(x, 1.0)); }                                               \
     T code_atanh(T x) { return atanh(clamp(x, -0.9999, 0.9999)); }                                 \
     T code_atan(T y, T x) { return atan(y, x + step(abs(x) + abs(y), T(0.0))); }                   \
-    T code_stripes(T x) { return step(0.5, fract(x + CODE_WALL)); }                                \
+    T code_between_walls(T x) { return x - CODE_WALL * sign(x - 0.5); }                            \
+    T code_stripes(T x) { return step(0.5, fract(code_between_walls(x))); }                        \
     T code_saturate(T x) { return clamp(x, 0.0, 1.0); }                                            \
     T code_normalize(T x) { return x * inversesqrt(max(dot(x, x), CODE_TINY)); }                   \
     T code_mod(T x, T y)                                                                           \
@@ -102,22 +103,17 @@ float code_fbm(vec3 p, int octaves)
     return noise_octaves(p, clamp(octaves, 0, CODE_OCTAVES), 0u);
 }
 
-/* The cell between walls. */
-vec3 code_cell(vec3 p)
-{
-    return floor(p + CODE_WALL);
-}
-
 /* A number for each cell, by chance. */
 float code_hash(vec3 p)
 {
-    return 0.5 + 0.5 * noise_lattice(uvec3(code_mod(code_cell(p), vec3(65536.0))), 0u);
+    vec3 cell = code_mod(floor(code_between_walls(p)), vec3(65536.0));
+    return 0.5 + 0.5 * noise_lattice(uvec3(cell), 0u);
 }
 
 /* 0 and 1 by turns. */
 float code_checker(vec3 p)
 {
-    return code_mod(dot(code_cell(p), vec3(1.0)), 2.0);
+    return code_mod(dot(floor(code_between_walls(p)), vec3(1.0)), 2.0);
 }
 
 /* The weights of three patterns. */
