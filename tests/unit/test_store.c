@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <sqlite3.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,6 +109,87 @@ static void a_commit_is_all_or_nothing(void **state)
     store_sqlite_close(db);
 }
 
+static void see(void *data, const struct store_asset *asset)
+{
+    struct store_asset *seen = data;
+
+    *seen = *asset;
+    seen->info.type = strcmp(asset->info.type, "image/png") == 0 ? "image/png" : "?";
+}
+
+static void keep_a_file(struct store_sqlite *db)
+{
+    char bytes[] = "any\0bytes";
+    struct store_asset asset = {
+        .id = "d1", .info = {"image/png", 3, 2, 0}, .length = sizeof(bytes), .bytes = bytes};
+    struct store_write write = write_of(STORE_ASSET, "", 0, "", 0, NULL);
+    struct store_asset seen = {0};
+    size_t length = 0;
+    void *found = NULL;
+    struct error err = {0};
+
+    write.asset = &asset;
+    assert_true(commit_one(db, write));
+    assert_true(commit_one(db, write)); /* another who sends the same */
+    assert_true(store_sqlite_list_assets(db, see, &seen, NULL));
+    assert_string_equal(seen.id, "d1");
+    assert_string_equal(seen.info.type, "image/png");
+    assert_int_equal(seen.info.width * 10 + seen.info.height, 32);
+    assert_int_equal(seen.length, sizeof(bytes));
+    assert_true(store_sqlite_load_asset(db, "d1", &found, &length, NULL));
+    assert_int_equal(length, sizeof(bytes));
+    assert_memory_equal(found, bytes, length);
+    free(found);
+    assert_false(store_sqlite_load_asset(db, "d2", &found, &length, &err));
+    assert_int_equal(err.kind, ERROR_NOT_FOUND);
+}
+
+static void gives_back_files(void **state)
+{
+    struct store_sqlite *db = open_database("c.sqlite");
+
+    (void)state;
+    keep_a_file(db);
+    store_sqlite_close(db);
+}
+
+/* Runs SQL on a database that no store has open. */
+static void run_sql(const char *name, const char *sql)
+{
+    char path[200];
+    sqlite3 *db = NULL;
+
+    snprintf(path, sizeof(path), "%s/%s", directory, name);
+    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+}
+
+/* What an older version wrote is brought up to date; what a newer one did is left alone. */
+static void knows_older_databases(void **state)
+{
+    struct store_sqlite *db = open_database("d.sqlite");
+    struct store_loaded loaded;
+    struct error err = {0};
+    char path[200];
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
+    store_sqlite_close(db);
+    run_sql("d.sqlite", "DROP TABLE assets; PRAGMA user_version = 1");
+    db = open_database("d.sqlite");
+    assert_true(store_sqlite_load(db, "s", &loaded, NULL));
+    assert_string_equal(loaded.document, "first");
+    store_loaded_finish(&loaded);
+    keep_a_file(db);
+    store_sqlite_close(db);
+
+    run_sql("d.sqlite", "PRAGMA user_version = 99");
+    snprintf(path, sizeof(path), "%s/d.sqlite", directory);
+    assert_null(store_sqlite_open(path, &err));
+    assert_non_null(strstr(err.message, "another version: 99"));
+}
+
 static void count(void *data)
 {
     atomic_fetch_add((atomic_int *)data, 1);
@@ -159,6 +241,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gives_back_document_edits_and_authors),
         cmocka_unit_test(a_commit_is_all_or_nothing),
+        cmocka_unit_test(gives_back_files),
+        cmocka_unit_test(knows_older_databases),
         cmocka_unit_test(flush_waits_until_all_is_told),
     };
 
