@@ -50,25 +50,26 @@ vec3 parts_unpack(uint word)
 void surface_pack(Surface s, out uvec4 matter, out uvec4 more)
 {
     vec3 diffuse = min(s.diffuse, HALF_MAX);
-    uint optics = packUnorm4x8(vec4(0.0, 0.0, s.transmission, s.reflectivity));
-    matter =
-        uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
-              parts_pack(s.specular, s.model), optics | packHalf2x16(vec2(s.ior, 0.0)));
-    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, 0), shared_pack(s.absorption), s.id);
+    uint parts = packUnorm4x8(vec4(0.0, 0.0, s.transmission, s.reflectivity));
+    uint ior = packHalf2x16(vec2(s.ior, 0.0));
+    matter = uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
+                   parts_pack(s.specular, s.model), ior | parts);
+    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, 0), shared_pack(s.absorption),
+                 s.id);
 }
 
 Surface surface_unpack(uvec4 matter, uvec4 more)
 {
     vec2 y = unpackHalf2x16(matter.y);
-    vec4 optics = unpackUnorm4x8(matter.w);
+    vec4 parts = unpackUnorm4x8(matter.w);
     Surface s;
     s.diffuse = vec3(unpackHalf2x16(matter.x), y.x);
     s.gloss = y.y;
     s.specular = parts_unpack(matter.z);
     s.model = int(matter.z >> 30);
     s.ior = unpackHalf2x16(matter.w).x;
-    s.transmission = optics.z;
-    s.reflectivity = optics.w;
+    s.transmission = parts.z;
+    s.reflectivity = parts.w;
     s.emission = shared_unpack(more.x);
     s.ambient = parts_unpack(more.y);
     s.absorption = shared_unpack(more.z);

@@ -78,11 +78,11 @@ Mixture blend(float d, float share, Mixture a, Mixture b)
 {
     float wa = a.weight * (1.0 - share), wb = b.weight * share;
     bool most = wb > wa;
-    Mixture m =
-        Mixture(d, most ? b.leaf : a.leaf, max(wa, wb), mix(a.diffuse_gloss, b.diffuse_gloss, share),
-                mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
-                mix(a.ambient, b.ambient, share), mix(a.optics, b.optics, share),
-                mix(a.absorption, b.absorption, share) NO_SHADERS);
+    Mixture m = Mixture(
+        d, most ? b.leaf : a.leaf, max(wa, wb), mix(a.diffuse_gloss, b.diffuse_gloss, share),
+        mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
+        mix(a.ambient, b.ambient, share), mix(a.optics, b.optics, share),
+        mix(a.absorption, b.absorption, share) NO_SHADERS);
     m.optics.w = most ? b.optics.w : a.optics.w;
     if (a.optics.w != b.optics.w) {
         m.diffuse_gloss.w = most ? b.diffuse_gloss.w : a.diffuse_gloss.w;
