@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures do not show how they were cut up: into tiles, into regions, into rows. And their size
+ * costs no memory. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/support/drawing.h"
+
+enum { WIDTH = 160, HEIGHT = 90 };
+
+/* --- tiles --- */
+
+struct outputs {
+    struct image images[AOV_COUNT];
+};
+
+static struct outputs draw_outputs(int tile_side)
+{
+    struct renderer *renderer = drawing_renderer(tile_side);
+    struct resident *resident = drawing_resident(renderer, DRAWING_RICH);
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    struct outputs outputs;
+
+    for (int aov = 0; aov < AOV_COUNT; aov++) {
+        desc.as_floats = aov != AOV_COLOR;
+        outputs.images[aov] = drawing_of(resident, &desc, (enum aov)aov);
+    }
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+    return outputs;
+}
+
+static void outputs_finish(struct outputs *outputs)
+{
+    for (int aov = 0; aov < AOV_COUNT; aov++) {
+        image_finish(&outputs->images[aov]);
+    }
+}
+
+static void tiles_do_not_show(void **state)
+{
+    static const int sides[] = {32, 64};
+    struct outputs whole = draw_outputs(256);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++) {
+        struct outputs tiled = draw_outputs(sides[i]);
+        for (int aov = 0; aov < AOV_COUNT; aov++) {
+            if (!drawing_is_same(&tiled.images[aov], &whole.images[aov])) {
+                fail_msg("%s is not the same in tiles of %d", aov_name((enum aov)aov), sides[i]);
+            }
+        }
+        outputs_finish(&tiled);
+    }
+    outputs_finish(&whole);
+}
+
+/* --- regions --- */
+
+static void assert_is_crop(const struct image *part, const struct image *whole,
+                           const struct job_region *region)
+{
+    const size_t pixel = whole->bytes / (size_t)whole->width / (size_t)whole->height;
+    const size_t row = pixel * (size_t)region->width;
+
+    assert_int_equal(part->width, region->width);
+    assert_int_equal(part->height, region->height);
+    for (int y = 0; y < region->height; y++) {
+        const uint8_t *expected =
+            (const uint8_t *)whole->pixels +
+            pixel * ((size_t)(region->y + y) * (size_t)whole->width + (size_t)region->x);
+        assert_memory_equal((const uint8_t *)part->pixels + row * (size_t)y, expected, row);
+    }
+}
+
+/* Four that overlap, none of which begins where a tile does. */
+static void regions_do_not_show(void **state)
+{
+    static const struct job_region regions[] = {
+        {0, 0, 91, 53}, {77, 5, 83, 51}, {3, 41, 90, 49}, {70, 37, 90, 53}};
+    struct renderer *renderer = drawing_renderer(32);
+    struct resident *resident = drawing_resident(renderer, DRAWING_RICH);
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    struct image whole = drawing_of(resident, &desc, AOV_COLOR);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof regions / sizeof regions[0]; i++) {
+        desc.region = regions[i];
+        struct image part = drawing_of(resident, &desc, AOV_COLOR);
+        assert_is_crop(&part, &whole, &regions[i]);
+        image_finish(&part);
+    }
+    image_finish(&whole);
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+}
+
+/* --- large pictures --- */
+
+enum { LARGE_WIDTH = LIMIT_IMAGE_SIDE, LARGE_HEIGHT = 1024, MOST_MIB = 96 };
+
+static const struct job_region corners[] = {
+    {8000, 200, 500, 300}, {8300, 300, 400, 300}, {8100, 450, 500, 200}, {15900, 700, 484, 324}};
+enum { CORNERS = sizeof corners / sizeof corners[0] };
+
+/* The most memory that this process ever had. */
+static long peak_mib(void)
+{
+    FILE *file = fopen("/proc/self/status", "r");
+    char line[200];
+    long kib = 0;
+
+    assert_non_null(file);
+    while (kib == 0 && fgets(line, sizeof line, file)) {
+        (void)sscanf(line, "VmHWM: %ld kB", &kib);
+    }
+    fclose(file);
+    assert_true(kib > 0);
+    return kib / 1024;
+}
+
+/* What of a region lies in these rows of the whole picture, which begin at row `top`. */
+static void copy_rows(struct image *part, const struct job_region *region, const struct image *rows,
+                      int top)
+{
+    for (int y = 0; y < rows->height; y++) {
+        const int row = top + y - region->y;
+        if (row >= 0 && row < region->height) {
+            memcpy((uint8_t *)part->pixels + 4L * row * region->width,
+                   (const uint8_t *)rows->pixels + 4L * (y * (long)rows->width + region->x),
+                   4UL * (size_t)region->width);
+        }
+    }
+}
+
+/* Draws the whole by rows and keeps of it what lies in the corners. */
+static void draw_by_rows(struct renderer *renderer, struct resident *resident,
+                         const struct job_desc *desc, struct image kept[CORNERS])
+{
+    struct error err = {0};
+    struct job *job = job_create(resident, desc, &err);
+    int top = 0;
+
+    assert_non_null(job);
+    for (enum job_state state; (state = job_step(job)) != JOB_DONE;) {
+        assert_int_not_equal(state, JOB_FAILED);
+        renderer_poll(renderer, state == JOB_WAITING ? 100 : 0);
+        if (state == JOB_ROWS) {
+            struct image rows = job_take_rows(job, AOV_COLOR);
+            for (int i = 0; i < CORNERS; i++) {
+                copy_rows(&kept[i], &corners[i], &rows, top);
+            }
+            top += rows.height;
+            image_finish(&rows);
+        }
+    }
+    assert_int_equal(top, desc->height);
+    job_destroy(job);
+}
+
+static void large_pictures_have_no_seams_and_take_little(void **state)
+{
+    static const char path[] = "tests/golden/nodes/sphere/scene.json";
+    struct renderer *renderer = drawing_renderer(0);
+    struct resident *resident = drawing_resident(renderer, path);
+    struct job_desc desc = drawing_desc(256, 256);
+    struct image kept[CORNERS], image = drawing_of(resident, &desc, AOV_COLOR);
+    const long before = peak_mib();
+
+    (void)state;
+    image_finish(&image);
+    desc = drawing_desc(LARGE_WIDTH, LARGE_HEIGHT);
+    desc.samples = 1;
+    desc.aovs[AOV_COLOR] = true;
+    for (int i = 0; i < CORNERS; i++) {
+        const size_t bytes = 4UL * (size_t)corners[i].width * (size_t)corners[i].height;
+        kept[i] = (struct image){.width = corners[i].width,
+                                 .height = corners[i].height,
+                                 .pixels = calloc(1, bytes),
+                                 .bytes = bytes};
+    }
+    draw_by_rows(renderer, resident, &desc, kept);
+    assert_in_range(peak_mib() - before, 0, MOST_MIB);
+    for (int i = 0; i < CORNERS; i++) {
+        desc.region = corners[i];
+        image = drawing_of(resident, &desc, AOV_COLOR);
+        assert_true(drawing_is_same(&image, &kept[i]));
+        image_finish(&image);
+        image_finish(&kept[i]);
+    }
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_do_not_show),
+        cmocka_unit_test(regions_do_not_show),
+        cmocka_unit_test(large_pictures_have_no_seams_and_take_little),
+    };
+    return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
+}
