@@ -4,14 +4,13 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "renderer/gl/egl.h"
 #include "renderer/gl/gl.h"
-#include "renderer/glsl.h"
+#include "tests/support/compute.h"
 #include "tests/support/random_scene.h"
 
 enum { SURFACES = 4096, GROUP = 64 };
@@ -49,39 +48,11 @@ static const char body[] =
     "parts[i + 4u] = vec4(s.absorption, s.reflectivity);\n"
     "parts[i + 5u].rgb = vec3(uvec3(s.id, s.id >> 8, s.id >> 16) & 255u);\n}\n";
 
-static const char *glsl_text(const char *name)
-{
-    for (const struct glsl_file *file = glsl_files; file->name; file++) {
-        if (strcmp(file->name, name) == 0) {
-            return file->text;
-        }
-    }
-    abort();
-}
-
-static GLuint make_program(const struct gl *gl)
-{
-    char log[2048] = "";
-    const char *texts[] = {head, glsl_text("surface.glsl"), glsl_text("gbuffer.glsl"), body};
-    GLuint program = gl->CreateProgram(), shader = gl->CreateShader(GL_COMPUTE_SHADER);
-    gl->ShaderSource(shader, 4, texts, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    gl->AttachShader(program, shader);
-    gl->DeleteShader(shader);
-    GLint ok = 0;
-    gl->LinkProgram(program);
-    gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-    if (!ok) {
-        fail_msg("%s", log);
-    }
-    return program;
-}
-
 /* Packs and unpacks all of them in place. */
 static void round_trip(struct surface surfaces[SURFACES])
 {
     const struct renderer_params params = {.device_index = -1};
+    const char *texts[] = {head, compute_file("surface.glsl"), compute_file("gbuffer.glsl"), body};
     const GLsizeiptr bytes = SURFACES * sizeof *surfaces;
     struct error err = {0};
     struct egl egl;
@@ -89,7 +60,10 @@ static void round_trip(struct surface surfaces[SURFACES])
     GLuint buffer;
     assert_true(egl_init(&egl, &params, &err));
     assert_true(gl_load(&gl, &err));
-    GLuint program = make_program(&gl);
+    GLuint program = compute_link(&gl, texts, 4, &err);
+    if (program == 0) {
+        fail_msg("%s", err.message);
+    }
     gl.GenBuffers(1, &buffer);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
     gl.BufferData(GL_SHADER_STORAGE_BUFFER, bytes, surfaces, GL_STREAM_READ);

@@ -7,19 +7,9 @@
 #include <string.h>
 
 #include "protocol/limits.h"
-#include "renderer/glsl.h"
+#include "tests/support/compute.h"
 
-enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED, LOG_BYTES = 4096 };
-
-static const char *glsl_text(const char *name)
-{
-    for (const struct glsl_file *file = glsl_files; file->name; file++) {
-        if (strcmp(file->name, name) == 0) {
-            return file->text;
-        }
-    }
-    abort();
-}
+enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED };
 
 bool code_gpu_init(struct code_gpu *gpu, struct error *err)
 {
@@ -84,8 +74,8 @@ static char *write_program(const struct code_gpu_job *jobs, size_t count)
         abort();
     }
     fprintf(out, head, GROUP, CODE_GPU_POINTS);
-    fprintf(out, "#line 1 1\n%s%s#line 1 2\n%s", glsl_text("surface.glsl"), glsl_text("noise.glsl"),
-            glsl_text("code.glsl"));
+    fprintf(out, "#line 1 1\n%s%s#line 1 2\n%s", compute_file("surface.glsl"),
+            compute_file("noise.glsl"), compute_file("code.glsl"));
     for (size_t i = 0; i < count; i++) {
         snprintf(name, sizeof name, "job_%zu", i);
         code_write(jobs[i].code, name, 1000 + (int)i, out);
@@ -104,31 +94,6 @@ static char *write_program(const struct code_gpu_job *jobs, size_t count)
     return text;
 }
 
-static GLuint link_program(const struct gl *gl, const char *text, struct error *err)
-{
-    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram();
-    GLint ok = 0;
-    char log[LOG_BYTES] = "";
-    gl->ShaderSource(shader, 1, &text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) {
-        gl->AttachShader(program, shader);
-        gl->LinkProgram(program);
-        gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-        gl->GetProgramInfoLog(program, sizeof log, NULL, log);
-    } else {
-        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    }
-    gl->DeleteShader(shader);
-    if (!ok) {
-        error_set(err, ERROR_COMPILE, "", "%.300s", log);
-        gl->DeleteProgram(program);
-        return 0;
-    }
-    return program;
-}
-
 static void set_buffer(const struct code_gpu *gpu, GLuint binding, const void *data, size_t bytes)
 {
     const struct gl *gl = &gpu->gl;
@@ -144,7 +109,7 @@ bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t 
     const struct gl *gl = &gpu->gl;
     size_t bytes = count * CODE_GPU_POINTS * sizeof *out;
     char *text = write_program(jobs, count);
-    GLuint program = link_program(gl, text, err);
+    GLuint program = compute_link(gl, (const char *const *)&text, 1, err);
     free(text);
     if (program == 0) {
         return false;

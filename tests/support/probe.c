@@ -7,26 +7,9 @@
 
 #include "protocol/memory.h"
 #include "renderer/field/shader.h"
-#include "renderer/glsl.h"
+#include "tests/support/compute.h"
 
-enum {
-    POINTS,
-    NUMBERS,
-    ANSWERS,
-    GROUP = 64,
-    ANSWER_VEC4S = 1 + FIELD_MATERIAL_VEC4S,
-    LOG_BYTES = 4096
-};
-
-static const char *glsl_text(const char *name)
-{
-    for (const struct glsl_file *file = glsl_files; file->name; file++) {
-        if (strcmp(file->name, name) == 0) {
-            return file->text;
-        }
-    }
-    abort();
-}
+enum { POINTS, NUMBERS, ANSWERS, GROUP = 64, ANSWER_VEC4S = 1 + FIELD_MATERIAL_VEC4S };
 
 bool probe_init(struct probe *probe, struct error *err)
 {
@@ -117,7 +100,7 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
     fprintf(out, "#version 430 core\n#define GROUP %d\n#define COUNT %zu\n%s%s%s", GROUP, numbers,
             shaders ? "#define USER_SHADERS\n" : "", in_block ? head_block : head_texture, head);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        fputs(glsl_text(files[i]), out);
+        fputs(compute_file(files[i]), out);
     }
     numbers = 0;
     for (size_t i = 0; i < count; i++) {
@@ -144,38 +127,17 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
 
 /* --- the program --- */
 
-static bool link_program(const struct gl *gl, GLuint program, const char *text, struct error *err)
-{
-    char log[LOG_BYTES] = "";
-    GLint ok = 0;
-    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER);
-    gl->ShaderSource(shader, 1, &text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) {
-        gl->AttachShader(program, shader);
-        gl->LinkProgram(program);
-        gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-        gl->GetProgramInfoLog(program, sizeof log, NULL, log);
-    } else {
-        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    }
-    gl->DeleteShader(shader);
-    return ok || error_set(err, ERROR_COMPILE, "", "%.300s", log);
-}
-
 bool probe_program_init(struct probe_program *program, const struct probe *probe,
                         struct field *const *fields, size_t count, bool surface, bool in_block,
                         struct error *err)
 {
     char *text = program_text(fields, count, surface, in_block, probe->through);
-    *program = (struct probe_program){.program = probe->gl.CreateProgram(), .surface = surface};
-    bool ok = link_program(&probe->gl, program->program, text, err);
-    if (!ok) {
-        probe_program_finish(program, probe);
-    }
+    *program = (struct probe_program){
+        .program = compute_link(&probe->gl, (const char *const *)&text, 1, err),
+        .surface = surface,
+    };
     free(text);
-    return ok;
+    return program->program != 0;
 }
 
 void probe_program_finish(struct probe_program *program, const struct probe *probe)
