@@ -88,11 +88,11 @@ static void set_environment(struct frame_block *block, const struct record *envi
     set_fog(block, environment);
 }
 
-/* The height above which waves of noise fill this part of space: they are spread about like the
- * logistic distribution, with the deviation of their sum of octaves. */
+/* The height above which waves of noise fill this part of space. Sums of octaves are spread much as
+ * the logistic distribution of this deviation, which was measured. */
 static double waves_above(double part, int octaves)
 {
-    const double deviation = 0.4 * sqrt((1 - pow(0.25, octaves)) / 0.75);
+    const double deviation = 0.46 * sqrt((1 - pow(0.25, octaves)) / 0.75);
     const double odds = fmax(1 - part, 1e-6) / fmax(part, 1e-6);
 
     return deviation * sqrt(3) / M_PI * log(odds);

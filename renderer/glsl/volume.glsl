@@ -125,7 +125,7 @@ vec3 scattered(vec3 p, vec3 view, out Smoke here)
         float free = min(bounds_span(p, lamp.direction).y, bounds_max.w);
         float end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), thick) : thick;
         float longest = thick / float(max(counts.y, 1));
-        float at = 0.0, stride = 0.0, depth = 0.0, before = 0.0, open = 1.0;
+        float at = 0.0, stride = 0.0, smoky = 0.0, depth = 0.0, before = 0.0, open = 1.0;
         end = i < modes.x ? end : -1.0;
 
         for (int k = zero; k <= 3 * counts.y; k++) {
@@ -135,7 +135,7 @@ vec3 scattered(vec3 p, vec3 view, out Smoke here)
             if (k == 0) {
                 here = smoke;
             } else {
-                depth += 0.5 * stride * (before + smoke.density);
+                depth += 0.5 * smoky * (before + smoke.density);
                 open = sharpness > 0.0 ? min(open, sharpness * d / at) : 1.0;
             }
             if (here.density == 0.0 || at >= end || open < 0.004) {
@@ -143,6 +143,7 @@ vec3 scattered(vec3 p, vec3 view, out Smoke here)
             }
             float room = at < thick ? min(longest, thick - at) : end - at;
             stride = sharpness > 0.0 ? min(max(d, 0.1 * longest), room) : room;
+            smoky = at < thick ? stride : 0.0;
             before = smoke.density;
             at += stride;
         }
