@@ -58,7 +58,7 @@ static uint64_t key_of(const struct frame_block *block, const struct asset *imag
     uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->modes[1], sizeof block->modes[1]);
 
     if (block->modes[1] == SKY_IMAGE) {
-        return mix(state, image->id, sizeof image->id);
+        return image ? mix(state, image->id, sizeof image->id) : state; /* none has that one */
     }
     state = mix(state, block->zenith, 12);
     if (block->modes[1] == SKY_SOLID) {
@@ -253,17 +253,15 @@ struct environment *environments_get(struct environments *environments, struct f
                                      uint32_t *out_us, struct error *err)
 {
     const uint64_t begun = now_us();
-    const bool pictured = block->modes[1] == SKY_IMAGE;
-    struct environment **at = find(environments, !pictured || image ? key_of(block, image) : 0);
-    struct environment *environment = *at;
+    struct environment **at = find(environments, key_of(block, image)), *environment;
     struct decoded decoded = {0};
 
     *out_problem = (struct error){0};
-    if (!environment && pictured && !load(image, &decoded, out_problem)) {
+    if (!*at && block->modes[1] == SKY_IMAGE && !load(image, &decoded, out_problem)) {
         make_solid(block);
         at = find(environments, key_of(block, NULL));
-        environment = *at;
     }
+    environment = *at;
     *out_us = 0;
     if (environment) {
         *at = environment->next;
