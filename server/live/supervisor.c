@@ -110,9 +110,9 @@ static void load_first(struct supervisor *supervisor)
     void *bytes;
 
     pthread_mutex_lock(&supervisor->lock);
-    chunk = supervisor->first;
+    chunk = supervisor->first && !supervisor->first->bytes ? supervisor->first : NULL;
     pthread_mutex_unlock(&supervisor->lock);
-    if (!chunk || chunk->bytes) {
+    if (!chunk) {
         return;
     }
     bytes = supervisor->params.load_file(supervisor->params.data, chunk->file, &length);
