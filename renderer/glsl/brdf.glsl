@@ -14,27 +14,26 @@ float roughness(Surface s)
 
 /* All that a mirror of microfacets throws back of even surroundings, for light from the angle of
  * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets. x + y
- * + z = 1. Our own fits of rational functions to integrals of the formula below, within 0.02 from a
- * roughness of 0.15 up, 0.04 below; after Karis (Physically based shading on mobile, 2014). */
+ * + z = 1. Our own fits of rational functions to integrals of the formula below, within 0.015 from a
+ * roughness of 0.3 up, 0.03 below; after Karis (Physically based shading on mobile, 2014). */
 vec3 mirror_albedo(float rough, float c)
 {
-    float r = clamp(rough, 0.07, 1.0), a = r * r, x = clamp(c, 0.01, 1.0);
-    float bump = x * a * (0.078023 + a * (0.19498 + 1.9286 * a) - x * (0.22737 + 0.66626 * a) +
-                          0.40643 * x * x);
-    float lost = bump / (a * (a * (0.44588 + 0.089512 * a) - 0.0018667) +
-                         x * (0.0034331 + a * (3.4539 * a - 0.048117) +
-                              x * (0.24273 - 2.7408 * a + x)));
+    float r = clamp(rough, 0.1, 1.0), a = r * r, x = clamp(c, 0.01, 1.0);
+    float bump = a * x * (0.073052 + a * (1.7537 * a - 0.29411) +
+                          x * (a * (0.98381 + 0.14804 * a) - 0.037169));
+    float width = a * (0.0027657 + a * (0.18168 + 0.1288 * a)) +
+                  x * (0.007347 + a * (3.7472 * a - 0.21661) + x * (0.17754 - 1.3041 * a + x));
+    float lost = clamp(bump / width, 0.0, 0.9);
     float edge = (1.0 - x) * (1.0 - x) * max(0.9466 - 0.54223 * r - 0.91749 * x, 0.0) /
                  (1.0 + r * (10.977 * r - 0.11951 - 12.428 * x) + x * (0.057869 + 12.147 * x));
-    lost = clamp(lost, 0.0, 0.9);
     return vec3(1.0 - lost - edge, edge, lost);
 }
 
 /* Its mean over directions, by the cosine. */
 vec3 mirror_mean(float rough)
 {
-    float r = clamp(rough, 0.07, 1.0);
-    float lost = r * (0.0361 + r * (-0.2294 + r * (1.583 - 0.7612 * r)));
+    float r = clamp(rough, 0.1, 1.0), a = r * r;
+    float lost = a * (0.19334 + a * (0.26172 + 2.3639 * a)) / (1.0 + a * (5.4901 * a - 1.742));
     float edge = max(0.05063 + r * (-0.03659 + r * (-0.104 + 0.09405 * r)), 0.0);
     return vec3(1.0 - lost - edge, edge, lost);
 }

@@ -12,15 +12,14 @@
 
 enum { GROUP = 8 };
 
-static const char tail[] =
-    "\nlayout(local_size_x = 8) in;\n"
-    "struct Row { vec4 a, b, c, answer; };\n"
-    "layout(std430, binding = 0) buffer Rows { Row rows[]; };\n"
-    "void main()\n{\n"
-    "    uint i = gl_GlobalInvocationID.x;\n"
-    "    if (i < uint(rows.length())) {\n"
-    "        rows[i].answer = ask(rows[i].a, rows[i].b, rows[i].c);\n"
-    "    }\n}\n";
+static const char tail[] = "\nlayout(local_size_x = 8) in;\n"
+                           "struct Row { vec4 a, b, c, answer; };\n"
+                           "layout(std430, binding = 0) buffer Rows { Row rows[]; };\n"
+                           "void main()\n{\n"
+                           "    uint i = gl_GlobalInvocationID.x;\n"
+                           "    if (i < uint(rows.length())) {\n"
+                           "        rows[i].answer = ask(rows[i].a, rows[i].b, rows[i].c);\n"
+                           "    }\n}\n";
 
 void formula_init(struct formula *formula)
 {
