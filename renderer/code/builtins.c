@@ -492,7 +492,7 @@ const struct builtin builtin_table[] = {
     {"any", FAMILY_COUNT, 1, .whole = any_of},
     {"all", FAMILY_COUNT, 1, .whole = all_of},
     /* Value noise from -1 to 1, waves about two units long. */
-    {"noise", FAMILY_PLACE, 1, .weight = 40, .glsl = "noise_value($0, 0u)", .whole = noise_of},
+    {"noise", FAMILY_PLACE, 1, .weight = 20, .glsl = "noise_value($0, 0u)", .whole = noise_of},
     /* The sum of up to eight octaves, each of twice the frequency and half the height. */
     {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .trips = BUILTIN_OCTAVES, .glsl = "code_fbm",
      .whole = octaves_of},

@@ -504,3 +504,21 @@ float sdf(vec3 p)
     }
     return s;
 }
+//! cells
+float sdf(vec3 p)
+{
+    return checker(p) + 2.0 * stripes(p.x) + 4.0 * step(0.0, hash(p)) * step(hash(p), 1.0);
+}
+//! noise_between_chances
+float sdf(vec3 p) { return noise(floor(p)) + 1.0 - 2.0 * hash(p); }
+//! octaves_of_noise
+float sdf(vec3 p)
+{
+    return fbm(p, 0) + fbm(p, 1) - noise(p) + fbm(p, 99) - fbm(p, 8);
+}
+//! three_weights
+float sdf(vec3 p)
+{
+    float3 w = triplanar(p);
+    return dot(w, float3(1, 1, 1)) + w.y / w.x + 6.0 * triplanar(vec3(0)).z + triplanar(vec3(0, -9, 0)).y;
+}

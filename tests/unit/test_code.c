@@ -207,7 +207,11 @@ static double octaves(double x, double y, double z)
     X(sdf_comes_first, x) \
     X(takes_primitive, x) \
     X(smooth_union, smooth_union(y, length3(x, y, z) - 1, 0.5)) \
-    X(octaves, octaves(x, y, z))
+    X(octaves, octaves(x, y, z)) \
+    X(cells, fmod(fabs(floor(x) + floor(y) + floor(z)), 2) + 2 * (fraction(x) >= 0.5) + 4) \
+    X(noise_between_chances, 0) \
+    X(octaves_of_noise, 0) \
+    X(three_weights, 1 + pow(y / x, 4) + 2 + 1)
 /* clang-format on */
 
 #define X(name, value)                                                                             \

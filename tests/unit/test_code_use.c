@@ -136,6 +136,9 @@ static void loops_are_counted(void **state)
         {"float sdf(vec3 p) { for (int i = 0; i < 3; i++) { for (int j = 0; j < 5; j++) {} }\n"
          "for (float t = 0.0; t < 1.0; t += 0.1) {} return 1.0; }",
          3 + 15 + 10}, /* ten times 0.1 are less than 1 in a double, but not in a float */
+        {"float sdf(vec3 p) { float s = 0; for (int i = 0; i < 3; i++) { s += fbm(p, 2); }\n"
+         "return s + noise(p); }",
+         3 + 3 * 8},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
