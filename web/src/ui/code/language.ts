@@ -9,12 +9,12 @@ const KEYWORDS = words("break const continue do else false for if in inout out r
 const TYPES =
     /^(void|bool|u?int|float|half|[biu]?vec[234]|mat[234](x[234])?|(bool|u?int|float|half)[1234](x[1234])?|FragmentProperties|Primitive3D)$/;
 const FUNCTIONS = words(
-    `abs acos acosh all any asin asinh atan atan2 atanh ceil clamp cos cosh cross degrees determinant
-    distance dot equal exp exp2 faceforward floor fma fmod frac fract greaterThan greaterThanEqual
-    inverse inversesqrt isinf isnan length lerp lessThan lessThanEqual log log10 log2 mad
-    matrixCompMult max min mix mod mul normalize not notEqual outerProduct pow radians rcp reflect
-    refract round roundEven rsqrt saturate sdf shade sign sin sinh smoothstep sqrt step tan tanh
-    transpose trunc`,
+    `abs acos acosh all any asin asinh atan atan2 atanh ceil checker clamp cos cosh cross degrees
+    determinant distance dot equal exp exp2 faceforward fbm floor fma fmod frac fract greaterThan
+    greaterThanEqual hash inverse inversesqrt isinf isnan length lerp lessThan lessThanEqual log
+    log10 log2 mad matrixCompMult max min mix mod mul noise normalize not notEqual outerProduct pow
+    radians rcp reflect refract round roundEven rsqrt saturate sdf shade sign sin sinh smoothstep
+    sqrt step stripes tan tanh transpose triplanar trunc`,
 );
 
 /* `declared` is asked anew for each word: declarations change while code is open. */
