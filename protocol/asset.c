@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* PNG: ISO/IEC 15948. Radiance: Ward, Graphics Gems II, and the format's description in filefmts.pdf
- * of the Radiance distribution. */
+/* PNG: ISO/IEC 15948. Radiance: filefmts.pdf of the Radiance distribution. */
 #include "asset.h"
 
 #include <stdlib.h>

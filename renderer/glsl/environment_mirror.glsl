@@ -2,7 +2,8 @@
 /* Compute: what a surface of one roughness mirrors, for each direction that it looks along: the
  * mean of the environment over the lobe of GGX, seen head-on (Karis: Real shading in Unreal Engine
  * 4, SIGGRAPH 2013). Each sample stands for a cone of its own width, which a mip level of the
- * picture holds (Krivanek and Colbert: Real-time shading with filtered importance sampling, 2008). */
+ * picture holds (Krivanek and Colbert: Real-time shading with filtered importance sampling, EGSR
+ * 2008). */
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform image2D out_mirror;

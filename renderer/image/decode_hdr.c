@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Radiance HDR (Ward: Real pixels, Graphics Gems II, 1991): three mantissas and one exponent for each
- * pixel; rows flat, with runs of whole pixels, or with runs of each component. */
+/* Radiance HDR (Ward: Real pixels, Graphics Gems II, 1991): three mantissas and one exponent for
+ * each pixel; rows flat, with runs of whole pixels, or with runs of each component. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

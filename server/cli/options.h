@@ -61,9 +61,9 @@ enum option_type {
     OPTION_VECTOR, /* x,y,z */
     OPTION_PIXELS, /* x,y,width,height: whole numbers */
     OPTION_TEXT,
-    OPTION_LIST, /* texts with commas between them */
+    OPTION_LIST,  /* texts with commas between them */
     OPTION_FILES, /* may be named again: paths with line ends between them */
-    OPTION_PATH, /* a leading ~/ is the home directory */
+    OPTION_PATH,  /* a leading ~/ is the home directory */
     OPTION_CHOICE,
     OPTION_CHOICES, /* several of them, with commas between them */
 };

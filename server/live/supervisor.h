@@ -36,7 +36,7 @@ struct supervisor_params {
 struct supervisor *supervisor_create(const struct supervisor_params *params);
 /* Any thread; never waits. Dropped while no worker is ready. */
 void supervisor_send(struct supervisor *supervisor, const cJSON *packet);
-/* The same with a file as the payload, read when its turn comes, so that nobody waits for it here. */
+/* The same with a file as the payload, read when its turn comes: nobody waits for it here. */
 void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, const char *id);
 /* Any thread: have on_tick called soon. */
 void supervisor_wake(struct supervisor *supervisor);

@@ -58,7 +58,8 @@ static double blocks_difference(const uint8_t *a, const uint8_t *b, int width, i
 }
 
 /* Mean difference of a channel between the card and the scene drawn now. */
-static double difference(const struct embedded *example, const struct embedded *card, double exposure)
+static double difference(const struct embedded *example, const struct embedded *card,
+                         double exposure)
 {
     struct error err = {0};
     struct image image;

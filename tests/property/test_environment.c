@@ -243,7 +243,7 @@ static void half_white(const double d[3], double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = d[0] > 0 ? 2 : 1e-6;
 }
 
-/* Half of the sky white: what falls on a surface at angle a to its axis is (1 + cos a) / 2 of all. */
+/* Half of the sky white: on a surface at angle a to its axis falls (1 + cos a) / 2 of all. */
 static void test_half_white(void **state)
 {
     struct asset *file = make_file(half_white, "half");
