@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes on disk: for each a snapshot of its document, the log of edits since, and the newest edit
- * number of each author; and the files that scenes name. Writes are queued and committed in order by
- * one thread, as many as wait in one transaction; what was told durable survives kill -9 and loss of
- * power. A failed commit ends the program with STORE_EXIT_STATUS: after a failed fsync nothing on
- * disk can be trusted to become durable by trying again. Only store_sqlite.c knows the database. */
+ * number of each author; and the files that scenes name. Writes are queued and committed in order
+ * by one thread, as many as wait in one transaction; what was told durable survives kill -9 and
+ * loss of power. A failed commit ends the program with STORE_EXIT_STATUS: after a failed fsync
+ * nothing on disk can be trusted to become durable by trying again. Only store_sqlite.c knows the
+ * database. */
 #ifndef SERVER_STORE_H
 #define SERVER_STORE_H
 
