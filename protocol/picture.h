@@ -85,9 +85,10 @@ extern const char *const quality_names[]; /* NULL-terminated */
 
 /* --- a request --- */
 
-/* What may be asked of one picture besides its scene, camera and format. A level or transparency of
- * -1: as the scene says. A region of width 0: all. */
+/* What may be asked of one picture besides its scene, camera and format. The table of a message:
+ * what is absent has no default here. */
 extern const struct record_type picture_type;
+enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720 }; /* where they are absent */
 
 /* --- time --- */
 

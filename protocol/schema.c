@@ -369,6 +369,17 @@ static cJSON *describe_params(const struct record_type *type)
     return list;
 }
 
+/* Of what may be absent, and has no default then. */
+static cJSON *describe_request(const struct record_type *type)
+{
+    cJSON *list = describe_params(type), *row;
+    cJSON_ArrayForEach(row, list)
+    {
+        cJSON_DeleteItemFromObjectCaseSensitive(row, "default");
+    }
+    return list;
+}
+
 /* Every type takes children; this says what it is made for. */
 static const char *children_word(const struct node_type *type)
 {
@@ -516,6 +527,7 @@ static cJSON *describe_registry(void)
     cJSON_AddItemToObject(registry, "outputs", describe_outputs());
     cJSON_AddItemToObject(registry, "levels", describe_levels());
     cJSON_AddItemToObject(registry, "stages", describe_stages());
+    cJSON_AddItemToObject(registry, "picture", describe_request(&picture_type));
     cJSON_AddItemToObject(registry, "limits", describe_limits());
     cJSON_AddItemToObject(registry, "errors", describe_errors());
     cJSON_AddItemToObject(registry, "messages", messages_describe());

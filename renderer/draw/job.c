@@ -39,7 +39,7 @@ static bool check_region(const struct job_desc *desc, struct error *err)
 {
     const struct job_region r = desc->region;
 
-    return r.width == 0 ||
+    return (r.width == 0 && r.height == 0) ||
            (r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0 && r.width <= desc->width - r.x &&
             r.height <= desc->height - r.y) ||
            error_set(err, ERROR_LIMIT, "region", "%d,%d,%d,%d is not inside of %d x %d pixels", r.x,
@@ -103,7 +103,7 @@ static void set_desc(struct job *job, const struct job_desc *desc)
 
     job->width = desc->width;
     job->height = desc->height;
-    job->region = desc->region.width ? desc->region : whole;
+    job->region = desc->region.width > 0 ? desc->region : whole;
     job->camera = camera_from_record(camera, desc->width, desc->height);
     job->depth_far = 2 * target_distance(camera);
     job->wish = (struct plan_wish){

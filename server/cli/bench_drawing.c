@@ -222,9 +222,20 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
 
 /* --- pictures --- */
 
-/* Medians over the rounds: `ms` of the whole, and of each stage that took any. */
-static cJSON *measure_way(struct renderer *renderer, struct resident *resident,
-                          const struct job_desc *desc, int rounds, struct error *err)
+static void add_stages(cJSON *row, double *numbers, int rounds)
+{
+    cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
+    for (int stage = 0; stage < FRAME_STAGES; stage++) {
+        double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
+        if (ms > 0) {
+            bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
+        }
+    }
+}
+
+/* Adds medians over the rounds: `ms` of the whole, and of each stage that took any. */
+static bool measure_way(struct renderer *renderer, struct resident *resident,
+                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
     double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
     double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
@@ -240,19 +251,12 @@ static cJSON *measure_way(struct renderer *renderer, struct resident *resident,
             whole[i] = ms_since(start);
         }
     }
-    cJSON *row = ok ? cJSON_CreateObject() : NULL;
     if (ok) {
         bench_add(row, "ms", bench_quantile(whole, (size_t)rounds, 0.5));
-        cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
-        for (int stage = 0; stage < FRAME_STAGES; stage++) {
-            double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
-            if (ms > 0) {
-                bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
-            }
-        }
+        add_stages(row, numbers, rounds);
     }
     free(numbers);
-    return row;
+    return ok;
 }
 
 /* Both ways to the same picture: passes over what the rays met, and one program from the camera to
@@ -261,17 +265,18 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
                            const struct job_desc *desc, int rounds, struct error *err)
 {
     struct job_desc at_once = *desc;
+    cJSON *row = cJSON_CreateObject(), *other = cJSON_CreateObject();
     at_once.from_camera = true;
-    cJSON *row = measure_way(renderer, resident, desc, rounds, err);
-    cJSON *other = row ? measure_way(renderer, resident, &at_once, rounds, err) : NULL;
-    if (!other) {
-        cJSON_Delete(row);
-        return NULL;
-    }
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    bench_add(row, "from_camera_ms", number_in(other, "ms"));
-    bench_add(row, "from_camera_by_passes", number_in(other, "ms") / number_in(row, "ms"));
+    if (measure_way(renderer, resident, desc, rounds, row, err) &&
+        measure_way(renderer, resident, &at_once, rounds, other, err)) {
+        bench_add(row, "from_camera_ms", number_in(other, "ms"));
+        bench_add(row, "from_camera_by_passes", number_in(other, "ms") / number_in(row, "ms"));
+    } else {
+        cJSON_Delete(row);
+        row = NULL;
+    }
     cJSON_Delete(other);
     return row;
 }

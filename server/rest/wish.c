@@ -5,26 +5,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "protocol/messages.h"
 #include "renderer/renderer.h"
 
 enum { PLACE_BYTES = 100 };
 
-static void wish_init(struct wish *wish)
-{
-    *wish = (struct wish){0};
-    record_init(&wish->picture, &picture_type);
-}
-
 void wish_finish(struct wish *wish)
 {
-    record_finish(&wish->picture);
+    cJSON_Delete(wish->picture);
     cJSON_Delete(wish->camera);
-    wish->camera = NULL;
+    *wish = (struct wish){0};
 }
 
-static int whole(const struct wish *wish, const char *name)
+static bool set_member(struct wish *wish, int index, const cJSON *json, const char *place,
+                       struct error *err)
 {
-    return (int)record_number(&wish->picture, name);
+    const struct param *param = &picture_type.params[index];
+    double numbers[4];
+
+    if (!param_read(param, json, numbers, place, err)) {
+        return false;
+    }
+    cJSON_AddItemToObject(wish->picture, param->name, cJSON_Duplicate(json, true));
+    return true;
 }
 
 /* --- what the table cannot say --- */
@@ -36,14 +39,21 @@ static bool set_format(struct wish *wish, const char *name, enum error_kind kind
     return wish->format >= 0 || error_set(err, kind, place, "%.40s is not png, jpg or npy", name);
 }
 
+/* That it lies inside of the picture is known where the picture is. */
 static bool check_region(const struct wish *wish, const char *place, struct error *err)
 {
-    const double *region = record_vector(&wish->picture, "region");
+    const cJSON *region = cJSON_GetObjectItemCaseSensitive(wish->picture, "region"), *part;
 
-    for (int i = 0; i < 4; i++) {
-        if (region[i] != floor(region[i])) {
-            return error_set(err, ERROR_INVALID, place, "%g is not a whole number", region[i]);
+    cJSON_ArrayForEach(part, region)
+    {
+        if (part->valuedouble != floor(part->valuedouble)) {
+            return error_set(err, ERROR_INVALID, place, "%g is not a whole number",
+                             part->valuedouble);
         }
+    }
+    if (region && (cJSON_GetArrayItem(region, 2)->valueint < 1 ||
+                   cJSON_GetArrayItem(region, 3)->valueint < 1)) {
+        return error_set(err, ERROR_INVALID, place, "holds no pixel");
     }
     return true;
 }
@@ -51,11 +61,11 @@ static bool check_region(const struct wish *wish, const char *place, struct erro
 /* `prefix`: how places of members begin. */
 static bool check(struct wish *wish, const char *prefix, struct error *err)
 {
-    const char *outputs = record_text(&wish->picture, "aov");
+    const char *outputs = json_member_text(wish->picture, "aov", aov_name(AOV_COLOR));
     char place[PLACE_BYTES];
 
     snprintf(place, sizeof(place), "%saov", prefix);
-    if (!aovs_read(*outputs ? outputs : aov_name(AOV_COLOR), wish->aovs, place, err)) {
+    if (!aovs_read(outputs, wish->aovs, place, err)) {
         return false;
     }
     snprintf(place, sizeof(place), "%sregion", prefix);
@@ -133,7 +143,7 @@ static bool query_member(struct wish *wish, const char *name, const char *text, 
         return false;
     }
     if (of_picture >= 0) {
-        ok = record_read_value(&wish->picture, of_picture, json, place, err);
+        ok = set_member(wish, of_picture, json, place, err);
         cJSON_Delete(json);
     } else {
         wish->camera = wish->camera ? wish->camera : cJSON_CreateObject();
@@ -145,7 +155,7 @@ static bool query_member(struct wish *wish, const char *name, const char *text, 
 bool wish_from_query(struct wish *wish, const struct request *request, const char *format,
                      struct error *err)
 {
-    wish_init(wish);
+    *wish = (struct wish){.picture = cJSON_CreateObject()};
     for (size_t i = 0; i < request->query_count; i++) {
         const char *name = request->query[i].name, *text = request->query[i].value;
 
@@ -168,6 +178,8 @@ static bool json_member(struct wish *wish, const cJSON *member, struct error *er
 {
     const char *name = member->string;
     const char *text = cJSON_IsString(member) ? member->valuestring : "?";
+    char place[ERROR_PLACE_BYTES];
+    int index;
 
     if (strcmp(name, "scene") == 0) {
         return true;
@@ -180,14 +192,17 @@ static bool json_member(struct wish *wish, const cJSON *member, struct error *er
         return cJSON_IsObject(member) ||
                error_set(err, ERROR_INVALID, "/camera", "must be an object");
     }
-    return record_read_member(&wish->picture, member, "", err);
+    error_place(place, "", name);
+    index = record_type_find(&picture_type, name);
+    return index >= 0 ? set_member(wish, index, member, place, err)
+                      : record_type_unknown(&picture_type, name, place, err);
 }
 
 bool wish_from_json(struct wish *wish, const cJSON *json, struct error *err)
 {
     const cJSON *member;
 
-    wish_init(wish);
+    *wish = (struct wish){.picture = cJSON_CreateObject()};
     if (!cJSON_IsObject(json)) {
         return error_set(err, ERROR_SYNTAX, "", "the body must be an object");
     }
@@ -204,10 +219,15 @@ bool wish_from_json(struct wish *wish, const cJSON *json, struct error *err)
 
 void wish_size(const struct wish *wish, int *out_width, int *out_height)
 {
-    const double *region = record_vector(&wish->picture, "region");
+    const cJSON *region = cJSON_GetObjectItemCaseSensitive(wish->picture, "region");
 
-    *out_width = region[2] > 0 ? (int)region[2] : whole(wish, "width");
-    *out_height = region[2] > 0 ? (int)region[3] : whole(wish, "height");
+    if (region) {
+        *out_width = cJSON_GetArrayItem(region, 2)->valueint;
+        *out_height = cJSON_GetArrayItem(region, 3)->valueint;
+    } else {
+        *out_width = (int)json_member_number(wish->picture, "width", PICTURE_WIDTH);
+        *out_height = (int)json_member_number(wish->picture, "height", PICTURE_HEIGHT);
+    }
 }
 
 /* Adds the camera, unless it is the scene's as it is. */
@@ -242,38 +262,27 @@ static bool add_camera(cJSON *order, const struct wish *wish, const struct scene
     return ok;
 }
 
-/* What was not asked for is not said: the level and the scene decide then. */
-static void add_picture(cJSON *order, const struct wish *wish)
+static void set_number(cJSON *object, const char *name, double fallback)
 {
-    const double *region = record_vector(&wish->picture, "region");
-    const int level = whole(wish, "level"), transparent = whole(wish, "transparent");
-    char outputs[AOVS_TEXT_BYTES];
-
-    cJSON_AddNumberToObject(order, "width", whole(wish, "width"));
-    cJSON_AddNumberToObject(order, "height", whole(wish, "height"));
-    if (region[2] > 0 || region[3] > 0) {
-        cJSON_AddItemToObject(order, "region", cJSON_CreateDoubleArray(region, 4));
+    if (!cJSON_HasObjectItem(object, name)) {
+        cJSON_AddNumberToObject(object, name, fallback);
     }
-    aovs_print(wish->aovs, outputs);
-    cJSON_AddStringToObject(order, "aov", outputs);
-    if (level >= 0) {
-        cJSON_AddStringToObject(order, "level", quality_names[level]);
-    }
-    if (transparent >= 0) {
-        cJSON_AddBoolToObject(order, "transparent", transparent);
-    }
-    cJSON_AddNumberToObject(order, "samples", whole(wish, "samples"));
-    cJSON_AddStringToObject(order, "format", image_format_name((enum image_format)wish->format));
-    cJSON_AddNumberToObject(order, "quality", whole(wish, "quality"));
-    cJSON_AddBoolToObject(order, "exact", true);
 }
 
+/* What was not asked for is not said: the level and the scene decide then. */
 cJSON *wish_order(const struct wish *wish, const struct scene *scene, bool whole_camera,
                   struct error *err)
 {
-    cJSON *order = cJSON_CreateObject();
+    cJSON *order = cJSON_Duplicate(wish->picture, true);
+    char outputs[AOVS_TEXT_BYTES];
 
-    add_picture(order, wish);
+    set_number(order, "width", PICTURE_WIDTH);
+    set_number(order, "height", PICTURE_HEIGHT);
+    aovs_print(wish->aovs, outputs);
+    cJSON_DeleteItemFromObjectCaseSensitive(order, "aov");
+    cJSON_AddStringToObject(order, "aov", outputs);
+    cJSON_AddStringToObject(order, "format", image_format_name((enum image_format)wish->format));
+    cJSON_AddBoolToObject(order, "exact", true);
     if (!add_camera(order, wish, scene, whole_camera, err)) {
         cJSON_Delete(order);
         return NULL;

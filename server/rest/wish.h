@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is asked of a picture over HTTP, as a query or as JSON: a record of picture_type, a format,
- * and members of a camera. */
+/* What is asked of a picture over HTTP, as a query or as JSON: members of picture_type, a format, and
+ * members of a camera. */
 #ifndef SERVER_WISH_H
 #define SERVER_WISH_H
 
@@ -9,7 +9,7 @@
 #include "server/net/request.h"
 
 struct wish {
-    struct record picture; /* of picture_type */
+    cJSON *picture; /* checked members of picture_type */
     bool aovs[AOV_COUNT];
     int format;    /* enum image_format */
     cJSON *camera; /* members that differ from the scene's camera; NULL: none */

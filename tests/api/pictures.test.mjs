@@ -147,6 +147,7 @@ describe('a region', () => {
 
     test('lies inside of it', async () => {
         await refused('&region=60,0,5,5', 'png', { place: 'region', detail: /60,0,5,5 is not inside of 64 x 48/ });
+        await refused('&region=3,3,0,5', 'png', { place: '?region', detail: /holds no pixel/ });
         await refused('&region=1,2,3', 'png', { place: '?region', detail: /x,y,width,height/ });
         await refused('&region=0,0,2.5,1', 'png', { place: '?region', detail: /2\.5 is not a whole number/ });
     });

@@ -8,6 +8,9 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
+import { decodePng } from '../support/png.mjs';
+import { readZip } from '../support/zip.mjs';
+
 const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../..');
 const program = process.env.FIELDCAST ?? path.join(root, 'build/release/fieldcast');
 const SMALL = ['--width', '32', '--height', '24', '--samples', '1'];
@@ -184,6 +187,47 @@ test('render shows what it is asked for', () => {
     assert.equal(picture(), pictures[0], 'the same picture twice');
 });
 
+test('render puts several outputs into one file', () => {
+    const aov = ['--aov', 'normal,color'];
+    for (const [name, inside] of [
+        ['a.zip', 'png'],
+        ['a.npz', 'npy'],
+    ]) {
+        succeed(['render', 'example:first-steps', '-o', name, ...aov, ...SMALL]);
+        const members = readZip(fs.readFileSync(path.join(folder, name)));
+        assert.deepEqual(
+            members.map((member) => member.name),
+            [`color.${inside}`, `normal.${inside}`],
+        );
+        const alone = ['render', 'example:first-steps', '-o', '-', '--format', inside, '--aov', 'normal', ...SMALL];
+        assert.ok(members[1].bytes.equals(succeed(alone, { binary: true }).out));
+    }
+    const result = run(['render', 'example:first-steps', '-o', 'a.png', ...aov, ...SMALL]);
+    assert.equal(result.status, 2);
+    assert.match(result.err, /--output: a\.png holds one picture; several go into a \.zip or \.npz/);
+});
+
+test('render takes a region, a level and transparency', () => {
+    const render = (...args) =>
+        succeed(['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL, ...args], {
+            binary: true,
+        }).out;
+    const [whole, part] = [decodePng(render()), decodePng(render('--region', '8,6,10,5'))];
+    assert.deepEqual([part.width, part.height], [10, 5]);
+    for (let y = 0; y < 5; y += 1) {
+        const from = ((6 + y) * 32 + 8) * 3;
+        assert.ok(part.pixels.subarray(30 * y, 30 * y + 30).equals(whole.pixels.subarray(from, from + 30)));
+    }
+    assert.ok(!render('--level', 'draft').equals(render('--level', 'final')));
+    assert.equal(decodePng(render('--transparent', 'on')).channels, 4);
+    const jpeg = run(['render', 'example:first-steps', '-o', 'x.jpg', '--transparent', 'on', ...SMALL]);
+    assert.equal(jpeg.status, 1);
+    assert.match(jpeg.err, /format: JPEG holds no transparent background/);
+    const outside = run(['render', 'example:first-steps', '-o', 'x.png', '--region', '30,0,3,1', ...SMALL]);
+    assert.match(outside.err, /region: 30,0,3,1 is not inside of 32 x 24 pixels/);
+    assert.ok(!fs.existsSync(path.join(folder, 'x.png')));
+});
+
 test('the mode of a written file is the usual one, and a failure leaves nothing', () => {
     const target = path.join(folder, 'kept.png');
     succeed(['render', 'example:first-steps', '-o', 'kept.png', ...SMALL]);
@@ -253,8 +297,10 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
             [1280, 720],
         ],
     );
-    for (const { ms, march_ms, light_ms, read_ms } of row.pictures) {
-        assert.ok(ms > 0 && march_ms > 0 && light_ms > 0 && read_ms >= 0);
+    for (const { ms, stages_ms: stages, from_camera_ms: other, from_camera_by_passes: ratio } of row.pictures) {
+        assert.ok(stages.march > 0 && stages.shadow > 0 && stages.shade > 0);
+        assert.ok(Math.abs(ratio - other / ms) < 0.01);
+        assert.ok(Object.values(stages).reduce((a, b) => a + b) < 1.05 * ms, 'stages are parts of the whole');
     }
     assert.ok(row.first_picture.cold_ms > 0 && row.first_picture.warm_ms > 0);
     assert.ok(row.encoders.length >= 3 && row.encoders.every(({ bytes }) => bytes > 0));
