@@ -68,7 +68,7 @@ static bool link_stage(const struct gl *gl, const struct program *program, bool 
                           "shadow_pass.glsl"},
         [STAGE_VOLUME] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
                           "map", "ray_load.glsl", "camera.glsl", "lights.glsl", "sky.glsl",
-                          "volume.glsl", "volume_pass.glsl"},
+                          "volume_store.glsl", "volume.glsl", "volume_pass.glsl"},
     };
     char *defines =
         make_defines(program, software, numbers_in_texture(gl, software, program->number_count));

@@ -101,32 +101,47 @@ float phase(float cosine, float g)
     return 0.25 * (1.0 - g * g) * pow(max(1.0 + g * g - 2.0 * g * cosine, 1e-6), -1.5);
 }
 
-/* How sharp a lamp's shadow is in the air; 0: it throws none. */
-float shadow_sharpness(Light light)
+/* The way from a place towards a lamp. */
+struct Walk {
+    float first, last; /* all smoke is between these */
+    float end;         /* no farther on is anything that keeps the light off; < 0: no lamp */
+    float longest;     /* step in smoke */
+    float sharpness;   /* of the scene's shadow; 0: it throws none */
+};
+
+Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
 {
-    int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
-    return kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+    int kind = on_surface || (effects.z & EFFECT_SHADOWS) == 0 ? SHADOW_NONE : int(light.extent.z);
+    float sharpness = kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+    Crossing smoke = crossing(p, lamp.direction, 0.0, 0.0);
+    float last = min(smoke.last, lamp.reach), first = smoke.inside ? 0.0 : min(smoke.next, last);
+    /* Just inside of the rim the density is that of the inside. */
+    float sliver = 1e-4 * (last - first);
+    float free = min(bounds_span(p, lamp.direction).y, bounds_max.w);
+
+    Walk walk;
+    walk.first = smoke.inside ? 0.0 : first + sliver;
+    walk.last = last - sliver;
+    walk.end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), walk.last) : walk.last;
+    walk.longest = (walk.last - walk.first) / float(max(counts.y, 1));
+    walk.sharpness = sharpness;
+    return walk;
 }
 
 /* The light of all lamps that is scattered at p into `view`, for a colour of 1, and what is there.
+ * On a surface instead: DIMMED(lamp, part of its light that comes through the smoke).
  *
- * Each lamp is a walk from p towards it, whose first step tells what is at p. While it is in a
- * volume its steps are counts.y parts of the way to the end of the last volume, or as much less as
- * the scene is near; then it goes on through free space until the scene ends. */
-vec3 scattered(vec3 p, vec3 view, out Smoke here)
+ * Each lamp is a walk towards it, whose first step tells what is at p. In smoke its steps are
+ * counts.y parts of the way there, or as much less as the scene is near. */
+vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
 {
     vec3 sum = vec3(0.0);
     here = Smoke(1.0, vec3(0.0), vec3(0.0), 0.0);
-    for (int i = zero; i < max(modes.x, 1) && here.density > 0.0; i++) {
-        Light light = lights[i];
-        Incoming lamp = incoming(light, p);
-        float sharpness = shadow_sharpness(light);
-        float thick = 0.9999 * min(crossing(p, lamp.direction, 0.0, 0.0).last, lamp.reach);
-        float free = min(bounds_span(p, lamp.direction).y, bounds_max.w);
-        float end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), thick) : thick;
-        float longest = thick / float(max(counts.y, 1));
+    for (int i = zero; i < max(modes.x, 1) && (on_surface || here.density > 0.0); i++) {
+        Incoming lamp = incoming(lights[i], p);
+        Walk walk = walk_towards(lights[i], lamp, p, on_surface);
+        float end = i < modes.x ? walk.end : -1.0;
         float at = 0.0, stride = 0.0, smoky = 0.0, depth = 0.0, before = 0.0, open = 1.0;
-        end = i < modes.x ? end : -1.0;
 
         for (int k = zero; k <= 3 * counts.y; k++) {
             through = k == 0 ? 0.0 : FAR;
@@ -136,21 +151,27 @@ vec3 scattered(vec3 p, vec3 view, out Smoke here)
                 here = smoke;
             } else {
                 depth += 0.5 * smoky * (before + smoke.density);
-                open = sharpness > 0.0 ? min(open, sharpness * d / at) : 1.0;
+                open = walk.sharpness > 0.0 ? min(open, walk.sharpness * d / at) : 1.0;
             }
-            if (here.density == 0.0 || at >= end || open < 0.004) {
+            if (at >= end || open < 0.004 || !(on_surface || here.density > 0.0)) {
                 break;
             }
-            float room = at < thick ? min(longest, thick - at) : end - at;
-            stride = sharpness > 0.0 ? min(max(d, 0.1 * longest), room) : room;
-            smoky = at < thick ? stride : 0.0;
+            bool in_smoke = at >= walk.first && at < walk.last;
+            float room = in_smoke ? min(walk.longest, walk.last - at)
+                                  : (at < walk.first ? walk.first : end) - at;
+            stride = walk.sharpness > 0.0 ? min(max(d, 0.1 * walk.longest), room) : room;
+            smoky = in_smoke ? stride : 0.0;
             before = smoke.density;
             at += stride;
         }
+        float left = exp(-depth);
         open = max(open, 0.0);
-        float arrives = exp(-depth) * open * open * (3.0 - 2.0 * open);
-        float bent = phase(dot(view, lamp.direction), here.anisotropy);
-        sum += i < modes.x ? lamp.color * arrives * bent : vec3(0.0);
+        if (on_surface && i < modes.x) {
+            DIMMED(i, left);
+        }
+        sum += i < modes.x ? lamp.color * left * open * open * (3.0 - 2.0 * open) *
+                                 phase(dot(view, lamp.direction), here.anisotropy)
+                           : vec3(0.0);
     }
     through = 0.0;
     return sum;
@@ -168,29 +189,31 @@ vec3 sky_mean()
 /* Light added before distance t, and the part of the light from there that is let through. The ray
  * goes by slabs, none of them across the rim of a volume; each is taken to be everywhere as it is
  * at `place` of it, 0 to 1, and summed up in closed form (Hillaire: Physically based and unified
- * volumetric rendering in Frostbite, SIGGRAPH 2015 course). */
+ * volumetric rendering in Frostbite, SIGGRAPH 2015 course). Then the light on the surface at t is
+ * dimmed. */
 vec4 haze(Ray ray, float t, float place)
 {
+    bool hit = t < INFINITY;
     float far = ray.inside ? 0.0 : min(t, bounds_max.w), left = 1.0;
     vec3 sum = vec3(0.0), around = sky_mean();
     Crossing first = crossing(ray.origin, ray.direction, 0.0, far);
     float at = first.inside ? 0.0 : first.next;
     float stride = first.whole / float(max(counts.x, 1));
-    int most = stride > 0.0 ? counts.x + 2 * effects.w : 0;
 
-    for (int i = zero; i < most; i++) {
+    for (int i = zero; i <= counts.x + 2 * effects.w && (at < far || hit); i++) {
         Crossing c = crossing(ray.origin, ray.direction, at, far);
-        float end = min(c.next, far);
-        bool whole = end - at < 1.001 * stride;
-        float slab = c.inside ? whole ? end - at : stride : 0.0;
+        bool on_surface = at >= far, to_end = min(c.next, far) - at < 1.001 * stride;
+        float end = to_end || !c.inside ? min(c.next, far) : at + stride;
+        float slab = c.inside && !on_surface ? end - at : 0.0;
+        vec3 p = ray.origin + ray.direction * (on_surface ? t : at + place * slab);
         Smoke here;
-        vec3 light = scattered(ray.origin + ray.direction * (at + place * slab), ray.direction, here);
+        vec3 light = scattered(p, ray.direction, on_surface, here);
 
         float met = 1.0 - exp(-here.density * slab);
         sum += left * met * (here.color * (light + around) + here.emission);
         left *= 1.0 - met;
-        at = c.inside && !whole ? at + stride : end;
-        if (at >= far || left < 0.002) {
+        at = end;
+        if (on_surface || left < 0.002) {
             break;
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What volumes add to each sample's ray. */
+/* What volumes add to each sample's ray, and how they dim the light at its end. */
 
 layout(binding = 0) uniform sampler2D geometry;
 layout(rgba16f, binding = 6) writeonly uniform image2D out_haze;
@@ -9,6 +9,7 @@ void main()
     preload();
     ivec2 here = group_place();
     bool some = here.x >= 0;
+    lit_here = here;
     Ray ray = ray_load(here);
     float t = some ? abs(texelFetch(geometry, here, 0).w) : 0.0;
     /* Where in its slabs a ray looks differs from pixel to pixel, and so no slab is seen. */
