@@ -196,7 +196,7 @@ void picture_file_destroy(struct picture_file *file);
 
 struct pick_result {
     bool hit;
-    char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface */
+    char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface; "": the floor */
     double position[3], normal[3], distance;
 };
 /* On the CPU, with the C evaluator; x and y in pixels of a width×height view. */

@@ -166,13 +166,15 @@ void worker_on_pick(struct worker *w, const cJSON *packet)
     cJSON_AddNumberToObject(json, "pick", json_member_number(packet, "pick", 0));
     cJSON_AddNumberToObject(json, "revision",
                             held ? (double)resident_shown_revision(held->resident) : 0);
-    if (result.hit) {
+    if (*result.node) {
         cJSON_AddStringToObject(json, "node", result.node);
+    } else {
+        cJSON_AddNullToObject(json, "node");
+    }
+    if (result.hit) {
         add_vector(json, "position", result.position);
         add_vector(json, "normal", result.normal);
         cJSON_AddNumberToObject(json, "distance", result.distance);
-    } else {
-        cJSON_AddNullToObject(json, "node");
     }
     worker_send(w, json, NULL, 0);
 }

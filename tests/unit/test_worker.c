@@ -430,6 +430,15 @@ static void test_pick(void **state)
     assert_true(number("distance") > 3 && number("distance") < 6);
     assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(packet.json, "normal")),
                      3);
+    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":8,\"ops\":["
+              "{\"op\":\"set\",\"at\":\"/environment/floor_height\",\"value\":0.5},"
+              "{\"op\":\"set\",\"at\":\"/environment/floor\",\"value\":true}]}");
+    expect("shown");
+    send_text("{\"type\":\"pick\",\"pick\":5,\"scene\":\"s\",\"width\":640,\"height\":360,"
+              "\"x\":320,\"y\":350}");
+    expect("picked");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(packet.json, "node")));
+    assert_true(number("distance") > 0.5);
     send_text("{\"type\":\"pick\",\"pick\":4,\"scene\":\"nowhere\",\"width\":640,\"height\":360,"
               "\"x\":320,\"y\":160}");
     expect("picked");
