@@ -274,6 +274,27 @@ static void the_scene_throws_shadows(void **state)
     image_finish(&image);
 }
 
+/* A floor seen from above, in light straight down through smoke that is not in sight. */
+static void smoke_throws_shadows(void **state)
+{
+    (void)state;
+    static const char lamp[] = "{\"type\":\"directional\",\"intensity\":3,"
+                               "\"direction\":[0,-1,0]}";
+    struct setting s = {
+        .camera = along_y, .volumes = "", .children = "{\"type\":\"plane\"}", .lights = lamp};
+    struct image clear = draw(&s);
+    s.volumes = "{\"type\":\"box\"," BLACK "\"density\":0.5,\"size\":[1,2,1],"
+                "\"position\":[0.5,7,0]}";
+    struct image dim = draw(&s);
+    for (int y = 7; y < HEIGHT - 7; y++) {
+        assert_near(red(&dim, WIDTH / 2 + 6, y), red(&clear, WIDTH / 2 + 6, y) * exp(-1), 0.01,
+                    "shade", WIDTH / 2 + 6, y);
+        assert_true(red(&dim, 2, y) == red(&clear, 2, y) && red(&dim, 2, y) > 0.5);
+    }
+    image_finish(&clear);
+    image_finish(&dim);
+}
+
 static double mean_of(const struct setting *s)
 {
     struct image image = draw(s);
@@ -355,6 +376,7 @@ int main(void)
         cmocka_unit_test(what_is_behind_a_wall_is_not_there),
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(the_scene_throws_shadows),
+        cmocka_unit_test(smoke_throws_shadows),
         cmocka_unit_test(density_by_field),
         cmocka_unit_test(noise_fills_its_part),
         cmocka_unit_test(numbers_stay_numbers),
