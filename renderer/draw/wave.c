@@ -76,7 +76,7 @@ static void mark(struct wave *w, const struct round *round, enum frame_stage sta
 
 static void run_field(const struct wave *w, enum program_stage stage, const struct round *round)
 {
-    const struct pass_place place = place_of(w, round, 0, 0, 0, !round->follows);
+    const struct pass_place place = place_of(w, round, w->sample, 0, 0, !round->follows);
 
     pass_compute(program_pass(w->program, stage), w->gl, &place);
 }
@@ -102,14 +102,14 @@ static bool is_empty(const struct wave *w, enum target_list list)
     return head[3] == 0;
 }
 
-static void find(struct wave *w, const struct round *round, int sample)
+static void find(struct wave *w, const struct round *round)
 {
     const struct ray_set *eye = &w->targets->eye;
 
     targets_bind_common(w->targets, w->gl, eye, eye);
-    run_common(w, COMMON_CAMERA, round, sample, 0, 0, 0);
+    run_common(w, COMMON_CAMERA, round, w->sample, 0, 0, 0);
     targets_bind_field(w->targets, w->gl, eye);
-    if (sample == 0) {
+    if (w->sample == 0) {
         run_field(w, STAGE_MARCH, &(struct round){.mode = PASS_COARSE});
     }
     run_field(w, STAGE_MARCH, round);
@@ -193,13 +193,13 @@ static void follow(struct wave *w)
     }
 }
 
-static void shade(struct wave *w, const struct round *round, int sample)
+static void shade(struct wave *w, const struct round *round)
 {
     targets_begin_list(w->targets, w->gl, LIST_RAYS);
     add_light(w, round, w->plan->rays == 0);
     follow(w);
     targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
-    run_common(w, COMMON_GATHER, round, sample, w->linear, 0, 0);
+    run_common(w, COMMON_GATHER, round, w->sample, w->linear, 0, 0);
     mark(w, round, FRAME_SHADE);
 }
 
@@ -207,7 +207,7 @@ static void shade(struct wave *w, const struct round *round, int sample)
 
 void wave_find(struct wave *w, enum program_stage last)
 {
-    find(w, &whole_tile, 0);
+    find(w, &whole_tile);
     if (last >= STAGE_MATTER) {
         find_matter(w, &whole_tile);
     }
@@ -220,7 +220,7 @@ void wave_shadow(struct wave *w)
 
 void wave_shade(struct wave *w)
 {
-    shade(w, &whole_tile, 0);
+    shade(w, &whole_tile);
 }
 
 static void list_edges(struct wave *w)
@@ -240,9 +240,10 @@ void wave_sample_again(struct wave *w)
         list_edges(w);
     }
     for (int i = 1; i < w->plan->samples && !(adaptive && is_empty(w, LIST_EDGES)); i++) {
-        find(w, &round, i);
+        w->sample = i;
+        find(w, &round);
         find_matter(w, &round);
         find_shadow(w, &round);
-        shade(w, &round, i);
+        shade(w, &round);
     }
 }

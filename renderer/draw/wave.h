@@ -18,6 +18,7 @@ struct wave {
     int lights;
     bool clear, linear;     /* light goes through something; no tone mapping */
     struct pass_place tile; /* with its margin */
+    int sample;             /* of each pixel */
     struct draw_slot *slot; /* takes the time */
 };
 
