@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures against references: tests/golden/GROUP/CASE/{scene.json, picture.json, expected.png}.
  * picture.json, which may be absent, says {"width", "height", "samples", "aov"}; the scene says the
- * rest.
+ * rest. A panorama.png beside them is the file that the scene names by its digest.
  *
  * What was drawn, what was expected and the difference are left in BUILD/golden, where index.html
- * shows them side by side. With GOLDEN_ACCEPT=CASE (or =all) in the environment the picture drawn
- * becomes the reference. */
+ * shows them side by side. With GOLDEN_ACCEPT=CASE (or =GROUP, =GROUP/CASE, =all) in the environment
+ * only these are drawn, and become the references. */
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
@@ -24,6 +24,7 @@
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "renderer/renderer.h"
+#include "server/digest.h"
 #include "tests/support/golden_page.h"
 #include "tests/support/picture.h"
 #include "tests/support/text_file.h"
@@ -142,6 +143,20 @@ static bool draw_scene(struct scene *scene, const struct job_desc *desc, struct 
     return good;
 }
 
+static void give_panorama(const struct golden *golden)
+{
+    const char *path = case_path(golden, "panorama.png");
+    char id[ASSET_ID_CHARACTERS + 1];
+
+    if (access(path, R_OK) == 0) {
+        size_t length;
+        char *bytes = text_file_read(path, &length);
+        digest_text(bytes, length, id);
+        renderer_asset(renderer, id, bytes, length);
+        free(bytes);
+    }
+}
+
 static bool draw(const struct golden *golden, struct picture *out, struct error *err)
 {
     const struct job_desc desc = read_desc(golden);
@@ -150,18 +165,26 @@ static bool draw(const struct golden *golden, struct picture *out, struct error 
     struct scene *scene = scene_parse(text, length, err);
 
     free(text);
+    give_panorama(golden);
     return scene && draw_scene(scene, &desc, out, err);
 }
 
 /* --- judging --- */
 
-static bool is_accepted(const struct golden *golden)
+/* What is to be accepted; NULL: nothing is. */
+static const char *accepted(void)
 {
     const char *accept = getenv("GOLDEN_ACCEPT");
 
-    return accept && *accept &&
-           (strcmp(accept, "all") == 0 || strcmp(accept, golden->name) == 0 ||
-            strcmp(accept, golden->title) == 0);
+    return accept && *accept ? accept : NULL;
+}
+
+static bool is_accepted(const struct golden *golden)
+{
+    const char *accept = accepted();
+
+    return accept && (strcmp(accept, "all") == 0 || strcmp(accept, golden->name) == 0 ||
+                      strcmp(accept, golden->group) == 0 || strcmp(accept, golden->title) == 0);
 }
 
 static void say(struct golden_verdict *verdict, const char *format, ...)
@@ -343,7 +366,7 @@ int main(int argc, char **argv)
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_missing_reference);
     find_cases();
     for (size_t i = 0; i < case_count; i++) {
-        if (strcmp(cases[i].group, "refused") != 0) {
+        if (strcmp(cases[i].group, "refused") != 0 && (!accepted() || is_accepted(&cases[i]))) {
             tests[n++] = (struct CMUnitTest){cases[i].title, test_case, NULL, NULL, &cases[i]};
         }
     }
