@@ -85,6 +85,34 @@ for (const theme of ['dark', 'light']) {
             await closePage(page);
         });
 
+        test('volumes, backdrop, render, another output, a picture as a file', async () => {
+            const misty = {
+                ...SCENE,
+                volumes: [{ id: 'mist', type: 'box' }],
+                environment: { type: 'image', fog: 0.01, floor: true },
+            };
+            const page = await stage.page({ scene: await stage.scene(misty), theme });
+            await settled(page);
+            await page.locator('[data-resource=mist] .resource-pick').click();
+            await check(page, 'a volume');
+            await page.getByRole('button', { name: 'Backdrop' }).click();
+            await page.getByRole('button', { name: 'Upload …' }).waitFor();
+            await check(page, 'what is around');
+            await page.getByRole('button', { name: 'Render', exact: true }).click();
+            await check(page, 'render');
+            await page.getByTestId('outputs').click();
+            await page.getByRole('menuitem', { name: /^Normals/ }).waitFor();
+            await check(page, 'menu of outputs', ['region']);
+            await page.getByRole('menuitem', { name: /^Normals/ }).click();
+            await page.getByRole('button', { name: 'Back to the colours' }).waitFor();
+            await page.getByRole('menu').waitFor({ state: 'detached' });
+            await check(page, 'another output');
+            await page.keyboard.press('Control+Shift+S');
+            await page.getByRole('dialog').waitFor();
+            await check(page, 'a picture as a file');
+            await closePage(page);
+        });
+
         test('models, primitives, shaders and their code; points', async () => {
             const own = await stage.scene(OWN);
             const page = await stage.page({ scene: own, theme });
@@ -125,7 +153,7 @@ for (const theme of ['dark', 'light']) {
                 await page.getByRole('dialog').waitFor({ state: 'detached' });
             }
             await page.getByTestId('statistics').click();
-            await page.getByText('read back').waitFor();
+            await page.locator('.stats-table').getByText('march').waitFor();
             await check(page, 'statistics');
             await page.keyboard.press('Escape');
             await row(page, 'crate').click({ button: 'right' });
@@ -191,6 +219,20 @@ describe('sizes', () => {
             }
             await page.getByRole('button', { name: 'Edit code' }).click();
             await page.locator('.cm-content').waitFor();
+            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await closePage(page);
+        });
+    }
+
+    for (const [width, height] of [
+        [1200, 800],
+        [900, 700],
+        [320, 640],
+    ]) {
+        test(`a picture as a file, ${width} × ${height}`, async () => {
+            const page = await stage.page({ scene, width, height });
+            await page.keyboard.press('Control+Shift+S');
+            await page.getByRole('dialog').getByRole('button', { name: 'Download' }).waitFor();
             assert.deepEqual(await spill(page), { outside: [], scrolls: false });
             await closePage(page);
         });

@@ -201,11 +201,12 @@ describe('help at hand', () => {
     test('tells of every type', async () => {
         await open();
         const schema = await ask(stage.daemon, 'GET', '/v1/schema.json');
-        const { nodes, lights, shaders } = schema['x-fieldcast'];
+        const { nodes, lights, volumes, shaders } = schema['x-fieldcast'];
         await page.keyboard.press('F1');
         const links = page.locator('.reference-link');
         await links.first().waitFor();
-        assert.equal(await links.count(), nodes.length + lights.length + shaders.length + 4);
+        const types = [nodes, lights, volumes, shaders].flat();
+        assert.equal(await links.count(), types.length + 4);
         await page.keyboard.press('Escape');
         await page.getByTestId('reference').waitFor({ state: 'detached' });
     });

@@ -124,27 +124,6 @@ test('the lossless frame is image.png, pixel for pixel', async () => {
     );
 });
 
-test('every output can be shown', async () => {
-    page = await stage.page({ scene: await stage.scene() });
-    await settled(page);
-    let before = await pixels(page);
-    for (const name of ['Depth', 'Normals', 'Node ids', 'Colour']) {
-        await page.getByTestId('outputs').click();
-        await page.getByRole('menuitem', { name, exact: true }).click();
-        await page.getByTestId('outputs').getByText(name).waitFor();
-        const from = before;
-        await page.waitForFunction(() => document.querySelector('[role=menu]') === null);
-        for (;;) {
-            before = await pixels(page);
-            if (difference(before, from) > 8) {
-                break;
-            }
-        }
-        await settled(page);
-        before = await pixels(page);
-    }
-});
-
 test('a new shape appears while the page says that it compiles', async () => {
     const id = await stage.scene();
     page = await stage.page({ scene: id });
