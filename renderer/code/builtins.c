@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "renderer/sdf/noise.h"
+#include "patterns.h"
 
 /* --- component by component --- */
 
@@ -157,16 +157,6 @@ static double stepped_smoothly(double low, double high, double x)
 static double product(double x, double y)
 {
     return x * y;
-}
-
-static double between_walls(double x)
-{
-    return x - BUILTIN_WALL * sign_of(x - 0.5);
-}
-
-static double striped(double x)
-{
-    return stepped(0.5, fraction(between_walls(x)));
 }
 
 static double is_nan(double x)
@@ -358,61 +348,6 @@ static void inverted(double *out, const double *const in[BUILTIN_ARGUMENTS], int
     }
 }
 
-/* --- patterns --- */
-
-static bool all_finite(const double *p)
-{
-    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
-}
-
-static void noise_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
-{
-    (void)n;
-    out[0] = all_finite(in[0]) ? noise_value(in[0], 0) : NAN;
-}
-
-static void octaves_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
-{
-    (void)n;
-    int octaves = (int)between(in[1][0], 0, BUILTIN_OCTAVES);
-    out[0] = all_finite(in[0]) ? noise_octaves(in[0], octaves, 0) : NAN;
-}
-
-static void hash_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
-{
-    uint32_t at[3] = {0};
-    bool finite = all_finite(in[0]);
-    for (int i = 0; i < n && finite; i++) {
-        at[i] = (uint32_t)remainder_floor(floor(between_walls(in[0][i])), 65536);
-    }
-    out[0] = finite ? 0.5 + 0.5 * noise_lattice(at[0], at[1], at[2], 0) : NAN;
-}
-
-static void checker_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) {
-        sum += floor(between_walls(in[0][i]));
-    }
-    out[0] = remainder_floor(sum, 2);
-}
-
-static void triplanar_of(double *out, const double *const in[BUILTIN_ARGUMENTS], int n)
-{
-    double greatest = BUILTIN_TINY, sum = 0;
-    for (int i = 0; i < n; i++) {
-        greatest = most(greatest, fabs(in[0][i]));
-    }
-    for (int i = 0; i < n; i++) {
-        double x = in[0][i] / greatest;
-        out[i] = x * x * x * x + BUILTIN_TINY;
-        sum += out[i];
-    }
-    for (int i = 0; i < n; i++) {
-        out[i] /= sum;
-    }
-}
-
 /* --- the table --- */
 
 const struct builtin builtin_table[] = {
@@ -492,18 +427,18 @@ const struct builtin builtin_table[] = {
     {"any", FAMILY_COUNT, 1, .whole = any_of},
     {"all", FAMILY_COUNT, 1, .whole = all_of},
     /* Value noise from -1 to 1, waves about two units long. */
-    {"noise", FAMILY_PLACE, 1, .weight = 20, .glsl = "noise_value($0, 0u)", .whole = noise_of},
+    {"noise", FAMILY_PLACE, 1, .weight = 20, .glsl = "noise_value($0, 0u)", .whole = pattern_noise},
     /* The sum of up to eight octaves, each of twice the frequency and half the height. */
-    {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .trips = BUILTIN_OCTAVES, .glsl = "code_fbm",
-     .whole = octaves_of},
+    {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .trips = PATTERN_OCTAVES, .glsl = "code_fbm",
+     .whole = pattern_fbm},
     /* A number from 0 to 1 for each cube of side 1, by chance. */
-    {"hash", FAMILY_PLACE, 1, .weight = 8, .glsl = "code_hash", .whole = hash_of},
+    {"hash", FAMILY_PLACE, 1, .weight = 8, .glsl = "code_hash", .whole = pattern_hash},
     /* 0 and 1 by turns in cubes of side 1. */
-    {"checker", FAMILY_PLACE, 1, .weight = 2, .glsl = "code_checker", .whole = checker_of},
+    {"checker", FAMILY_PLACE, 1, .weight = 2, .glsl = "code_checker", .whole = pattern_checker},
     /* 0 in the first half of each unit, 1 in the second. */
-    {"stripes", FAMILY_FLOAT, 1, .weight = 2, .glsl = "code_stripes", .one = striped},
+    {"stripes", FAMILY_FLOAT, 1, .weight = 2, .glsl = "code_stripes", .one = pattern_stripes},
     /* How much of each of three patterns along X, Y and Z a surface shows; 1 in all. */
-    {"triplanar", FAMILY_CROSS, 1, .weight = 4, .glsl = "code_triplanar", .whole = triplanar_of},
+    {"triplanar", FAMILY_CROSS, 1, .weight = 4, .glsl = "code_triplanar", .whole = pattern_triplanar},
     {.name = NULL},
     /* clang-format on */
 };

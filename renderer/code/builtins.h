@@ -6,10 +6,6 @@
  * normalize of nothing is nothing, atan(0, 0) is 0. pow() takes the magnitude of its first
  * argument. What is divided by 0 is divided by 1e-30, but gives 0 inside of mod() and for whole
  * numbers.
- *
- * Patterns have walls between their cells at whole numbers, but for a little farther from the
- * origin: a face that lies on whole numbers has the colour of what is inside, where rounding would
- * else make noise of it.
  */
 #ifndef RENDERER_CODE_BUILTINS_H
 #define RENDERER_CODE_BUILTINS_H
@@ -44,8 +40,6 @@ enum { BUILTIN_ARGUMENTS = 3 };
 
 /* As in glsl/code.glsl. */
 #define BUILTIN_TINY 1e-30
-#define BUILTIN_WALL 0.015625 /* how far walls are beyond whole numbers */
-enum { BUILTIN_OCTAVES = 8 };
 
 /* What stands for a divisor. */
 static inline double builtin_nonzero(double divisor)

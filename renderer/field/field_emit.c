@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: MIT */
+/* From nodes to instructions. */
+#include "field_emit.h"
+
+#include <math.h>
+
+#include "field_materials.h"
+
+static uint32_t subtree_count(const struct node *node)
+{
+    uint32_t count = 1;
+    for (size_t i = 0; i < node->child_count; i++) {
+        count += subtree_count(node->children[i]);
+    }
+    return count;
+}
+
+/* Nodes that are passed over have their numbers too. Those of models have none of their own. */
+static void skip(struct builder *b, const struct node *node)
+{
+    b->index += b->instance ? 0 : subtree_count(node);
+}
+
+/* The block of an operation's or distance modifier's parameters. */
+static void add_block(struct builder *b, const struct node *node, const struct sdf *sdf,
+                      double scale, struct field_instruction *instruction)
+{
+    struct field_place places[SDF_PARAMS_MAX];
+    instruction->numbers =
+        builder_add_vec4s(b, (size_t)field_layout(node->params.type->params, 0, places));
+    instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
+    instruction->choices = field_choices(&node->params);
+    builder_put_params(b, node->params.type->params, node->params.values, sdf, scale,
+                       instruction->numbers, 0, instruction->arguments);
+}
+
+struct field_instruction field_union_at(const struct builder *b, uint16_t slot)
+{
+    return (struct field_instruction){
+        .op = FIELD_COMBINE, .type = b->union_type, .sdf = b->union_sdf, .a = slot, .b = slot + 1};
+}
+
+/* The children and, where there is one, the node's own shape, which is in the slot. */
+static struct result emit_union(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot, bool joined,
+                                struct result own)
+{
+    for (size_t i = 0; i < node->child_count; i++) {
+        struct result child = field_emit(b, node->children[i], frame, slot, joined || own.solid);
+        field_join_clear(&own, &child);
+        if (child.solid) {
+            own.box = own.solid ? bounds_union(own.box, child.box) : child.box;
+            own.solid = true;
+        }
+    }
+    return own;
+}
+
+/* Folds the children from the left into `slot`. */
+static struct result emit_folded(struct builder *b, const struct node *node,
+                                 struct field_instruction combine, const struct frame *frame,
+                                 uint16_t slot)
+{
+    enum sdf_rule rule = combine.sdf->rule;
+    struct result whole = {.hidden = false};
+    bool dead = false;
+    combine.a = slot;
+    combine.b = slot + 1;
+    for (size_t i = 0; i < node->child_count; i++) {
+        if (combine.sdf->operands > 0 && i >= combine.sdf->operands) {
+            skip(b, node->children[i]);
+            continue;
+        }
+        bool cutting = b->cutting;
+        b->cutting = cutting || (i > 0 && rule != SDF_ANY);
+        struct result child = field_emit(b, node->children[i], frame, slot + whole.solid, false);
+        b->cutting = cutting;
+        bool leads = rule == SDF_FIRST && i == 0;
+        dead =
+            dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
+        if (!child.solid || dead) {
+            continue;
+        }
+        if (!whole.solid) {
+            whole = child;
+            continue;
+        }
+        builder_add_instruction(b, combine);
+        field_join_clear(&whole, &child);
+        if (rule == SDF_ANY) {
+            whole.box = bounds_union(whole.box, child.box);
+        } else if (rule == SDF_ALL) {
+            whole.box = bounds_intersection(whole.box, child.box);
+        }
+    }
+    whole.solid = whole.solid && !dead;
+    return whole;
+}
+
+/* The box after the node changed the field of `count` operands in it. */
+static struct bounds changed_box(const struct node *node, const struct sdf *sdf, struct bounds box,
+                                 size_t count)
+{
+    double numbers[SDF_NUMBERS_MAX];
+    sdf_numbers(node->params.type->params, node->params.values, numbers);
+    box = bounds_grow(box, sdf->lowered ? sdf->lowered(numbers, count) : 0);
+    box.stretch *= sdf->stretched ? sdf->stretched(numbers, count) : 1;
+    return box;
+}
+
+static struct result emit_combine(struct builder *b, const struct node *node, const struct sdf *sdf,
+                                  const struct frame *frame, uint16_t slot)
+{
+    struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
+    add_block(b, node, sdf, frame->scale, &combine);
+    struct result whole = emit_folded(b, node, combine, frame, slot);
+    if (whole.solid) {
+        whole.box = changed_box(node, sdf, whole.box, node->child_count);
+    }
+    return whole;
+}
+
+static struct result emit_distance(struct builder *b, const struct node *node,
+                                   const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+{
+    struct field_instruction change = {
+        .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
+    add_block(b, node, sdf, frame->scale, &change);
+    struct result whole = emit_union(b, node, frame, slot, false, (struct result){0});
+    if (whole.solid) {
+        builder_add_instruction(b, change);
+        whole.box = changed_box(node, sdf, whole.box, 1);
+    }
+    return whole;
+}
+
+/* Children see a point of their own, in slot point + 2; point + 1 is the modifier's own space. */
+static struct result emit_domain(struct builder *b, const struct node *node, const struct sdf *sdf,
+                                 const struct frame *frame, uint16_t slot)
+{
+    const struct sdf_domain *domain = sdf->domain;
+    size_t own_count = 4 * (size_t)domain->vec4s;
+    uint32_t block = builder_add_vec4s(b, FIELD_MATRIX_VEC4S + (size_t)domain->vec4s);
+    uint32_t arguments = builder_add_arguments(b, 12 + own_count);
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    uint16_t own = frame->point + 1, inner = frame->point + 2;
+    bool loops = domain->range != NULL;
+    struct field_instruction next = {.type = node->type,
+                                     .sdf = sdf,
+                                     .a = slot,
+                                     .b = slot,
+                                     .numbers = block,
+                                     .arguments = arguments};
+    next.op = FIELD_PLACE, next.point = frame->point, next.out = own;
+    builder_add_instruction(b, next);
+    next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
+    next.op = loops ? FIELD_LOOP : FIELD_MAP, next.point = own, next.out = inner;
+    if (loops || domain->map) {
+        builder_add_instruction(b, next);
+    } else {
+        inner = own;
+    }
+
+    struct frame inside = frame_create(inner, frame->scale, frame->material);
+    uint64_t trips_before = b->trips;
+    b->trips = 0;
+    struct result whole = emit_union(b, node, &inside, slot + loops, false, (struct result){0});
+    if (!whole.solid) {
+        return whole;
+    }
+    double params[SDF_NUMBERS_MAX], own_numbers[4 * SDF_DOMAIN_VEC4S_MAX] = {0};
+    sdf_numbers(node->params.type->params, node->params.values, params);
+    domain->prepare(params, &whole.box, frame->scale, own_numbers);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
+    if (loops) {
+        b->trips = (uint64_t)domain->cells(own_numbers) * (1 + b->trips);
+        next.op = FIELD_LOOP_END, next.b = slot + 1;
+        builder_add_instruction(b, next);
+    }
+    b->trips += domain->trips ? (uint64_t)domain->trips(params) : 0;
+    if (domain->after) {
+        next.op = FIELD_AFTER, next.b = slot, next.out = own;
+        builder_add_instruction(b, next);
+    }
+    b->trips += trips_before;
+    whole.box = domain->box(params, &whole.box);
+    return whole;
+}
+
+static struct result emit_model(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot, bool joined,
+                                uint32_t number)
+{
+    const struct resource *model = node_model(b->scene, node);
+    if (!model) {
+        return (struct result){0};
+    }
+    bool outermost = b->instance == 0;
+    if (outermost) {
+        b->instance = number;
+        b->instance_node = node;
+    }
+    struct result result = field_emit(b, model->root, frame, slot, joined);
+    if (outermost) {
+        b->instance = 0;
+    }
+    result.hidden = false;
+    return result;
+}
+
+/* Whether a union goes on in a node of this kind: else the node is one of its operands. */
+static bool continues(const struct builder *b, const struct node *node)
+{
+    switch (node->type->kind) {
+    case KIND_SHAPE:
+    case KIND_FLAT:
+    case KIND_CODE:
+    case KIND_MODEL:
+    case KIND_GROUP:
+        return true;
+    case KIND_COMBINE:
+        return node->type == b->union_type;
+    case KIND_DISTANCE:
+    case KIND_DOMAIN:
+        break;
+    }
+    return false;
+}
+
+static struct result emit_joining(struct builder *b, const struct node *node,
+                                  const struct frame *frame, uint16_t slot, bool joined,
+                                  uint32_t number)
+{
+    struct result own = {.hidden = false};
+    switch (node->type->kind) {
+    case KIND_SHAPE:
+    case KIND_FLAT:
+    case KIND_CODE:
+        own = field_emit_shape(b, node, frame, slot + joined, number);
+        if (own.solid && joined) {
+            builder_add_instruction(b, field_union_at(b, slot));
+        }
+        break;
+    case KIND_MODEL:
+        own = emit_model(b, node, frame, slot, joined, number);
+        break;
+    default:
+        break;
+    }
+    return emit_union(b, node, frame, slot, joined, own);
+}
+
+static struct result emit_apart(struct builder *b, const struct node *node,
+                                const struct frame *frame, uint16_t slot)
+{
+    const struct sdf *sdf = sdf_find(node->type);
+    switch (node->type->kind) {
+    case KIND_COMBINE:
+        return emit_combine(b, node, sdf, frame, slot);
+    case KIND_DISTANCE:
+        return emit_distance(b, node, sdf, frame, slot);
+    default:
+        return emit_domain(b, node, sdf, frame, slot);
+    }
+}
+
+/* Puts a guard around what was emitted since `before` into `slot`, which held a distance already.
+ * It pays where there are loops: llvmpipe runs all else whether it is needed or not. */
+static void guard(struct builder *b, struct builder_mark before, uint16_t slot,
+                  const struct frame *outer, const struct bounds *box)
+{
+    if (b->trips == before.trips) {
+        return;
+    }
+    struct bounds placed = bounds_transform(box, outer->back, 1);
+    double numbers[8] = {0};
+    for (int i = 0; i < 3; i++) {
+        double half = (placed.high[i] - placed.low[i]) / 2;
+        bool ends = half < FIELD_UNCUT;
+        numbers[i] = ends ? placed.low[i] + half : 0;
+        numbers[4 + i] = ends ? half : FIELD_UNCUT;
+    }
+    numbers[3] = outer->slot_scale;
+    struct field_instruction in = {.op = FIELD_GUARD,
+                                   .a = slot,
+                                   .point = outer->point,
+                                   .numbers = builder_add_vec4s(b, 2),
+                                   .arguments = builder_add_arguments(b, 8)};
+    builder_put(b, in.numbers, 0, in.arguments, 8, numbers);
+    builder_insert_instruction(b, before.instructions, in);
+    in.op = FIELD_GUARD_END;
+    builder_add_instruction(b, in);
+    b->trips++;
+}
+
+/* Where a node's numbers, nesting or count leave what can be drawn, with models written out. */
+static void check(struct builder *b, const struct node *node, const struct frame *frame)
+{
+    char place[32 + LIMIT_ID_BYTES];
+    struct error err = {0};
+    snprintf(place, sizeof place, "/nodes/%s", b->instance ? b->instance_node->id : node->id);
+    if (!frame_is_sane(frame)) {
+        snprintf(place, sizeof place, "/nodes/%s/transform", node->id);
+        error_set(&err, ERROR_LIMIT, place,
+                  "with its parents' transforms it leaves the range of 1e-15 to 1e15");
+    } else if (b->depth > LIMIT_NODE_DEPTH) {
+        error_set(&err, ERROR_LIMIT, place,
+                  "with its models it is nested %zu levels deep, above the maximum %d", b->depth,
+                  LIMIT_NODE_DEPTH);
+    } else if (++b->emitted > LIMIT_NODES) {
+        error_set(&err, ERROR_LIMIT, place, "with its models it has more than %d nodes",
+                  LIMIT_NODES);
+    } else {
+        return;
+    }
+    builder_fail(b, &err, place);
+}
+
+struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
+                         uint16_t slot, bool joined)
+{
+    if (b->failed || record_number(&node->common, "visible") == 0) {
+        skip(b, node);
+        return (struct result){.hidden = true};
+    }
+    uint32_t number = b->instance ? b->instance : ++b->index;
+    double from[12], ratio;
+    struct frame frame = frame_enter(outer, node, from, &ratio);
+    const char *material = record_text(&node->common, "material");
+    if (*material) {
+        frame.material = field_material_slot(b->scene, material);
+    }
+    b->depth++;
+    check(b, node, &frame);
+    struct builder_mark before = builder_mark(b);
+    struct result result = {.hidden = false};
+    if (!b->failed && continues(b, node)) {
+        result = emit_joining(b, node, &frame, slot, joined, number);
+    } else if (!b->failed) {
+        result = emit_apart(b, node, &frame, slot + joined);
+        result.clear_box = result.box;
+        if (result.solid && joined) {
+            builder_add_instruction(b, field_union_at(b, slot));
+        }
+    }
+    b->depth--;
+    if (!result.solid) {
+        builder_rewind(b, before);
+        return result;
+    }
+    result.box = bounds_transform(&result.box, from, ratio);
+    result.clear_box = bounds_transform(&result.clear_box, from, ratio);
+    if (joined) {
+        guard(b, before, slot, outer, &result.box);
+    }
+    return result;
+}
