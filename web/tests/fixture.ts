@@ -97,6 +97,10 @@ export const SCHEMA = readSchema({
             },
             { type: "point", params: [vec3("position", length), float("intensity")] },
         ],
+        volumes: [
+            { type: "box", params: [vec3("size", length), float("density")] },
+            { type: "sphere", params: [float("radius", length), float("density")] },
+        ],
         shaders: [
             { type: "phong", params: [{ name: "diffuse", type: "color", default: [1, 1, 1] }] },
             {
@@ -127,6 +131,7 @@ export const SCENE: Json = {
         { id: "sun", type: "directional", direction: [0, -1, 0], intensity: 3 },
         { id: "lamp", type: "point", intensity: 2 },
     ],
+    volumes: [{ id: "smoke", type: "box", size: [1, 2, 3], density: 4 }],
     materials: {
         snow: { shader: "phong", properties: { diffuse: [0.9, 0.9, 0.95] } },
         coal: { shader: "flat", properties: { diffuse: [0, 0, 0], glow: 1 } },
@@ -247,6 +252,8 @@ export function randomOperation(
     const rows = choose(DECLARATIONS, next);
     const lights = [...document.lights.map(({ name }) => name), MISSING];
     const light = choose(lights, next);
+    const volumes = [...document.volumes.map(({ name }) => name), MISSING];
+    const volume = choose(volumes, next);
     const children = document.nodes.get(id)?.children ?? [];
     const before = choose([null, null, ...children], next);
     const set = (at: string, value: Json): Operation => ({ op: "set", at, value });
@@ -269,6 +276,8 @@ export function randomOperation(
         () => set("/name", choose(["A", null], next)),
         () => set(`/lights/${light}/intensity`, x),
         () => set(`/lights/${light}/type`, choose(["point", "directional"], next)),
+        () => set(`/volumes/${volume}/radius`, x + 1),
+        () => set(`/volumes/${volume}/type`, choose(["box", "sphere", "point"], next)),
         () => set(`/materials/${material}/properties/diffuse`, [x, x, x]),
         () => set(`/materials/${material}/shader`, choose(["phong", "flat", "marble"], next)),
         () => set(`/materials/${material}/properties/glow`, choose([0.5, null], next)),
@@ -303,6 +312,12 @@ export function randomOperation(
         }),
         () => ({
             op: "insert",
+            into: "/volumes",
+            before: choose([null, ...volumes], next),
+            value: { id: fresh(), type: "sphere" },
+        }),
+        () => ({
+            op: "insert",
             into: "/models",
             before: choose([null, ...models], next),
             name: fresh(),
@@ -325,6 +340,7 @@ export function randomOperation(
         () => ({ op: "remove", at: `/nodes/${id}` }),
         () => ({ op: "remove", at: `/materials/${material}` }),
         () => ({ op: "remove", at: `/lights/${light}` }),
+        () => ({ op: "remove", at: `/volumes/${volume}` }),
         () => ({ op: "move", at: `/nodes/${choose(ids, next)}`, into: `/nodes/${id}`, before }),
         () => ({
             op: "move",

@@ -25,11 +25,13 @@ import { random } from "./fixture.ts";
 const README = readFileSync(new URL("../../protocol/README.md", import.meta.url), "utf8");
 
 /* The examples: each stands after a fence ```json KIND. */
+const EXAMPLES = [...README.matchAll(/^```json (\w+)\n([\s\S]*?)^```/gm)].map(([, kind, body]) => ({
+    kind,
+    json: JSON.parse(body ?? "") as Json,
+}));
+
 function examples(kind: string): Json[] {
-    const blocks = README.matchAll(/^```json (\w+)\n([\s\S]*?)^```/gm);
-    return [...blocks]
-        .filter(([, name]) => name === kind)
-        .map(([, , body]) => JSON.parse(body ?? "") as Json);
+    return EXAMPLES.filter((example) => example.kind === kind).map(({ json }) => json);
 }
 
 /* The registry as far as the examples need it. */
@@ -82,12 +84,18 @@ test("the scene of the protocol's page reads and prints", () => {
     }
 });
 
-test("each edit of the protocol's page applies to its scene and back", () => {
-    const scenes = examples("scene");
-    const edits = examples("edit");
-    expect(edits.length).toBe(scenes.length);
-    for (const [i, edit] of edits.entries()) {
-        const document = readDocument(scenes[i] ?? null);
+test("each edit of the protocol's page applies to the scene above it, and back", () => {
+    let scene: Json = null;
+    const edits: [Json, Json][] = [];
+    for (const { kind, json } of EXAMPLES) {
+        scene = kind === "scene" ? json : scene;
+        if (kind === "edit") {
+            edits.push([scene, json]);
+        }
+    }
+    expect(edits).toHaveLength(3);
+    for (const [i, [before, edit]] of edits.entries()) {
+        const document = readDocument(before);
         const result = apply(document, edit as unknown as Operation[], SCHEMA);
         expect(result).toMatchObject({ ok: true });
         if (result.ok) {

@@ -284,7 +284,14 @@ test("new resources come with something that shows them", () => {
 
 test("resources are copied and get other names, whoever names them", () => {
     const document = scene();
-    for (const list of ["models", "primitives", "shaders", "materials", "lights"] as const) {
+    for (const list of [
+        "models",
+        "primitives",
+        "shaders",
+        "materials",
+        "lights",
+        "volumes",
+    ] as const) {
         const [first] = document[list];
         if (!first) {
             throw new Error(`no ${list}`);
