@@ -17,7 +17,8 @@
     X(STEPS, "steps", 1, false, true, "Steps that the ray took.") \
     X(ALBEDO, "albedo", 3, false, true, "Colour of the surface, without light.") \
     X(SPECULAR, "specular", 3, false, true, "Colour of its mirror image, head-on.") \
-    X(OPTICAL, "optical", 4, false, true, "Reflectivity, index of refraction, opacity, roughness.") \
+    X(OPTICAL, "optical", 4, false, true, \
+      "Reflectivity, index of refraction, opacity, roughness.") \
     X(SHADOW, "shadow", 3, false, true, "Part of the lights' light that arrives.") \
     X(OCCLUSION, "occlusion", 1, false, true, "Part of the environment's that arrives.")
 /* clang-format on */

@@ -8,7 +8,7 @@
 
 struct encoder;
 
-/* A picture being encoded. What is in it belongs to the encoder until encoder_take gives it back. */
+/* A picture being encoded. It belongs to the encoder until encoder_take gives it back. */
 struct encoding {
     int priority; /* the lowest goes first, then the oldest */
     void *data;   /* the owner's */

@@ -139,8 +139,8 @@ struct job_times {
 struct job_times job_times(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 
-/* Rows from the top, no padding. PIXEL_RGBA8 has four bytes for each pixel also with 3 channels: the
- * fourth means nothing then. */
+/* Rows from the top, no padding. PIXEL_RGBA8 has four bytes for each pixel also with 3 channels:
+ * the fourth means nothing then. */
 enum pixel_format { PIXEL_RGBA8, PIXEL_GRAY16, PIXEL_FLOAT, PIXEL_UINT32 };
 struct image {
     int width, height;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is asked of a picture over HTTP, as a query or as JSON: members of picture_type, a format, and
- * members of a camera. */
+/* What is asked of a picture over HTTP, as a query or as JSON: members of picture_type, a format,
+ * and members of a camera. */
 #ifndef SERVER_WISH_H
 #define SERVER_WISH_H
 

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT */
+/* The encoding thread: pictures that come in pieces and in turns are those that image_encode makes;
+ * one that fails or is given up comes back at once. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "protocol/memory.h"
+#include "renderer/encoder.h"
+
+enum { WIDTH = 640, HEIGHT = 90, BAND = 30 };
+
+static int wake_fd;
+static struct encoder *encoder;
+
+static int start(void **state)
+{
+    (void)state;
+    wake_fd = eventfd(0, EFD_CLOEXEC);
+    encoder = encoder_create(wake_fd, NULL);
+    return encoder ? 0 : -1;
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    encoder_destroy(encoder);
+    close(wake_fd);
+    return 0;
+}
+
+static struct image make_image(int width, int height, unsigned seed)
+{
+    struct image image = {.width = width, .height = height, .channels = 3, .format = PIXEL_RGBA8};
+    uint8_t *pixels;
+
+    image.bytes = (size_t)width * (size_t)height * 4;
+    image.pixels = pixels = memory_alloc(image.bytes, 1);
+    for (size_t i = 0; i < image.bytes; i++) {
+        seed = seed * 1103515245 + 12345;
+        pixels[i] = (uint8_t)(seed >> 24);
+    }
+    return image;
+}
+
+static struct encoding *begin(const struct image *image, const struct encode_params *params)
+{
+    struct image shapes[AOV_COUNT] = {[AOV_COLOR] = *image};
+    struct error err = {0};
+    struct encoding *encoding = encoder_begin(encoder, shapes, params, 0, NULL, &err);
+
+    if (!encoding) {
+        fail_msg("%s", err.message);
+    }
+    return encoding;
+}
+
+static void add(struct encoding *encoding, const struct image *image, int y, int height)
+{
+    struct image rows = *image;
+    const size_t stride = (size_t)image->width * 4;
+
+    rows.height = height;
+    rows.bytes = stride * (size_t)height;
+    rows.pixels = memory_alloc(rows.bytes, 1);
+    memcpy(rows.pixels, (const uint8_t *)image->pixels + (size_t)y * stride, rows.bytes);
+    encoder_add(encoder, encoding, AOV_COLOR, rows);
+}
+
+static void sleep_until_woken(void)
+{
+    uint64_t count;
+
+    assert_int_equal(read(wake_fd, &count, sizeof count), sizeof count);
+}
+
+static struct encoding *take(void)
+{
+    struct encoding *encoding;
+
+    while (!(encoding = encoder_take(encoder))) {
+        sleep_until_woken();
+    }
+    return encoding;
+}
+
+static void test_turns(void **state)
+{
+    const struct encode_params params[] = {{.format = IMAGE_PNG}, {.format = IMAGE_JPEG}};
+    struct image images[] = {make_image(WIDTH, HEIGHT, 1), make_image(WIDTH, HEIGHT, 2)};
+    struct encoding *encodings[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        encodings[i] = begin(&images[i], &params[i]);
+        encodings[i]->data = &images[i];
+    }
+    for (int y = 0; y < HEIGHT; y += BAND) {
+        add(encodings[0], &images[0], y, BAND);
+        add(encodings[1], &images[1], y, BAND);
+    }
+    encoder_end(encoder, encodings[0], true);
+    encoder_end(encoder, encodings[1], true);
+    for (int i = 0; i < 2; i++) {
+        struct encoding *encoding = take();
+        const int which = encoding->data == &images[1];
+        uint8_t *bytes;
+        size_t length;
+
+        assert_true(encoding->ok);
+        assert_true(image_encode(&images[which], &params[which], &bytes, &length, NULL));
+        assert_int_equal(encoding->length, length);
+        assert_memory_equal(encoding->bytes, bytes, length);
+        free(bytes);
+        encoding_destroy(encoding);
+        image_finish(&images[which]);
+    }
+}
+
+static void test_failure(void **state)
+{
+    const struct encode_params params = {.format = IMAGE_PNG, .limit_bytes = 5000};
+    struct image image = make_image(WIDTH, HEIGHT, 3);
+    struct encoding *encoding = begin(&image, &params), *back;
+
+    (void)state;
+    add(encoding, &image, 0, 2 * BAND);
+    back = take(); /* before its end */
+    assert_ptr_equal(back, encoding);
+    assert_false(back->ok);
+    assert_int_equal(back->error.kind, ERROR_LIMIT);
+    encoding_destroy(back);
+    image_finish(&image);
+}
+
+static void test_given_up(void **state)
+{
+    struct image image = make_image(WIDTH, HEIGHT, 4);
+    struct encoding *encoding = begin(&image, &(struct encode_params){.format = IMAGE_PNG}), *back;
+
+    (void)state;
+    add(encoding, &image, 0, BAND);
+    encoder_end(encoder, encoding, false);
+    back = take();
+    assert_ptr_equal(back, encoding);
+    assert_false(back->ok);
+    assert_int_equal(back->error.kind, ERROR_NONE);
+    encoding_destroy(back);
+    image_finish(&image);
+}
+
+/* So many rows at once that they are encoded in several goes. */
+static void test_full(void **state)
+{
+    const struct encode_params params = {.format = IMAGE_PNG, .fast = true};
+    struct image image = make_image(4096, 2560, 5); /* 40 MiB */
+    struct encoding *encoding = begin(&image, &params);
+    uint8_t *bytes;
+    size_t length;
+
+    (void)state;
+    add(encoding, &image, 0, image.height);
+    assert_true(encoder_is_full(encoder, encoding));
+    while (encoder_is_full(encoder, encoding)) {
+        sleep_until_woken();
+    }
+    encoder_end(encoder, encoding, true);
+    encoding = take();
+    assert_true(image_encode(&image, &params, &bytes, &length, NULL));
+    assert_int_equal(encoding->length, length);
+    assert_memory_equal(encoding->bytes, bytes, length);
+    free(bytes);
+    encoding_destroy(encoding);
+    image_finish(&image);
+}
+
+static void test_left_behind(void **state)
+{
+    struct image image = make_image(WIDTH, HEIGHT, 6);
+
+    (void)state;
+    add(begin(&image, &(struct encode_params){.format = IMAGE_NPY}), &image, 0, BAND);
+    image_finish(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_turns, start, stop),
+        cmocka_unit_test_setup_teardown(test_failure, start, stop),
+        cmocka_unit_test_setup_teardown(test_given_up, start, stop),
+        cmocka_unit_test_setup_teardown(test_full, start, stop),
+        cmocka_unit_test_setup_teardown(test_left_behind, start, stop),
+    };
+
+    return cmocka_run_group_tests_name("encoder", tests, NULL, NULL);
+}
