@@ -59,7 +59,7 @@ static int volume_rounds(const struct frame_block *block, int each)
 static void set_volume_steps(struct frame_block *block, const struct quality *q,
                              const struct frame_extent *extent)
 {
-    const int edges = 1 + 2 * block->effects[3]; /* and the surface */
+    const int edges = 1 + 3 * block->effects[3]; /* and the surface */
     int most = q->volume_steps;
 
     block->counts[0] = q->volume_steps;

@@ -187,31 +187,32 @@ vec3 sky_mean()
 }
 
 /* Light added before distance t, and the part of the light from there that is let through. The ray
- * goes by slabs, none of them across the rim of a volume; each is taken to be everywhere as it is
- * at `place` of it, 0 to 1, and summed up in closed form (Hillaire: Physically based and unified
- * volumetric rendering in Frostbite, SIGGRAPH 2015 course). Then the light on the surface at t is
- * dimmed. */
-vec4 haze(Ray ray, float t, float place)
+ * goes by slabs, none of them across the rim of a volume, the first `part` as long as the others;
+ * each is taken to be everywhere as it is in its middle, and summed up in closed form (Hillaire:
+ * Physically based and unified volumetric rendering in Frostbite, SIGGRAPH 2015 course). Then the
+ * light on the surface at t is dimmed. */
+vec4 haze(Ray ray, float t, float part)
 {
     bool hit = t < INFINITY;
     float far = ray.inside ? 0.0 : min(t, bounds_max.w), left = 1.0;
     vec3 sum = vec3(0.0), around = sky_mean();
     Crossing first = crossing(ray.origin, ray.direction, 0.0, far);
-    float at = first.inside ? 0.0 : first.next;
     float stride = first.whole / float(max(counts.x, 1));
+    float at = first.inside ? 0.0 : first.next, tick = at + part * stride;
 
-    for (int i = zero; i <= counts.x + 2 * effects.w && (at < far || hit); i++) {
+    for (int i = zero; i <= counts.x + 3 * effects.w && (at < far || hit); i++) {
         Crossing c = crossing(ray.origin, ray.direction, at, far);
-        bool on_surface = at >= far, to_end = min(c.next, far) - at < 1.001 * stride;
-        float end = to_end || !c.inside ? min(c.next, far) : at + stride;
+        bool on_surface = at >= far, ticks = c.inside && tick < min(c.next, far);
+        float end = ticks ? tick : min(c.next, far);
         float slab = c.inside && !on_surface ? end - at : 0.0;
-        vec3 p = ray.origin + ray.direction * (on_surface ? t : at + place * slab);
+        vec3 p = ray.origin + ray.direction * (on_surface ? t : at + 0.5 * slab);
         Smoke here;
         vec3 light = scattered(p, ray.direction, on_surface, here);
 
         float met = 1.0 - exp(-here.density * slab);
         sum += left * met * (here.color * (light + around) + here.emission);
         left *= 1.0 - met;
+        tick = ticks ? tick + stride : c.inside ? tick : end + part * stride;
         at = end;
         if (on_surface || left < 0.002) {
             break;

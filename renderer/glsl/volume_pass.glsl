@@ -12,9 +12,9 @@ void main()
     lit_here = here;
     Ray ray = ray_load(here);
     float t = some ? abs(texelFetch(geometry, here, 0).w) : 0.0;
-    /* Where in its slabs a ray looks differs from pixel to pixel, and so no slab is seen. */
-    float place = fract(pixel_noise(tile.xy + here) + 0.61803399 * float(turn.x));
-    vec4 found = haze(ray, t, place);
+    /* Where slabs begin differs from pixel to pixel, and so none is seen. */
+    float part = fract(pixel_noise(tile.xy + here) + 0.61803399 * float(turn.x));
+    vec4 found = haze(ray, t, part);
     if (some) {
         imageStore(out_haze, here, vec4(min(found.rgb, 60000.0), found.a));
     }
