@@ -101,9 +101,9 @@ for (const theme of ['dark', 'light']) {
             await page.getByRole('button', { name: 'Render', exact: true }).click();
             await check(page, 'render');
             await page.getByTestId('outputs').click();
-            await page.getByRole('menuitem', { name: /^Normals/ }).waitFor();
+            await page.getByRole('menuitemradio', { name: /^Normals/ }).waitFor();
             await check(page, 'menu of outputs', ['region']);
-            await page.getByRole('menuitem', { name: /^Normals/ }).click();
+            await page.getByRole('menuitemradio', { name: /^Normals/ }).click();
             await page.getByRole('button', { name: 'Back to the colours' }).waitFor();
             await page.getByRole('menu').waitFor({ state: 'detached' });
             await check(page, 'another output');

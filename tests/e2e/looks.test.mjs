@@ -81,6 +81,10 @@ test('a light of each type can be added', async () => {
         await page.getByRole('menuitem', { name: title }).click();
         await when((d) => d.lights.at(-1).type === type, type);
     }
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').fill('spot light');
+    await page.locator('[data-entry=add-lights-spot]').click();
+    await when((d) => d.lights.at(-1).id === 'spot-2', 'another spot');
 });
 
 test('a volume is put in, changed and taken away', async () => {

@@ -57,7 +57,7 @@ const normalsGone = () => until(async () => !isNormal(await crate()), 'other col
 test('the menu shows every output that has a picture', async () => {
     await open();
     await pill().click();
-    const items = page.getByRole('menuitem');
+    const items = page.getByRole('menuitemradio');
     const docs = await page.locator('.menu-doc').allTextContents();
     const pictures = schema.outputs.filter((output) => output.picture);
     assert.ok(pictures.length >= 10);

@@ -4,18 +4,18 @@ import { Box, ChevronRight, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchCommands } from "../../model/commandLookup.ts";
-import { nodeLabel, type SceneDocument } from "../../model/document.ts";
+import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
 import { addNotice } from "../../model/stores.ts";
-import { addNode, selectNode } from "../acts.ts";
+import { addNode, addTyped, selectNode } from "../acts.ts";
 import type { Editor } from "../editor.ts";
 import { keyText } from "../frame/keys.ts";
 import { outputTitle, typeTitle } from "../names.ts";
 import { Glyph } from "../parts/Glyph.tsx";
 import { goTo } from "../route.ts";
-import { ResourceIcon } from "../scene/ResourceIcon.tsx";
+import { ResourceIcon, TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { offersOf, searchOffers } from "./additions.ts";
@@ -65,6 +65,24 @@ function offerEntries(editor: Editor, schema: Schema, document: SceneDocument, q
                 run: () => addNode(editor, offer),
             }),
         );
+}
+
+/* Lights and volumes, by their types. */
+function typedEntries(editor: Editor, schema: Schema, query: string): Entry[] {
+    const all = LIST_NAMES.filter((list) => LISTS[list].id).flatMap((list) =>
+        typesOf(schema, list).map(({ type, doc }) => ({
+            list,
+            type,
+            doc,
+            name: `${typeTitle(type)} ${LISTS[list].one}`,
+        })),
+    );
+    return search(all, query, ({ name, doc }) => ({ name, doc })).map(({ list, type, name }) => ({
+        id: `add-${list}-${type}`,
+        title: name,
+        icon: <TypeIcon list={list} type={type} />,
+        run: () => addTyped(editor, list, type),
+    }));
 }
 
 function nodeEntries(editor: Editor, schema: Schema, document: SceneDocument, query: string) {
@@ -165,7 +183,12 @@ export function CommandPalette() {
             };
             const offers = {
                 title: t("commands.add"),
-                items: searched ? offerEntries(editor, schema, document, query) : [],
+                items: searched
+                    ? [
+                          ...offerEntries(editor, schema, document, query),
+                          ...typedEntries(editor, schema, query),
+                      ]
+                    : [],
             };
             const resources = {
                 title: t("commands.resources"),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Menus: opened by a button, or at a point (a right click or a long press). */
 import { Menu as Base } from "@base-ui/react/menu";
+import { Check } from "lucide-react";
 import type { ReactElement, ReactNode } from "react";
 import "./popup.css";
 
@@ -50,21 +51,26 @@ interface ItemProps {
     keys?: string;
     /* What it is, in a smaller line below. */
     doc?: string;
+    /* One of several of which one holds. */
+    checked?: boolean;
     danger?: boolean;
     disabled?: boolean;
     onSelect: () => void;
     children: ReactNode;
 }
 
-export function MenuItem({ icon, keys, doc, danger, disabled, onSelect, children }: ItemProps) {
+export function MenuItem(props: ItemProps) {
+    const { icon, keys, doc, checked, danger, disabled, onSelect, children } = props;
+    const radio = checked === undefined ? {} : { role: "menuitemradio", "aria-checked": checked };
     return (
         <Base.Item
             className="menu-item"
             data-danger={danger || undefined}
             disabled={disabled}
             onClick={onSelect}
+            {...radio}
         >
-            <span className="menu-icon">{icon}</span>
+            <span className="menu-icon">{checked ? <Check size={14} /> : icon}</span>
             <span className="menu-text">
                 {children}
                 {doc && <span className="menu-doc">{doc}</span>}

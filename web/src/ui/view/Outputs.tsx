@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which output is shown, and how sharp while moving. What is not the picture itself is marked, with
  * the way back beside it. */
-import { Check, Layers2, X } from "lucide-react";
+import { Layers2, X } from "lucide-react";
 import { outputsShown } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { COLOR, QUALITIES } from "../../model/view.ts";
@@ -60,13 +60,12 @@ function Choices() {
     const schema = useDocument((state) => state.schema);
     const aov = useView((view) => view.aov);
     const quality = useView((view) => view.preferences.quality);
-    const mark = (on: boolean) => (on ? <Check size={14} /> : undefined);
     return (
         <>
             {outputsShown(schema).map(({ name, doc }) => (
                 <MenuItem
                     key={name}
-                    icon={mark(name === aov)}
+                    checked={name === aov}
                     doc={doc}
                     onSelect={() => stores.view.setState({ aov: name })}
                 >
@@ -77,7 +76,7 @@ function Choices() {
             {QUALITIES.map((one) => (
                 <MenuItem
                     key={one}
-                    icon={mark(one === quality)}
+                    checked={one === quality}
                     onSelect={() => setPreferences(stores.view, { quality: one })}
                 >
                     {t(`quality.${one}`)}
