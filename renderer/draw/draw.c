@@ -76,45 +76,6 @@ const struct draw_form *draw_form_find(enum aov aov, bool floats)
     return NULL;
 }
 
-void draw_numbers_init(struct draw_numbers *out, const struct draw *draw, const float *numbers,
-                       size_t count, size_t capacity)
-{
-    const struct gl *gl = draw->gl;
-    const bool texture = numbers_in_texture(gl, draw->software, capacity);
-    const GLenum target = texture ? GL_TEXTURE_BUFFER : GL_UNIFORM_BUFFER;
-    float *padded = memory_alloc(capacity, 16);
-
-    memcpy(padded, numbers, count * 16);
-    *out = (struct draw_numbers){0};
-    gl->GenBuffers(1, &out->buffer);
-    gl->BindBuffer(target, out->buffer);
-    gl->BufferData(target, (GLsizeiptr)(16 * capacity), padded, GL_STATIC_DRAW);
-    free(padded);
-    if (texture) {
-        gl->GenTextures(1, &out->texture);
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
-        gl->BindTexture(GL_TEXTURE_BUFFER, out->texture);
-        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, out->buffer);
-    }
-}
-
-void draw_numbers_finish(struct draw_numbers *numbers, const struct gl *gl)
-{
-    gl->DeleteBuffers(1, &numbers->buffer);
-    gl->DeleteTextures(1, &numbers->texture);
-    *numbers = (struct draw_numbers){0};
-}
-
-static void bind_numbers(const struct draw_numbers *numbers, const struct gl *gl)
-{
-    if (numbers->texture) {
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
-        gl->BindTexture(GL_TEXTURE_BUFFER, numbers->texture);
-    } else {
-        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, numbers->buffer);
-    }
-}
-
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err)
 {
     struct draw *draw = memory_alloc(1, sizeof *draw);
@@ -327,7 +288,7 @@ static void bind_scene(const struct draw *draw, const struct draw_picture *pictu
 
     targets_bind(&draw->targets, gl);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
-    bind_numbers(scene->numbers, gl);
+    numbers_bind(scene->numbers, gl);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
         gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);

@@ -8,6 +8,7 @@
 
 #include "environment.h"
 #include "plan.h"
+#include "renderer/gl/numbers.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
 
@@ -29,15 +30,6 @@ struct draw_form {
 /* NULL where the output has no such form. */
 const struct draw_form *draw_form_find(enum aov aov, bool floats);
 
-/* The numbers of a field on the GPU. */
-struct draw_numbers {
-    GLuint buffer, texture; /* texture: 0 where a uniform block serves */
-};
-/* `count` vec4s, then zeros up to `capacity`. */
-void draw_numbers_init(struct draw_numbers *out, const struct draw *draw, const float *numbers,
-                       size_t count, size_t capacity);
-void draw_numbers_finish(struct draw_numbers *numbers, const struct gl *gl);
-
 struct tile {
     int x, y, width, height; /* pixels of the picture, y down */
 };
@@ -45,7 +37,7 @@ struct tile {
 /* What a tile is drawn from. */
 struct draw_scene {
     const struct program *program;
-    const struct draw_numbers *numbers;
+    const struct numbers *numbers;
     const struct environment *environment;
 };
 

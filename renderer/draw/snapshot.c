@@ -192,7 +192,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     if (!snapshot || --snapshot->references > 0) {
         return;
     }
-    draw_numbers_finish(&snapshot->numbers, &renderer->gl);
+    numbers_finish(&snapshot->numbers, &renderer->gl);
     program_unref(renderer->programs, snapshot->program);
     field_unref(snapshot->field);
     environment_unref(renderer->environments, snapshot->environment);
@@ -201,11 +201,12 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     free(snapshot);
 }
 
-const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
+const struct numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
 {
-    if (snapshot->numbers.buffer == 0) {
-        draw_numbers_init(&snapshot->numbers, renderer->draw, snapshot->field->numbers,
-                          snapshot->field->vec4_count, number_capacity(snapshot->field));
+    if (snapshot->numbers.buffer + snapshot->numbers.texture == 0) {
+        numbers_init(&snapshot->numbers, &renderer->gl, renderer->info.software,
+                     snapshot->field->numbers, snapshot->field->vec4_count,
+                     number_capacity(snapshot->field));
     }
     return &snapshot->numbers;
 }

@@ -19,7 +19,7 @@ struct snapshot {
     struct environment *environment;
     uint32_t environment_us; /* time that it took */
     bool fewer_steps;        /* than the scene asks for: the driver's bound on loops */
-    struct draw_numbers numbers;
+    struct numbers numbers;
     struct error warning; /* of users' code, when the program was new; ERROR_NONE: nothing */
 };
 
@@ -33,6 +33,6 @@ struct snapshot *snapshot_ref(struct snapshot *snapshot);
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
 /* Uploads what is not yet on the device. */
-const struct draw_numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot);
+const struct numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot);
 
 #endif

@@ -66,8 +66,4 @@ const struct pass *program_pass(const struct program *program, enum program_stag
 bool program_cache_wait(struct program_cache *cache, int wait_ms);
 uint64_t program_cache_compilations(struct program_cache *cache);
 
-/* Whether numbers come from a texture: where a uniform block is too small, and on llvmpipe, which
- * makes two branches of each number out of a block, and compiles seven times as long. */
-bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count);
-
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "numbers.h"
 #include "program_parts.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
@@ -17,14 +18,6 @@ enum {
     WALL_FACTOR = 2, /* a compiler that waits for others may take so much longer */
 };
 
-bool numbers_in_texture(const struct gl *gl, bool software, size_t number_count)
-{
-    GLint bytes = 0;
-
-    gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
-    return software || number_count * 16 > (size_t)bytes;
-}
-
 /* --- one stage --- */
 
 /* What glsl/numbers.glsl wants to know. */
@@ -37,8 +30,8 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
     if (!out) {
         abort();
     }
-    fprintf(out, "#define NUMBERS_COUNT %zu\n%s%s", program->number_count,
-            in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
+    fprintf(out, "#define NUMBERS_COUNT %zu\n#define NUMBERS_ROW %d\n%s%s", program->number_count,
+            NUMBERS_ROW, in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
             program->user_shaders ? "#define USER_SHADERS\n" : "");
     if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
         fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
@@ -85,33 +78,19 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
                     const struct program *program, const struct pass *pass)
 {
     const struct gl *gl = cache->gl;
-    const size_t bytes = 16 * program->number_count;
-    const bool texture = numbers_in_texture(gl, cache->egl->software, program->number_count);
-    float *zeros = memory_alloc(1, bytes);
     const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
-    GLuint buffers[2], view = 0;
+    struct numbers numbers;
+    GLuint frame = 0;
 
-    gl->GenBuffers(2, buffers);
-    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, buffers[0]);
+    gl->GenBuffers(1, &frame);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
-    if (texture) {
-        gl->BindBuffer(GL_TEXTURE_BUFFER, buffers[1]);
-        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
-        gl->GenTextures(1, &view);
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
-        gl->BindTexture(GL_TEXTURE_BUFFER, view);
-        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers[1]);
-    } else {
-        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, buffers[1]);
-        gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)bytes, zeros, GL_STATIC_DRAW);
-    }
+    numbers_init(&numbers, gl, cache->egl->software, NULL, 0, program->number_count);
+    numbers_bind(&numbers, gl);
     pass_compute(pass, gl, &(struct pass_place){.width = targets->side, .height = targets->side});
     gl->Finish();
-    gl->DeleteBuffers(2, buffers);
-    if (view) {
-        gl->DeleteTextures(1, &view);
-    }
-    free(zeros);
+    numbers_finish(&numbers, gl);
+    gl->DeleteBuffers(1, &frame);
 }
 
 /* The state follows from the stages once none is left. */

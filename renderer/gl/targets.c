@@ -118,12 +118,16 @@ static void make_buffers(struct targets *targets, const struct gl *gl)
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof head, head);
 }
 
-/* Blocks lie where they do in the picture, so a tile may touch one more; whole work groups. */
+/* Blocks lie where they do in the picture, so a tile may touch one more; whole work groups. A power
+ * of two as all sides are: llvmpipe compiles again for a texture whose side is none. */
 static int starts_side(int side)
 {
-    const int group = GROUP_SIDE * BLOCK_SIDE;
+    int blocks = GROUP_SIDE;
 
-    return (side + BLOCK_SIDE + group - 1) / group * GROUP_SIDE;
+    while (blocks * BLOCK_SIDE < side + BLOCK_SIDE) {
+        blocks *= 2;
+    }
+    return blocks;
 }
 
 bool targets_init(struct targets *out_targets, const struct gl *gl, int side, struct error *err)

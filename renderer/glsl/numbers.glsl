@@ -6,8 +6,8 @@
  * 70 % of a picture. GPUs have constants at hand and no registers to spare. */
 
 #ifdef NUMBERS_IN_TEXTURE
-layout(binding = 3) uniform samplerBuffer numbers;
-#define N_ANY(i) texelFetch(numbers, i)
+layout(binding = 3) uniform sampler2D numbers;
+#define N_ANY(i) texelFetch(numbers, ivec2((i) % NUMBERS_ROW, (i) / NUMBERS_ROW), 0)
 #else
 layout(std140, binding = 1) uniform Numbers {
     vec4 numbers[NUMBERS_COUNT];

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+#include "numbers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "pass.h"
+#include "protocol/memory.h"
+
+bool numbers_in_texture(const struct gl *gl, bool software, size_t capacity)
+{
+    GLint bytes = 0;
+
+    gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &bytes);
+    return software || capacity * 16 > (size_t)bytes;
+}
+
+static GLuint make_texture(const struct gl *gl, const float *values, size_t capacity)
+{
+    const GLsizei width = capacity < NUMBERS_ROW ? (GLsizei)capacity : NUMBERS_ROW;
+    const GLsizei height = (GLsizei)(capacity / (size_t)width);
+    GLuint texture = 0;
+
+    gl->GenTextures(1, &texture);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values);
+    return texture;
+}
+
+static GLuint make_buffer(const struct gl *gl, const float *values, size_t capacity)
+{
+    GLuint buffer = 0;
+
+    gl->GenBuffers(1, &buffer);
+    gl->BindBuffer(GL_UNIFORM_BUFFER, buffer);
+    gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)(16 * capacity), values, GL_STATIC_DRAW);
+    return buffer;
+}
+
+void numbers_init(struct numbers *out, const struct gl *gl, bool software, const float *values,
+                  size_t count, size_t capacity)
+{
+    float *padded = memory_alloc(capacity, 16);
+
+    if (count > 0) {
+        memcpy(padded, values, count * 16);
+    }
+    *out = (struct numbers){0};
+    if (numbers_in_texture(gl, software, capacity)) {
+        out->texture = make_texture(gl, padded, capacity);
+    } else {
+        out->buffer = make_buffer(gl, padded, capacity);
+    }
+    free(padded);
+}
+
+void numbers_finish(struct numbers *numbers, const struct gl *gl)
+{
+    gl->DeleteBuffers(1, &numbers->buffer);
+    gl->DeleteTextures(1, &numbers->texture);
+    *numbers = (struct numbers){0};
+}
+
+void numbers_bind(const struct numbers *numbers, const struct gl *gl)
+{
+    if (numbers->texture) {
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
+        gl->BindTexture(GL_TEXTURE_2D, numbers->texture);
+    } else {
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_NUMBERS, numbers->buffer);
+    }
+}
