@@ -109,7 +109,7 @@ static void run(struct worker *w)
         struct pollfd fds[2] = {{.fd = w->fd, .events = POLLIN},
                                 {.fd = w->wake_fd, .events = POLLIN}};
         const bool full = w->out_length - w->out_sent > OUT_FULL;
-        struct task **task = full ? NULL : worker_choose_task(w);
+        struct task *task = full ? NULL : worker_choose_task(w);
 
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;

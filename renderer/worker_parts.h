@@ -86,9 +86,9 @@ void worker_on_pick(struct worker *w, const cJSON *packet);
 
 void worker_drop_task(struct task **at);
 /* The most urgent picture that can go on; NULL: none. */
-struct task **worker_choose_task(struct worker *w);
+struct task *worker_choose_task(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
-void worker_step(struct worker *w, struct task **at);
+void worker_step(struct worker *w, struct task *task);
 void worker_collect_encodings(struct worker *w);
 void worker_on_render(struct worker *w, const cJSON *packet);
 void worker_on_cancel(struct worker *w, const cJSON *packet);

@@ -200,15 +200,15 @@ void worker_on_cancel(struct worker *w, const cJSON *packet)
 
 /* Now and then the oldest, so that a stream of urgent ones cannot stop a picture for good.
  * Those waiting for a compiler or the encoder let others pass. */
-struct task **worker_choose_task(struct worker *w)
+struct task *worker_choose_task(struct worker *w)
 {
     const bool oldest = w->steps % OLDEST_EVERY == 0;
-    struct task **best = NULL;
+    struct task *best = NULL;
 
-    for (struct task **at = &w->tasks; *at; at = &(*at)->next) {
-        if ((*at)->job && (!best || (!oldest && (*at)->priority < (*best)->priority)) &&
-            job_step_possible((*at)->job) && !encoder_is_full(w->encoder, (*at)->encoding)) {
-            best = at;
+    for (struct task *task = w->tasks; task; task = task->next) {
+        if (task->job && (!best || (!oldest && task->priority < best->priority)) &&
+            job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
+            best = task;
         }
     }
     return best;
@@ -253,10 +253,8 @@ static void tell_drawing(struct worker *w, const struct task *task)
     }
 }
 
-void worker_step(struct worker *w, struct task **at)
+void worker_step(struct worker *w, struct task *task)
 {
-    struct task *task = at ? *at : NULL;
-
     tell_drawing(w, task);
     if (!task) {
         return;

@@ -184,6 +184,19 @@ describe('a transparent picture', () => {
         }
     });
 
+    test('keeps its alpha in motion', async () => {
+        const render = { level: 'draft', transparent: true };
+        await ask(daemon, 'PUT', '/v1/scenes/clear', { ...DOCUMENT, render });
+        const live = await Live.open(daemon, 'clear');
+        live.look({ width: WIDTH, height: HEIGHT });
+        await live.nextFrame(({ lossless }) => lossless);
+        for (const { codec, payload } of live.frames) {
+            assert.equal(codec, 'png');
+            assert.equal(decodePng(payload).channels, 4);
+        }
+        await live.close();
+    });
+
     test('is no JPEG', async () => {
         await refused('&transparent=true', 'jpg', { place: 'format', detail: /png does/ });
         await picture('&transparent=false', 'jpg', 'image/jpeg');
