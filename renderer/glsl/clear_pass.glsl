@@ -55,7 +55,7 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
 
     weight.rgb *= exp(-medium * (ray.inside ? min(min(t, left), bounds_max.w) : 0.0));
     if (through_it) {
-        float mirror = interface_mirror(s.ior, c, leaving);
+        float mirror = interface_mirror(s.ior, c, false); /* it is not bent: c is the one outside */
         weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * s.diffuse;
     }
     if (through_it && turn.z == 1) {

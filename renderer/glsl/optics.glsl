@@ -19,10 +19,12 @@ bool bend(vec3 direction, vec3 n, float ratio, out vec3 bent)
     return k > 0.0;
 }
 
-/* Part of the light that is mirrored where a ray goes into a clear medium, or out of it. */
+/* Part of the light that is mirrored where a ray goes into a clear medium, or out of it. What hardly
+ * mirrors head-on does not at a grazing angle either (Lagarde and de Rousiers: Moving Frostbite to
+ * physically based rendering, 2014). */
 float interface_mirror(float ior, float c, bool inside)
 {
-    float f0 = (ior - 1.0) / (ior + 1.0);
+    float r = (ior - 1.0) / (ior + 1.0), f0 = r * r;
     float thin = inside ? sqrt(max(1.0 - ior * ior * (1.0 - c * c), 0.0)) : c;
-    return fresnel(vec3(f0 * f0), thin).x;
+    return min(fresnel(vec3(f0), thin).x, 50.0 * f0);
 }
