@@ -111,7 +111,8 @@ struct job_desc {
     int transparent;  /* 1: the background is left out, 0: not; -1: the scene's render settings */
     bool exact;       /* wait for the newest revision's shader; else draw the newest drawable */
     bool as_floats;   /* give raw values (NPY), not 8/16-bit pixels */
-    bool from_camera; /* one program for everything instead of passes: for comparison */
+    bool from_camera; /* one program for one sample instead of passes: for comparison. Without
+                         volumes, and light through clear things keeps its colour */
 };
 
 enum job_state {

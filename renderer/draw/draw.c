@@ -275,6 +275,20 @@ static void draw_passes(struct draw *draw, struct wave *wave, const struct draw_
     }
 }
 
+static bool draw_from_camera(struct draw *draw, struct wave *wave,
+                             const struct draw_picture *picture, struct program *program,
+                             struct error *err)
+{
+    const struct pass *pass = program_from_camera(program, err);
+
+    if (!pass) {
+        return false;
+    }
+    wave_from_camera(wave, pass);
+    resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
+    return true;
+}
+
 static void bind_scene(const struct draw *draw, const struct draw_picture *picture,
                        const struct draw_scene *scene)
 {
@@ -319,7 +333,11 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct dra
     wave.slot->tile = tile;
     bind_scene(draw, picture, scene);
     wave_start_clock(&wave);
-    draw_passes(draw, &wave, picture);
+    if (!picture->plan.from_camera) {
+        draw_passes(draw, &wave, picture);
+    } else if (!draw_from_camera(draw, &wave, picture, scene->program, err)) {
+        return false;
+    }
     wave.slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     draw->gl->Flush();
     return gl_check(draw->gl, "drawing a tile", err);

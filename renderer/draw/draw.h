@@ -36,7 +36,7 @@ struct tile {
 
 /* What a tile is drawn from. */
 struct draw_scene {
-    const struct program *program;
+    struct program *program;
     const struct numbers *numbers;
     const struct environment *environment;
 };

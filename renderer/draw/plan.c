@@ -89,11 +89,12 @@ static void set_samples(struct draw_plan *plan, struct frame_block *block,
                         enum quality_level level, int wanted)
 {
     const int own = q->samples ? q->samples : (int)record_number(render, "samples");
-    const int n = wanted ? wanted : own;
+    const int n = plan->from_camera ? 1 : wanted ? wanted : own;
 
-    plan->antialiasing = choose_antialiasing(render, q, level, n);
+    plan->antialiasing =
+        plan->from_camera ? ANTIALIASING_NONE : choose_antialiasing(render, q, level, n);
     plan->samples = plan->antialiasing > ANTIALIASING_EDGES ? n * n : 1;
-    if (q->lens_samples == 0) {
+    if (q->lens_samples == 0 || plan->from_camera) {
         block->right[3] = 0; /* no lens */
     } else if (block->right[3] > 0) {
         plan->antialiasing = ANTIALIASING_FULL;

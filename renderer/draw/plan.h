@@ -14,7 +14,7 @@ struct draw_plan {
     int rays;                       /* of a sample after the first; 0: none */
     int clear_depth;                /* surfaces that light goes through; 0: none */
     bool volumes;
-    bool from_camera; /* one program from the camera to the light instead of passes */
+    bool from_camera; /* one program and one sample, instead of passes */
 };
 
 /* What is asked of one picture. */

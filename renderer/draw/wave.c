@@ -193,14 +193,19 @@ static void follow(struct wave *w)
     }
 }
 
+static void gather(struct wave *w, const struct round *round)
+{
+    targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
+    run_common(w, COMMON_GATHER, round, w->sample, w->linear, 0, 0);
+    mark(w, round, FRAME_SHADE);
+}
+
 static void shade(struct wave *w, const struct round *round)
 {
     targets_begin_list(w->targets, w->gl, LIST_RAYS);
     add_light(w, round, w->plan->rays == 0);
     follow(w);
-    targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
-    run_common(w, COMMON_GATHER, round, w->sample, w->linear, 0, 0);
-    mark(w, round, FRAME_SHADE);
+    gather(w, round);
 }
 
 /* --- what draw.c asks for --- */
@@ -246,4 +251,19 @@ void wave_sample_again(struct wave *w)
         find_shadow(w, &round);
         shade(w, &round);
     }
+}
+
+void wave_from_camera(struct wave *w, const struct pass *program)
+{
+    const struct gl *gl = w->gl;
+    struct pass_place place = w->tile;
+
+    place.turn[1] = w->plan->rays;
+    targets_bind_common(w->targets, gl, &w->targets->eye, &w->targets->eye);
+    gl->Viewport(0, 0, place.width, place.height);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, w->targets->out_buffers[OUT_BYTES]);
+    pass_draw(program, gl, &place);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    wave_mark(w, FRAME_MARCH);
+    gather(w, &whole_tile);
 }

@@ -34,7 +34,7 @@ void wave_shadow(struct wave *wave);
 void wave_shade(struct wave *wave);
 /* The same again for all other samples that the plan asks for. */
 void wave_sample_again(struct wave *wave);
-/* Everything in one program; sample by sample. */
-void wave_from_camera(struct wave *wave);
+/* The light of the first sample of all pixels, by one program. */
+void wave_from_camera(struct wave *wave, const struct pass *program);
 
 #endif

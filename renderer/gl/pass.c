@@ -9,7 +9,7 @@
 #include "protocol/memory.h"
 #include "renderer/glsl.h"
 
-enum { SOURCES_MAX = 32, LOG_BYTES = 4096 };
+enum { SOURCES_MAX = 48, LOG_BYTES = 4096 };
 
 /* Texts of one shader; their index is the number that `#line` gives them. */
 struct texts {

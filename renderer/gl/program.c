@@ -50,6 +50,7 @@ static void destroy_program(const struct gl *gl, struct program *program)
     for (int i = 0; i < STAGE_COUNT; i++) {
         pass_finish(&program->passes[i], gl);
     }
+    pass_finish(&program->from_camera, gl);
     free(program->map_text);
     free(program->surface_text);
     free(program);

@@ -61,6 +61,10 @@ const struct error *program_error(const struct program *program);
 /* Valid when ready. */
 const struct pass *program_pass(const struct program *program, enum program_stage stage);
 
+/* Of one that is ready: everything in one fragment shader (glsl/forward.glsl), for comparison.
+ * Compiled when first asked for, in the calling thread, which draws. NULL and `err` on failure. */
+const struct pass *program_from_camera(struct program *program, struct error *err);
+
 /* True when some program became ready or failed since the last call; waits at most that long for
  * it while there is something to wait for. */
 bool program_cache_wait(struct program_cache *cache, int wait_ms);

@@ -73,6 +73,33 @@ static bool link_stage(const struct gl *gl, const struct program *program, bool 
     return ok;
 }
 
+const struct pass *program_from_camera(struct program *program, struct error *err)
+{
+    static const char *const files[] = {
+        "frame.glsl",  "numbers.glsl", "ray.glsl",    "surface.glsl",       FIELD_GLSL_FILES,
+        "map",         "surface",      "camera.glsl", "march.glsl",         "lights.glsl",
+        "optics.glsl", "brdf.glsl",    "sky.glsl",    "forward_store.glsl", "shadow.glsl",
+        "fog.glsl",    "shade.glsl",   "paths.glsl",  "forward.glsl",       NULL};
+    const struct program_cache *cache = program->cache;
+    const bool software = cache->egl->software;
+
+    if (program->from_camera.program == 0) {
+        char *defines = make_defines(
+            program, software, numbers_in_texture(cache->gl, software, program->number_count));
+        const struct pass_source source = {.defines = defines,
+                                           .files = files,
+                                           .map = program->map_text,
+                                           .surface = program->surface_text};
+        const bool ok = pass_init(&program->from_camera, cache->gl, &source, err);
+
+        free(defines);
+        if (!ok) {
+            return NULL;
+        }
+    }
+    return &program->from_camera;
+}
+
 /* One work group, with nothing in the buffers: the driver finishes its work. */
 static void warm_up(const struct program_cache *cache, const struct targets *targets,
                     const struct program *program, const struct pass *pass)

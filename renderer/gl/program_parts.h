@@ -22,6 +22,7 @@ struct program {
     enum program_state state;
     int taken, done; /* stages that a thread took, and those finished or given up */
     struct pass passes[STAGE_COUNT];
+    struct pass from_camera; /* belongs to the drawing thread */
     struct error error;
 };
 
