@@ -45,7 +45,7 @@ struct setting {
 
 static struct image draw(const struct setting *s)
 {
-    char text[2400];
+    char text[4400];
     snprintf(text, sizeof text,
              "{\"format\":\"fieldcast/1\",\"camera\":{%s},\"volumes\":[%s],\"lights\":[%s],"
              "\"render\":{\"antialiasing\":\"none\"%s},"
@@ -343,19 +343,81 @@ static void noise_fills_its_part(void **state)
     }
 }
 
+/* As many as there may be, at the highest level: drivers that count iterations of loops must not end
+ * one before all volumes are through. */
+static void many_volumes_and_lights(void **state)
+{
+    (void)state;
+    char volumes[1600] = "", lights[1600] = "";
+    for (int i = 0; i < LIMIT_VOLUMES; i++) {
+        const size_t used = strlen(volumes);
+        snprintf(volumes + used, sizeof volumes - used,
+                 "%s{\"type\":\"box\",\"size\":[9,9,%d],\"position\":[0,0,%d],\"falloff\":0,"
+                 "\"cover\":1,\"octaves\":6,\"color\":[0,0,0],\"density\":0.05}",
+                 i ? "," : "", 1 + i % 2, i / 2 - 2);
+    }
+    for (int i = 0; i < LIMIT_LIGHTS; i++) {
+        const size_t used = strlen(lights);
+        snprintf(lights + used, sizeof lights - used,
+                 "%s{\"type\":\"point\",\"position\":[0,%d,3]}", i ? "," : "", i);
+    }
+    assert_all(&(struct setting){.camera = along_z,
+                                 .volumes = volumes,
+                                 .lights = lights,
+                                 .around = 1,
+                                 .render = ",\"level\":\"final\""},
+               exp(-0.05 * 12), 0.01, "eight volumes, sixteen lights");
+}
+
+/* Only the first volume of a scene makes a program; numbers make none. */
+static void numbers_compile_nothing(void **state)
+{
+    (void)state;
+    static const char *const edits[] = {
+        "[{\"op\":\"insert\",\"into\":\"/volumes\",\"before\":null,"
+        "\"value\":{\"id\":\"a\",\"type\":\"box\",\"emission\":[1,1,1]}}]",
+        "[{\"op\":\"set\",\"at\":\"/volumes/a/source\",\"value\":\"field\"},"
+        "{\"op\":\"set\",\"at\":\"/volumes/a/type\",\"value\":\"sphere\"}]",
+        "[{\"op\":\"insert\",\"into\":\"/volumes\",\"before\":null,"
+        "\"value\":{\"type\":\"box\",\"position\":[1,0,0]}}]"};
+    struct scene *scene =
+        drawing_parse("{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"torus\"}}");
+    struct resident *resident = resident_create(renderer, scene, 1);
+    const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    struct image before = drawing_of(resident, &desc, AOV_COLOR);
+    for (int i = 0; i < 3; i++) {
+        const uint64_t compiled = renderer_counters(renderer).compilations;
+        cJSON *ops = cJSON_Parse(edits[i]);
+        assert_true(resident_edit(resident, ops, (uint64_t)i + 2, NULL));
+        cJSON_Delete(ops);
+        struct image after = drawing_of(resident, &desc, AOV_COLOR);
+        assert_false(drawing_is_same(&before, &after));
+        assert_int_equal(renderer_counters(renderer).compilations > compiled, i == 0);
+        image_finish(&before);
+        before = after;
+    }
+    image_finish(&before);
+    resident_destroy(resident);
+}
+
 /* Along the sides of boxes, on them, and through the middle of balls. */
 static void numbers_stay_numbers(void **state)
 {
     (void)state;
-    static const char *const places[] = {"[1,0,5]", "[1,1,5]", "[0,0,0]", "[0,1,0]", "[1,1,1]"};
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+    static const struct {
+        const char *place;
+        int height; /* 24: whole pixels, of which some are on the side of the third box */
+    } views[] = {{"[1,0,5]", 2}, {"[1,1,5]", 2}, {"[0,0,0]", 2}, {"[1,1,1]", 2}, {"[0,0,5]", 24}};
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         char camera[200];
-        snprintf(camera, sizeof camera,
-                 "\"type\":\"orthographic\",\"height\":2,\"position\":%s,\"target\":[1,1,-9]",
-                 places[i]);
+        snprintf(
+            camera, sizeof camera,
+            "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,\"target\":[%.1s,%.1s,-9]",
+            views[i].height, views[i].place, views[i].place + 1, views[i].place + 3);
         struct image image = draw(&(struct setting){
             .camera = camera,
-            .volumes = TWO_BOXES ",{\"type\":\"sphere\",\"density\":1000}",
+            .volumes = TWO_BOXES ",{\"type\":\"box\",\"size\":[3,3,3]},"
+                                 "{\"type\":\"sphere\",\"density\":1000}",
             .lights = LAMP("[0,0,-1]") "," LAMP("[0,-1,0]") ",{\"type\":\"point\","
                                                             "\"position\":[0,0,0]}",
             .around = 1,
@@ -379,6 +441,8 @@ int main(void)
         cmocka_unit_test(smoke_throws_shadows),
         cmocka_unit_test(density_by_field),
         cmocka_unit_test(noise_fills_its_part),
+        cmocka_unit_test(many_volumes_and_lights),
+        cmocka_unit_test(numbers_compile_nothing),
         cmocka_unit_test(numbers_stay_numbers),
     };
     return cmocka_run_group_tests_name("volumes", tests, set_up, tear_down);
