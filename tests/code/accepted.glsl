@@ -520,5 +520,6 @@ float sdf(vec3 p)
 float sdf(vec3 p)
 {
     float3 w = triplanar(p);
-    return dot(w, float3(1, 1, 1)) + w.y / w.x + 6.0 * triplanar(vec3(0)).z + triplanar(vec3(0, -9, 0)).y;
+    float even = 6.0 * triplanar(vec3(0)).z, along = triplanar(vec3(0, -9, 0)).y;
+    return dot(w, float3(1, 1, 1)) + w.y / w.x + even + along;
 }

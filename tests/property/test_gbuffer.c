@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Surfaces come out of the G-buffer as they went in, within what renderer/glsl/gbuffer.glsl says. */
+/* Surfaces come out of the G-buffer as they went in, within what glsl/gbuffer.glsl says. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
