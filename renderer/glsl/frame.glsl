@@ -28,7 +28,7 @@ struct Light {
     vec4 place;  /* xyz: direction towards the light, or position; w: LIGHT_... */
     vec4 color;  /* rgb times intensity; w: sharpness of the soft shadow */
     vec4 extent; /* x: radius, y: range (0: none), z: SHADOW_..., w: cosine of a cone's rim */
-    vec4 axis;   /* xyz: direction of a cone, of length 1; w: cosine where its light begins to fade */
+    vec4 axis;   /* xyz: direction of a cone, of length 1; w: cosine where light begins to fade */
 };
 
 struct Volume {
@@ -43,7 +43,7 @@ struct Volume {
 layout(std140, binding = 0) uniform Frame {
     vec4 eye;        /* w: 0 perspective, 1 orthographic */
     vec4 forward;    /* w: radius of a pixel: per unit of distance, or absolute if orthographic */
-    vec4 right;      /* half the width of the picture, at distance 1 if perspective; w: lens radius */
+    vec4 right;      /* half the picture's width, at distance 1 if perspective; w: lens radius */
     vec4 up;         /* half its height; w: distance in focus */
     vec4 bounds_min; /* nothing is outside of these; w: least distance along a ray */
     vec4 bounds_max; /* w: greatest distance along a ray */

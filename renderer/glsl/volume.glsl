@@ -24,8 +24,8 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
     return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
 }
 
-/* Sum of octaves, each with twice the frequency and half of the height of the one before, and turned
- * against it, so that the noise's cubes are not seen. */
+/* Sum of octaves, each with twice the frequency and half of the height of the one before, and
+ * turned against it, so that the noise's cubes are not seen. */
 float waves_at(vec3 p, int octaves, uint seed)
 {
     const mat3 turned = mat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;

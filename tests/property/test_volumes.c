@@ -412,7 +412,8 @@ static void numbers_stay_numbers(void **state)
         char camera[200];
         snprintf(
             camera, sizeof camera,
-            "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,\"target\":[%.1s,%.1s,-9]",
+            "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,"
+                 "\"target\":[%.1s,%.1s,-9]",
             views[i].height, views[i].place, views[i].place + 1, views[i].place + 3);
         struct image image = draw(&(struct setting){
             .camera = camera,
