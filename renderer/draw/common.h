@@ -9,6 +9,7 @@ enum common_pass {
     COMMON_CAMERA, /* first rays */
     COMMON_CLEAR,  /* light through clear things */
     COMMON_SHADE,  /* light along rays, and the rays that follow */
+    COMMON_PLAIN,  /* the same where nothing mirrors: a third of the time */
     COMMON_GATHER, /* samples to pixels */
     COMMON_EDGES,  /* which pixels are sampled again */
     COMMON_COUNT

@@ -44,6 +44,7 @@ struct frame_extent {
     double min[3], max[3];             /* may be infinite */
     double clear_min[3], clear_max[3]; /* of what light goes through */
     bool clear;                        /* whether there is any */
+    bool mirrors;                      /* something mirrors, or light goes through it */
     double scale;                      /* size of what is of interest; occlusion reaches a part */
     int loop_trips;                    /* loop iterations in one evaluation */
     bool limit_loops;                  /* the driver counts iterations: llvmpipe stops at 65,535 */

@@ -107,7 +107,8 @@ static void set_samples(struct draw_plan *plan, struct frame_block *block,
 static void set_effects(struct draw_plan *plan, struct frame_block *block,
                         const struct record *render, const struct quality *q, bool transparent)
 {
-    const bool rays = is_on(render, "reflections") || is_on(render, "refractions");
+    const bool rays =
+        plan->mirrors && (is_on(render, "reflections") || is_on(render, "refractions"));
     const int depth = q->ray_depth ? own_or(render, "ray_depth", q->ray_depth) : 0;
 
     block->effects[0] =
@@ -131,7 +132,7 @@ bool plan_make(struct draw_plan *out_plan, struct frame_block *block, const stru
     const int own = (int)record_number(render, "level");
     const enum quality_level level = (enum quality_level)(wish->level >= 0 ? wish->level : own);
     const struct quality *q = quality_row(level);
-    struct draw_plan plan = {.from_camera = wish->from_camera};
+    struct draw_plan plan = {.mirrors = extent->mirrors, .from_camera = wish->from_camera};
 
     set_samples(&plan, block, render, q, level, wish->samples);
     set_effects(&plan, block, render, q,

@@ -14,6 +14,7 @@ struct draw_plan {
     int rays;                       /* of a sample after the first; 0: none */
     int clear_depth;                /* surfaces that light goes through; 0: none */
     bool volumes;
+    bool mirrors;     /* something may mirror: else light is shaded by the simpler program */
     bool from_camera; /* one program and one sample, instead of passes */
 };
 

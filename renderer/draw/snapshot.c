@@ -101,11 +101,27 @@ static struct field *make_field(const struct scene *scene, struct error *err)
     return field;
 }
 
+/* Whether any material asks for rays. */
+static bool has_mirrors(const struct field *field)
+{
+    const size_t slots = field->material_count + 2; /* with the default and the floor's */
+
+    for (size_t i = 0; i < slots; i++) {
+        const float *material =
+            field->numbers + 4 * (field->material_base + i * field->material_stride);
+        if (material[FIELD_REFLECTIVITY] > 0 || material[FIELD_TRANSMISSION] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static struct frame_extent extent_of(const struct renderer *renderer, const struct field *field,
                                      const struct record *camera)
 {
     struct frame_extent extent = {.scale = scene_scale(camera),
                                   .clear = field->clear,
+                                  .mirrors = has_mirrors(field),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = renderer->info.software};
 

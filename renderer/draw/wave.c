@@ -169,7 +169,8 @@ static void add_light(struct wave *w, const struct round *round, bool last)
         mark(w, round, FRAME_VOLUME);
     }
     targets_bind_common(w->targets, w->gl, eye, eye);
-    run_common(w, COMMON_SHADE, round, 0, last, w->plan->volumes, !round->follows);
+    run_common(w, w->plan->mirrors ? COMMON_SHADE : COMMON_PLAIN, round, 0, last, w->plan->volumes,
+               !round->follows);
     mark(w, round, FRAME_SHADE);
 }
 

@@ -77,6 +77,7 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
 
     total.rgb += weight.rgb * light;
     total.w = first ? (hit ? 1.0 : 1.0 - air.a * smoke.a) : total.w;
+#ifndef PLAIN
     if (effects.y > 0) {
         vec3 kept = weight.rgb * ((1.0 - far) * air.a * smoke.a);
         float depth = weight.w + 1.0, sharp = leaving ? 1.0 : mirror_sharpness(s);
@@ -87,4 +88,5 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
         total.rgb += go_on(here, mirror, hit && w.mirror_ray, passing, hit && w.passing_ray, first,
                            last);
     }
+#endif
 }

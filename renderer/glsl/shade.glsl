@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Light at the end of a ray, out of what the passes before found; knows nothing of the field.
- * What of the lights arrives is read from where shadow_pass.glsl left it, unless SEEN_AT says. */
+ * PLAIN: nothing mirrors, and light goes through nothing. What of the lights arrives is read from where shadow_pass.glsl left it, unless SEEN_AT says. */
 
 #ifndef SEEN_AT
 layout(binding = 7) uniform sampler2DArray visibility;
@@ -48,9 +48,14 @@ Ways ways_at(Ray ray, vec3 n, Surface s, bool leaving, vec3 weight, bool deeper)
 vec3 surface_light(Ray ray, vec3 p, vec3 n, Surface s, Ways w, bool leaving, float open, ivec2 here)
 {
     vec3 view = -ray.direction;
+#ifdef PLAIN
+    vec3 passed = vec3(0.0), around = vec3(0.0);
+    float traced = 0.0;
+#else
     vec3 passed = w.passing_ray ? vec3(0.0) : w.passing * sky_mirrored(ray.direction, 0.0);
     float traced = w.mirror_ray ? (leaving ? 1.0 : mirror_sharpness(s)) : 0.0;
     vec3 around = sky_mirrored(w.mirrored, leaving ? 0.0 : roughness(s));
+#endif
     vec3 sum = s.emission + surroundings(s, n, view, open, sky_irradiance(n), around, traced);
 
     for (int i = zero; i < modes.x; i++) {
