@@ -1,20 +1,90 @@
 /* SPDX-License-Identifier: MIT */
 /* What of each light, and of the environment's, comes to a place of a surface. Whoever includes
- * this says where answers go: OPEN(part of the environment's light), before all SEEN(light, vec4
- * part). Things that light goes through throw no shadow here: clear_pass.glsl colours their light.
- */
+ * this says before where answers go: OPEN(part of the environment's light), then for each light
+ * SEEN(light, vec4(part in rgb, unused)). What light goes through throws no shadow here:
+ * clear_pass.glsl colours its light. */
 
 #define OCCLUSION_STRENGTH 0.9
 
-/* Where lines through two places before and two behind meet: xy of each is (1 / way, distance / way),
- * in which anything straight is a line. Past an edge of the field the least ratio is right there,
- * past anything round close to it. Beyond all where they do not meet between. */
+/* A ray on its way to a light. */
+struct Passage {
+    float far, print; /* its end; what counts as nothing */
+    float k;          /* sharpness of the shadow */
+    float x;          /* where the distance is wanted next */
+    float at, radius; /* the last place on its way, and the distance there */
+    float ahead;      /* the step that is tried */
+    float slope;      /* of the distance, for a hard shadow */
+    vec2 a, b, c;     /* the last three places, for a soft one: (1, distance) / way */
+    bool again;       /* x lies behind `at` */
+    float seen;       /* part of the light so far */
+};
+
+/* As if the surface were flat where the ray begins, `lift` above it. */
+Passage passage(float near, float far, float print, float k, float lambert, float lift)
+{
+    vec2 flat_there = vec2(0.0, lambert), higher = vec2(1.0, lift) / near;
+    return Passage(far, print, k, near, near, 0.0, 0.0, -1.0, flat_there + 4.0 * higher,
+                   flat_there + 3.0 * higher, flat_there + 2.0 * higher, false, 1.0);
+}
+
+/* Sphere tracing with stretched steps, as in march.glsl. False at the end. */
+bool hard_step(inout Passage s, float d)
+{
+    bool back = s.ahead > s.radius + abs(d);
+    s.slope = back ? -1.0 : s.ahead > 0.0 ? mix(s.slope, (d - s.radius) / s.ahead, 0.3) : s.slope;
+    s.at = back ? s.at : s.x;
+    s.radius = back ? s.radius : d;
+    s.seen = s.at <= s.far && s.radius < 0.05 * s.print ? 0.0 : 1.0;
+    s.ahead = max(back ? s.radius : s.radius * max(1.0, 2.0 / (1.0 - s.slope)), 0.5 * s.print);
+    s.x = s.at + s.ahead;
+    return s.seen > 0.0 && s.at <= s.far;
+}
+
+/* Out of steps: as if all went on as it went. */
+float hard_end(Passage s)
+{
+    return s.at <= s.far && s.radius + s.slope * (s.far - s.at) < 0.0 ? 0.0 : s.seen;
+}
+
+/* Where lines through two places before and two behind meet: xy of each is (1, distance) / way, in
+ * which anything straight is a line. Past an edge of the field the least ratio is right there, past
+ * anything round close to it. FAR up where they do not meet between. */
 vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
 {
     float fall = (b.y - a.y) / (b.x - a.x), rise = (d.y - c.y) / (d.x - c.x);
     float bend = fall - rise;
     float x = b.x + (b.y - c.y + rise * (c.x - b.x)) / min(-bend, -1e-9);
     return vec2(x, bend > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
+}
+
+/* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
+ * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow, so
+ * that nothing thin lets light through. Between two samples the ratio may be less than at both,
+ * which showed as rings: where it seems to turn the ray looks again. False at the end. */
+bool soft_step(inout Passage s, float d)
+{
+    vec2 now = vec2(1.0, d) / s.x, turn = turning_point(s.a, s.b, s.c, now);
+    bool inside = s.x <= s.far;
+    s.seen = inside ? min(s.seen, s.k * now.y) : s.seen;
+    bool dark = inside && (d < 0.05 * s.print || s.seen < 0.01);
+    bool back = !s.again && s.k * turn.y < 0.99 * s.seen && turn.x * s.far > 1.0;
+
+    s.seen = dark ? 0.0 : s.seen;
+    if (!s.again) {
+        /* Finer than the disc where it matters; things much smaller do not. */
+        float least = (0.3 + 30.0 * s.print / (s.x + 30.0 * s.print)) * s.x / s.k;
+        s.ahead = max(d * clamp(0.25 * s.k * now.y, 0.5, 1.0), max(0.5 * s.print, least));
+        s.a = s.b;
+        s.b = s.c;
+        s.c = now;
+    }
+    bool on = !dark && (s.at <= s.far || back);
+    float next = s.at + s.ahead;
+    next = s.at < s.far ? min(next, s.far) : next;
+    s.x = back ? 1.0 / turn.x : next;
+    s.at = back ? s.at : next;
+    s.again = back;
+    return on;
 }
 
 /* Distance of occlusion sample i, 0 and up: dense near the surface. */
@@ -25,15 +95,8 @@ float occlusion_place(int i, float start)
 }
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
- * once.
- *
- * Occlusion: how much less than the distance from the surface the field is along the normal (Evans:
- * Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006).
- *
- * Shadow: sphere tracing to the light. A soft one follows from the least ratio of distance to way
- * (Quilez: Soft shadows in raymarched SDFs, 2010): of 1 / sharpness and more, all of the light's
- * disc is free. It is dark within the hard one, so that nothing thin lets light through. A ray that
- * runs out of steps is taken to go on as it went. */
+ * once. Occlusion is how much less than the distance from the surface the field is along the normal
+ * (Evans: Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006). */
 void look(vec3 p, vec3 n, float print, bool hit)
 {
     float near = 2.0 * print, lift = 1.5 * print, open = 1.0;
@@ -42,56 +105,40 @@ void look(vec3 p, vec3 n, float print, bool hit)
     for (int round = zero - 1; round < modes.x; round++) {
         bool outward = round < 0;
         Light light = lights[max(round, 0)];
-        Incoming ray_in = incoming(light, p);
+        Incoming comes = incoming(light, p);
         int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
-        float lambert = dot(n, ray_in.direction), k = kind == SHADOW_SOFT ? light.color.w : FAR;
-        vec3 along = outward ? n : ray_in.direction;
-        vec3 base = outward ? p : p + n * lift;
-        float far = min(min(ray_in.reach - light.extent.x, bounds_max.w), bounds_span(base, along).y);
-        bool lit = lambert > 0.0 && any(greaterThan(ray_in.color, vec3(0.0)));
+        float lambert = dot(n, comes.direction);
+        vec3 along = outward ? n : comes.direction, base = outward ? p : p + n * lift;
+        float far = min(comes.reach - light.extent.x, bounds_span(base, along).y);
+        bool lit = lambert > 0.0 && any(greaterThan(comes.color, vec3(0.0)));
         int steps = outward ? effects.x : lit && kind != SHADOW_NONE && far > near ? modes.w : 0;
+        Passage s = passage(near, min(far, bounds_max.w), print, light.color.w, lambert, lift);
         float x = outward ? occlusion_place(0, near) : near;
         float dark = 0.0, weight = 1.0, weights = 0.0;
-        float least = 1.0, stride = 0.0, at = x;
-        /* As if the surface were flat where the ray begins. */
-        vec2 seen0 = vec2(4.0, lambert * near + 4.0 * lift) / near;
-        vec2 seen1 = vec2(3.0, lambert * near + 3.0 * lift) / near;
-        vec2 seen2 = vec2(2.0, lambert * near + 2.0 * lift) / near;
-        bool again = false;
 
         steps = hit ? steps : 0;
         for (int i = zero; i < steps; i++) {
             float d = map(base + along * x);
-            dark += weight * clamp(1.0 - d / x, 0.0, 1.0);
-            weights += weight;
-            weight *= 0.75;
-
-            vec2 seen = vec2(1.0, d) / x, turn = turning_point(seen0, seen1, seen2, seen);
-            least = x > far ? least : min(least, k * seen.y);
-            bool blocked = x <= far && (d < 0.05 * print || least < 0.01);
-            least = blocked ? 0.0 : least;
-            bool back = !again && !outward && k * turn.y < 0.99 * least && turn.x * far > 1.0;
-            if (!outward && (blocked || (at > far && !back))) {
-                break;
+            if (outward) {
+                dark += weight * clamp(1.0 - d / x, 0.0, 1.0);
+                weights += weight;
+                weight *= 0.75;
+                x = occlusion_place(i + 1, near);
+            } else {
+                bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, d);
+                x = s.x;
+                if (!on) {
+                    break;
+                }
             }
-            if (!again) {
-                stride = max(d * clamp(0.25 * k * seen.y, 0.5, 1.0), 0.5 * print);
-                seen0 = seen1;
-                seen1 = seen2;
-                seen2 = seen;
-            }
-            float next = at < far ? min(at + stride, far) : at + stride;
-            next = outward ? occlusion_place(i + 1, near) : next;
-            x = back ? 1.0 / turn.x : next;
-            at = back ? at : x;
-            again = back;
         }
-        float shade = lit ? least * least * (3.0 - 2.0 * least) : 0.0;
         if (outward) {
             open = 1.0 - OCCLUSION_STRENGTH * dark / max(weights, 1.0);
             OPEN(open);
         } else {
-            SEEN(round, vec4(vec3(shade), open));
+            float seen = kind == SHADOW_HARD ? hard_end(s) : s.seen;
+            seen = kind == SHADOW_NONE ? 1.0 : lit ? seen * seen * (3.0 - 2.0 * seen) : 0.0;
+            SEEN(round, vec4(vec3(seen), open));
         }
     }
 }
