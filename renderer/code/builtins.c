@@ -438,7 +438,8 @@ const struct builtin builtin_table[] = {
     /* 0 in the first half of each unit, 1 in the second. */
     {"stripes", FAMILY_FLOAT, 1, .weight = 2, .glsl = "code_stripes", .one = pattern_stripes},
     /* How much of each of three patterns along X, Y and Z a surface shows; 1 in all. */
-    {"triplanar", FAMILY_CROSS, 1, .weight = 4, .glsl = "code_triplanar", .whole = pattern_triplanar},
+    {"triplanar", FAMILY_CROSS, 1, .weight = 4, .glsl = "code_triplanar",
+     .whole = pattern_triplanar},
     {.name = NULL},
     /* clang-format on */
 };
