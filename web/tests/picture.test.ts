@@ -120,7 +120,7 @@ test("the focus is a distance along the view, not along the ray", () => {
     expect(app.stores.view.getState().aiming).toBe(true);
     const camera = { position: [0, 0, 5], target: [0, 0, 0] } as const;
     app.stores.camera.setState((state) => ({ camera: { ...state.camera, ...camera } }));
-    focusOn(app, [3, 4, 1]);
+    focusOn(app, [3, 2, 1]);
     expect(app.edit).toHaveBeenCalledWith([{ op: "set", at: "/camera/focus", value: 4 }], {
         label: "focus",
     });
