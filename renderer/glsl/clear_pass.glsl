@@ -59,9 +59,9 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
         weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * s.diffuse;
     }
     if (through_it && turn.z == 1) {
-        float off = 2.0 * footprint(ray, t) + t;
-        Ray next = Ray(ray.origin + ray.direction * off, ray.direction, ray.way, !leaving);
-        send(here, next, vec4(weight.rgb, left - off), leaving ? vec3(0.0) : s.absorption);
+        vec3 p = ray.origin + ray.direction * t - g.xyz * (0.75 * footprint(ray, t));
+        Ray next = Ray(p, ray.direction, ray.way, !leaving);
+        send(here, next, vec4(weight.rgb, left - t), leaving ? vec3(0.0) : s.absorption);
     } else {
         vec4 arrives = imageLoad(seen, ivec3(here, turn.y));
         imageStore(seen, ivec3(here, turn.y), vec4(arrives.rgb * weight.rgb, arrives.a));

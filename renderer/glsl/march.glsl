@@ -53,7 +53,8 @@ Hit march(Ray ray, float start, float cone, int most)
                 continue;
             }
             taken++;
-            solid = d < out_there;
+            /* Where both are, the solid one is seen, not some of each. */
+            solid = d < out_there + 0.5 * footprint(ray, t);
             d = min(d, out_there);
             bool back = ahead > radius + abs(d);
             slope = back ? -1.0 : ahead > 0.0 ? mix(slope, (d - radius) / ahead, 0.3) : slope;

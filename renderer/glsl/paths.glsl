@@ -2,12 +2,12 @@
 /* What the light of a sample's ray adds to the sample, and which rays it goes on with. Where these
  * are kept is for stack.glsl, or forward.glsl. */
 
-/* A ray from the surface on, a little off it. */
+/* A ray from the surface on, a little off it; less on the way through, where it may be thin. */
 Waiting ray_off(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, vec4 weight,
                 vec3 medium)
 {
-    float off = 2.0 * footprint(ray, t);
-    vec3 origin = p + n * (dot(n, direction) < 0.0 ? -off : off);
+    float off = dot(n, direction) < 0.0 ? -0.75 : 2.0;
+    vec3 origin = p + n * (off * footprint(ray, t));
     return Waiting(vec4(origin, ray.way + t), vec4(direction, inside ? 1.0 : 0.0), weight,
                    vec4(medium, 0.0));
 }
