@@ -70,6 +70,42 @@ struct image drawing_of(struct resident *resident, const struct job_desc *desc, 
     return image;
 }
 
+struct drawing drawing_outputs(struct renderer *renderer, struct resident *resident,
+                               const struct job_desc *desc)
+{
+    struct drawing drawing = {0};
+    size_t filled[AOV_COUNT] = {0};
+    struct job *job = job_create(resident, desc, NULL);
+
+    assert_non_null(job);
+    for (int aov = 0; aov < AOV_COUNT; aov++) {
+        drawing.of[aov] = job_image_shape(job, (enum aov)aov);
+        drawing.of[aov].pixels = calloc(1, drawing.of[aov].bytes);
+    }
+    for (enum job_state state; (state = job_step(job)) != JOB_DONE;) {
+        assert_int_not_equal(state, JOB_FAILED);
+        renderer_poll(renderer, state == JOB_WAITING ? 100 : 0);
+        for (int aov = 0; state == JOB_ROWS && aov < AOV_COUNT; aov++) {
+            if (desc->aovs[aov]) {
+                struct image rows = job_take_rows(job, (enum aov)aov);
+                assert_true(filled[aov] + rows.bytes <= drawing.of[aov].bytes);
+                memcpy((uint8_t *)drawing.of[aov].pixels + filled[aov], rows.pixels, rows.bytes);
+                filled[aov] += rows.bytes;
+                image_finish(&rows);
+            }
+        }
+    }
+    job_destroy(job);
+    return drawing;
+}
+
+void drawing_finish(struct drawing *drawing)
+{
+    for (int aov = 0; aov < AOV_COUNT; aov++) {
+        image_finish(&drawing->of[aov]);
+    }
+}
+
 bool drawing_is_same(const struct image *a, const struct image *b)
 {
     return a->bytes == b->bytes && memcmp(a->pixels, b->pixels, a->bytes) == 0;

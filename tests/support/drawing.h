@@ -18,6 +18,13 @@ struct resident *drawing_resident(struct renderer *renderer, const char *path);
 struct job_desc drawing_desc(int width, int height);
 /* One output, of the newest revision. `desc` says the rest. */
 struct image drawing_of(struct resident *resident, const struct job_desc *desc, enum aov aov);
+/* All outputs that `desc` asks for, drawn at once; the others stay empty. */
+struct drawing {
+    struct image of[AOV_COUNT];
+};
+struct drawing drawing_outputs(struct renderer *renderer, struct resident *resident,
+                               const struct job_desc *desc);
+void drawing_finish(struct drawing *drawing);
 bool drawing_is_same(const struct image *a, const struct image *b);
 
 #endif
