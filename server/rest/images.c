@@ -2,7 +2,6 @@
 /* Pictures over HTTP: of a scene, of an example, of a document sent along. All become the same
  * order to the worker. */
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

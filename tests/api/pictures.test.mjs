@@ -115,12 +115,17 @@ describe('outputs', () => {
     });
 
     test('are shown live as they are sent', async () => {
+        const { stages } = (await ask(daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
         const live = await Live.open(daemon, 's');
         for (const { name } of outputs.filter(({ picture: shown }) => shown)) {
             const from = live.frames.length;
             live.look({ width: WIDTH, height: HEIGHT, aov: name });
             const frame = await live.nextFrame(({ lossless }) => lossless, from);
             assert.equal(frame.version, 2);
+            assert.equal(frame.stagesUs.length, stages.length);
+            for (const stage of ['march', 'resolve', 'encode']) {
+                assert.ok(frame.stagesUs[stages.findIndex((one) => one.name === stage)] > 0, stage);
+            }
             assert.equal(frame.codec, 'png');
             const [shown, asked] = [decodePng(frame.payload), decodePng(await picture(`&aov=${name}`))];
             assert.ok(shown.pixels.equals(asked.pixels), name);
