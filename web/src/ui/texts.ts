@@ -2,7 +2,6 @@
 /* Every text of the page that is not in the schema, a command or the model's own table. */
 const texts = {
     "app.name": "fieldcast",
-    "app.loading": "Opening {scene} …",
     "app.failed": "The page met an error and stopped.",
     "app.reload": "Reload",
 
@@ -24,7 +23,6 @@ const texts = {
     "bar.untitled": "Untitled",
     "bar.add": "Add",
     "bar.search": "Search or run a command",
-    "bar.menu": "Scene menu",
     "bar.theme": "Theme: {theme}",
     "bar.downloadJson": "Download JSON",
     "bar.downloadPicture": "Download a picture …",
@@ -89,7 +87,6 @@ const texts = {
     "resource.more": "Actions for {name}",
     "resource.duplicate": "Duplicate",
     "resource.remove": "Delete",
-    "resource.rename": "Rename",
     "resource.kept": "It stays: {reason}.",
     "resource.users": "{count} uses",
     "resource.users.one": "1 use",
@@ -246,7 +243,6 @@ const texts = {
     "view.hintDrag": "Drag to look around",
     "view.hintClick": "Click a shape to select it",
     "view.aim": "Click what is to be sharp. Esc leaves it.",
-    "view.noLink": "Connecting …",
 
     "state.none": "waiting for the first frame",
     "state.moving": "moving {percent} %",
@@ -261,7 +257,6 @@ const texts = {
     "state.softwareDoc": "No GPU is in use: {name}. Pictures are right but slow.",
 
     "output.menu": "Output shown: {name}",
-    "output.titles": "Show",
     "output.back": "Back to the colours",
     "output.show": "Show {name}",
     "quality.auto": "Quality: automatic",
@@ -290,7 +285,6 @@ const texts = {
     "stats.dropped": "Frames given up",
     "stats.copy": "Copy as JSON",
 
-    "link.connecting": "connecting …",
     "link.offline": "Offline",
     "link.offlineWaiting": "Offline, {count} edits waiting",
     "link.offlineWaiting.one": "Offline, 1 edit waiting",
