@@ -57,6 +57,16 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
     return vec2(x, bend > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
 }
 
+/* The least of a parabola through three places, if it is between the outer two. */
+float lowest(vec2 a, vec2 b, vec2 c)
+{
+    float fall = (b.y - a.y) / (b.x - a.x), rise = (c.y - b.y) / (c.x - b.x);
+    float curve = (rise - fall) / (c.x - a.x);
+    float x = 0.5 * (a.x + b.x - fall / max(curve, 1e-9));
+    bool between = curve > 1e-9 && x < a.x && x > c.x;
+    return between ? a.y + (x - a.x) * (fall + curve * (x - b.x)) : b.y;
+}
+
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
  * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow, so
  * that nothing thin lets light through. Between two samples the ratio may be less than at both,
@@ -64,16 +74,17 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
 bool soft_step(inout Passage s, float d)
 {
     vec2 now = vec2(1.0, d) / s.x, turn = turning_point(s.a, s.b, s.c, now);
+    float least = s.again ? lowest(s.a, now, s.b) : now.y;
     bool inside = s.x <= s.far;
-    s.seen = inside ? min(s.seen, s.k * now.y) : s.seen;
+    s.seen = inside ? min(s.seen, s.k * least) : s.seen;
     bool dark = inside && (d < 0.05 * s.print || s.seen < 0.01);
     bool back = !s.again && s.k * turn.y < 0.99 * s.seen && turn.x * s.far > 1.0;
 
     s.seen = dark ? 0.0 : s.seen;
     if (!s.again) {
         /* Finer than the disc where it matters; things much smaller do not. */
-        float least = (0.3 + 30.0 * s.print / (s.x + 30.0 * s.print)) * s.x / s.k;
-        s.ahead = max(d * clamp(0.25 * s.k * now.y, 0.5, 1.0), max(0.5 * s.print, least));
+        float disc = s.x / s.k, coarse = 0.3 + 30.0 * s.print / (s.x + 30.0 * s.print);
+        s.ahead = max(d * clamp(0.25 * d / disc, 0.5, 1.0), max(0.5 * s.print, coarse * disc));
         s.a = s.b;
         s.b = s.c;
         s.c = now;
@@ -96,7 +107,8 @@ float occlusion_place(int i, float start)
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
  * once. Occlusion is how much less than the distance from the surface the field is along the normal
- * (Evans: Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006). */
+ * (Evans: Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006). The rays
+ * of soft shadows go on beyond the bounds, as far as these may still cover a part of the disc. */
 void look(vec3 p, vec3 n, float print, bool hit)
 {
     float near = 2.0 * print, lift = 1.5 * print, open = 1.0;
@@ -109,10 +121,12 @@ void look(vec3 p, vec3 n, float print, bool hit)
         int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
         float lambert = dot(n, comes.direction);
         vec3 along = outward ? n : comes.direction, base = outward ? p : p + n * lift;
-        float far = min(comes.reach - light.extent.x, bounds_span(base, along).y);
+        float room = kind == SHADOW_SOFT ? bounds_span(base, along).y / light.color.w : 0.0;
+        float leaves = box_span(bounds_min.xyz - room, bounds_max.xyz + room, base, along).y;
+        float far = min(min(comes.reach - light.extent.x, leaves), bounds_max.w);
         bool lit = lambert > 0.0 && any(greaterThan(comes.color, vec3(0.0)));
         int steps = outward ? effects.x : lit && kind != SHADOW_NONE && far > near ? modes.w : 0;
-        Passage s = passage(near, min(far, bounds_max.w), print, light.color.w, lambert, lift);
+        Passage s = passage(near, far, print, light.color.w, lambert, lift);
         float x = outward ? occlusion_place(0, near) : near;
         float dark = 0.0, weight = 1.0, weights = 0.0;
 
