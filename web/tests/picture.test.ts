@@ -17,11 +17,13 @@ import {
     grouped,
     matters,
     outputsShown,
+    type Param,
     readSchema,
     type Values,
 } from "../src/model/schema.ts";
 import { createStores, type Storage } from "../src/model/stores.ts";
 import { readHdr } from "../src/ui/fields/thumbnail.ts";
+import { conditionOf } from "../src/ui/reference/topics.ts";
 
 const SCHEMA = readSchema({
     nodes: [],
@@ -71,6 +73,16 @@ test("a row matters where its condition holds, and what that hangs on matters", 
         value: 0,
         not: true,
     });
+});
+
+test("conditions are told in words", () => {
+    const told = (name: string) => conditionOf(findParam(SCHEMA.environment, name) as Param);
+    expect(["type", "zenith", "fog_base", "floor_color"].map(told)).toEqual([
+        "",
+        "type is sky",
+        "fog height is not 0",
+        "floor is yes",
+    ]);
 });
 
 /* --- the output shown --- */

@@ -11,7 +11,7 @@ import { Button } from "../parts/Button.tsx";
 import { Glyph } from "../parts/Glyph.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { defaultOf, rangeOf, type Topic, topicsOf, typeOf } from "./topics.ts";
+import { conditionOf, defaultOf, rangeOf, type Topic, topicsOf, typeOf } from "./topics.ts";
 import "./reference.css";
 
 export function Reference({ field }: { field: RefObject<HTMLInputElement | null> }) {
@@ -172,6 +172,7 @@ function Page({ topic }: { topic: Topic }) {
                                 <Fact name={t("reference.type")} value={typeOf(param)} />
                                 <Fact name={t("rows.default")} value={defaultOf(param)} />
                                 <Fact name={t("rows.range")} value={rangeOf(param)} />
+                                <Fact name={t("reference.when")} value={conditionOf(param)} />
                             </dl>
                         </section>
                     ))}

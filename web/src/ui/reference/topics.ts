@@ -2,7 +2,7 @@
 /* What the reference tells: every row of the schema's tables, and how a parameter is put in words. */
 import type { Param, Schema, TypeRow, Value } from "../../model/schema.ts";
 import { isAngle, printInUnit } from "../../model/units.ts";
-import { typeTitle } from "../names.ts";
+import { typeTitle, words } from "../names.ts";
 import { groupTitle } from "../palettes/additions.ts";
 import { type TextKey, t } from "../texts.ts";
 
@@ -119,4 +119,14 @@ export function rangeOf(param: Param): string {
         param.direction ? t("reference.direction") : "",
     ];
     return parts.filter(Boolean).join(", ");
+}
+
+/* When a row matters: "type is sky"; "" where it always does. */
+export function conditionOf({ when }: Param): string {
+    if (when === null) {
+        return "";
+    }
+    const { name, value, not } = when;
+    const what = typeof value === "boolean" ? t(`reference.${value ? "yes" : "no"}`) : value;
+    return t(not ? "reference.isNot" : "reference.is", { name: words(name), value: String(what) });
 }
