@@ -259,25 +259,39 @@ static bool measure_way(struct renderer *renderer, struct resident *resident,
     return ok;
 }
 
-/* Both ways to the same picture: passes over what the rays met, and one program from the camera to
- * the light. */
+/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and one
+ * program from the camera to the light. */
+static bool compare_ways(struct renderer *renderer, struct resident *resident,
+                         const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+{
+    struct job_desc way = *desc;
+    cJSON *passes = cJSON_CreateObject(), *at_once = cJSON_CreateObject();
+    way.level = QUALITY_STILL;
+    way.samples = 1;
+    bool ok = measure_way(renderer, resident, &way, rounds, passes, err);
+    way.from_camera = true;
+    ok = ok && measure_way(renderer, resident, &way, rounds, at_once, err);
+    if (ok) {
+        bench_add(row, "by_passes_ms", number_in(passes, "ms"));
+        bench_add(row, "from_camera_ms", number_in(at_once, "ms"));
+        bench_add(row, "from_camera_ratio", number_in(at_once, "ms") / number_in(passes, "ms"));
+    }
+    cJSON_Delete(passes);
+    cJSON_Delete(at_once);
+    return ok;
+}
+
 static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
                            const struct job_desc *desc, int rounds, struct error *err)
 {
-    struct job_desc at_once = *desc;
-    cJSON *row = cJSON_CreateObject(), *other = cJSON_CreateObject();
-    at_once.from_camera = true;
+    cJSON *row = cJSON_CreateObject();
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    if (measure_way(renderer, resident, desc, rounds, row, err) &&
-        measure_way(renderer, resident, &at_once, rounds, other, err)) {
-        bench_add(row, "from_camera_ms", number_in(other, "ms"));
-        bench_add(row, "from_camera_by_passes", number_in(other, "ms") / number_in(row, "ms"));
-    } else {
+    if (!measure_way(renderer, resident, desc, rounds, row, err) ||
+        !compare_ways(renderer, resident, desc, rounds, row, err)) {
         cJSON_Delete(row);
-        row = NULL;
+        return NULL;
     }
-    cJSON_Delete(other);
     return row;
 }
 

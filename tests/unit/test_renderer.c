@@ -243,6 +243,29 @@ static void test_outputs_together(void **state)
     resident_destroy(resident);
 }
 
+/* One program for everything gives what the passes give, but for how the compilers round. */
+static void test_both_ways(void **state)
+{
+    struct resident *resident = make_resident(document);
+    struct job_desc desc = usual;
+    struct image passes, at_once;
+    int different = 0;
+
+    (void)state;
+    desc.samples = 1;
+    passes = draw(resident, &desc);
+    desc.from_camera = true;
+    at_once = draw(resident, &desc);
+    assert_int_equal(passes.bytes, at_once.bytes);
+    for (size_t i = 0; i < passes.bytes; i++) {
+        different += abs(((uint8_t *)passes.pixels)[i] - ((uint8_t *)at_once.pixels)[i]) > 2;
+    }
+    assert_in_range(different, 0, passes.bytes / 500);
+    image_finish(&passes);
+    image_finish(&at_once);
+    resident_destroy(resident);
+}
+
 static void test_pictures_are_not_torn(void **state)
 {
     struct resident *resident = make_resident(document);
@@ -525,6 +548,7 @@ int main(void)
         cmocka_unit_test(test_edits_and_back),
         cmocka_unit_test(test_numbers_compile_nothing),
         cmocka_unit_test(test_outputs_together),
+        cmocka_unit_test(test_both_ways),
         cmocka_unit_test(test_pictures_are_not_torn),
         cmocka_unit_test(test_old_picture_while_compiling),
         cmocka_unit_test(test_cancel),
