@@ -57,16 +57,6 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
     return vec2(x, bend > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
 }
 
-/* The least of a parabola through three places, if it is between the outer two. */
-float lowest(vec2 a, vec2 b, vec2 c)
-{
-    float fall = (b.y - a.y) / (b.x - a.x), rise = (c.y - b.y) / (c.x - b.x);
-    float curve = (rise - fall) / (c.x - a.x);
-    float x = 0.5 * (a.x + b.x - fall / max(curve, 1e-9));
-    bool between = curve > 1e-9 && x < a.x && x > c.x;
-    return between ? a.y + (x - a.x) * (fall + curve * (x - b.x)) : b.y;
-}
-
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
  * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow, so
  * that nothing thin lets light through. Between two samples the ratio may be less than at both,
@@ -74,9 +64,8 @@ float lowest(vec2 a, vec2 b, vec2 c)
 bool soft_step(inout Passage s, float d)
 {
     vec2 now = vec2(1.0, d) / s.x, turn = turning_point(s.a, s.b, s.c, now);
-    float least = s.again ? lowest(s.a, now, s.b) : now.y;
     bool inside = s.x <= s.far;
-    s.seen = inside ? min(s.seen, s.k * least) : s.seen;
+    s.seen = inside ? min(s.seen, s.k * now.y) : s.seen;
     bool dark = inside && (d < 0.05 * s.print || s.seen < 0.01);
     bool back = !s.again && s.k * turn.y < 0.99 * s.seen && turn.x * s.far > 1.0;
 
