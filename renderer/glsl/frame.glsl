@@ -77,7 +77,8 @@ uniform ivec4 turn;
 /* Where a ray is inside of a box: entry and exit; exit < entry where it misses it. */
 vec2 box_span(vec3 low, vec3 high, vec3 origin, vec3 direction)
 {
-    vec3 inverse = 1.0 / direction;
+    /* Along a side, and on it, 0 times infinity would be no number. */
+    vec3 inverse = 1.0 / mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
     vec3 a = (low - origin) * inverse;
     vec3 b = (high - origin) * inverse;
     vec3 near = min(a, b), far = max(a, b);

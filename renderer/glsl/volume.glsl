@@ -14,9 +14,7 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
 {
     vec3 from = origin - volume.place.xyz;
     if (int(volume.place.w) == VOLUME_BOX) {
-        /* Along a side, and on it, 0 / 0 would be no number. */
-        vec3 along = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
-        return box_span(-volume.extent.xyz, volume.extent.xyz, from, along);
+        return box_span(-volume.extent.xyz, volume.extent.xyz, from, direction);
     }
     float middle = -dot(from, direction);
     vec3 aside = from + middle * direction;
@@ -104,15 +102,21 @@ float phase(float cosine, float g)
 /* The way from a place towards a lamp. */
 struct Walk {
     float first, last; /* all smoke is between these */
-    float end;         /* no farther on is anything that keeps the light off; < 0: no lamp */
+    float end;         /* no farther on is anything that keeps the light off */
     float longest;     /* step in smoke */
-    float sharpness;   /* of the scene's shadow; 0: it throws none */
+    float sharpness;   /* of the scene's shadow; 0: none is looked for */
 };
+
+/* How sharp a lamp's shadows are in the air; 0: it throws none. */
+float shadow_sharpness(Light light)
+{
+    int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
+    return kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+}
 
 Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
 {
-    int kind = on_surface || (effects.z & EFFECT_SHADOWS) == 0 ? SHADOW_NONE : int(light.extent.z);
-    float sharpness = kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+    float sharpness = on_surface ? 0.0 : shadow_sharpness(light);
     Crossing smoke = crossing(p, lamp.direction, 0.0, 0.0);
     float last = min(smoke.last, lamp.reach), first = smoke.inside ? 0.0 : min(smoke.next, last);
     /* Just inside of the rim the density is that of the inside. */
@@ -166,7 +170,7 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
         }
         float left = exp(-depth);
         open = max(open, 0.0);
-        if (on_surface && i < modes.x) {
+        if (on_surface && i < modes.x && shadow_sharpness(lights[i]) > 0.0) {
             DIMMED(i, left);
         }
         sum += i < modes.x ? lamp.color * left * open * open * (3.0 - 2.0 * open) *

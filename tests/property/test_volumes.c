@@ -293,6 +293,13 @@ static void smoke_throws_shadows(void **state)
     }
     image_finish(&clear);
     image_finish(&dim);
+    s.render = ",\"shadows\":false";
+    dim = draw(&s);
+    s.volumes = "";
+    clear = draw(&s);
+    assert_true(drawing_is_same(&dim, &clear));
+    image_finish(&clear);
+    image_finish(&dim);
 }
 
 static double mean_of(const struct setting *s)
@@ -410,11 +417,10 @@ static void numbers_stay_numbers(void **state)
     } views[] = {{"[1,0,5]", 2}, {"[1,1,5]", 2}, {"[0,0,0]", 2}, {"[1,1,1]", 2}, {"[0,0,5]", 24}};
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         char camera[200];
-        snprintf(
-            camera, sizeof camera,
-            "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,"
+        snprintf(camera, sizeof camera,
+                 "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,"
                  "\"target\":[%.1s,%.1s,-9]",
-            views[i].height, views[i].place, views[i].place + 1, views[i].place + 3);
+                 views[i].height, views[i].place, views[i].place + 1, views[i].place + 3);
         struct image image = draw(&(struct setting){
             .camera = camera,
             .volumes = TWO_BOXES ",{\"type\":\"box\",\"size\":[3,3,3]},"
