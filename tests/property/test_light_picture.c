@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "tests/support/compiled.h"
 #include "tests/support/drawing.h"
 
 static struct renderer *renderer;
@@ -164,6 +165,78 @@ static void soft_shadow_has_no_rings(void **state)
     print_message("soft shadow: off by %.4f at most\n", most);
 }
 
+/* --- fields that are no distances --- */
+
+/* A bowl cut out of an egg, things grown together, a bump that is only a bound. */
+static const char still_life[] =
+    "{\"format\": \"fieldcast/1\", \"camera\": {\"type\": \"orthographic\", \"height\": 3,"
+    " \"position\": [1, 5, 4], \"target\": [0, 0.3, 0]}, \"lights\": [{\"type\":"
+    " \"directional\", \"direction\": [-0.6, -0.64, 0.48], \"size\": 7}],"
+    " \"render\": {\"level\": \"final\"},"
+    " \"root\": {\"type\": \"union\", \"children\": [{\"type\": \"plane\"},"
+    " {\"type\": \"difference\", \"transform\": {\"translation\": [-0.8, 0.25, 0.3]},"
+    " \"children\": [{\"type\": \"ellipsoid\", \"params\": {\"radii\": [0.7, 0.25, 0.5]}},"
+    " {\"type\": \"ellipsoid\", \"params\": {\"radii\": [0.6, 0.3, 0.4]},"
+    " \"transform\": {\"translation\": [0, 0.2, 0]}}]},"
+    " {\"type\": \"smooth_union\", \"params\": {\"k\": 0.3}, \"children\": ["
+    "{\"type\": \"box\", \"params\": {\"size\": [0.5, 0.5, 0.5]},"
+    " \"transform\": {\"translation\": [0.6, 0.25, 0]}}, {\"type\": \"torus\","
+    " \"transform\": {\"translation\": [0.7, 0.3, 0.5]}}]},"
+    " {\"type\": \"displace\", \"params\": {\"amplitude\": 0.03, \"frequency\": [12, 12, 12]},"
+    " \"transform\": {\"translation\": [0.1, 0.4, -0.7]}, \"children\": ["
+    "{\"type\": \"sphere\", \"params\": {\"radius\": 0.4}}]}]}}";
+
+/* The same as soft_shadow, of any field. */
+static double field_shadow(const struct field *field, const double from[3])
+{
+    static const double light[3] = {0.6, 0.64, -0.48};
+    double least = 1;
+
+    for (double way = 0.02; way < 6 && least > 0; way *= 1.004) {
+        double p[3];
+        for (int i = 0; i < 3; i++) {
+            p[i] = from[i] + way * light[i];
+        }
+        least = fmin(least, 7 * field_distance(field, p) / way);
+    }
+    least = fmax(least, 0);
+    return least * least * (3 - 2 * least);
+}
+
+static void soft_shadows_of_any_field_have_no_rings(void **state)
+{
+    enum { WIDTH = 120, HEIGHT = 90 };
+    struct image places = draw(still_life, WIDTH, HEIGHT, AOV_POSITION);
+    struct image normals = draw(still_life, WIDTH, HEIGHT, AOV_NORMAL);
+    struct image image = draw(still_life, WIDTH, HEIGHT, AOV_SHADOW);
+    struct scene *scene = drawing_parse(still_life);
+    struct field *field = compile_field(scene);
+    int lit = 0, off = 0;
+
+    (void)state;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        const double normal[3] = {value(&normals, x, y, 0), value(&normals, x, y, 1),
+                                  value(&normals, x, y, 2)};
+        double from[3];
+        for (int j = 0; j < 3; j++) {
+            from[j] = value(&places, x, y, j) + 0.75 * 3 / HEIGHT * normal[j];
+        }
+        if (0.6 * normal[0] + 0.64 * normal[1] - 0.48 * normal[2] > 0.1) {
+            const double error = fabs(value(&image, x, y, 0) - field_shadow(field, from));
+            lit++;
+            off += error > 0.03;
+        }
+    }
+    image_finish(&image);
+    image_finish(&normals);
+    image_finish(&places);
+    field_unref(field);
+    scene_destroy(scene);
+    print_message("soft shadows: %d of %d off by more than 0.03\n", off, lit);
+    assert_true(lit > 6000 && off * 200 <= lit);
+}
+
 /* --- the environment --- */
 
 static void open_ground_is_not_occluded(void **state)
@@ -238,6 +311,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_shadow_ends_where_it_should),
         cmocka_unit_test(soft_shadow_has_no_rings),
+        cmocka_unit_test(soft_shadows_of_any_field_have_no_rings),
         cmocka_unit_test(open_ground_is_not_occluded),
         cmocka_unit_test(white_furnace_hides_white_balls),
     };
