@@ -124,12 +124,12 @@ static const struct quality levels[QUALITY_COUNT] = {
         .occlusion_samples = 5, .ray_depth = 2, .rays = 3, .ray_least = 0.04, .clear_depth = 2,
         .volume_steps = 24, .volume_shadow_steps = 4},
     [QUALITY_STILL] = {"still", "For pictures that rest.",
-        .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 16, .shadow_steps = 64,
+        .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 16, .shadow_steps = 96,
         .occlusion_samples = 5, .ray_depth = 4, .rays = 12, .ray_least = 0.01, .clear_depth = 4,
         .volume_steps = 48, .volume_shadow_steps = 6},
     [QUALITY_FINAL] = {"final", "For pictures that are kept.",
         .samples = 4, .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 64,
-        .shadow_steps = 96, .occlusion_samples = 8, .ray_depth = 8, .rays = 24,
+        .shadow_steps = 128, .occlusion_samples = 8, .ray_depth = 8, .rays = 24,
         .ray_least = 0.004, .clear_depth = 8, .volume_steps = 96, .volume_shadow_steps = 12},
 };
 /* clang-format on */
