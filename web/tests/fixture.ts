@@ -250,10 +250,9 @@ export function randomOperation(
     const models = [...document.models.map(({ name }) => name), MISSING];
     const shaders = [...document.shaders.map(({ name }) => name), MISSING];
     const rows = choose(DECLARATIONS, next);
-    const lights = [...document.lights.map(({ name }) => name), MISSING];
-    const light = choose(lights, next);
-    const volumes = [...document.volumes.map(({ name }) => name), MISSING];
-    const volume = choose(volumes, next);
+    const list = choose(["lights", "volumes"] as const, next);
+    const typed = [...document[list].map(({ name }) => name), MISSING];
+    const one = choose(typed, next);
     const children = document.nodes.get(id)?.children ?? [];
     const before = choose([null, null, ...children], next);
     const set = (at: string, value: Json): Operation => ({ op: "set", at, value });
@@ -274,10 +273,10 @@ export function randomOperation(
         () => set("/camera", choose([{ fov: 30 }, null], next)),
         () => set("/render/samples", 3),
         () => set("/name", choose(["A", null], next)),
-        () => set(`/lights/${light}/intensity`, x),
-        () => set(`/lights/${light}/type`, choose(["point", "directional"], next)),
-        () => set(`/volumes/${volume}/radius`, x + 1),
-        () => set(`/volumes/${volume}/type`, choose(["box", "sphere", "point"], next)),
+        () => set(`/lights/${one}/intensity`, x),
+        () => set(`/lights/${one}/type`, choose(["point", "directional"], next)),
+        () => set(`/volumes/${one}/radius`, x + 1),
+        () => set(`/volumes/${one}/type`, choose(["box", "sphere", "point"], next)),
         () => set(`/materials/${material}/properties/diffuse`, [x, x, x]),
         () => set(`/materials/${material}/shader`, choose(["phong", "flat", "marble"], next)),
         () => set(`/materials/${material}/properties/glow`, choose([0.5, null], next)),
@@ -306,15 +305,9 @@ export function randomOperation(
         }),
         () => ({
             op: "insert",
-            into: "/lights",
-            before: choose([null, ...lights], next),
-            value: { id: fresh(), type: "point" },
-        }),
-        () => ({
-            op: "insert",
-            into: "/volumes",
-            before: choose([null, ...volumes], next),
-            value: { id: fresh(), type: "sphere" },
+            into: `/${list}`,
+            before: choose([null, ...typed], next),
+            value: { id: fresh(), type: list === "lights" ? "point" : "sphere" },
         }),
         () => ({
             op: "insert",
@@ -339,14 +332,13 @@ export function randomOperation(
         () => ({ op: "remove", at: `/shaders/${choose(shaders, next)}` }),
         () => ({ op: "remove", at: `/nodes/${id}` }),
         () => ({ op: "remove", at: `/materials/${material}` }),
-        () => ({ op: "remove", at: `/lights/${light}` }),
-        () => ({ op: "remove", at: `/volumes/${volume}` }),
+        () => ({ op: "remove", at: `/${list}/${one}` }),
         () => ({ op: "move", at: `/nodes/${choose(ids, next)}`, into: `/nodes/${id}`, before }),
         () => ({
             op: "move",
-            at: `/lights/${light}`,
-            into: "/lights",
-            before: choose([null, ...lights], next),
+            at: `/${list}/${one}`,
+            into: `/${list}`,
+            before: choose([null, ...typed], next),
         }),
         () => ({
             op: "move",
