@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One road to pixels: every example drawn by the command line, by POST /v1/render, as image.png of a
-// scene and as the last streamed frame gives the same pixels.
+// One road to pixels: every example, and a scene with everything in it, drawn by the command line, by
+// POST /v1/render, as image.png of a scene and as the last streamed frame gives the same pixels.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import fs from 'node:fs';
@@ -17,6 +17,8 @@ const WIDTH = 160;
 const HEIGHT = 90;
 const folder = 'protocol/examples';
 const examples = fs.readdirSync(folder).filter((name) => name.endsWith('.json'));
+const rich = 'tests/golden/everything/rich/scene.json';
+const files = [rich, ...examples.map((name) => path.join(folder, name))];
 
 async function pictureOf(answer) {
     assert.equal(answer.status, 200, await answer.clone().text());
@@ -24,7 +26,7 @@ async function pictureOf(answer) {
     return decodePng(Buffer.from(await answer.arrayBuffer()));
 }
 
-describe('every example is the same picture by every road', () => {
+describe('every scene is the same picture by every road', () => {
     let daemon;
     let directory;
     before(async () => {
@@ -38,9 +40,8 @@ describe('every example is the same picture by every road', () => {
 
     test('there are examples', () => assert.ok(examples.length >= 8));
 
-    for (const name of examples) {
-        test(name, async () => {
-            const file = path.join(folder, name);
+    for (const file of files) {
+        test(file, async () => {
             const out = path.join(directory, 'picture.png');
             const size = ['--width', String(WIDTH), '--height', String(HEIGHT)];
             await run(program, ['render', file, '-o', out, ...size]);
@@ -55,7 +56,8 @@ describe('every example is the same picture by every road', () => {
             });
             assert.deepEqual(await pictureOf(posted), drawn, 'POST /v1/render');
 
-            const { id } = await ask(daemon, 'POST', '/v1/scenes', { from: `example:${path.parse(name).name}` });
+            const from = { from: `example:${path.parse(file).name}` };
+            const { id } = await ask(daemon, 'POST', '/v1/scenes', file === rich ? scene : from);
             const image = `${daemon.url}/v1/scenes/${id}/image.png?width=${WIDTH}&height=${HEIGHT}`;
             assert.deepEqual(await pictureOf(await fetch(image)), drawn, 'image.png');
 

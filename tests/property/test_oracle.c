@@ -25,15 +25,15 @@
 enum { EVERY = 5, WIDTH = 128, HEIGHT = 72, PLACES = WIDTH * HEIGHT, THREADS = 2 };
 enum { SCENES_MAX = 200, PATH_BYTES = 300 };
 
-#define TOLERANCE 1e-6 /* so near is on the surface */
-#define END_OF_SIGHT                                                                               \
-    0.95                    /* of the greatest distance: which rays still meet something beyond is
-                               no silhouette */
+#define TOLERANCE 1e-6      /* so near is on the surface */
 #define LEAST_OVERLAP 0.995 /* of silhouettes: hit in both, of those hit in either */
 #define MOST_DEPTHS 0.005   /* off, of the places hit in both */
 #define MOST_NORMALS 0.02   /* off by more than NORMAL_DEGREES, of the same */
 #define NORMAL_DEGREES 5.0
 #define MOST_IDS 0.01 /* of the places around which all have the same id */
+
+/* Whether a ray meets something beyond so much of the greatest distance is no silhouette. */
+#define END_OF_SIGHT 0.95
 
 static const char *const examples[] = {
     "blend",      "elongate", "flat-shapes", "gyroid",     "lecture-4-transforms",
