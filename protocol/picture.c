@@ -130,7 +130,7 @@ static const struct quality levels[QUALITY_COUNT] = {
     [QUALITY_FINAL] = {"final", "For pictures that are kept.",
         .samples = 4, .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 64,
         .shadow_steps = 128, .occlusion_samples = 8, .ray_depth = 8, .rays = 24,
-        .ray_least = 0.004, .clear_depth = 8, .volume_steps = 96, .volume_shadow_steps = 12},
+        .ray_least = 0.004, .clear_depth = 8, .volume_steps = 72, .volume_shadow_steps = 8},
 };
 /* clang-format on */
 

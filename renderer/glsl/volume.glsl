@@ -127,7 +127,8 @@ Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
     walk.first = smoke.inside ? 0.0 : first + sliver;
     walk.last = last - sliver;
     walk.end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), walk.last) : walk.last;
-    walk.longest = (walk.last - walk.first) / float(max(counts.y, 1));
+    int steps = on_surface ? 3 * counts.y - 2 : counts.y;
+    walk.longest = (walk.last - walk.first) / float(max(steps, 1));
     walk.sharpness = sharpness;
     return walk;
 }
@@ -136,7 +137,8 @@ Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
  * On a surface instead: DIMMED(lamp, part of its light that comes through the smoke).
  *
  * Each lamp is a walk towards it, whose first step tells what is at p. In smoke its steps are
- * counts.y parts of the way there, or as much less as the scene is near. */
+ * counts.y parts of the way there, or as much less as the scene is near: three times as many in
+ * all. On a surface, where there is but one walk, all of them serve the smoke. */
 vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
 {
     vec3 sum = vec3(0.0);
