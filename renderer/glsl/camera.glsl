@@ -28,7 +28,7 @@ float pixel_noise(ivec2 pixel)
     return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
 }
 
-/* A place on the lens, a disc of radius 1: a spiral with the golden angle, turned for each pixel. */
+/* A place on the lens, a disc of radius 1: a spiral by the golden angle, turned for each pixel. */
 vec2 lens_place(ivec2 pixel, int i, int count)
 {
     float r = sqrt((float(i) + 0.5) / float(count));

@@ -4,7 +4,7 @@
  * own. turn.y: which light; turn.z: 0 before the first march of a ray, 1 after one, 2 after the
  * last. */
 
-layout(binding = 0) uniform sampler2D geometry; /* of the light's ray; with turn.z 0, the sample's */
+layout(binding = 0) uniform sampler2D geometry; /* of the light's ray, or (turn.z 0) the sample's */
 layout(binding = 1) uniform usampler2D matter;
 layout(binding = 2) uniform usampler2D more;
 layout(rgba32f, binding = 0) uniform image2D out_ray_from;

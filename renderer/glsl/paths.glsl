@@ -53,8 +53,8 @@ vec3 go_on(ivec2 here, Waiting mirror, bool has_mirror, Waiting passing, bool ha
 /* `g`: normal and distance as march_pass.glsl left them; `open`: how little is in the way of the
  * environment's light; `smoke`: light added on the way, and the part let through. Where the ray is
  * the first, `total` is nothing. */
-void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, bool first, bool last,
-               vec4 weight, vec3 medium, inout vec4 total)
+void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, bool first,
+               bool last, vec4 weight, vec3 medium, inout vec4 total)
 {
     float t = abs(g.w);
     bool hit = t < INFINITY, solid = g.w < 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. turn.z: width
- * of the tile's margin; turn.w: 1 where edges are blended. */
+/* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. turn.z:
+ * width of the tile's margin; turn.w: 1 where edges are blended. */
 
 layout(binding = 14) uniform sampler2D counted;
 layout(binding = 7) uniform sampler2DArray visibility;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Light at the end of a ray, out of what the passes before found; knows nothing of the field.
- * PLAIN: nothing mirrors, and light goes through nothing. What of the lights arrives is read from where shadow_pass.glsl left it, unless SEEN_AT says. */
+ * PLAIN: nothing mirrors, and light goes through nothing. What of the lights arrives is read from
+ * where shadow_pass.glsl left it, unless SEEN_AT says. */
 
 #ifndef SEEN_AT
 layout(binding = 7) uniform sampler2DArray visibility;

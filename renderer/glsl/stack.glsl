@@ -11,7 +11,7 @@ layout(std430, binding = 2) buffer Stack {
     uint rays;  /* started since the counter was made */
     uint width; /* of the tile */
     uint unused[2];
-    Waiting waiting[]; /* STACK_DEPTH for each sample; w of the first's medium: how many there are */
+    Waiting waiting[]; /* STACK_DEPTH for each sample; medium.w of the first: how many wait */
 };
 
 int stack_base(ivec2 here)
