@@ -23,8 +23,8 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept cards clean install \
-        uninstall dist help deps test-deps FORCE
+.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept cards gallery clean \
+        install uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' '$(1)' '$(2)')
@@ -204,6 +204,11 @@ cards: fieldcast ## draw the pictures of the examples and of the reference page
 	$(Q)mkdir -p $(S)/protocol/reference
 	$(Q)for d in $(S)/tests/golden/nodes/*/; do $(OUT)/fieldcast render $${d}scene.json --width 192 \
 	  --height 144 --samples 4 --quality 80 -o $(S)/protocol/reference/$$(basename $$d).jpg || exit 1; done
+
+gallery: fieldcast ## draw the pictures of README.md anew: minutes each without a GPU
+	$(Q)for f in $(S)/protocol/gallery/*.jpg; do $(OUT)/fieldcast render \
+	  $(S)/protocol/examples/$$(basename $$f .jpg).json --width 960 --height 540 --level final \
+	  --quality 85 -o $$f || exit 1; done
 
 docs: fieldcast ## write the reference page, and the table of options into README.md
 	$(Q)$(OUT)/fieldcast schema --reference >$(S)/protocol/REFERENCE.md
