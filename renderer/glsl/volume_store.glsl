@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where volume.glsl dims the light on surfaces in a pass of its own: what shadow_store.glsl left. */
+/* Where volume.glsl dims the light on surfaces in a pass of its own: after shadow_store.glsl. */
 
 layout(rgba16f, binding = 5) uniform image2DArray lit;
 ivec2 lit_here = ivec2(0);

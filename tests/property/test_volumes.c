@@ -350,8 +350,8 @@ static void noise_fills_its_part(void **state)
     }
 }
 
-/* As many as there may be, at the highest level: drivers that count iterations of loops must not end
- * one before all volumes are through. */
+/* As many as there may be, at the highest level: drivers that count iterations of loops must not
+ * end one before all volumes are through. */
 static void many_volumes_and_lights(void **state)
 {
     (void)state;
