@@ -259,8 +259,8 @@ static bool measure_way(struct renderer *renderer, struct resident *resident,
     return ok;
 }
 
-/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and one
- * program from the camera to the light. */
+/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and
+ * one program from the camera to the light. */
 static bool compare_ways(struct renderer *renderer, struct resident *resident,
                          const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
