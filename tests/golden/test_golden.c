@@ -4,8 +4,8 @@
  * rest. A panorama.png beside them is the file that the scene names by its digest.
  *
  * What was drawn, what was expected and the difference are left in BUILD/golden, where index.html
- * shows them side by side. With GOLDEN_ACCEPT=CASE (or =GROUP, =GROUP/CASE, =all) in the environment
- * only these are drawn, and become the references. */
+ * shows them side by side. With GOLDEN_ACCEPT=CASE (or =GROUP, =GROUP/CASE, =all) in the
+ * environment only these are drawn, and become the references. */
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>

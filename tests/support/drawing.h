@@ -8,8 +8,8 @@
 /* Has everything at once: mirrors, glass, a volume, fog, every type of light, adaptive samples. */
 #define DRAWING_RICH "tests/golden/everything/rich/scene.json"
 
-/* On the best device, with the shader cache of the environment's FIELDCAST_CACHE, if any; `tile_side`
- * as in renderer_params. */
+/* On the best device, with the shader cache of the environment's FIELDCAST_CACHE, if any;
+ * `tile_side` as in renderer_params. */
 struct renderer *drawing_renderer(int tile_side);
 struct scene *drawing_parse(const char *text);
 struct scene *drawing_read(const char *path);
