@@ -125,8 +125,11 @@ enum job_state {
 
 /* The job draws the scene as it is now: later edits do not touch it. */
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
-/* Draws one tile and returns soon. */
+/* Draws a sample of each pixel of one tile and returns soon. */
 enum job_state job_step(struct job *job);
+/* A tile has samples and wants more: until it has them only this job may be stepped, or it must be
+ * destroyed, because all jobs' samples lie in the same textures. */
+bool job_is_within_tile(const struct job *job);
 /* False while a step would only wait for the compiler. */
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);

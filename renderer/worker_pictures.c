@@ -198,14 +198,18 @@ void worker_on_cancel(struct worker *w, const cJSON *packet)
     }
 }
 
-/* Now and then the oldest, so that a stream of urgent ones cannot stop a picture for good.
- * Those waiting for a compiler or the encoder let others pass. */
+/* One that is in the middle of a tile; else the most urgent. Now and then the oldest, so that a
+ * stream of urgent ones cannot stop a picture for good. Those waiting for a compiler or the encoder
+ * let others pass. */
 struct task *worker_choose_task(struct worker *w)
 {
     const bool oldest = w->steps % OLDEST_EVERY == 0;
     struct task *best = NULL;
 
     for (struct task *task = w->tasks; task; task = task->next) {
+        if (task->job && job_is_within_tile(task->job)) {
+            return task;
+        }
         if (task->job && (!best || (!oldest && task->priority < best->priority)) &&
             job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
             best = task;

@@ -15,6 +15,7 @@ enum {
      * urgent picture waits for about a tenth of a second. A GPU wants more work at once. */
     TILE_SOFTWARE = 256,
     TILE_GPU = 512,
+    TILE_LEAST = 64,       /* for many samples of all pixels */
     MARGIN = 1,            /* pixels around a tile, which edges are found by */
     FENCE_WAIT_MS = 60000, /* beyond it the device is taken for lost */
 };
@@ -109,9 +110,15 @@ void draw_destroy(struct draw *draw)
     free(draw);
 }
 
-int draw_tile_side(const struct draw *draw)
+int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
 {
-    return draw->targets.side - 2 * MARGIN;
+    const bool full = plan->antialiasing == ANTIALIASING_FULL;
+    int side = draw->targets.side;
+
+    for (int samples = full ? plan->samples : 1; samples > 4 && side > TILE_LEAST; samples /= 4) {
+        side /= 2;
+    }
+    return side - 2 * MARGIN;
 }
 
 uint64_t draw_compilations(const struct draw *draw)
@@ -270,14 +277,13 @@ static void draw_passes(struct draw *draw, struct wave *wave, const struct draw_
     }
     if (last == STAGE_COUNT) {
         wave_shade(wave);
-        wave_sample_again(wave);
-        resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
+    }
+    if (last == STAGE_COUNT && wave->plan->antialiasing == ANTIALIASING_ADAPTIVE) {
+        wave_find_edges(wave);
     }
 }
 
-static bool draw_from_camera(struct draw *draw, struct wave *wave,
-                             const struct draw_picture *picture, struct program *program,
-                             struct error *err)
+static bool draw_from_camera(struct wave *wave, struct program *program, struct error *err)
 {
     const struct pass *pass = program_from_camera(program, err);
 
@@ -285,7 +291,6 @@ static bool draw_from_camera(struct draw *draw, struct wave *wave,
         return false;
     }
     wave_from_camera(wave, pass);
-    resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
     return true;
 }
 
@@ -309,11 +314,13 @@ static void bind_scene(const struct draw *draw, const struct draw_picture *pictu
     }
 }
 
-bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
-               struct tile tile, int index, struct error *err)
+static struct wave make_wave(const struct draw *draw, struct draw_picture *picture,
+                             const struct draw_scene *scene, int index)
 {
+    struct draw_slot *slot = &picture->slots[index];
     const int margin = margin_of(&picture->plan);
-    struct wave wave = {
+
+    return (struct wave){
         .gl = draw->gl,
         .software = draw->software,
         .targets = &draw->targets,
@@ -323,24 +330,58 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct dra
         .lights = picture->lights,
         .clear = picture->clear,
         .linear = picture->forms[AOV_COLOR] && picture->forms[AOV_COLOR]->floats,
-        .tile = {.x = tile.x - margin,
-                 .y = tile.y - margin,
-                 .width = tile.width + 2 * margin,
-                 .height = tile.height + 2 * margin},
-        .slot = &picture->slots[index],
+        .tile = {.x = slot->tile.x - margin,
+                 .y = slot->tile.y - margin,
+                 .width = slot->tile.width + 2 * margin,
+                 .height = slot->tile.height + 2 * margin},
+        .slot = slot,
     };
+}
 
-    wave.slot->tile = tile;
+/* All samples are there, or none is wanted: the tile's pixels start on their way back. */
+static void finish_tile(struct draw *draw, struct wave *wave, const struct draw_picture *picture)
+{
+    resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
+    wave->slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    draw->gl->Flush();
+    wave->slot->samples = 0;
+}
+
+bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+               struct tile tile, int index, struct error *err)
+{
+    const struct draw_plan *plan = &picture->plan;
+    struct wave wave;
+
+    picture->slots[index].tile = tile;
+    wave = make_wave(draw, picture, scene, index);
     bind_scene(draw, picture, scene);
     wave_start_clock(&wave);
-    if (!picture->plan.from_camera) {
+    if (!plan->from_camera) {
         draw_passes(draw, &wave, picture);
-    } else if (!draw_from_camera(draw, &wave, picture, scene->program, err)) {
+    } else if (!draw_from_camera(&wave, scene->program, err)) {
         return false;
     }
-    wave.slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    draw->gl->Flush();
+    if (plan->samples > 1 && picture->forms[AOV_COLOR]) {
+        wave.slot->samples = 1;
+    } else {
+        finish_tile(draw, &wave, picture);
+    }
     return gl_check(draw->gl, "drawing a tile", err);
+}
+
+bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                    int index, struct error *err)
+{
+    struct wave wave = make_wave(draw, picture, scene, index);
+    struct draw_slot *slot = wave.slot;
+
+    bind_scene(draw, picture, scene);
+    wave_resume_clock(&wave);
+    if (!wave_sample_again(&wave, slot->samples) || ++slot->samples == picture->plan.samples) {
+        finish_tile(draw, &wave, picture);
+    }
+    return gl_check(draw->gl, "drawing a tile again", err);
 }
 
 /* --- the way back --- */

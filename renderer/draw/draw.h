@@ -48,6 +48,7 @@ struct draw_slot {
     GLuint buffers[AOV_COUNT];
     GLsync fence;
     struct tile tile;
+    int samples;                /* drawn of each pixel, while there are more to come; else 0 */
     GLuint queries[DRAW_MARKS]; /* on a GPU: made where they are first needed */
     uint8_t stages[DRAW_MARKS]; /* what ended at each */
     int marks;
@@ -69,8 +70,8 @@ struct draw_picture {
  * device. */
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err);
 void draw_destroy(struct draw *draw);
-/* Side of the largest tile that a picture can be drawn in, in pixels. */
-int draw_tile_side(const struct draw *draw);
+/* Side of the tiles that a picture is drawn in, in pixels: smaller ones for many samples. */
+int draw_tile_side(const struct draw *draw, const struct draw_plan *plan);
 uint64_t draw_compilations(const struct draw *draw);
 /* Mirrored and broken rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
@@ -80,8 +81,12 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
                 struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
+/* The first sample of each pixel. Where `samples` of the slot is not 0 then, the tile is not finished:
+ * draw_tile_more draws one more, and nothing else may be drawn until it is 0. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
+bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                    int slot, struct error *err);
 /* Waits for the tile in `slot`. True when it is there; its times are in the slot then. */
 bool draw_wait(struct draw *draw, struct draw_picture *picture, int slot, struct error *err);
 /* After draw_wait: copies the rows of one output to `to`, which are `stride` bytes apart. */

@@ -114,9 +114,6 @@ static void set_desc(struct job *job, const struct job_desc *desc)
                            : record_number(&job->snapshot->render, "transparent") != 0,
         .from_camera = desc->from_camera,
     };
-    job->tile_side = draw_tile_side(job->renderer->draw);
-    job->columns = (job->region.width + job->tile_side - 1) / job->tile_side;
-    job->tiles = job->columns * ((job->region.height + job->tile_side - 1) / job->tile_side);
 }
 
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err)
@@ -171,6 +168,9 @@ static enum job_state begin(struct job *job)
     }
     frame_set_camera(&block, &job->camera, job->width, job->height);
     plan_make(&plan, &block, &snapshot->render, &job->wish, &snapshot->extent);
+    job->tile_side = draw_tile_side(job->renderer->draw, &plan);
+    job->columns = (job->region.width + job->tile_side - 1) / job->tile_side;
+    job->tiles = job->columns * ((job->region.height + job->tile_side - 1) / job->tile_side);
     if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan, &job->error)) {
         return fail(job);
     }
@@ -195,13 +195,30 @@ static struct tile tile_at(const struct job *job, int index)
                          smaller(job->tile_side, job->region.height - y)};
 }
 
-static bool start(struct job *job)
+/* The slot of the tile that was started last. */
+static const struct draw_slot *last_slot(const struct job *job)
 {
+    return &job->picture.slots[(job->started + DRAW_SLOTS - 1) % DRAW_SLOTS];
+}
+
+bool job_is_within_tile(const struct job *job)
+{
+    return job->started > 0 && last_slot(job)->samples > 0;
+}
+
+/* The next tile, or the next sample of the one under way. */
+static bool draw_next(struct job *job)
+{
+    struct draw *draw = job->renderer->draw;
     const struct draw_scene scene = {job->snapshot->program,
                                      snapshot_numbers(job->renderer, job->snapshot),
                                      job->snapshot->environment};
 
-    if (!draw_tile(job->renderer->draw, &job->picture, &scene, tile_at(job, job->started),
+    if (job_is_within_tile(job)) {
+        return draw_tile_more(draw, &job->picture, &scene, (job->started - 1) % DRAW_SLOTS,
+                              &job->error);
+    }
+    if (!draw_tile(draw, &job->picture, &scene, tile_at(job, job->started),
                    job->started % DRAW_SLOTS, &job->error)) {
         return false;
     }
@@ -288,10 +305,12 @@ enum job_state job_step(struct job *job)
     if (job->state != JOB_RUNNING) {
         return job->state;
     }
-    if (job->started < job->tiles && job->started - job->collected < DRAW_SLOTS && !start(job)) {
+    if ((job_is_within_tile(job) ||
+         (job->started < job->tiles && job->started - job->collected < DRAW_SLOTS)) &&
+        !draw_next(job)) {
         return fail(job);
     }
-    while (job->state == JOB_RUNNING &&
+    while (job->state == JOB_RUNNING && !job_is_within_tile(job) &&
            (job->started == job->tiles || job->started - job->collected == DRAW_SLOTS)) {
         if (!collect(job)) {
             return fail(job);

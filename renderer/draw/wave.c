@@ -46,6 +46,14 @@ void wave_start_clock(struct wave *wave)
     }
 }
 
+void wave_resume_clock(struct wave *wave)
+{
+    wave->slot->last_us = now_us();
+    if (!wave->software) {
+        wave_mark(wave, FRAME_QUEUE);
+    }
+}
+
 /* --- the passes of one wave --- */
 
 /* Which samples, and where time goes. */
@@ -229,7 +237,7 @@ void wave_shade(struct wave *w)
     shade(w, &whole_tile);
 }
 
-static void list_edges(struct wave *w)
+void wave_find_edges(struct wave *w)
 {
     targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
     targets_begin_list(w->targets, w->gl, LIST_EDGES);
@@ -237,21 +245,20 @@ static void list_edges(struct wave *w)
     wave_mark(w, FRAME_RESOLVE);
 }
 
-void wave_sample_again(struct wave *w)
+bool wave_sample_again(struct wave *w, int sample)
 {
     const bool adaptive = w->plan->antialiasing == ANTIALIASING_ADAPTIVE;
     const struct round round = {.mode = adaptive ? PASS_LIST : PASS_TILE, .list = LIST_EDGES};
 
-    if (adaptive) {
-        list_edges(w);
+    if (adaptive && is_empty(w, LIST_EDGES)) {
+        return false;
     }
-    for (int i = 1; i < w->plan->samples && !(adaptive && is_empty(w, LIST_EDGES)); i++) {
-        w->sample = i;
-        find(w, &round);
-        find_matter(w, &round);
-        find_shadow(w, &round);
-        shade(w, &round);
-    }
+    w->sample = sample;
+    find(w, &round);
+    find_matter(w, &round);
+    find_shadow(w, &round);
+    shade(w, &round);
+    return true;
 }
 
 void wave_from_camera(struct wave *w, const struct pass *program)

@@ -24,6 +24,8 @@ struct wave {
 
 /* Time spent since the last mark goes to `stage`. */
 void wave_start_clock(struct wave *wave);
+void wave_resume_clock(
+    struct wave *wave); /* the same tile later: what was between is no time of it */
 void wave_mark(struct wave *wave, enum frame_stage stage);
 
 /* First rays of all samples, as far as stage `last`, which is before shadows. */
@@ -32,8 +34,10 @@ void wave_find(struct wave *wave, enum program_stage last);
 void wave_shadow(struct wave *wave);
 /* Their light, with that of all rays that follow, is added to the pixels. */
 void wave_shade(struct wave *wave);
-/* The same again for all other samples that the plan asks for. */
-void wave_sample_again(struct wave *wave);
+/* Lists the pixels that the plan samples again. */
+void wave_find_edges(struct wave *wave);
+/* All of it again for another sample of all pixels, or of those listed; false where that is none. */
+bool wave_sample_again(struct wave *wave, int sample);
 /* The light of the first sample of all pixels, by one program. */
 void wave_from_camera(struct wave *wave, const struct pass *program);
 
