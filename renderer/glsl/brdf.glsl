@@ -13,9 +13,10 @@ float roughness(Surface s)
 /* --- microfacets --- */
 
 /* All that a mirror of microfacets throws back of even surroundings, for light from the angle of
- * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets. x + y
- * + z = 1. Our own fits of rational functions to integrals of the formula below, within 0.015 from a
- * roughness of 0.3 up, 0.03 below; after Karis (Physically based shading on mobile, 2014). */
+ * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets; the sum
+ * of the three is 1. Our own fits of rational functions to integrals of the formula below, within
+ * 0.015 from a roughness of 0.3 up, 0.03 below; after Karis (Physically based shading on mobile,
+ * 2014). */
 vec3 mirror_albedo(float rough, float c)
 {
     float r = clamp(rough, 0.1, 1.0), a = r * r, x = clamp(c, 0.01, 1.0);
@@ -115,7 +116,8 @@ vec3 mirror_part(Surface s, vec3 n, vec3 view)
 vec3 shiny_reflected(Surface s, vec3 n, vec3 view, vec3 towards)
 {
     vec3 sum = view + towards;
-    float halfway = dot(n, sum) / max(length(sum), 1e-6), mirrored = dot(reflect(-view, n), towards);
+    float halfway = dot(n, sum) / max(length(sum), 1e-6);
+    float mirrored = dot(reflect(-view, n), towards);
     float bright = max(s.model == MODEL_PHONG ? halfway : mirrored, 1e-6);
     vec3 body = s.diffuse * (1.0 - s.transmission) * (1.0 - varnish(s, max(dot(n, view), 0.0)));
     return body + 2.0 * s.specular * pow(bright, s.gloss);
@@ -145,8 +147,8 @@ float mirror_opened(float open, float c, float rough)
     return clamp(pow(c + open, exp2(-16.0 * rough - 1.0)) - 1.0 + open, 0.0, 1.0);
 }
 
-/* Light of the environment that a surface throws to `view`. `open`: part of it that is not occluded;
- * `mirrored`: what is seen in the mirror image, of which rays bring the part `traced`. */
+/* Light of the environment that a surface throws to `view`. `open`: part of it that is not
+ * occluded; `mirrored`: what is seen in the mirror image, of which rays bring the part `traced`. */
 vec3 surroundings(Surface s, vec3 n, vec3 view, float open, vec3 irradiance, vec3 mirrored,
                   float traced)
 {

@@ -14,7 +14,7 @@ struct Passage {
     float at, radius; /* the last place on its way, and the distance there */
     float ahead;      /* the step that is tried */
     float slope;      /* of the distance, for a hard shadow */
-    vec2 a, b, c;     /* the last three places, for a soft one: (1, distance) / way */
+    vec2 a, b, c;     /* for a soft one: (1, distance) / way at the last three places */
     bool again;       /* x lies behind `at` */
     float seen;       /* part of the light so far */
 };
@@ -58,8 +58,8 @@ vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
 }
 
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
- * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow, so
- * that nothing thin lets light through. Between two samples the ratio may be less than at both,
+ * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow,
+ * so that nothing thin lets light through. Between two samples the ratio may be less than at both,
  * which showed as rings: where it seems to turn the ray looks again. False at the end. */
 bool soft_step(inout Passage s, float d)
 {
