@@ -5,8 +5,8 @@
  *
  * Pictures are good to a pixel, so they are large, and every fifth pixel each way is looked at.
  * Normals are gradients over half of a pixel's footprint, which is half a pixel in radius, by
- * either way. A depth is off when the place is farther from the surface than one footprint, measured
- * at right angles to it, and farther along the ray than a thousandth. */
+ * either way. A depth is off when the place is farther from the surface than one footprint,
+ * measured at right angles to it, and farther along the ray than a thousandth. */
 #include <dirent.h>
 #include <math.h>
 #include <pthread.h>
