@@ -13,8 +13,8 @@ float roughness(Surface s)
 /* --- microfacets --- */
 
 /* All that a mirror of microfacets throws back of even surroundings, for light from the angle of
- * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets; the sum
- * of the three is 1. Our own fits of rational functions to integrals of the formula below, within
+ * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets; all
+ * three add up to 1. Our own fits of rational functions to integrals of the formula below, within
  * 0.015 from a roughness of 0.3 up, 0.03 below; after Karis (Physically based shading on mobile,
  * 2014). */
 vec3 mirror_albedo(float rough, float c)
