@@ -105,18 +105,19 @@ static void regions_do_not_show(void **state)
 
 /* --- large pictures --- */
 
-enum { LARGE_WIDTH = LIMIT_IMAGE_SIDE, LARGE_HEIGHT = 1024, MOST_MIB = 96 };
+enum { LARGE_WIDTH = LIMIT_IMAGE_SIDE, LARGE_HEIGHT = 1024, MOST_MIB = 64 };
 
 static const struct job_region corners[] = {
     {8000, 200, 500, 300}, {8300, 300, 400, 300}, {8100, 450, 500, 200}, {15900, 700, 484, 324}};
 enum { CORNERS = sizeof corners / sizeof corners[0] };
 
-/* The most memory that this process ever had. */
+/* The most memory that this process ever had; 0 with AddressSanitizer, whose own does not count. */
 static long peak_mib(void)
 {
+    long kib = 0;
+#ifndef __SANITIZE_ADDRESS__
     FILE *file = fopen("/proc/self/status", "r");
     char line[200];
-    long kib = 0;
 
     assert_non_null(file);
     while (kib == 0 && fgets(line, sizeof line, file)) {
@@ -124,6 +125,7 @@ static long peak_mib(void)
     }
     fclose(file);
     assert_true(kib > 0);
+#endif
     return kib / 1024;
 }
 
@@ -203,9 +205,10 @@ static void large_pictures_have_no_seams_and_take_little(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        /* The first, for it looks at the most memory that there ever was. */
+        cmocka_unit_test(large_pictures_have_no_seams_and_take_little),
         cmocka_unit_test(tiles_do_not_show),
         cmocka_unit_test(regions_do_not_show),
-        cmocka_unit_test(large_pictures_have_no_seams_and_take_little),
     };
     return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
 }
