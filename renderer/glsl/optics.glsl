@@ -20,8 +20,8 @@ bool bend(vec3 direction, vec3 n, float ratio, out vec3 bent)
 }
 
 /* Part of the light that is mirrored where a ray goes into a clear medium, or out of it. What
- * hardly mirrors head-on does not at a grazing angle either (Lagarde and de Rousiers: Moving Frostbite to
- * physically based rendering, 2014). */
+ * hardly mirrors head-on does not at a grazing angle either (Lagarde and de Rousiers: Moving
+ * Frostbite to physically based rendering, 2014). */
 float interface_mirror(float ior, float c, bool inside)
 {
     float r = (ior - 1.0) / (ior + 1.0), f0 = r * r;

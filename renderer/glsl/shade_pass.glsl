@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Adds the light of each sample's ray to the sample, and sends on the rays that it asks for.
- * turn.w: 1 for first rays; turn.y: 1 for the last ones, which start no others; turn.z: 1 where there is
- * haze. */
+ * turn.w: 1 for first rays; turn.y: 1 for the last ones, which start no others; turn.z: 1 where
+ * there is haze. */
 
 layout(binding = 0) uniform sampler2D geometry;
 layout(binding = 1) uniform usampler2D matter;
