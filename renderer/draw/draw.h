@@ -81,8 +81,8 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
                 struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
-/* The first sample of each pixel. Where `samples` of the slot is not 0 then, the tile is not finished:
- * draw_tile_more draws one more, and nothing else may be drawn until it is 0. */
+/* The first sample of each pixel. Where `samples` of the slot is not 0 then, the tile is not
+ * finished: draw_tile_more draws one more, and nothing else may be drawn until it is 0. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

@@ -24,8 +24,8 @@ struct wave {
 
 /* Time spent since the last mark goes to `stage`. */
 void wave_start_clock(struct wave *wave);
-void wave_resume_clock(
-    struct wave *wave); /* the same tile later: what was between is no time of it */
+/* The same tile later: what was between is no time of it. */
+void wave_resume_clock(struct wave *wave);
 void wave_mark(struct wave *wave, enum frame_stage stage);
 
 /* First rays of all samples, as far as stage `last`, which is before shadows. */
@@ -36,7 +36,7 @@ void wave_shadow(struct wave *wave);
 void wave_shade(struct wave *wave);
 /* Lists the pixels that the plan samples again. */
 void wave_find_edges(struct wave *wave);
-/* All of it again for another sample of all pixels, or of those listed; false where that is none. */
+/* All of it again for another sample of all pixels, or of those listed; false: there are none. */
 bool wave_sample_again(struct wave *wave, int sample);
 /* The light of the first sample of all pixels, by one program. */
 void wave_from_camera(struct wave *wave, const struct pass *program);
