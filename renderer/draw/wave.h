@@ -22,10 +22,10 @@ struct wave {
     struct draw_slot *slot; /* takes the time */
 };
 
-/* Time spent since the last mark goes to `stage`. */
 void wave_start_clock(struct wave *wave);
 /* The same tile later: what was between is no time of it. */
 void wave_resume_clock(struct wave *wave);
+/* Time spent since the last mark goes to `stage`. */
 void wave_mark(struct wave *wave, enum frame_stage stage);
 
 /* First rays of all samples, as far as stage `last`, which is before shadows. */
