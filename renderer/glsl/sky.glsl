@@ -56,11 +56,12 @@ vec2 sky_place(vec3 d)
     return vec2(0.5 + side / (2.0 * PI), acos(clamp(d.y, -1.0, 1.0)) / PI);
 }
 
-/* One mip level of a picture with a row at each pole. */
+/* One mip level of a picture with a row at each pole. Its size is not asked of the driver: llvmpipe
+ * would answer all lanes for the level of the first. */
 vec3 sky_made(sampler2D made, vec3 d, float level)
 {
     vec2 place = sky_place(d);
-    float rows = float(textureSize(made, int(level)).y);
+    float rows = float(max(textureSize(made, 0).y >> int(level), 1));
     return textureLod(made, vec2(place.x, (place.y * (rows - 1.0) + 0.5) / rows), level).rgb;
 }
 
