@@ -151,6 +151,7 @@ test('a picture is saved in the size asked for, from the view', async () => {
     await page.keyboard.press('Control+k');
     await page.getByRole('combobox').fill('Back to the scene');
     await page.keyboard.press('Enter');
+    await page.getByRole('combobox').waitFor({ state: 'hidden' });
     const straight = await save(await dialog());
     assert.notDeepEqual(decodePng(straight.bytes).pixels, image.pixels);
 });
