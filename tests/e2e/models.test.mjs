@@ -94,7 +94,7 @@ describe('models', () => {
         const before = await stage.document(id);
         await row(page, 'pair').click({ button: 'right' });
         await page.getByRole('menuitem', { name: 'Make a model of it' }).click();
-        await when((d) => d.models.pair !== undefined, 'the model');
+        await when((d) => d.models?.pair !== undefined, 'the model');
         await page.keyboard.press('Control+z');
         await when((d) => nodeIn(d, 'pair') !== null, 'the part in its place');
         assert.equal(await stage.document(id), before);
