@@ -56,7 +56,7 @@ struct field_instruction {
  *
  * `clear` is 1 where the material lets light through, -1 where it does not, and 0 where the shape
  * cuts another, as every child but the first of a difference or an intersection does. GLSL may look
- * at the solid or at the clear shapes alone (`through` in glsl/mixture.glsl); C sees all. */
+ * at the solid or at the clear shapes alone (`through` in glsl/through.glsl); C sees all. */
 enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 4 };
 
 /* Behind the head of a shape of a user's code: (half of the box that cuts it, scale), then what it

@@ -8,8 +8,9 @@
 
 #define FAR 1e9 /* as in glsl/operations.glsl */
 
-/* Where a shader applies: a material slot, its share of the whole, and the point in the
- * space of the shape. */
+enum { MIXED_MAX = 4 };
+
+/* A material's slot, its share of the whole (0: none), and the point in the space of the shape. */
 struct paint {
     size_t slot;
     double weight, place[3];
@@ -18,9 +19,8 @@ struct paint {
 /* What is known of a surface besides its distance. */
 struct tint {
     uint32_t leaf;
-    double weight; /* of that leaf in what is seen */
-    double material[FIELD_MATERIAL_NUMBERS];
-    struct paint paints[2]; /* the strongest first; more than two are not kept apart */
+    double weight;                  /* of that leaf in what is seen */
+    struct paint paints[MIXED_MAX]; /* the strongest, in that order */
 };
 
 struct loop {
@@ -70,61 +70,44 @@ static void run_shape(struct machine *m, const struct field_instruction *in, con
     if (!m->tints) {
         return;
     }
-    struct tint *tint = &m->tints[in->a];
-    const float *material = material_numbers(m->field, (size_t)n[2]);
-    *tint = (struct tint){.leaf = (uint32_t)n[1], .weight = 1};
-    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
-        tint->material[i] = material[i];
-    }
-    if (material[FIELD_SHADER] > 0) {
-        tint->paints[0] = (struct paint){(size_t)n[2], 1, {local[0], local[1], local[2]}};
-    }
+    m->tints[in->a] = (struct tint){.leaf = (uint32_t)n[1], .weight = 1};
+    m->tints[in->a].paints[0] = (struct paint){(size_t)n[2], 1, {local[0], local[1], local[2]}};
 }
 
-/* Keeps the strongest two; the same slot counts as one. */
-static void add_paint(struct paint paints[2], const struct paint *more, double share)
+/* Takes a material in, in the place of the weakest if it is new. */
+static void add_paint(struct paint paints[MIXED_MAX], const struct paint *more, double share)
 {
-    struct paint one = *more;
-    one.weight *= share;
-    if (one.weight <= 0) {
-        return;
+    const double weight = more->weight * share;
+    int i = 0;
+    while (i < MIXED_MAX && !(paints[i].weight > 0 && paints[i].slot == more->slot)) {
+        i++;
     }
-    for (int i = 0; i < 2; i++) {
-        if (paints[i].weight > 0 && paints[i].slot == one.slot) {
-            double sum = paints[i].weight + one.weight;
-            paints[i] = one.weight > paints[i].weight ? one : paints[i];
-            paints[i].weight = sum;
-            one.weight = 0;
-            break;
-        }
+    if (i < MIXED_MAX) {
+        const double sum = paints[i].weight + weight;
+        paints[i] = weight > paints[i].weight ? *more : paints[i];
+        paints[i].weight = sum;
+    } else if (weight > paints[--i].weight) {
+        paints[i] = *more;
+        paints[i].weight = weight;
     }
-    if (one.weight > paints[1].weight) {
-        paints[1] = one;
-    }
-    if (paints[1].weight > paints[0].weight) {
-        struct paint first = paints[0];
-        paints[0] = paints[1];
-        paints[1] = first;
+    for (; i > 0 && paints[i].weight > paints[i - 1].weight; i--) {
+        const struct paint before = paints[i - 1];
+        paints[i - 1] = paints[i];
+        paints[i] = before;
     }
 }
 
 static void mix_tints(struct tint *a, const struct tint *b, double share)
 {
     double wa = a->weight * (1 - share), wb = b->weight * share;
-    const struct tint *most = wb > wa ? b : a;
-    double model = most->material[FIELD_MODEL], gloss = most->material[FIELD_GLOSS];
-    bool differ = a->material[FIELD_MODEL] != b->material[FIELD_MODEL];
-    a->leaf = most->leaf;
+    a->leaf = wb > wa ? b->leaf : a->leaf;
     a->weight = fmax(wa, wb);
-    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
-        a->material[i] += (b->material[i] - a->material[i]) * share;
+    for (int i = 0; i < MIXED_MAX; i++) {
+        a->paints[i].weight *= 1 - share;
     }
-    a->material[FIELD_MODEL] = model;
-    a->material[FIELD_GLOSS] = differ ? gloss : a->material[FIELD_GLOSS];
-    a->paints[0].weight *= 1 - share;
-    a->paints[1].weight *= 1 - share;
-    add_paint(a->paints, &b->paints[0], share);
-    add_paint(a->paints, &b->paints[1], share);
+    for (int i = 0; i < MIXED_MAX; i++) {
+        add_paint(a->paints, &b->paints[i], share);
+    }
 }
 
 static void run_combine(struct machine *m, const struct field_instruction *in, const double *n)
@@ -140,7 +123,7 @@ static void run_empty(struct machine *m, uint16_t slot)
 {
     m->d[slot] = FAR;
     if (m->tints) {
-        m->tints[slot] = (struct tint){.weight = 1};
+        m->tints[slot] = (struct tint){.weight = 1, .paints = {{.weight = 1}}};
     }
 }
 
@@ -267,8 +250,8 @@ double field_distance(const struct field *field, const double p[3])
 }
 
 /* Adds the colour that a shader gives. */
-static void paint(const struct field *field, const struct paint *paint, const double p[3],
-                  const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
+static void add_color(const struct field *field, const struct paint *paint, const double p[3],
+                      const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
 {
     const float *block = material_numbers(field, paint->slot);
     struct code_shading at = {.ray_distance = view->distance};
@@ -285,6 +268,31 @@ static void paint(const struct field *field, const struct paint *paint, const do
     }
 }
 
+/* The mean of the materials by their shares. The model is that of the first; gloss, which means
+ * another thing in each model, the mean of those that share it. */
+static void mix_materials(const struct field *field, const struct paint paints[MIXED_MAX],
+                          double out[FIELD_MATERIAL_NUMBERS])
+{
+    const float *first = material_numbers(field, paints[0].slot);
+    double gloss = 0, alike = 0, sum = 0;
+    for (int i = 0; i < MIXED_MAX; i++) {
+        sum += paints[i].weight;
+    }
+    for (int i = 0; i < MIXED_MAX && paints[i].weight > 0; i++) {
+        const float *material = material_numbers(field, paints[i].slot);
+        const double share = paints[i].weight / sum;
+        for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
+            out[j] += share * material[j];
+        }
+        if (material[FIELD_MODEL] == first[FIELD_MODEL]) {
+            alike += share;
+            gloss += share * material[FIELD_GLOSS];
+        }
+    }
+    out[FIELD_MODEL] = first[FIELD_MODEL];
+    out[FIELD_GLOSS] = gloss / alike;
+}
+
 struct field_surface field_surface(const struct field *field, const double p[3],
                                    const struct field_view *view)
 {
@@ -295,10 +303,11 @@ struct field_surface field_surface(const struct field *field, const double p[3],
     machine.tints = tints;
     run(&machine, p);
     struct field_surface out = {.distance = machine.d[0], .number = tints[0].leaf};
-    memcpy(out.material, tints[0].material, sizeof out.material);
-    for (int i = 0; i < 2; i++) {
-        if (tints[0].paints[i].weight > 0) {
-            paint(field, &tints[0].paints[i], p, view ? view : &nowhere, out.material);
+    const struct paint *paints = tints[0].paints;
+    mix_materials(field, paints, out.material);
+    for (int i = 0; i < MIXED_MAX && paints[i].weight > 0; i++) {
+        if (material_numbers(field, paints[i].slot)[FIELD_SHADER] > 0) {
+            add_color(field, &paints[i], p, view ? view : &nowhere, out.material);
         }
     }
     return out;

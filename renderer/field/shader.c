@@ -8,9 +8,8 @@
 /* The numbers of strings that #line gives to users' code. */
 enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
 
-/* Surfaces that were never mixed are vec3 h (distance, leaf, slot): materials are read where a
- * blend first needs them, which for most scenes is at a few places only. Mixed ones are m. Where
- * there are shaders, o is the point in the space of the shape that h is of. */
+/* Surfaces that were never mixed are vec3 h (distance, leaf, slot), as most are in most scenes; mixed
+ * ones are m. Where there are shaders, o is the point in the space of the shape that h is of. */
 struct writer {
     FILE *out;
     const struct field *field;
@@ -131,29 +130,39 @@ static void write_mixed(struct writer *w, uint16_t slot)
     }
 }
 
-static void write_combine(struct writer *w, const struct field_instruction *in)
+/* Both mixed, or one of both chosen. */
+static void write_surfaces(struct writer *w, const struct field_instruction *in)
 {
-    if (!w->surface) {
-        fprintf(w->out, "d%u = ", in->a);
-        write_call(w, in, "");
-        fprintf(w->out, ";\n");
-        return;
-    }
-    if (in->sdf->soft || w->mixed[in->a] || w->mixed[in->b]) {
+    const bool objects = w->field->shader_count > 0;
+    const bool mixed = in->sdf->soft || w->mixed[in->a] || w->mixed[in->b];
+    if (mixed) {
         write_mixed(w, in->a);
-        write_mixed(w, in->b);
-    }
-    const char *name = w->mixed[in->a] ? "m" : "h";
-    if (!w->mixed[in->a] && w->field->shader_count > 0) {
+    } else if (objects) {
         fprintf(w->out, "o%u = ", in->a);
         write_call(w, in, "_share");
         fprintf(w->out, " > 0.5 ? o%u : o%u;\n", in->b, in->a);
     }
-    fprintf(w->out, "%s%u = %s(", name, in->a, w->mixed[in->a] ? "blend" : "choose");
+    fprintf(w->out, mixed ? "m%u = blend(" : "h%u = choose(", in->a);
     write_call(w, in, "");
     fprintf(w->out, ", ");
     write_call(w, in, "_share");
-    fprintf(w->out, ", %s%u, %s%u);\n", name, in->a, name, in->b);
+    fprintf(w->out, mixed ? ", m%u, " : ", h%u, ", in->a);
+    fprintf(w->out, w->mixed[in->b] ? "m%u" : "h%u", in->b);
+    if (mixed && objects && !w->mixed[in->b]) {
+        fprintf(w->out, ", o%u", in->b);
+    }
+    fprintf(w->out, ");\n");
+}
+
+static void write_combine(struct writer *w, const struct field_instruction *in)
+{
+    if (w->surface) {
+        write_surfaces(w, in);
+    } else {
+        fprintf(w->out, "d%u = ", in->a);
+        write_call(w, in, "");
+        fprintf(w->out, ";\n");
+    }
 }
 
 static void write_change(const struct writer *w, const struct field_instruction *in)
@@ -303,20 +312,6 @@ static void write_slots(const struct writer *w, const char *type, const char *na
     }
 }
 
-/* Reads the material of a surface that was not mixed yet. */
-static void write_mixture(const struct writer *w)
-{
-    bool shaders = w->field->shader_count > 0;
-    fprintf(w->out,
-            "Mixture mixture(vec3 h%s)\n{\n"
-            "int i = %zu + %zu * int(h.z);\n"
-            "return Mixture(h.x, h.y, 1.0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3),\n"
-            "N_ANY(i + 4), N_ANY(i + 5)%s);\n}\n",
-            shaders ? ", vec3 o" : "", w->field->material_base, w->field->material_stride,
-            shaders ? ", vec4(o, N_ANY(i + 2).w > 0.0 ? 1.0 : 0.0), vec4(0.0), vec2(h.z, 0.0)"
-                    : "");
-}
-
 /* The colour that the material in a slot has by its shader, and whether it is lit. */
 static void write_paint(const struct writer *w)
 {
@@ -352,19 +347,21 @@ static void write_functions(const struct writer *w)
     fprintf(w->out, "#endif\n");
 }
 
-/* Shaders, each in one place, at the end. */
-static void write_painting(const struct writer *w)
+/* Materials are read here alone, and each shader stands here alone. */
+static void write_materials(const struct writer *w)
 {
+    fprintf(w->out,
+            "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
+            "int i = %zu + %zu * int(m0.slots.x);\n"
+            "surface_add(s, m0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),\n"
+            "N_ANY(i + 5));\n",
+            w->field->material_base, w->field->material_stride);
     if (w->field->shader_count > 0) {
-        fputs("for (int k = int(min(m0.first.w, 0.0)); k < 2; k++) {\n"
-              "vec4 place = k == 0 ? m0.first : m0.second;\n"
-              "at.object_position = place.xyz;\n"
-              "vec4 color = paint(at, k == 0 ? m0.slots.x : m0.slots.y);\n"
-              "vec3 added = place.w > 0.0 ? place.w * color.rgb : vec3(0.0);\n"
-              "s.diffuse += color.a > 0.5 ? vec3(0.0) : added;\n"
-              "s.emission += color.a > 0.5 ? added : vec3(0.0);\n}\n",
+        fputs("at.object_position = m0.places[0];\n"
+              "surface_paint(s, m0, paint(at, m0.slots.x));\n",
               w->out);
     }
+    fputs("mixture_next(m0);\n}\n", w->out);
 }
 
 static void write_map(struct writer *w)
@@ -382,7 +379,6 @@ static void write_surface(struct writer *w)
     const struct field *field = w->field;
     write_functions(w);
     write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
-    write_mixture(w);
     if (field->shader_count > 0) {
         write_paint(w);
     }
@@ -393,19 +389,7 @@ static void write_surface(struct writer *w)
     write_slots(w, "Mixture", "m", 0, field->distance_slots);
     write_instructions(w);
     write_mixed(w, 0);
-    fputs("s.id = uint(m0.leaf);\n"
-          "s.diffuse = m0.diffuse_gloss.rgb;\n"
-          "s.gloss = m0.diffuse_gloss.w;\n"
-          "s.specular = m0.specular.rgb;\n"
-          "s.emission = m0.emission.rgb;\n"
-          "s.ambient = m0.ambient.rgb;\n"
-          "s.reflectivity = m0.optics.x;\n"
-          "s.transmission = m0.optics.y;\n"
-          "s.ior = m0.optics.z;\n"
-          "s.model = int(m0.optics.w);\n"
-          "s.absorption = m0.absorption.rgb;\n",
-          w->out);
-    write_painting(w);
+    write_materials(w);
     fprintf(w->out, "}\n");
 }
 

@@ -10,7 +10,7 @@
 #define FIELD_GLSL_FILES                                                                           \
     "points.glsl", "shapes.glsl", "solids.glsl", "flat.glsl", "fractals.glsl", "operations.glsl",  \
         "modifiers.glsl", "noise.glsl", "warps.glsl", "code.glsl", "user.glsl", "guard.glsl",      \
-        "mixture.glsl"
+        "through.glsl"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *
@@ -19,7 +19,7 @@
 char *shader_map(const struct field *field);
 
 /* `void surface(vec3 p, Shading at, out Surface s)`: leaf and material at a hit (glsl/surface.glsl;
- * object_position is filled in). USER_SHADERS must be defined where field->shader_count > 0.
+ * object_position is filled in), by glsl/mixture.glsl, which stands before it. USER_SHADERS must be defined where field->shader_count > 0.
  * It calls N_ANY(i) where i is not constant. Both texts may stand in one program. */
 char *shader_surface(const struct field *field);
 

@@ -14,6 +14,7 @@
 
 enum {
     PRELOAD_MAX = 4096, /* vec4s */
+    SHARED_MAX = 2048,  /* vec4s in the 32 KiB that OpenGL 4.3 promises to each work group */
     FILES_MAX = 32,
     WALL_FACTOR = 2, /* a compiler that waits for others may take so much longer */
 };
@@ -21,7 +22,8 @@ enum {
 /* --- one stage --- */
 
 /* What glsl/numbers.glsl wants to know. */
-static char *make_defines(const struct program *program, bool preload, bool in_texture)
+static char *make_defines(const struct gl *gl, const struct program *program, bool software,
+                          bool compute)
 {
     char *text = NULL;
     size_t length = 0;
@@ -31,15 +33,21 @@ static char *make_defines(const struct program *program, bool preload, bool in_t
         abort();
     }
     fprintf(out, "#define NUMBERS_COUNT %zu\n#define NUMBERS_ROW %d\n%s%s", program->number_count,
-            NUMBERS_ROW, in_texture ? "#define NUMBERS_IN_TEXTURE\n" : "",
+            NUMBERS_ROW,
+            numbers_in_texture(gl, software, program->number_count) ? "#define NUMBERS_IN_TEXTURE\n"
+                                                                    : "",
             program->user_shaders ? "#define USER_SHADERS\n" : "");
-    if (preload && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
+    if (software && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
         fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
                 program->map_count);
         for (size_t i = 0; i < program->map_count; i++) {
             fprintf(out, " X(%zu)", i);
         }
         fputc('\n', out);
+        if (compute) {
+            fprintf(out, "#define NUMBERS_SHARED %zu\n",
+                    program->map_count < SHARED_MAX ? program->map_count : SHARED_MAX);
+        }
     }
     if (fclose(out) != 0) {
         abort();
@@ -54,8 +62,8 @@ static bool link_stage(const struct gl *gl, const struct program *program, bool 
         [STAGE_MARCH] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
                          "map", "ray_load.glsl", "camera.glsl", "march.glsl", "march_pass.glsl"},
         [STAGE_MATTER] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", "surface.glsl",
-                          FIELD_GLSL_FILES, "surface", "ray_load.glsl", "gbuffer.glsl",
-                          "matter_pass.glsl"},
+                          FIELD_GLSL_FILES, "mixture.glsl", "surface", "ray_load.glsl",
+                          "gbuffer.glsl", "matter_pass.glsl"},
         [STAGE_SHADOW] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
                           "map", "ray_load.glsl", "lights.glsl", "shadow_store.glsl", "shadow.glsl",
                           "shadow_pass.glsl"},
@@ -63,8 +71,7 @@ static bool link_stage(const struct gl *gl, const struct program *program, bool 
                           "map", "ray_load.glsl", "camera.glsl", "lights.glsl", "sky.glsl",
                           "volume_store.glsl", "volume.glsl", "volume_pass.glsl"},
     };
-    char *defines =
-        make_defines(program, software, numbers_in_texture(gl, software, program->number_count));
+    char *defines = make_defines(gl, program, software, true);
     bool ok = pass_init(out_pass, gl,
                         &(struct pass_source){true, defines, files[stage], program->map_text,
                                               program->surface_text},
@@ -76,16 +83,16 @@ static bool link_stage(const struct gl *gl, const struct program *program, bool 
 const struct pass *program_from_camera(struct program *program, struct error *err)
 {
     static const char *const files[] = {
-        "frame.glsl",  "numbers.glsl", "ray.glsl",    "surface.glsl",       FIELD_GLSL_FILES,
-        "map",         "surface",      "camera.glsl", "march.glsl",         "lights.glsl",
-        "optics.glsl", "brdf.glsl",    "sky.glsl",    "forward_store.glsl", "shadow.glsl",
-        "fog.glsl",    "shade.glsl",   "paths.glsl",  "forward.glsl",       NULL};
+        "frame.glsl",  "numbers.glsl", "ray.glsl",   "surface.glsl", FIELD_GLSL_FILES,
+        "map",         "mixture.glsl", "surface",    "camera.glsl",  "march.glsl",
+        "lights.glsl", "optics.glsl",  "brdf.glsl",  "sky.glsl",     "forward_store.glsl",
+        "shadow.glsl", "fog.glsl",     "shade.glsl", "paths.glsl",   "forward.glsl",
+        NULL};
     const struct program_cache *cache = program->cache;
     const bool software = cache->egl->software;
 
     if (program->from_camera.program == 0) {
-        char *defines = make_defines(
-            program, software, numbers_in_texture(cache->gl, software, program->number_count));
+        char *defines = make_defines(cache->gl, program, software, false);
         const struct pass_source source = {.defines = defines,
                                            .files = files,
                                            .map = program->map_text,

@@ -1,44 +1,40 @@
 /* SPDX-License-Identifier: MIT */
 /* What is known of a surface besides its distance, and how it mixes. */
 
-/* Empty space is this far away. */
-const float FAR = 1e9;
-
-/* Which shapes map() and surface() see. 0: all; FAR: those that light goes through are away; -FAR:
- * those that it does not go through are. */
-float through = 0.0;
-
-/* The distance of a shape that may be away; `clear` is the fourth number of its head. */
-float hidden(float d, float clear)
-{
-    return d + max(clear * through, 0.0);
-}
-
-/* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot); a
- * Mixture has the materials' numbers, as they lie in the table, and the weight of its leaf. */
+/* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot). A
+ * Mixture knows of its four strongest materials where they lie in the table and how much they
+ * count, the strongest first; their numbers are read once, at the end. */
 struct Mixture {
-    float d, leaf, weight;
-    vec4 diffuse_gloss, specular, emission, ambient;
-    vec4 optics; /* reflectivity, transmission, index of refraction, model */
-    vec4 absorption;
+    float d, leaf, weight; /* of the leaf */
+    vec4 slots, shares;
 #ifdef USER_SHADERS
-    /* Where the strongest two shaders apply: point in the shape's space, share. */
-    vec4 first, second;
-    vec2 slots; /* their materials */
+    mat4x3 places; /* the point in the space of each one's shape */
 #endif
 };
 
+/* A point in the space of the shape is handed along only where there are shaders. */
 #ifdef USER_SHADERS
-#define NO_SHADERS , vec4(0.0), vec4(0.0), vec2(0.0)
+#define AND_PLACE(place) , place
+#define AND_PLACES , mat4x3(0.0)
 #else
-#define NO_SHADERS
+#define AND_PLACE(place)
+#define AND_PLACES
 #endif
+
+/* Of one material. */
+Mixture mixture(vec3 h AND_PLACE(vec3 o))
+{
+    Mixture m = Mixture(h.x, h.y, 1.0, vec4(h.z), vec4(1.0, 0.0, 0.0, 0.0) AND_PLACES);
+#ifdef USER_SHADERS
+    m.places[0] = o;
+#endif
+    return m;
+}
 
 /* Nothing. */
 Mixture mixture_far()
 {
-    return Mixture(FAR, 0.0, 1.0, vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0),
-                   vec4(0.0) NO_SHADERS);
+    return mixture(vec3(FAR, 0.0, 0.0) AND_PLACE(vec3(0.0)));
 }
 
 /* One of two, by the share of b, with the distance of the result. */
@@ -47,51 +43,121 @@ vec3 choose(float d, float share, vec3 a, vec3 b)
     return vec3(d, share > 0.5 ? b.yz : a.yz);
 }
 
+#define EXCHANGE(type, a, b)                                                                       \
+    {                                                                                              \
+        type before = a;                                                                           \
+        a = outgrown ? b : a;                                                                      \
+        b = outgrown ? before : b;                                                                 \
+    }
 #ifdef USER_SHADERS
-/* Keeps the strongest two shaders; the same material counts as one. */
-void add_shader(inout Mixture m, vec4 place, float slot)
-{
-    bool one = place.w > 0.0 && m.first.w > 0.0 && slot == m.slots.x;
-    bool two = place.w > 0.0 && m.second.w > 0.0 && slot == m.slots.y && !one;
-    if (one) {
-        m.first = vec4(place.w > m.first.w ? place.xyz : m.first.xyz, m.first.w + place.w);
-    }
-    if (two) {
-        m.second = vec4(place.w > m.second.w ? place.xyz : m.second.xyz, m.second.w + place.w);
-    }
-    if (!one && !two && place.w > m.second.w) {
-        m.second = place;
-        m.slots.y = slot;
-    }
-    if (m.second.w > m.first.w) {
-        vec4 before = m.first;
-        m.first = m.second;
-        m.second = before;
-        m.slots = m.slots.yx;
-    }
-}
+#define EXCHANGE_PLACES(i) EXCHANGE(vec3, m.places[i - 1], m.places[i])
+#else
+#define EXCHANGE_PLACES(i)
 #endif
+/* Material i, in `from`, goes before the one that it has outgrown. */
+#define RISE(to, from, i)                                                                          \
+    {                                                                                              \
+        bool outgrown = m.shares.from > m.shares.to;                                               \
+        EXCHANGE(float, m.shares.to, m.shares.from)                                                \
+        EXCHANGE(float, m.slots.to, m.slots.from)                                                  \
+        EXCHANGE_PLACES(i)                                                                         \
+    }
 
-/* Both, by the share of b, with the distance of the result. The model is that of the leaf, and so
- * is gloss where it means different things. */
+/* Takes a material in, in the place of the weakest if it is new. */
+void add(inout Mixture m, float slot, float share AND_PLACE(vec3 place))
+{
+    vec4 same = vec4(equal(m.slots, vec4(slot))) * vec4(greaterThan(m.shares, vec4(0.0)));
+    bool known = dot(same, vec4(1.0)) > 0.0, enters = !known && share > m.shares.w;
+#ifdef USER_SHADERS
+    for (int i = 0; i < 4; i++) {
+        m.places[i] = same[i] * share > m.shares[i] ? place : m.places[i];
+    }
+    m.places[3] = enters ? place : m.places[3];
+#endif
+    m.shares += same * share;
+    m.shares.w = enters ? share : m.shares.w;
+    m.slots.w = enters ? slot : m.slots.w;
+    RISE(z, w, 3)
+    RISE(y, z, 2)
+    RISE(x, y, 1)
+}
+
+/* What is left of a beside a part of another. */
+Mixture mixture_beside(float d, float share, Mixture a, float leaf, float weight)
+{
+    float wa = a.weight * (1.0 - share), wb = weight * share;
+    a.d = d;
+    a.leaf = wb > wa ? leaf : a.leaf;
+    a.weight = max(wa, wb);
+    a.shares *= 1.0 - share;
+    return a;
+}
+
+/* Both, by the share of b, with the distance of the result. */
+Mixture blend(float d, float share, Mixture a, vec3 b AND_PLACE(vec3 o))
+{
+    Mixture m = mixture_beside(d, share, a, b.y, 1.0);
+    add(m, b.z, share AND_PLACE(o));
+    return m;
+}
+
 Mixture blend(float d, float share, Mixture a, Mixture b)
 {
-    float wa = a.weight * (1.0 - share), wb = b.weight * share;
-    bool most = wb > wa;
-    Mixture m = Mixture(
-        d, most ? b.leaf : a.leaf, max(wa, wb), mix(a.diffuse_gloss, b.diffuse_gloss, share),
-        mix(a.specular, b.specular, share), mix(a.emission, b.emission, share),
-        mix(a.ambient, b.ambient, share), mix(a.optics, b.optics, share),
-        mix(a.absorption, b.absorption, share) NO_SHADERS);
-    m.optics.w = most ? b.optics.w : a.optics.w;
-    if (a.optics.w != b.optics.w) {
-        m.diffuse_gloss.w = most ? b.diffuse_gloss.w : a.diffuse_gloss.w;
-    }
-#ifdef USER_SHADERS
-    add_shader(m, vec4(a.first.xyz, a.first.w * (1.0 - share)), a.slots.x);
-    add_shader(m, vec4(a.second.xyz, a.second.w * (1.0 - share)), a.slots.y);
-    add_shader(m, vec4(b.first.xyz, b.first.w * share), b.slots.x);
-    add_shader(m, vec4(b.second.xyz, b.second.w * share), b.slots.y);
-#endif
+    Mixture m = mixture_beside(d, share, a, b.leaf, b.weight);
+    b.shares *= share;
+    add(m, b.slots.x, b.shares.x AND_PLACE(b.places[0]));
+    add(m, b.slots.y, b.shares.y AND_PLACE(b.places[1]));
+    add(m, b.slots.z, b.shares.z AND_PLACE(b.places[2]));
+    add(m, b.slots.w, b.shares.w AND_PLACE(b.places[3]));
     return m;
+}
+
+/* A mixture becomes a surface material by material. Before the first: all shares make up 1. */
+Surface surface_begin(inout Mixture m)
+{
+    float sum = dot(m.shares, vec4(1.0));
+    m.shares = sum > 0.0 ? m.shares / sum : vec4(1.0, 0.0, 0.0, 0.0);
+    m.weight = 0.0;
+    return Surface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0, -1,
+                   uint(m.leaf));
+}
+
+/* Adds the strongest material, of these numbers. The model is that of the first; gloss, which means
+ * another thing in each model, is the mean of those that share it, and m.weight is their part. */
+void surface_add(inout Surface s, inout Mixture m, vec4 diffuse_gloss, vec4 specular, vec4 emission,
+                 vec4 ambient, vec4 optics, vec4 absorption)
+{
+    float share = m.shares.x;
+    int model = int(optics.w);
+    s.model = s.model < 0 ? model : s.model;
+    if (model == s.model) {
+        m.weight += share;
+        s.gloss = mix(s.gloss, diffuse_gloss.w, share / m.weight);
+    }
+    s.diffuse += share * diffuse_gloss.rgb;
+    s.specular += share * specular.rgb;
+    s.emission += share * emission.rgb;
+    s.ambient += share * ambient.rgb;
+    s.reflectivity += share * optics.x;
+    s.transmission += share * optics.y;
+    s.ior += share * optics.z;
+    s.absorption += share * absorption.rgb;
+}
+
+/* Adds what the strongest material's shader gives: color, and 1 where it is not lit. */
+void surface_paint(inout Surface s, Mixture m, vec4 color)
+{
+    vec3 added = m.shares.x * color.rgb;
+    s.diffuse += color.a > 0.5 ? vec3(0.0) : added;
+    s.emission += color.a > 0.5 ? added : vec3(0.0);
+}
+
+/* Leaves the strongest material behind. */
+void mixture_next(inout Mixture m)
+{
+    m.slots = m.slots.yzwx;
+    m.shares = vec4(m.shares.yzw, 0.0);
+#ifdef USER_SHADERS
+    m.places = mat4x3(m.places[1], m.places[2], m.places[3], vec3(0.0));
+#endif
 }

@@ -3,7 +3,10 @@
  *
  * NUMBERS_PRELOAD(X), where it is defined, lists those that map() reads. They are then copied to
  * variables before anything is marched: llvmpipe would fetch a number anew at each use, which took
- * 70 % of a picture. GPUs have constants at hand and no registers to spare. */
+ * 70 % of a picture. GPUs have constants at hand and no registers to spare.
+ *
+ * NUMBERS_SHARED, where it is defined, is how many of them a work group fetches together: from
+ * shared memory the same number comes to all lanes at once, from a texture to one after another. */
 
 #ifdef NUMBERS_IN_TEXTURE
 layout(binding = 3) uniform sampler2D numbers;
@@ -18,9 +21,27 @@ layout(std140, binding = 1) uniform Numbers {
 #ifdef NUMBERS_PRELOAD
 vec4 preloaded[NUMBERS_PRELOADED];
 
+#ifdef NUMBERS_SHARED
+shared vec4 fetched[NUMBERS_SHARED];
+
+void fetch()
+{
+    for (uint i = gl_LocalInvocationIndex; i < uint(NUMBERS_SHARED); i += gl_WorkGroupSize.x) {
+        fetched[i] = N_ANY(int(i));
+    }
+    barrier();
+}
+#define PRELOADED(i) (i < NUMBERS_SHARED ? fetched[min(i, NUMBERS_SHARED - 1)] : N_ANY(i))
+#else
+void fetch() {}
+#define PRELOADED(i) N_ANY(i)
+#endif
+
+/* Before anything else: all of a group take part. */
 void preload()
 {
-#define COPY(i) preloaded[i] = N_ANY(i);
+    fetch();
+#define COPY(i) preloaded[i] = PRELOADED(i);
     NUMBERS_PRELOAD(COPY)
 #undef COPY
 }

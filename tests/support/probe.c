@@ -53,8 +53,8 @@ static const char head[] =
 static void write_field(FILE *out, const struct field *field, size_t index, size_t first,
                         bool surface)
 {
-    static const char *const names[] = {"map", "surface", "mixture"};
-    for (size_t i = 0; i < 3; i++) {
+    static const char *const names[] = {"map", "surface"};
+    for (size_t i = 0; i < 2; i++) {
         fprintf(out, "#undef %s\n#define %s %s_%zu\n", names[i], names[i], names[i], index);
     }
     fprintf(out, "#undef FIRST\n#define FIRST %zu\n", first);
@@ -85,7 +85,7 @@ static void write_question(FILE *out, size_t index, size_t first, bool surface)
 static char *program_text(struct field *const *fields, size_t count, bool surface, bool in_block,
                           float through)
 {
-    static const char *const files[] = {"surface.glsl", FIELD_GLSL_FILES};
+    static const char *const files[] = {"surface.glsl", FIELD_GLSL_FILES, "mixture.glsl"};
     char *text;
     size_t length, numbers = 0;
     bool shaders = false;
