@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs every suite one after the other and adds up their TAP. The last line is `N passed, N failed`.
+// Runs every suite and adds up their TAP. The last line is `N passed, N failed`. Suites that ask a
+// process of their own, and nobody else, run two at a time; others run alone.
 //
 //   node tests/run.mjs BUILD [WORD]...    BUILD: the folder with the program (build/asan); only
 //                                         suites whose name holds one of the words
@@ -15,6 +16,7 @@ import { countTap } from './support/tap.mjs';
 const HANG_MS = 20 * 60 * 1000; // no suite takes a tenth of it; this only ends a run that hangs
 const LOG_LINES = 200; // shown of a suite that failed
 const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'e2e'];
+const SIDE_BY_SIDE = ['unit', 'lint', 'web', 'property', 'golden'];
 const NOT_SUITES = ['bench', 'support', 'bad'];
 
 const root = path.dirname(path.dirname(new URL(import.meta.url).pathname));
@@ -38,6 +40,8 @@ const environment = {
     XDG_DATA_HOME: path.join(build, 'home/data'),
     XDG_CACHE_HOME: path.join(build, 'home/cache'),
 };
+
+const kindOf = (suite) => suite.name.split('/')[0];
 
 function findSuites() {
     const suites = [];
@@ -65,7 +69,7 @@ function findSuites() {
         suites.push({ name: 'web/vitest', command: ['npm', 'run', '--silent', 'test'], cwd: web });
     }
     const rank = (suite) => {
-        const at = ORDER.indexOf(suite.name.split('/')[0]);
+        const at = ORDER.indexOf(kindOf(suite));
         return at < 0 ? ORDER.length : at;
     };
     return suites
@@ -96,7 +100,7 @@ async function endGroup(pid) {
     return true;
 }
 
-let running = null;
+const running = new Set();
 
 function execute(suite) {
     return new Promise((resolve) => {
@@ -109,7 +113,7 @@ function execute(suite) {
         });
         const chunks = { out: [], all: [] };
         let hung = false;
-        running = child.pid;
+        running.add(child.pid);
         const timer = setTimeout(() => {
             hung = true;
             process.kill(-child.pid, 'SIGKILL');
@@ -120,7 +124,7 @@ function execute(suite) {
         child.on('exit', async (status, signal) => {
             clearTimeout(timer);
             const left = !hung && (await endGroup(child.pid));
-            running = null;
+            running.delete(child.pid);
             resolve({
                 out: Buffer.concat(chunks.out).toString(),
                 all: Buffer.concat(chunks.all).toString(),
@@ -172,8 +176,8 @@ function show(suite, count, outcome, seconds) {
 
 for (const signal of ['SIGINT', 'SIGTERM']) {
     process.on(signal, () => {
-        if (running) {
-            process.kill(-running, 'SIGKILL');
+        for (const pid of running) {
+            process.kill(-pid, 'SIGKILL');
         }
         process.exit(130);
     });
@@ -183,7 +187,8 @@ const logs = path.join(build, 'logs');
 fs.mkdirSync(logs, { recursive: true });
 const total = { passed: 0, failed: 0 };
 const failures = [];
-for (const suite of findSuites()) {
+
+async function runOne(suite) {
     const start = Date.now();
     const outcome = await execute(suite);
     fs.writeFileSync(path.join(logs, `${suite.name.replace('/', '-')}.log`), outcome.all);
@@ -195,6 +200,17 @@ for (const suite of findSuites()) {
         failures.push(suite.name);
     }
 }
+
+async function runAll(suites) {
+    for (let suite = suites.shift(); suite; suite = suites.shift()) {
+        await runOne(suite);
+    }
+}
+
+const suites = findSuites();
+const together = suites.filter((suite) => SIDE_BY_SIDE.includes(kindOf(suite)));
+await Promise.all([runAll(together), runAll(together)]);
+await runAll(suites.filter((suite) => !SIDE_BY_SIDE.includes(kindOf(suite))));
 if (failures.length > 0) {
     console.log(`\nfailed: ${failures.join(', ')} (logs are in ${logs})`);
 }

@@ -8,8 +8,8 @@
 /* The numbers of strings that #line gives to users' code. */
 enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
 
-/* Surfaces that were never mixed are vec3 h (distance, leaf, slot), as most are in most scenes; mixed
- * ones are m. Where there are shaders, o is the point in the space of the shape that h is of. */
+/* Surfaces that were never mixed are vec3 h (distance, leaf, slot); mixed ones are m. Where there
+ * are shaders, o is the point in the space of the shape that h is of. */
 struct writer {
     FILE *out;
     const struct field *field;

@@ -19,8 +19,9 @@
 char *shader_map(const struct field *field);
 
 /* `void surface(vec3 p, Shading at, out Surface s)`: leaf and material at a hit (glsl/surface.glsl;
- * object_position is filled in), by glsl/mixture.glsl, which stands before it. USER_SHADERS must be defined where field->shader_count > 0.
- * It calls N_ANY(i) where i is not constant. Both texts may stand in one program. */
+ * object_position is filled in). Calls functions of glsl/mixture.glsl, and N_ANY(i) where i is not
+ * constant. USER_SHADERS must be defined where field->shader_count > 0. Both texts may stand in one
+ * program. */
 char *shader_surface(const struct field *field);
 
 #endif
