@@ -114,27 +114,27 @@ void aovs_print(const bool which[AOV_COUNT], char out[AOVS_TEXT_BYTES])
     }
 }
 
+const char *const quality_names[] = {"draft", "interactive", "still", "final", NULL};
+
 /* clang-format off */
 static const struct quality levels[QUALITY_COUNT] = {
-    [QUALITY_DRAFT] = {"draft", "The shape and its light, as fast as can be.",
+    [QUALITY_DRAFT] = {"The shape and its light, as fast as can be.",
         .samples = 1, .antialiasing = ANTIALIASING_NONE, .shadow_steps = 32,
         .occlusion_samples = 3, .volume_steps = 12, .volume_shadow_steps = 3},
-    [QUALITY_INTERACTIVE] = {"interactive", "For pictures that move.",
+    [QUALITY_INTERACTIVE] = {"For pictures that move.",
         .samples = 1, .antialiasing = ANTIALIASING_EDGES, .shadow_steps = 64,
         .occlusion_samples = 5, .ray_depth = 2, .rays = 3, .ray_least = 0.04, .clear_depth = 2,
         .volume_steps = 24, .volume_shadow_steps = 4},
-    [QUALITY_STILL] = {"still", "For pictures that rest.",
+    [QUALITY_STILL] = {"For pictures that rest.",
         .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 16, .shadow_steps = 96,
         .occlusion_samples = 5, .ray_depth = 4, .rays = 12, .ray_least = 0.01, .clear_depth = 4,
         .volume_steps = 48, .volume_shadow_steps = 6},
-    [QUALITY_FINAL] = {"final", "For pictures that are kept.",
+    [QUALITY_FINAL] = {"For pictures that are kept.",
         .samples = 4, .antialiasing = ANTIALIASING_ADAPTIVE, .lens_samples = 64,
         .shadow_steps = 128, .occlusion_samples = 8, .ray_depth = 8, .rays = 24,
         .ray_least = 0.004, .clear_depth = 8, .volume_steps = 72, .volume_shadow_steps = 8},
 };
 /* clang-format on */
-
-const char *const quality_names[] = {"draft", "interactive", "still", "final", NULL};
 
 const struct quality *quality_row(enum quality_level level)
 {
@@ -144,7 +144,7 @@ const struct quality *quality_row(enum quality_level level)
 int quality_find(const char *name)
 {
     for (int i = 0; i < QUALITY_COUNT; i++) {
-        if (strcmp(levels[i].name, name) == 0) {
+        if (strcmp(quality_names[i], name) == 0) {
             return i;
         }
     }

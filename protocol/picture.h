@@ -64,7 +64,6 @@ enum antialiasing {
 };
 
 struct quality {
-    const char *name;
     const char *doc;
     int samples; /* for each pixel along an axis; 0: as the scene says */
     enum antialiasing antialiasing;
@@ -80,8 +79,8 @@ struct quality {
 };
 
 const struct quality *quality_row(enum quality_level level);
+extern const char *const quality_names[]; /* by level, NULL-terminated */
 int quality_find(const char *name);       /* -1: none */
-extern const char *const quality_names[]; /* NULL-terminated */
 
 /* --- a request --- */
 

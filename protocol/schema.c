@@ -496,7 +496,7 @@ static cJSON *describe_levels(void)
     cJSON *list = cJSON_CreateArray();
     for (int i = 0; i < QUALITY_COUNT; i++) {
         const struct quality *level = quality_row(i);
-        cJSON_AddItemToArray(list, described(level->name, level->doc));
+        cJSON_AddItemToArray(list, described(quality_names[i], level->doc));
     }
     return list;
 }

@@ -6,11 +6,14 @@
 #include <cjson/cJSON.h>
 
 #include "drawing.h"
+#include "server/rest/embedded.h"
 
 /* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);
 /* Adds a number with three decimals; more would be noise. */
 void bench_add(cJSON *object, const char *name, double value);
+double bench_number(const cJSON *object, const char *name);
+double bench_ms_since(int64_t start_us);
 
 /* Name and version of what draws. */
 cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
@@ -19,6 +22,24 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
  * encoding. NULL and `err` when something cannot be drawn. */
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
                      struct error *err);
+
+/* One picture, for its times alone. */
+bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
+                struct job_times *out_times, struct error *err);
+
+/* Adds medians over the rounds: `ms` of the whole, and of each stage that took any. */
+bool bench_way(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
+               int rounds, cJSON *row, struct error *err);
+
+/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and
+ * one program from the camera to the light. */
+bool bench_compare_ways(struct renderer *renderer, struct resident *resident,
+                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
+
+/* `effects_off_ratio`: what the example takes with reflections and refractions off, by what it
+ * takes where no material asks for any. */
+bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
+                   cJSON *row, struct error *err);
 
 /* A document of so many nodes, node-I in groups of a hundred; caller frees. */
 char *bench_document(size_t nodes, size_t *out_length);

@@ -15,7 +15,7 @@
 #include "server/clock.h"
 #include "server/rest/embedded.h"
 
-enum { PATIENCE_MS = 50, FIRST_SIDE = 64 };
+enum { FIRST_SIDE = 64 };
 
 static const struct {
     int width, height;
@@ -32,41 +32,6 @@ static const struct {
 };
 
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes };
-
-static double number_in(const cJSON *object, const char *name)
-{
-    return cJSON_GetNumberValue(cJSON_GetObjectItem(object, name));
-}
-
-static double ms_since(int64_t start_us)
-{
-    return (double)(clock_us() - start_us) / 1000;
-}
-
-/* One picture, for its times alone. */
-static bool draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
-                 struct job_times *out_times, struct error *err)
-{
-    struct job *job = job_create(resident, desc, err);
-    enum job_state state = JOB_FAILED;
-    if (!job) {
-        return false;
-    }
-    while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
-        if (state == JOB_ROWS) {
-            struct image rows = job_take_rows(job, AOV_COLOR);
-            image_finish(&rows);
-        }
-        renderer_poll(renderer, state == JOB_WAITING ? PATIENCE_MS : 0);
-    }
-    if (state == JOB_DONE) {
-        *out_times = job_times(job);
-    } else {
-        *err = *job_error(job);
-    }
-    job_destroy(job);
-    return state == JOB_DONE;
-}
 
 /* --- a process of its own for each measurement --- */
 
@@ -175,12 +140,12 @@ static cJSON *measure_first(const struct task *task, struct error *err)
     if (renderer) {
         other = resident_create(renderer, scene_create_empty(), 1);
     }
-    if (other && draw(renderer, other, &desc, &times, err)) {
+    if (other && bench_draw(renderer, other, &desc, &times, err)) {
         int64_t start = clock_us();
         resident = open_example(renderer, task->example, err);
-        if (resident && draw(renderer, resident, &desc, &times, err)) {
+        if (resident && bench_draw(renderer, resident, &desc, &times, err)) {
             row = cJSON_CreateObject();
-            bench_add(row, "ms", ms_since(start));
+            bench_add(row, "ms", bench_ms_since(start));
         }
     }
     resident_destroy(resident);
@@ -210,8 +175,8 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
     cJSON *row = NULL;
     if (warm) {
         row = cJSON_CreateObject();
-        bench_add(row, "cold_ms", number_in(cold, "ms"));
-        bench_add(row, "warm_ms", number_in(warm, "ms"));
+        bench_add(row, "cold_ms", bench_number(cold, "ms"));
+        bench_add(row, "warm_ms", bench_number(warm, "ms"));
     }
     cJSON_Delete(cold);
     cJSON_Delete(warm);
@@ -222,73 +187,14 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
 
 /* --- pictures --- */
 
-static void add_stages(cJSON *row, double *numbers, int rounds)
-{
-    cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
-    for (int stage = 0; stage < FRAME_STAGES; stage++) {
-        double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
-        if (ms > 0) {
-            bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
-        }
-    }
-}
-
-/* Adds medians over the rounds: `ms` of the whole, and of each stage that took any. */
-static bool measure_way(struct renderer *renderer, struct resident *resident,
-                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
-{
-    double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
-    double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
-    bool ok = true;
-    for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
-        struct job_times times = {0};
-        int64_t start = clock_us();
-        ok = draw(renderer, resident, desc, &times, err);
-        for (int stage = 0; i >= 0 && stage < FRAME_STAGES; stage++) {
-            numbers[stage * rounds + i] = times.us[stage] / 1000.0;
-        }
-        if (i >= 0) {
-            whole[i] = ms_since(start);
-        }
-    }
-    if (ok) {
-        bench_add(row, "ms", bench_quantile(whole, (size_t)rounds, 0.5));
-        add_stages(row, numbers, rounds);
-    }
-    free(numbers);
-    return ok;
-}
-
-/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and
- * one program from the camera to the light. */
-static bool compare_ways(struct renderer *renderer, struct resident *resident,
-                         const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
-{
-    struct job_desc way = *desc;
-    cJSON *passes = cJSON_CreateObject(), *at_once = cJSON_CreateObject();
-    way.level = QUALITY_STILL;
-    way.samples = 1;
-    bool ok = measure_way(renderer, resident, &way, rounds, passes, err);
-    way.from_camera = true;
-    ok = ok && measure_way(renderer, resident, &way, rounds, at_once, err);
-    if (ok) {
-        bench_add(row, "by_passes_ms", number_in(passes, "ms"));
-        bench_add(row, "from_camera_ms", number_in(at_once, "ms"));
-        bench_add(row, "from_camera_ratio", number_in(at_once, "ms") / number_in(passes, "ms"));
-    }
-    cJSON_Delete(passes);
-    cJSON_Delete(at_once);
-    return ok;
-}
-
 static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
                            const struct job_desc *desc, int rounds, struct error *err)
 {
     cJSON *row = cJSON_CreateObject();
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    if (!measure_way(renderer, resident, desc, rounds, row, err) ||
-        !compare_ways(renderer, resident, desc, rounds, row, err)) {
+    if (!bench_way(renderer, resident, desc, rounds, row, err) ||
+        !bench_compare_ways(renderer, resident, desc, rounds, row, err)) {
         cJSON_Delete(row);
         return NULL;
     }
@@ -309,7 +215,7 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
                 free(numbers);
                 return NULL;
             }
-            numbers[i] = ms_since(start);
+            numbers[i] = bench_ms_since(start);
             free(bytes);
         }
         cJSON *row = cJSON_CreateObject();
@@ -356,7 +262,8 @@ static cJSON *measure_pictures(const struct task *task, struct error *err)
     if (ok) {
         cJSON_AddStringToObject(row, "example", task->example->path);
         cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
-        ok = add_pictures(renderer, resident, task->rounds, row, err);
+        ok = add_pictures(renderer, resident, task->rounds, row, err) &&
+             bench_effects(renderer, task->example, task->rounds, row, err);
     }
     resident_destroy(resident);
     renderer_destroy(renderer);
@@ -377,13 +284,13 @@ static void add_ratios(cJSON *rows)
         cJSON_ArrayForEach(row, rows)
         {
             cJSON *picture = cJSON_GetArrayItem(cJSON_GetObjectItem(row, "pictures"), size);
-            double ms = number_in(picture, "ms");
+            double ms = bench_number(picture, "ms");
             quickest = quickest == 0 || ms < quickest ? ms : quickest;
         }
         cJSON_ArrayForEach(row, rows)
         {
             cJSON *picture = cJSON_GetArrayItem(cJSON_GetObjectItem(row, "pictures"), size);
-            bench_add(picture, "relative", number_in(picture, "ms") / quickest);
+            bench_add(picture, "relative", bench_number(picture, "ms") / quickest);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "command.h"
 #include "protocol/json.h"
+#include "server/clock.h"
 #include "server/rest/embedded.h"
 
 static int by_value(const void *a, const void *b)
@@ -23,6 +24,16 @@ double bench_quantile(double *numbers, size_t count, double quantile)
 void bench_add(cJSON *object, const char *name, double value)
 {
     cJSON_AddNumberToObject(object, name, round(value * 1000) / 1000);
+}
+
+double bench_number(const cJSON *object, const char *name)
+{
+    return cJSON_GetNumberValue(cJSON_GetObjectItem(object, name));
+}
+
+double bench_ms_since(int64_t start_us)
+{
+    return (double)(clock_us() - start_us) / 1000;
 }
 
 /* Takes `item`; false where the measurement failed. */

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures timed by stage, and two that should cost the same, or show the same, side by side. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "server/clock.h"
+
+enum { PATIENCE_MS = 50 };
+
+bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
+                struct job_times *out_times, struct error *err)
+{
+    struct job *job = job_create(resident, desc, err);
+    enum job_state state = JOB_FAILED;
+    if (!job) {
+        return false;
+    }
+    while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
+        if (state == JOB_ROWS) {
+            struct image rows = job_take_rows(job, AOV_COLOR);
+            image_finish(&rows);
+        }
+        renderer_poll(renderer, state == JOB_WAITING ? PATIENCE_MS : 0);
+    }
+    if (state == JOB_DONE) {
+        *out_times = job_times(job);
+    } else {
+        *err = *job_error(job);
+    }
+    job_destroy(job);
+    return state == JOB_DONE;
+}
+
+static void add_stages(cJSON *row, double *numbers, int rounds)
+{
+    cJSON *stages = cJSON_AddObjectToObject(row, "stages_ms");
+    for (int stage = 0; stage < FRAME_STAGES; stage++) {
+        double ms = bench_quantile(numbers + (ptrdiff_t)stage * rounds, (size_t)rounds, 0.5);
+        if (ms > 0) {
+            bench_add(stages, stage_row((enum frame_stage)stage)->name, ms);
+        }
+    }
+}
+
+bool bench_way(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
+               int rounds, cJSON *row, struct error *err)
+{
+    double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
+    double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
+    bool ok = true;
+    for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
+        struct job_times times = {0};
+        int64_t start = clock_us();
+        ok = bench_draw(renderer, resident, desc, &times, err);
+        for (int stage = 0; i >= 0 && stage < FRAME_STAGES; stage++) {
+            numbers[stage * rounds + i] = times.us[stage] / 1000.0;
+        }
+        if (i >= 0) {
+            whole[i] = bench_ms_since(start);
+        }
+    }
+    if (ok) {
+        bench_add(row, "ms", bench_quantile(whole, (size_t)rounds, 0.5));
+        add_stages(row, numbers, rounds);
+    }
+    free(numbers);
+    return ok;
+}
+
+bool bench_compare_ways(struct renderer *renderer, struct resident *resident,
+                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+{
+    struct job_desc way = *desc;
+    cJSON *passes = cJSON_CreateObject(), *at_once = cJSON_CreateObject();
+    way.level = QUALITY_STILL;
+    way.samples = 1;
+    bool ok = bench_way(renderer, resident, &way, rounds, passes, err);
+    way.from_camera = true;
+    ok = ok && bench_way(renderer, resident, &way, rounds, at_once, err);
+    if (ok) {
+        bench_add(row, "by_passes_ms", bench_number(passes, "ms"));
+        bench_add(row, "from_camera_ms", bench_number(at_once, "ms"));
+        bench_add(row, "from_camera_ratio",
+                  bench_number(at_once, "ms") / bench_number(passes, "ms"));
+    }
+    cJSON_Delete(passes);
+    cJSON_Delete(at_once);
+    return ok;
+}
+
+/* --- what effects cost where they are switched off --- */
+
+static struct resident *open_text(struct renderer *renderer, const cJSON *json, struct error *err)
+{
+    char *text = json_print(json, false);
+    struct scene *scene = scene_parse(text, strlen(text), err);
+
+    free(text);
+    return scene ? resident_create(renderer, scene, 1) : NULL;
+}
+
+/* All its materials matt, so that none asks for rays. */
+static void make_matt(cJSON *json)
+{
+    cJSON *material;
+
+    cJSON_ArrayForEach(material, cJSON_GetObjectItem(json, "materials"))
+    {
+        cJSON_DeleteItemFromObject(material, "properties");
+        cJSON_DeleteItemFromObject(material, "shader");
+        cJSON_AddStringToObject(material, "shader", "phong");
+    }
+}
+
+static void switch_off(cJSON *json)
+{
+    cJSON *render = cJSON_GetObjectItem(json, "render");
+
+    render = render ? render : cJSON_AddObjectToObject(json, "render");
+    for (size_t i = 0; i < 2; i++) {
+        static const char *const effects[] = {"reflections", "refractions"};
+        cJSON_DeleteItemFromObject(render, effects[i]);
+        cJSON_AddFalseToObject(render, effects[i]);
+    }
+}
+
+/* Turn by turn, since machines are quicker now and then. */
+static bool time_both(struct renderer *renderer, struct resident *const both[2], int rounds,
+                      double *ratios, struct error *err)
+{
+    const struct job_desc desc = {
+        .width = 640, .height = 360, .level = QUALITY_STILL, .samples = 1, .exact = true};
+
+    for (int i = -1; i < rounds; i++) { /* the first one only warms up */
+        double ms[2];
+        for (int j = 0; j < 2; j++) {
+            struct job_times times;
+            const int64_t start = clock_us();
+            if (!bench_draw(renderer, both[j], &desc, &times, err)) {
+                return false;
+            }
+            ms[j] = bench_ms_since(start);
+        }
+        ratios[i < 0 ? 0 : i] = ms[0] / ms[1];
+    }
+    return true;
+}
+
+bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
+                   cJSON *row, struct error *err)
+{
+    cJSON *off = json_parse((const char *)example->bytes, example->length, err);
+    cJSON *matt = cJSON_Duplicate(off, true);
+    double *ratios = memory_alloc((size_t)rounds, sizeof *ratios);
+
+    make_matt(matt);
+    switch_off(off);
+    struct resident *const both[] = {open_text(renderer, off, err), open_text(renderer, matt, err)};
+    const bool ok = both[0] && both[1] && time_both(renderer, both, rounds, ratios, err);
+    if (ok) {
+        bench_add(row, "effects_off_ratio", bench_quantile(ratios, (size_t)rounds, 0.5));
+    }
+    resident_destroy(both[0]);
+    resident_destroy(both[1]);
+    free(ratios);
+    cJSON_Delete(off);
+    cJSON_Delete(matt);
+    return ok;
+}
