@@ -3,18 +3,15 @@
  * far as libmicrohttpd shows them. A request that waits for a commit or a picture is suspended. */
 #include "http.h"
 
-#include <inttypes.h>
 #include <microhttpd.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/epoll.h>
 #include <unistd.h>
 
-#include "access.h"
-#include "head.h"
+#include "admit.h"
 #include "protocol/memory.h"
 #include "request.h"
 #include "server/clock.h"
@@ -186,173 +183,6 @@ void http_check_gone(struct http *http)
     hub_unlock(http->hub);
 }
 
-/* --- checks before a handler sees the request --- */
-
-struct field_check {
-    struct head_fault fault;
-    const char *first[3]; /* of Host, Content-Length, Transfer-Encoding */
-    bool ok;
-};
-
-static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const char *name,
-                                   size_t name_length, const char *value, size_t value_length)
-{
-    static const char *const single[3] = {"Host", "Content-Length", "Transfer-Encoding"};
-    struct field_check *check = data;
-
-    (void)kind;
-    check->ok =
-        head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
-    for (int i = 0; i < 3 && check->ok; i++) {
-        if (strcasecmp(name, single[i]) != 0) {
-            continue;
-        }
-        if (check->first[i]) {
-            check->fault = (struct head_fault){400, "a header that may come once comes twice"};
-            check->ok = false;
-        }
-        check->first[i] = value ? value : "";
-    }
-    return check->ok ? MHD_YES : MHD_NO;
-}
-
-static bool check_framing(const struct exchange *exchange, const char *version,
-                          struct response *out)
-{
-    struct field_check check = {.ok = true};
-
-    MHD_get_connection_values_n(exchange->connection, MHD_HEADER_KIND, check_field, &check);
-    if (check.ok && head_framing_check(check.first[0], check.first[1], check.first[2],
-                                       strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
-        return true;
-    }
-    *out = response_problem(check.fault.status, "syntax", "", check.fault.message);
-    response_add(out, "Connection", "close");
-    return false;
-}
-
-static bool check_access(const struct exchange *exchange, bool open, struct response *out)
-{
-    const struct request *request = &exchange->request;
-    struct access_request values = {
-        .host = request_header(request, "Host"),
-        .origin = request_header(request, "Origin"),
-        .authorization = request_header(request, "Authorization"),
-        .protocols = request_header(request, "Sec-WebSocket-Protocol"),
-    };
-    struct error err = {0};
-    int status = access_check(&exchange->http->hub->access, &values, open, &err);
-
-    if (status) {
-        *out = response_problem(status, status == 401 ? "unauthorized" : error_kind_name(err.kind),
-                                err.place, err.message);
-    }
-    return status == 0;
-}
-
-static bool is_json(const char *type)
-{
-    if (!type) {
-        return true;
-    }
-    size_t length = strcspn(type, "; \t");
-
-    return (length == 16 && strncasecmp(type, "application/json", 16) == 0) ||
-           (length > 5 && strncasecmp(type, "application/", 12) == 0 &&
-            strncasecmp(type + length - 5, "+json", 5) == 0);
-}
-
-static size_t body_limit(const struct exchange *exchange)
-{
-    const bool file = exchange->route && exchange->route->body == BODY_FILE;
-
-    return file ? LIMIT_ASSET_BYTES : LIMIT_DOCUMENT_BYTES;
-}
-
-static uint64_t announced_bytes(const struct exchange *exchange)
-{
-    const char *length = request_header(&exchange->request, "Content-Length");
-
-    return length ? strtoull(length, NULL, 10) : 0;
-}
-
-static bool has_body(const struct exchange *exchange)
-{
-    return announced_bytes(exchange) > 0 ||
-           request_header(&exchange->request, "Transfer-Encoding") != NULL;
-}
-
-static bool check_body(const struct exchange *exchange, struct response *out)
-{
-    uint64_t length = announced_bytes(exchange);
-    char detail[100];
-
-    if (exchange->route->body == BODY_NONE && has_body(exchange)) {
-        *out = response_problem(400, "syntax", "", "this request takes no body");
-    } else if (length > body_limit(exchange)) {
-        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %zu",
-                 length, body_limit(exchange));
-        *out = response_problem(413, "too_large", "", detail);
-    } else if (exchange->route->body == BODY_JSON &&
-               !is_json(request_header(&exchange->request, "Content-Type"))) {
-        *out =
-            response_problem(415, "invalid", "Content-Type", "the body must be application/json");
-    } else {
-        return true;
-    }
-    return false;
-}
-
-/* Another site's page that may use this server asks first what it may do. */
-static struct response preflight(void)
-{
-    struct response response = {.status = 204, .body = "", .borrowed = true};
-
-    response_add(&response, "Access-Control-Allow-Methods", "GET, POST, PUT, PATCH, DELETE");
-    response_add(&response, "Access-Control-Allow-Headers",
-                 "Authorization, Content-Type, If-Match, If-None-Match");
-    response_add(&response, "Access-Control-Max-Age", "600");
-    return response;
-}
-
-/* False: `*out` is the answer. */
-static bool admit(struct exchange *exchange, struct response *out)
-{
-    struct request *request = &exchange->request;
-    const char *method = request->method;
-    struct error err = {0};
-
-    if (!exchange->target || !request_parse_target(request, exchange->target, &err)) {
-        *out = response_problem(400, "syntax", err.place, err.message);
-        return false;
-    }
-    exchange->route = routes_find(request, out);
-    bool is_preflight = strcmp(method, "OPTIONS") == 0 && request_header(request, "Origin") &&
-                        request_header(request, "Access-Control-Request-Method");
-    bool found = exchange->route != NULL;
-    struct response refusal;
-    if (!check_access(exchange, is_preflight || (found && exchange->route->open), &refusal)) {
-        if (!found) {
-            free(out->body);
-        }
-        *out = refusal;
-        return false;
-    }
-    if (is_preflight) {
-        free(out->body);
-        *out = preflight();
-        return false;
-    }
-    if (!found) {
-        return false;
-    }
-    if (atomic_load(&exchange->http->hub->draining) && !exchange->route->open) {
-        *out = response_problem(503, "unavailable", "", "the server is shutting down");
-        return false;
-    }
-    return check_body(exchange, out);
-}
-
 /* --- libmicrohttpd's callbacks --- */
 
 static const char *find_header(const struct request *request, const char *name)
@@ -393,6 +223,11 @@ static enum MHD_Result answer_now(struct exchange *exchange, const struct respon
 {
     request_reply(&exchange->request, response);
     return queue_reply(exchange);
+}
+
+static size_t body_limit(const struct exchange *exchange)
+{
+    return admit_body_limit(exchange->route);
 }
 
 static void add_body(struct exchange *exchange, const char *bytes, size_t length)
@@ -458,14 +293,14 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
 {
     struct response response = {0};
 
-    if (!check_framing(exchange, version, &response)) {
+    if (!admit_framing(exchange->connection, version, &response)) {
         return answer_now(exchange, &response);
     }
-    if (admit(exchange, &response)) {
+    if (admit_request(&exchange->request, exchange->target, &exchange->route, &response)) {
         return MHD_YES;
     }
-    if (has_body(exchange) && !request_header(&exchange->request, "Expect") &&
-        announced_bytes(exchange) <= BODY_PATIENCE * body_limit(exchange)) {
+    if (admit_has_body(&exchange->request) && !request_header(&exchange->request, "Expect") &&
+        admit_announced_bytes(&exchange->request) <= BODY_PATIENCE * body_limit(exchange)) {
         request_reply(&exchange->request, &response);
         return MHD_YES;
     }

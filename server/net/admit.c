@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+#include "admit.h"
+
+#include <inttypes.h>
+#include <microhttpd.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "access.h"
+#include "head.h"
+#include "server/live/hub.h"
+#include "server/rest/routes.h"
+
+/* --- framing --- */
+
+struct field_check {
+    struct head_fault fault;
+    const char *first[3]; /* of Host, Content-Length, Transfer-Encoding */
+    bool ok;
+};
+
+static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const char *name,
+                                   size_t name_length, const char *value, size_t value_length)
+{
+    static const char *const single[3] = {"Host", "Content-Length", "Transfer-Encoding"};
+    struct field_check *check = data;
+
+    (void)kind;
+    check->ok =
+        head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
+    for (int i = 0; i < 3 && check->ok; i++) {
+        if (strcasecmp(name, single[i]) != 0) {
+            continue;
+        }
+        if (check->first[i]) {
+            check->fault = (struct head_fault){400, "a header that may come once comes twice"};
+            check->ok = false;
+        }
+        check->first[i] = value ? value : "";
+    }
+    return check->ok ? MHD_YES : MHD_NO;
+}
+
+bool admit_framing(struct MHD_Connection *connection, const char *version, struct response *out)
+{
+    struct field_check check = {.ok = true};
+
+    MHD_get_connection_values_n(connection, MHD_HEADER_KIND, check_field, &check);
+    if (check.ok && head_framing_check(check.first[0], check.first[1], check.first[2],
+                                       strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
+        return true;
+    }
+    *out = response_problem(check.fault.status, "syntax", "", check.fault.message);
+    response_add(out, "Connection", "close");
+    return false;
+}
+
+/* --- bodies --- */
+
+size_t admit_body_limit(const struct route *route)
+{
+    const bool file = route && route->body == BODY_FILE;
+
+    return file ? LIMIT_ASSET_BYTES : LIMIT_DOCUMENT_BYTES;
+}
+
+uint64_t admit_announced_bytes(const struct request *request)
+{
+    const char *length = request_header(request, "Content-Length");
+
+    return length ? strtoull(length, NULL, 10) : 0;
+}
+
+bool admit_has_body(const struct request *request)
+{
+    return admit_announced_bytes(request) > 0 ||
+           request_header(request, "Transfer-Encoding") != NULL;
+}
+
+static bool is_json(const char *type)
+{
+    if (!type) {
+        return true;
+    }
+    size_t length = strcspn(type, "; \t");
+
+    return (length == 16 && strncasecmp(type, "application/json", 16) == 0) ||
+           (length > 5 && strncasecmp(type, "application/", 12) == 0 &&
+            strncasecmp(type + length - 5, "+json", 5) == 0);
+}
+
+static bool check_body(const struct request *request, const struct route *route,
+                       struct response *out)
+{
+    uint64_t length = admit_announced_bytes(request);
+    char detail[100];
+
+    if (route->body == BODY_NONE && admit_has_body(request)) {
+        *out = response_problem(400, "syntax", "", "this request takes no body");
+    } else if (length > admit_body_limit(route)) {
+        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %zu",
+                 length, admit_body_limit(route));
+        *out = response_problem(413, "too_large", "", detail);
+    } else if (route->body == BODY_JSON && !is_json(request_header(request, "Content-Type"))) {
+        *out =
+            response_problem(415, "invalid", "Content-Type", "the body must be application/json");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* --- who and what --- */
+
+static bool check_access(const struct request *request, bool open, struct response *out)
+{
+    struct access_request values = {
+        .host = request_header(request, "Host"),
+        .origin = request_header(request, "Origin"),
+        .authorization = request_header(request, "Authorization"),
+        .protocols = request_header(request, "Sec-WebSocket-Protocol"),
+    };
+    struct error err = {0};
+    int status = access_check(&request->hub->access, &values, open, &err);
+
+    if (status) {
+        *out = response_problem(status, status == 401 ? "unauthorized" : error_kind_name(err.kind),
+                                err.place, err.message);
+    }
+    return status == 0;
+}
+
+/* Another site's page that may use this server asks first what it may do. */
+static struct response preflight(void)
+{
+    struct response response = {.status = 204, .body = "", .borrowed = true};
+
+    response_add(&response, "Access-Control-Allow-Methods", "GET, POST, PUT, PATCH, DELETE");
+    response_add(&response, "Access-Control-Allow-Headers",
+                 "Authorization, Content-Type, If-Match, If-None-Match");
+    response_add(&response, "Access-Control-Max-Age", "600");
+    return response;
+}
+
+bool admit_request(struct request *request, const char *target, const struct route **out_route,
+                   struct response *out)
+{
+    struct error err = {0};
+
+    *out_route = NULL;
+    if (!target || !request_parse_target(request, target, &err)) {
+        *out = response_problem(400, "syntax", err.place, err.message);
+        return false;
+    }
+    const struct route *route = routes_find(request, out);
+    *out_route = route;
+    bool is_preflight = strcmp(request->method, "OPTIONS") == 0 &&
+                        request_header(request, "Origin") &&
+                        request_header(request, "Access-Control-Request-Method");
+    struct response refusal;
+    if (!check_access(request, is_preflight || (route && route->open), &refusal)) {
+        if (!route) {
+            free(out->body);
+        }
+        *out = refusal;
+        return false;
+    }
+    if (is_preflight) {
+        free(out->body);
+        *out = preflight();
+        return false;
+    }
+    if (!route) {
+        return false;
+    }
+    if (atomic_load(&request->hub->draining) && !route->open) {
+        *out = response_problem(503, "unavailable", "", "the server is shutting down");
+        return false;
+    }
+    return check_body(request, route, out);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* What a request must pass before a handler sees it: framing, target, access, announced body.
+ * Judges only; who calls sends the answer. Called by the thread of http only. */
+#ifndef SERVER_ADMIT_H
+#define SERVER_ADMIT_H
+
+#include <stdint.h>
+
+#include "request.h"
+
+struct MHD_Connection;
+struct route;
+
+/* Both: false, and `*out` is the answer. */
+bool admit_framing(struct MHD_Connection *connection, const char *version, struct response *out);
+/* `target` may be NULL, which is refused. `*out_route` is set for refused requests too, NULL where
+ * there is none: how much of a body is read away depends on it. */
+bool admit_request(struct request *request, const char *target, const struct route **out_route,
+                   struct response *out);
+
+/* `route` may be NULL. */
+size_t admit_body_limit(const struct route *route);
+/* 0 where no length is told. */
+uint64_t admit_announced_bytes(const struct request *request);
+bool admit_has_body(const struct request *request);
+
+#endif
