@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's side of a live scene: connects, edits, picks, shows. Keeps the stores up to date.
  * Socket, decoding and presentation run in a worker where the browser allows it. */
-import { cameraOf, equalCamera, printCamera } from "../model/camera.ts";
 import { paramAt } from "../model/document.ts";
 import {
     EMPTY_HISTORY,
@@ -12,35 +11,18 @@ import {
     recordUndo,
 } from "../model/history.ts";
 import type { Operation, Problem } from "../model/operation.ts";
-import {
-    addProblem,
-    COMPILE,
-    COMPILED,
-    dropGone,
-    endProblem,
-    settleProblems,
-} from "../model/problems.ts";
-import type { Schema, Value, Values } from "../model/schema.ts";
+import { dropGone, settleProblems } from "../model/problems.ts";
+import type { Schema, Value } from "../model/schema.ts";
 import * as sessions from "../model/session.ts";
-import {
-    addNotice,
-    EMPTY_DOCUMENT_STATE,
-    IDLE_LINK,
-    type LinkState,
-    type Stores,
-} from "../model/stores.ts";
+import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
 import { checkValue } from "../model/values.ts";
-import type { Report, ViewState } from "./engine.ts";
+import type { Report } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
-import { mountPicture, type PictureSize } from "./picture.ts";
-import {
-    type NoticeMessage,
-    type PickedMessage,
-    type ServerMessage,
-    SUBPROTOCOL,
-    TOKEN_PREFIX,
-} from "./protocol.ts";
+import { Notices } from "./notices.ts";
+import { Picks } from "./picks.ts";
+import { type PickedMessage, type ServerMessage, SUBPROTOCOL, TOKEN_PREFIX } from "./protocol.ts";
+import { Viewer } from "./viewer.ts";
 
 export interface EditOptions {
     /* Edits of one group are one undo step. */
@@ -97,39 +79,22 @@ class SceneLink implements Link {
     readonly #options: LinkOptions;
     readonly #host: Host;
     readonly #client = randomId();
-    readonly #stops: (() => void)[] = [];
+    readonly #viewer: Viewer;
+    readonly #picks: Picks;
+    readonly #notices: Notices;
+    readonly #retry = (): void => this.retry();
     #session: sessions.Session | null = null;
     #groups = 0;
-    #picks = 0;
-    #picking = new Map<number, { take: (p: PickedMessage) => void; fail: (e: Error) => void }>();
     #flushDue = false;
-    #element: HTMLElement | null = null;
-    #size: PictureSize | null = null;
 
     constructor(stores: Stores, options: LinkOptions) {
         this.#stores = stores;
         this.#options = options;
         this.#host = startHost((report) => this.#take(report));
-        const sendView = (): void => this.#sendView();
-        const retry = (): void => this.retry();
-        document.addEventListener("visibilitychange", sendView);
-        window.addEventListener("online", retry);
-        this.#stops.push(
-            stores.camera.subscribe((now, before) => {
-                if (!now.own && before.own) {
-                    this.#followCamera();
-                }
-                this.#sendView();
-            }),
-            stores.view.subscribe((now, before) => {
-                const { quality } = now.preferences;
-                if (now.aov !== before.aov || quality !== before.preferences.quality) {
-                    this.#sendView();
-                }
-            }),
-            () => document.removeEventListener("visibilitychange", sendView),
-            () => window.removeEventListener("online", retry),
-        );
+        this.#viewer = new Viewer(stores, this.#host, () => this.#session !== null);
+        this.#picks = new Picks(this.#host);
+        this.#notices = new Notices(stores);
+        window.addEventListener("online", this.#retry);
     }
 
     /* --- connection --- */
@@ -150,7 +115,7 @@ class SceneLink implements Link {
             client: this.#client,
             name,
         });
-        this.#sendView();
+        this.#viewer.tell();
     }
 
     disconnect(): void {
@@ -158,7 +123,7 @@ class SceneLink implements Link {
             this.#flush();
         }
         this.#session = null;
-        this.#failPicks();
+        this.#picks.fail();
         this.#host.send({ kind: "close" });
         const { schema } = this.#stores.document.getState();
         this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, schema });
@@ -172,9 +137,8 @@ class SceneLink implements Link {
 
     destroy(): void {
         this.disconnect();
-        for (const stop of this.#stops) {
-            stop();
-        }
+        this.#viewer.end();
+        window.removeEventListener("online", this.#retry);
         this.#host.end();
     }
 
@@ -209,13 +173,13 @@ class SceneLink implements Link {
         this.#stores.link.setState(next);
         if (this.#session && (state === "offline" || state === "refused")) {
             this.#session = sessions.disconnect(this.#session);
-            this.#failPicks();
+            this.#picks.fail();
         }
         if (state === "offline" && before === "live") {
-            this.#notice("warning", "connection_lost", text("link.lost"));
+            this.#notices.add("warning", "connection_lost", text("link.lost"));
         }
         if (state === "refused") {
-            this.#notice("error", "connection_refused", text("link.refused", { reason }));
+            this.#notices.add("error", "connection_refused", text("link.refused", { reason }));
         }
         if (state === "offline" && attempts === ATTEMPTS_BEFORE_PROBE) {
             void this.#probe();
@@ -233,7 +197,7 @@ class SceneLink implements Link {
             const reason = `${response.status} ${response.statusText}`.trim();
             this.#host.send({ kind: "close" });
             this.#stores.link.setState({ connection: "refused", reason, retryAt: null });
-            this.#notice("error", "connection_refused", text("link.refused", { reason }));
+            this.#notices.add("error", "connection_refused", text("link.refused", { reason }));
         }
     }
 
@@ -242,10 +206,10 @@ class SceneLink implements Link {
     #message(message: ServerMessage): void {
         switch (message.type) {
             case "picked":
-                this.#picked(message);
+                this.#picks.answer(message);
                 break;
             case "notice":
-                this.#serverNotice(message);
+                this.#notices.fromServer(message);
                 break;
             case "bye":
                 break;
@@ -280,13 +244,13 @@ class SceneLink implements Link {
     #event(event: sessions.SessionEvent): void {
         switch (event.kind) {
             case "rejected":
-                this.#rejected(event.pending, event.problem);
+                this.#notices.rejected(event.pending, event.problem);
                 break;
             case "done":
                 this.#done(event.pending);
                 break;
             case "resync":
-                this.#notice("warning", "resync", text("link.resync"));
+                this.#notices.add("warning", "resync", text("link.resync"));
                 this.#host.send({ kind: "resync" });
                 break;
             default:
@@ -306,42 +270,6 @@ class SceneLink implements Link {
         }));
     }
 
-    #rejected(pending: sessions.PendingEdit | null, problem: Problem): void {
-        const label = pending?.label || text("edit.unnamed");
-        const message = text("edit.rejected", { label, message: problem.message });
-        this.#notice("error", problem.code, message, problem.place);
-        this.#problemAt(problem);
-    }
-
-    #problemAt(problem: Problem): void {
-        if (problem.place !== "") {
-            this.#stores.document.setState(({ problems }) => ({
-                problems: addProblem(problems, problem),
-            }));
-        }
-    }
-
-    /* Broken code is marked where it stands, again and again while somebody types. */
-    #serverNotice({ type: _type, ...notice }: NoticeMessage): void {
-        const { level, code, message, place = "" } = notice;
-        if (code === COMPILED) {
-            this.#stores.document.setState(({ problems }) => ({
-                problems: endProblem(problems, place),
-            }));
-            return;
-        }
-        if (level === "error") {
-            this.#problemAt({ ...notice, place });
-        }
-        if (code !== COMPILE || place === "") {
-            this.#notice(level, code, message, place);
-        }
-    }
-
-    #notice(level: "info" | "warning" | "error", code: string, message: string, place = ""): void {
-        addNotice(this.#stores.notices, { level, code, message, place });
-    }
-
     /* --- edits --- */
 
     edit(ops: readonly Operation[], options: EditOptions = {}): boolean {
@@ -354,7 +282,7 @@ class SceneLink implements Link {
         const problem = refused ?? result?.problem ?? null;
         if (problem || !result) {
             const message = text("edit.refused", { message: problem?.message ?? "" });
-            this.#notice("warning", problem?.code ?? "", message, problem?.place);
+            this.#notices.add("warning", problem?.code ?? "", message, problem?.place);
             return false;
         }
         this.#session = result.session;
@@ -469,119 +397,26 @@ class SceneLink implements Link {
                 : before.history,
         });
         if (session.shown && session.shown.camera !== before.document?.camera) {
-            this.#followCamera();
+            this.#viewer.followCamera();
         }
     }
 
     /* --- view --- */
 
-    /* Until the user looks around, the camera is the document's; then all but its place is. */
-    #followCamera(): void {
-        const { document: shown, schema } = this.#stores.document.getState();
-        const { camera, own } = this.#stores.camera.getState();
-        if (!shown) {
-            return;
-        }
-        const defaults: Record<string, Value> = {};
-        for (const param of schema.camera) {
-            defaults[param.name] = param.default;
-        }
-        const { position, target, up } = camera;
-        const followed = {
-            ...cameraOf(shown.camera, defaults as Values),
-            ...(own ? { position, target, up } : {}),
-        };
-        if (!equalCamera(camera, followed)) {
-            this.#stores.camera.setState({ camera: followed });
-        }
-        this.#sendView();
-    }
-
-    #sendView(): void {
-        if (!this.#session || !this.#size) {
-            return;
-        }
-        const { aov, preferences } = this.#stores.view.getState();
-        const { camera, own } = this.#stores.camera.getState();
-        const { document: shown } = this.#stores.document.getState();
-        const view: ViewState = {
-            width: this.#size.width,
-            height: this.#size.height,
-            ...(own ? { camera: { ...shown?.camera, ...printCamera(camera) } } : {}),
-            aov,
-            quality: preferences.quality,
-            visible: document.visibilityState === "visible" && this.#element !== null,
-        };
-        this.#host.send({ kind: "view", view });
-    }
-
     attach(element: HTMLElement): () => void {
-        const { canvas, unmount } = mountPicture(element, (size) => {
-            this.#size = size;
-            this.#sendView();
-        });
-        this.#element = element;
-        this.#host.setCanvas(canvas);
-        this.#sendView();
-        return () => {
-            unmount();
-            if (this.#element === element) {
-                this.#element = null;
-                this.#host.setCanvas(null);
-                this.#sendView();
-            }
-        };
+        return this.#viewer.attach(element);
     }
 
     pick(x: number, y: number): Promise<PickedMessage> {
-        const element = this.#element;
-        const size = this.#size;
-        if (!element || !size || this.#stores.link.getState().connection !== "live") {
+        const pixel = this.#viewer.pixelAt(x, y);
+        if (!pixel || this.#stores.link.getState().connection !== "live") {
             return Promise.reject(new Error("not connected"));
         }
-        this.#picks++;
-        const pick = this.#picks;
-        const pixel = (at: number, css: number, device: number): number =>
-            Math.min(device - 1, Math.max(0, Math.floor((at / Math.max(1, css)) * device)));
-        this.#host.send({
-            kind: "pick",
-            pick,
-            x: pixel(x, element.clientWidth, size.width),
-            y: pixel(y, element.clientHeight, size.height),
-        });
-        return new Promise((take, fail) => {
-            this.#picking.set(pick, { take, fail });
-            setTimeout(() => {
-                if (this.#picking.delete(pick)) {
-                    fail(new Error("no answer"));
-                }
-            }, PICK_ANSWER_MS);
-        });
+        return this.#picks.ask(pixel);
     }
 
     pickIdle(x: number, y: number): Promise<PickedMessage | null> {
-        return this.#picking.size > 0 ? Promise.resolve(null) : this.pick(x, y);
-    }
-
-    /* The server answers only the newest of many: those before it are not waited for. */
-    #picked(message: PickedMessage): void {
-        for (const [pick, { take, fail }] of [...this.#picking]) {
-            if (pick === message.pick) {
-                take(message);
-            } else if (pick < message.pick) {
-                fail(new Error("no answer"));
-            }
-            if (pick <= message.pick) {
-                this.#picking.delete(pick);
-            }
-        }
-    }
-
-    #failPicks(): void {
-        for (const { fail } of this.#picking.values()) {
-            fail(new Error("not connected"));
-        }
-        this.#picking.clear();
+        return this.#picks.waiting ? Promise.resolve(null) : this.pick(x, y);
     }
 }
 
@@ -589,7 +424,6 @@ class SceneLink implements Link {
 const ATTEMPTS_BEFORE_PROBE = 2;
 /* Answers that waiting will not change. */
 const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];
-const PICK_ANSWER_MS = 10_000;
 /* Hidden pages get no animation frames. */
 const LATEST_FLUSH_MS = 50;
 
