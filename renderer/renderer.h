@@ -110,6 +110,7 @@ struct job_desc {
     int samples;      /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
     int transparent;  /* 1: the background is left out, 0: not; -1: the scene's render settings */
     bool exact;       /* wait for the newest revision's shader; else draw the newest drawable */
+    bool in_rounds;   /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
     bool as_floats;   /* give raw values (NPY), not 8/16-bit pixels */
     bool from_camera; /* one program for one sample instead of passes: for comparison. Without
                          volumes, and light through clear things keeps its colour */
@@ -118,12 +119,14 @@ struct job_desc {
 enum job_state {
     JOB_WAITING, /* for a compilation */
     JOB_RUNNING,
-    JOB_ROWS, /* some rows are finished: job_take_rows */
+    JOB_ROWS,  /* some rows are finished: job_take_rows */
+    JOB_ROUND, /* all rows were taken; they come again, made of more samples */
     JOB_DONE,
     JOB_FAILED
 };
 
-/* The job draws the scene as it is now: later edits do not touch it. */
+/* The job draws the scene as it is now: later edits do not touch it. In rounds, the last picture is
+ * the same as without; rounds before it have 4, 16 samples of each pixel. */
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
 /* Draws a sample of each pixel of one tile and returns soon. */
 enum job_state job_step(struct job *job);

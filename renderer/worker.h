@@ -12,11 +12,11 @@
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, ERROR}
  *   refuse {shapes: [hex, ...]}                         warned   {scene, revision, ERROR}
- *   render {job, scene, priority, width, height,        frame    {job, revision, newest, width,
- *           camera?, region? [x, y, width, height],               height, mime, STAGE_us...}
+ *   render {job, scene, priority, width, height,        frame    {job, revision, newest, more,
+ *           camera?, region? [x, y, width, height],               width, height, mime, STAGE_us...}
  *           aov, level?, samples, transparent?,                   + payload
  *           format, quality, chroma_halved, fast,       progress {job}  (now and then)
- *           zipped, exact}                              failed   {job, ERROR}
+ *           zipped, exact, in_rounds}                   failed   {job, ERROR}
  *   cancel {job}
  *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position,
  *                                                                 normal, distance}
@@ -31,10 +31,11 @@
  * did so is refused by the next worker. A compiler that may never end (limits.h) ends the worker,
  * with status 4.
  *
- * A render of a scene that is not known, or a malformed packet, is answered by `failed`. `newest`
- * is false where the picture is older than the scene because its shader still compiles. Jobs run
- * tile by tile; the lowest priority number goes first, so a viewer's frame interrupts a long
- * picture between two tiles. The worker answers pings between tiles too: silence means a hang. */
+ * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
+ * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
+ * `newest` is false where the picture is older than the scene because its shader still compiles.
+ * Jobs run tile by tile; the lowest priority number goes first, so a viewer's frame interrupts a
+ * long picture between two tiles. The worker answers pings between tiles too: silence means a hang. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H
 

@@ -177,6 +177,7 @@ void worker_send_frame(struct worker *w, const struct task *task)
     cJSON_AddNumberToObject(json, "width", task->width);
     cJSON_AddNumberToObject(json, "height", task->height);
     cJSON_AddStringToObject(json, "mime", encoding->mime);
+    cJSON_AddBoolToObject(json, "more", task->between);
     for (int i = 0; i < FRAME_STAGES; i++) {
         char name[STAGE_MEMBER_BYTES];
 

@@ -21,7 +21,9 @@ struct task {
     char *scene;
     int priority;
     struct job *job; /* NULL once it is drawn, or given up */
+    struct encode_params encode;
     struct encoding *encoding;
+    bool between; /* a round is drawn and being encoded; there are more */
     bool newest;
     bool answered; /* failed or cancelled: nobody waits for what is encoded */
     uint64_t received_us, begun_us, told_us;

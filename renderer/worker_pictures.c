@@ -101,6 +101,7 @@ static bool read_desc(const cJSON *packet, bool as_floats, struct job_desc *out,
         .samples = worker_read_int(packet, "samples", 0),
         .transparent = json_member_bool(packet, "transparent", false),
         .exact = json_member_bool(packet, "exact", false),
+        .in_rounds = json_member_bool(packet, "in_rounds", false),
         .as_floats = as_floats,
     };
     if (!cJSON_HasObjectItem(packet, "transparent")) {
@@ -128,32 +129,37 @@ static struct job *make_job(struct resident *resident, const cJSON *packet, bool
     return job;
 }
 
-/* The picture's job and its encoding. */
-static bool begin_task(struct worker *w, const cJSON *packet, struct task *task, struct error *err)
+static bool begin_encoding(struct worker *w, struct task *task, struct error *err)
 {
-    const struct held *held = *worker_find_scene(w, task->scene);
     struct image shapes[AOV_COUNT];
-    struct encode_params encode;
 
-    if (!held) {
-        return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
-    }
-    if (!read_format(packet, &encode, err)) {
-        return false;
-    }
-    task->job = make_job(held->resident, packet, encode.format == IMAGE_NPY, err);
-    if (!task->job) {
-        return false;
-    }
     for (int i = 0; i < AOV_COUNT; i++) {
         shapes[i] = job_image_shape(task->job, (enum aov)i);
         task->width = shapes[i].width ? shapes[i].width : task->width;
         task->height = shapes[i].width ? shapes[i].height : task->height;
     }
+    task->encoding = encoder_begin(w->encoder, shapes, &task->encode, task->priority, task, err);
+    return task->encoding;
+}
+
+/* The picture's job and its encoding. */
+static bool begin_task(struct worker *w, const cJSON *packet, struct task *task, struct error *err)
+{
+    const struct held *held = *worker_find_scene(w, task->scene);
+
+    if (!held) {
+        return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
+    }
+    if (!read_format(packet, &task->encode, err)) {
+        return false;
+    }
+    task->job = make_job(held->resident, packet, task->encode.format == IMAGE_NPY, err);
+    if (!task->job) {
+        return false;
+    }
     task->revision = job_revision(task->job);
     task->newest = task->revision == resident_revision(held->resident);
-    task->encoding = encoder_begin(w->encoder, shapes, &encode, task->priority, task, err);
-    return task->encoding;
+    return begin_encoding(w, task, err);
 }
 
 void worker_on_render(struct worker *w, const cJSON *packet)
@@ -183,7 +189,9 @@ static void give_up(struct worker *w, struct task *task)
     task->answered = true;
     job_destroy(task->job);
     task->job = NULL;
-    encoder_end(w->encoder, task->encoding, false);
+    if (!task->between) {
+        encoder_end(w->encoder, task->encoding, false);
+    }
 }
 
 void worker_on_cancel(struct worker *w, const cJSON *packet)
@@ -210,7 +218,8 @@ struct task *worker_choose_task(struct worker *w)
         if (task->job && job_is_within_tile(task->job)) {
             return task;
         }
-        if (task->job && (!best || (!oldest && task->priority < best->priority)) &&
+        if (task->job && !task->between &&
+            (!best || (!oldest && task->priority < best->priority)) &&
             job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
             best = task;
         }
@@ -233,10 +242,23 @@ static void hand_rows_over(struct worker *w, struct task *task)
     }
 }
 
-static void finish_drawing(struct worker *w, struct task *task)
+static void take_times(struct task *task)
 {
     task->times = job_times(task->job);
     task->times.us[FRAME_QUEUE] = (uint32_t)(task->begun_us - task->received_us);
+}
+
+/* The next one begins when this one is encoded. */
+static void finish_round(struct worker *w, struct task *task)
+{
+    take_times(task);
+    task->between = true;
+    encoder_end(w->encoder, task->encoding, true);
+}
+
+static void finish_drawing(struct worker *w, struct task *task)
+{
+    take_times(task);
     job_destroy(task->job);
     task->job = NULL;
     encoder_end(w->encoder, task->encoding, true);
@@ -274,6 +296,9 @@ void worker_step(struct worker *w, struct task *task)
     case JOB_ROWS:
         hand_rows_over(w, task);
         break;
+    case JOB_ROUND:
+        finish_round(w, task);
+        break;
     case JOB_DONE:
         finish_drawing(w, task);
         break;
@@ -287,17 +312,23 @@ void worker_step(struct worker *w, struct task *task)
     }
 }
 
-static void answer(struct worker *w, struct task *task)
+/* True when there is more to come. */
+static bool answer(struct worker *w, struct task *task)
 {
+    struct error err = task->encoding->error;
+
     if (task->answered) {
-        return;
+        return false;
     }
     task->times.us[FRAME_ENCODE] = task->encoding->encode_us;
     if (task->encoding->ok) {
         worker_send_frame(w, task);
-    } else {
-        worker_send_failed(w, task->number, &task->encoding->error);
+        if (!task->between || begin_encoding(w, task, &err)) {
+            return task->between;
+        }
     }
+    worker_send_failed(w, task->number, &err);
+    return false;
 }
 
 void worker_collect_encodings(struct worker *w)
@@ -313,8 +344,11 @@ void worker_collect_encodings(struct worker *w)
         while (*at != encoding->data) {
             at = &(*at)->next;
         }
-        answer(w, *at);
-        worker_drop_task(at);
+        if (answer(w, *at)) {
+            (*at)->between = false;
+        } else {
+            worker_drop_task(at);
+        }
         encoding_destroy(encoding);
     }
 }

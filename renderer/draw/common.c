@@ -17,6 +17,7 @@ static const char *const files[COMMON_COUNT][20] = {
     [COMMON_GATHER] = {"frame.glsl", "group.glsl", "tone.glsl", "gather_pass.glsl", NULL},
     [COMMON_EDGES] = {"frame.glsl", "group.glsl", "ray.glsl", "camera.glsl", "list.glsl",
                       "edges.glsl", "edges_pass.glsl", NULL},
+    [COMMON_AGAIN] = {"frame.glsl", "group.glsl", "list.glsl", "again_pass.glsl", NULL},
 };
 
 bool common_init(struct common *out_common, const struct gl *gl, struct error *err)

@@ -12,6 +12,7 @@ enum common_pass {
     COMMON_PLAIN,  /* the same where nothing mirrors: a third of the time */
     COMMON_GATHER, /* samples to pixels */
     COMMON_EDGES,  /* which pixels are sampled again */
+    COMMON_AGAIN,  /* the same in a later round */
     COMMON_COUNT
 };
 

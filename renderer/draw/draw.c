@@ -16,6 +16,8 @@ enum {
     TILE_SOFTWARE = 256,
     TILE_GPU = 512,
     TILE_LEAST = 64,       /* for many samples of all pixels */
+    FIRST_ROUND = 4,       /* samples, where a picture is drawn in rounds; */
+    ROUND_GROWTH = 4,      /* each next one has so many times as many */
     MARGIN = 1,            /* pixels around a tile, which edges are found by */
     FENCE_WAIT_MS = 60000, /* beyond it the device is taken for lost */
 };
@@ -173,8 +175,10 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 struct error *err)
 {
     const struct gl *gl = draw->gl;
-    struct draw_picture picture = {
-        .plan = *plan, .lights = block->modes[0], .clear = block->clear_min[3] > 0};
+    struct draw_picture picture = {.plan = *plan,
+                                   .until = plan->samples,
+                                   .lights = block->modes[0],
+                                   .clear = block->clear_min[3] > 0};
 
     for (int i = 0; i < AOV_COUNT; i++) {
         picture.forms[i] = wanted[i];
@@ -201,6 +205,8 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
     const struct gl *gl = draw->gl;
 
     gl->DeleteBuffers(1, &picture->frame);
+    gl->DeleteTextures(1, &picture->kept);
+    gl->DeleteTextures(1, &picture->kept_counted);
     for (int i = 0; i < DRAW_SLOTS; i++) {
         struct draw_slot *slot = &picture->slots[i];
         if (slot->fence) {
@@ -212,6 +218,39 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
     *picture = (struct draw_picture){0};
 }
 
+/* --- rounds --- */
+
+static GLuint make_kept(const struct gl *gl, GLenum format, struct tile region)
+{
+    GLuint texture = 0;
+
+    gl->GenTextures(1, &texture);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, region.width, region.height);
+    return texture;
+}
+
+void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
+{
+    if (picture->plan.samples > FIRST_ROUND) {
+        picture->kept = make_kept(draw->gl, GL_RGBA32F, region);
+        picture->kept_counted = make_kept(draw->gl, GL_R32F, region);
+        picture->until = FIRST_ROUND;
+        picture->left = region.x;
+        picture->top = region.y;
+    }
+}
+
+bool draw_next_round(struct draw_picture *picture)
+{
+    const int all = picture->plan.samples;
+
+    picture->from = picture->until;
+    picture->until = ROUND_GROWTH * picture->from < all ? ROUND_GROWTH * picture->from : all;
+    return picture->from < all;
+}
+
 /* --- a tile --- */
 
 /* Pixels of the tile around which the passes see a margin. */
@@ -220,6 +259,27 @@ static int margin_of(const struct draw_plan *plan)
     return plan->antialiasing == ANTIALIASING_EDGES || plan->antialiasing == ANTIALIASING_ADAPTIVE
                ? MARGIN
                : 0;
+}
+
+/* The tile's pixels and how many samples they have: from the targets, or back into them. */
+static void keep(const struct wave *wave, const struct draw_picture *picture, bool back)
+{
+    const struct tile tile = wave->slot->tile;
+    const int margin = margin_of(wave->plan);
+    const int x = tile.x - picture->left, y = tile.y - picture->top;
+    const GLuint ours[] = {picture->kept, picture->kept_counted};
+    const GLuint targets[] = {wave->targets->pixels, wave->targets->counted};
+
+    for (int i = 0; i < 2; i++) {
+        if (back) {
+            wave->gl->CopyImageSubData(ours[i], GL_TEXTURE_2D, 0, x, y, 0, targets[i],
+                                       GL_TEXTURE_2D, 0, margin, margin, 0, tile.width, tile.height,
+                                       1);
+        } else {
+            wave->gl->CopyImageSubData(targets[i], GL_TEXTURE_2D, 0, margin, margin, 0, ours[i],
+                                       GL_TEXTURE_2D, 0, x, y, 0, tile.width, tile.height, 1);
+        }
+    }
 }
 
 /* One output becomes pixels and starts on its way back. */
@@ -342,6 +402,9 @@ static struct wave make_wave(const struct draw *draw, struct draw_picture *pictu
 static void finish_tile(struct draw *draw, struct wave *wave, const struct draw_picture *picture)
 {
     resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
+    if (picture->kept && picture->until < picture->plan.samples) {
+        keep(wave, picture, false);
+    }
     wave->slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     draw->gl->Flush();
     wave->slot->samples = 0;
@@ -357,6 +420,12 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct dra
     wave = make_wave(draw, picture, scene, index);
     bind_scene(draw, picture, scene);
     wave_start_clock(&wave);
+    if (picture->from > 0) {
+        keep(&wave, picture, true);
+        wave_resume(&wave, picture->from);
+        wave.slot->samples = picture->from;
+        return gl_check(draw->gl, "going on with a tile", err);
+    }
     if (!plan->from_camera) {
         draw_passes(draw, &wave, picture);
     } else if (!draw_from_camera(&wave, scene->program, err)) {
@@ -378,7 +447,7 @@ bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struc
 
     bind_scene(draw, picture, scene);
     wave_resume_clock(&wave);
-    if (!wave_sample_again(&wave, slot->samples) || ++slot->samples == picture->plan.samples) {
+    if (!wave_sample_again(&wave, slot->samples) || ++slot->samples == picture->until) {
         finish_tile(draw, &wave, picture);
     }
     return gl_check(draw->gl, "drawing a tile again", err);

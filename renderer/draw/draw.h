@@ -64,6 +64,11 @@ struct draw_picture {
     bool clear; /* light goes through something */
     GLuint frame;
     struct draw_slot slots[DRAW_SLOTS];
+    /* Drawn in rounds: each tile gets samples `from` to `until`, and between two rounds its pixels
+     * are kept in textures as large as the region that is drawn. */
+    int from, until;
+    GLuint kept, kept_counted; /* 0: there is one round */
+    int left, top;             /* of the region */
 };
 
 /* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the
@@ -81,8 +86,14 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
                 struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
-/* The first sample of each pixel. Where `samples` of the slot is not 0 then, the tile is not
- * finished: draw_tile_more draws one more, and nothing else may be drawn until it is 0. */
+/* Before the first tile: the picture is drawn in rounds of ever more samples, each a whole picture.
+ * All outputs but color keep to one round. */
+void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region);
+/* After the last tile: false when all samples are there. */
+bool draw_next_round(struct draw_picture *picture);
+/* The first sample of each pixel, or those that the last round left. Where `samples` of the slot is
+ * not 0 then, the tile is not finished: draw_tile_more draws one more, and nothing else may be
+ * drawn until it is 0. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

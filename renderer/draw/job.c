@@ -8,12 +8,15 @@
 
 #include "protocol/memory.h"
 
+enum { ROUNDS_PIXELS_MAX = 1 << 22 };
+
 struct job {
     struct renderer *renderer;
     struct snapshot *snapshot;
     struct camera camera;
     const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
     struct plan_wish wish;
+    bool in_rounds;
     enum job_state state;
     int width, height; /* of the whole picture */
     struct job_region region;
@@ -106,6 +109,7 @@ static void set_desc(struct job *job, const struct job_desc *desc)
     job->region = desc->region.width > 0 ? desc->region : whole;
     job->camera = camera_from_record(camera, desc->width, desc->height);
     job->depth_far = 2 * target_distance(camera);
+    job->in_rounds = desc->in_rounds;
     job->wish = (struct plan_wish){
         .level = desc->level,
         .samples = job->forms[AOV_COLOR] ? desc->samples : 1,
@@ -150,6 +154,17 @@ static enum job_state fail(struct job *job)
     return job->state = JOB_FAILED;
 }
 
+/* What is kept between rounds takes memory. */
+static bool may_have_rounds(const struct job *job)
+{
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (job->forms[i] && i != AOV_COLOR) {
+            return false;
+        }
+    }
+    return job->in_rounds && (long)job->region.width * job->region.height <= ROUNDS_PIXELS_MAX;
+}
+
 /* When its program is there, the picture's own buffers. */
 static enum job_state begin(struct job *job)
 {
@@ -175,6 +190,11 @@ static enum job_state begin(struct job *job)
         return fail(job);
     }
     job->begun = true;
+    if (may_have_rounds(job)) {
+        draw_in_rounds(
+            job->renderer->draw, &job->picture,
+            (struct tile){job->region.x, job->region.y, job->region.width, job->region.height});
+    }
     job->times.us[FRAME_ENVIRONMENT] = job->snapshot->environment_us;
     job->snapshot->environment_us = 0; /* the first picture of it took that time */
     return job->state = JOB_RUNNING;
@@ -284,6 +304,10 @@ static enum job_state after_rows(struct job *job)
     if (job->collected < job->tiles) {
         return job->state = JOB_RUNNING;
     }
+    if (draw_next_round(&job->picture)) {
+        job->started = job->collected = 0;
+        return job->state = JOB_ROUND;
+    }
     job->renderer->counters.pictures++;
     return job->state = JOB_DONE;
 }
@@ -298,6 +322,9 @@ enum job_state job_step(struct job *job)
 {
     if (job->state == JOB_WAITING) {
         return begin(job);
+    }
+    if (job->state == JOB_ROUND) {
+        job->state = JOB_RUNNING;
     }
     if (job->state == JOB_ROWS) {
         after_rows(job);

@@ -110,16 +110,22 @@ static bool is_empty(const struct wave *w, enum target_list list)
     return head[3] == 0;
 }
 
+static void find_coarsely(struct wave *w)
+{
+    targets_bind_field(w->targets, w->gl, &w->targets->eye);
+    run_field(w, STAGE_MARCH, &(struct round){.mode = PASS_COARSE});
+}
+
 static void find(struct wave *w, const struct round *round)
 {
     const struct ray_set *eye = &w->targets->eye;
 
     targets_bind_common(w->targets, w->gl, eye, eye);
     run_common(w, COMMON_CAMERA, round, w->sample, 0, 0, 0);
-    targets_bind_field(w->targets, w->gl, eye);
     if (w->sample == 0) {
-        run_field(w, STAGE_MARCH, &(struct round){.mode = PASS_COARSE});
+        find_coarsely(w);
     }
+    targets_bind_field(w->targets, w->gl, eye);
     run_field(w, STAGE_MARCH, round);
     mark(w, round, FRAME_MARCH);
 }
@@ -243,6 +249,18 @@ void wave_find_edges(struct wave *w)
     targets_begin_list(w->targets, w->gl, LIST_EDGES);
     run_common(w, COMMON_EDGES, &whole_tile, w->tile.width, w->tile.height, 0, 0);
     wave_mark(w, FRAME_RESOLVE);
+}
+
+void wave_resume(struct wave *w, int samples)
+{
+    find_coarsely(w);
+    wave_mark(w, FRAME_MARCH);
+    if (w->plan->antialiasing == ANTIALIASING_ADAPTIVE) {
+        targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
+        targets_begin_list(w->targets, w->gl, LIST_EDGES);
+        run_common(w, COMMON_AGAIN, &whole_tile, w->tile.width, w->tile.height, samples, 0);
+        wave_mark(w, FRAME_RESOLVE);
+    }
 }
 
 bool wave_sample_again(struct wave *w, int sample)

@@ -36,6 +36,9 @@ void wave_shadow(struct wave *wave);
 void wave_shade(struct wave *wave);
 /* Lists the pixels that the plan samples again. */
 void wave_find_edges(struct wave *wave);
+/* For a tile that was left with so many samples, its pixels in the targets again: what comes before
+ * more of them. */
+void wave_resume(struct wave *wave, int samples);
 /* All of it again for another sample of all pixels, or of those listed; false: there are none. */
 bool wave_sample_again(struct wave *wave, int sample);
 /* The light of the first sample of all pixels, by one program. */

@@ -24,6 +24,7 @@
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                              \
     X(COMPILESHADER, CompileShader)                                                                \
+    X(COPYIMAGESUBDATA, CopyImageSubData)                                                          \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
     X(DEBUGMESSAGECALLBACK, DebugMessageCallback)                                                  \

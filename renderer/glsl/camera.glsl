@@ -28,10 +28,12 @@ float pixel_noise(ivec2 pixel)
     return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
 }
 
-/* A place on the lens, a disc of radius 1: a spiral by the golden angle, turned for each pixel. */
+/* A place on the lens, a disc of radius 1: by the golden angle, turned for each pixel. Radii jump
+ * to and fro (van der Corput), so that the first few of many are spread over the whole lens. */
 vec2 lens_place(ivec2 pixel, int i, int count)
 {
-    float r = sqrt((float(i) + 0.5) / float(count));
+    float part = float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10;
+    float r = sqrt(part + 0.5 / float(count));
     float angle = 2.39996323 * float(i) + 6.2831853 * pixel_noise(pixel);
     return r * vec2(cos(angle), sin(angle));
 }

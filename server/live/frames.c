@@ -272,12 +272,14 @@ static void send_frame(struct session *session, const struct packet *answer)
     const cJSON *json = answer->json;
     const struct room *room = session->room;
     const uint64_t revision = (uint64_t)json_member_number(json, "revision", 0);
+    const uint8_t flags = level_rules[frames->job_level].flags;
+    const bool more = json_member_bool(json, "more", false);
     bool newest = json_member_bool(json, "newest", true) &&
                   !(room->problem.kind != ERROR_NONE && revision < room->problem_revision);
     struct frame_header header = {
         .codec =
             strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG : FRAME_JPEG,
-        .flags = level_rules[frames->job_level].flags | (newest ? 0 : FRAME_STALE),
+        .flags = (more ? flags & ~FRAME_LOSSLESS : flags) | (newest ? 0 : FRAME_STALE),
         .number = ++frames->last_number,
         .payload_bytes = (uint32_t)answer->payload_length,
         .revision = revision,
@@ -332,6 +334,16 @@ static void on_picture(void *data, const struct packet *answer, const struct err
     }
 }
 
+/* Some of its samples, where there is room on the way. */
+static void on_round(void *data, const struct packet *answer)
+{
+    struct session *session = data;
+
+    if (has_credit(&session->frames, clock_ms())) {
+        send_frame(session, answer);
+    }
+}
+
 void frames_shown(struct session *session)
 {
     if (session->frames.stale) {
@@ -372,6 +384,7 @@ static cJSON *picture_fields(struct session *session, const struct frames_view *
     cJSON_AddBoolToObject(fields, "chroma_halved", rule->chroma_halved);
     cJSON_AddBoolToObject(fields, "fast", rule->fast);
     cJSON_AddBoolToObject(fields, "exact", rule->exact);
+    cJSON_AddBoolToObject(fields, "in_rounds", level == FRAMES_LOSSLESS);
     frames->job_pixels = (int64_t)width * height;
     return fields;
 }
@@ -388,6 +401,7 @@ static void ask(struct session *session, enum frames_level level)
         .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
         .on_done = on_picture,
+        .on_more = on_round,
         .data = session,
     };
     frames->done = level;

@@ -5,7 +5,7 @@
  *
  *   changed --> moving pictures, scaled so that each takes about 50 ms
  *           --100 ms rest--> one larger, where full size takes long, then one still in full size
- *           --300 ms rest--> one lossless --> nothing
+ *           --300 ms rest--> one lossless, shown after 4 and 16 samples too --> nothing
  *
  * Every function is called under the hub's lock. */
 #ifndef SERVER_FRAMES_H

@@ -341,6 +341,11 @@ void renders_answer(struct hub *hub, const struct packet *packet)
         render->deadline = clock_ms() + RENDER_DEADLINE_MS;
         return;
     }
+    if (json_member_bool(json, "more", false)) {
+        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
+        render->order.on_more(render->order.data, packet);
+        return;
+    }
     if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
         struct error err = {0};
 

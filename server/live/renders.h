@@ -41,6 +41,8 @@ struct render_order {
     bool again; /* ask the next worker when this one dies */
     /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */
     void (*on_done)(void *data, const struct packet *answer, const struct error *err);
+    /* Called before it with each answer that is not the last; NULL: there is one. */
+    void (*on_more)(void *data, const struct packet *answer);
     void *data;
 };
 

@@ -256,6 +256,17 @@ describe('frames', () => {
         await live.close();
     });
 
+    test('of many samples are shown on the way', async () => {
+        const live = await open();
+        live.look({ width: 96, height: 64, camera: { position: [3, 2, 4], target: [0, 0, 0], aperture: 0.2 } });
+        const last = await still(live);
+        const before = live.frames.filter((frame) => frame.codec === 'png' && !frame.lossless);
+        assert.equal(before.length, 1, '4 of 16 samples');
+        assert.ok(before[0].still && before[0].seq === last.seq && before[0].number < last.number);
+        assert.notDeepEqual(decodePng(before[0].payload).pixels, decodePng(last.payload).pixels);
+        await live.close();
+    });
+
     test('follow the camera of the view, which image.png can be given too', async () => {
         const live = await open();
         const camera = { position: [3, 2, 4], target: [1, 0, 0], fov: 30 };
