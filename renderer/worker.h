@@ -35,7 +35,8 @@
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
  * `newest` is false where the picture is older than the scene because its shader still compiles.
  * Jobs run tile by tile; the lowest priority number goes first, so a viewer's frame interrupts a
- * long picture between two tiles. The worker answers pings between tiles too: silence means a hang. */
+ * long picture between two tiles. The worker answers pings between tiles too: silence means a
+ * hang. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H
 

@@ -13,8 +13,8 @@ import { Live } from '../support/live.mjs';
 import { decodePng } from '../support/png.mjs';
 
 const run = promisify(execFile);
-const WIDTH = 160;
-const HEIGHT = 90;
+const WIDTH = 96;
+const HEIGHT = 54;
 const folder = 'protocol/examples';
 const examples = fs.readdirSync(folder).filter((name) => name.endsWith('.json'));
 const rich = 'tests/golden/everything/rich/scene.json';
