@@ -205,10 +205,10 @@ cards: fieldcast ## draw the pictures of the examples and of the reference page
 	$(Q)for d in $(S)/tests/golden/nodes/*/; do $(OUT)/fieldcast render $${d}scene.json --width 192 \
 	  --height 144 --samples 4 --quality 80 -o $(S)/protocol/reference/$$(basename $$d).jpg || exit 1; done
 
-gallery: fieldcast ## draw the pictures of README.md anew: minutes each without a GPU
+gallery: fieldcast ## draw the pictures of README.md anew: a quarter of an hour each without a GPU
 	$(Q)for f in $(S)/protocol/gallery/*.jpg; do $(OUT)/fieldcast render \
-	  $(S)/protocol/examples/$$(basename $$f .jpg).json --width 960 --height 540 --level final \
-	  --quality 85 -o $$f || exit 1; done
+	  $(S)/protocol/examples/$$(basename $$f .jpg).json --width 1920 --height 1080 --level final \
+	  --quality 88 -o $$f || exit 1; done
 
 docs: fieldcast ## write the reference page, and the table of options into README.md
 	$(Q)$(OUT)/fieldcast schema --reference >$(S)/protocol/REFERENCE.md

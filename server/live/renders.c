@@ -343,7 +343,9 @@ void renders_answer(struct hub *hub, const struct packet *packet)
     }
     if (json_member_bool(json, "more", false)) {
         render->deadline = clock_ms() + RENDER_DEADLINE_MS;
-        render->order.on_more(render->order.data, packet);
+        if (render->order.on_more) {
+            render->order.on_more(render->order.data, packet);
+        }
         return;
     }
     if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
