@@ -51,7 +51,7 @@ after(() => stage.close());
  * differ by their colours alone, so the second one is looked at for these.
  */
 async function check(page, what, without = []) {
-    const light = await page.evaluate(() => document.documentElement.dataset.theme === 'light');
+    const light = await page.evaluate(() => matchMedia('(prefers-color-scheme: light)').matches);
     const axe = new AxeBuilder({ page });
     const { violations } = await (light ? axe.withRules(['color-contrast']) : axe.withTags(RULES))
         .disableRules(without)
