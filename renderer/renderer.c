@@ -57,7 +57,8 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!renderer->environments) {
         goto fail;
     }
-    renderer->programs = program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, err);
+    renderer->programs =
+        program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms, err);
     if (!renderer->programs) {
         goto fail;
     }
@@ -80,7 +81,7 @@ void renderer_destroy(struct renderer *renderer)
     assets_finish(&renderer->assets);
     draw_destroy(renderer->draw);
     egl_finish(&renderer->egl);
-    free(renderer->refused);
+    free(renderer->verdicts);
     free(renderer);
 }
 
@@ -104,11 +105,41 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     return counters;
 }
 
-void renderer_refuse(struct renderer *renderer, uint64_t shape)
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape)
 {
-    renderer->refused =
-        memory_resize(renderer->refused, renderer->refused_count + 1, sizeof *renderer->refused);
-    renderer->refused[renderer->refused_count++] = shape;
+    for (size_t i = 0; i < renderer->verdict_count; i++) {
+        if (renderer->verdicts[i].shape == shape) {
+            return &renderer->verdicts[i];
+        }
+    }
+    return NULL;
+}
+
+void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict)
+{
+    struct renderer_verdict *known = renderer_find_verdict(renderer, verdict->shape);
+
+    if (!known) {
+        renderer->verdicts = memory_resize(renderer->verdicts, renderer->verdict_count + 1,
+                                           sizeof *renderer->verdicts);
+        known = &renderer->verdicts[renderer->verdict_count++];
+    }
+    *known = *verdict;
+    for (struct resident *resident = renderer->residents; resident; resident = resident->next) {
+        if (resident->refused_shape == verdict->shape) {
+            resident_renew(resident);
+        }
+    }
+}
+
+double renderer_pace(const struct renderer *renderer)
+{
+    return program_cache_pace(renderer->programs);
+}
+
+void renderer_set_pace(struct renderer *renderer, double pace)
+{
+    program_cache_set_pace(renderer->programs, pace);
 }
 
 static bool is_named_by(const struct resident *resident, const char *id)
@@ -138,9 +169,15 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
     }
 }
 
-bool renderer_stuck(const struct renderer *renderer)
+bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out)
 {
-    return program_cache_stuck(renderer->programs);
+    struct program_stuck stuck;
+
+    if (!program_cache_stuck(renderer->programs, &stuck)) {
+        return false;
+    }
+    *out = (struct renderer_stuck){stuck.shape, stuck.still, stuck.measured_ms, stuck.limit_ms};
+    return true;
 }
 
 /* Rows below those that are there. */
@@ -192,4 +229,13 @@ bool renderer_render(struct resident *resident, const struct job_desc *desc,
     }
     job_destroy(job);
     return state == JOB_DONE;
+}
+
+bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err)
+{
+    struct field *field = field_drawable(scene, &(struct field_wish){.drawn = NULL}, err);
+    const bool ok = field && field_probe(field, out_warning, err);
+
+    field_unref(field);
+    return ok;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes seen by cameras become pixels. With worker.h the only header of this layer that others
- * include. Knows nothing of HTTP, clients, sessions or users.
+/* Scenes seen by cameras become pixels. With worker.h and pick.h the only header of this layer that
+ * others include. Knows nothing of HTTP, clients, sessions or users.
  *
- * Threads: one thread owns a renderer and everything made from it. (Inside, a second thread
- * compiles; nobody sees it.) Nothing here logs but through renderer_params.log. */
+ * Threads: one thread owns a renderer and everything made from it. (Inside, other threads
+ * compile; nobody sees them.) Nothing here logs but through renderer_params.log. */
 #ifndef RENDERER_RENDERER_H
 #define RENDERER_RENDERER_H
 
@@ -25,6 +25,8 @@ struct renderer_params {
     enum device_kind device; /* DEVICE_GPU: an error where there is only software */
     int device_index;        /* among renderer_devices(); -1: the best */
     int tile_side;           /* pixels, a multiple of 8; 0: what is good for the device */
+    int code_ms, tile_ms;    /* that compiling code, drawing the smallest tile may take of the
+                              * processors; 0: what limits.h says */
     const char *cache_dir;   /* for Mesa's shader cache; NULL: the driver's default */
     void (*log)(void *data, const char *line);
     void *log_data;
@@ -63,14 +65,34 @@ struct renderer_counters {
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
-/* Whether a compiler has been at work for so long (limits.h) that it may never end. */
-bool renderer_stuck(const struct renderer *renderer);
-/* Scenes of this shape are never compiled: ERROR_QUARANTINED. For those that ended a process. */
-void renderer_refuse(struct renderer *renderer, uint64_t shape);
+/* A shape whose compiler may never end, as gl/program.h has it. */
+struct renderer_stuck {
+    uint64_t shape;
+    bool still;
+    int measured_ms, limit_ms;
+};
+bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out);
+/* What earlier processes learned of compiling a shape. */
+struct renderer_verdict {
+    uint64_t shape;
+    enum error_kind refused;   /* never compiled, for this reason; ERROR_NONE: it may be tried */
+    int measured_ms, limit_ms; /* of ERROR_TOO_SLOW */
+    int times;                 /* of the usual time that it may take; 0: once */
+};
+/* It holds from here on, for scenes that are there already too. */
+void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict);
+/* How slow this machine compiles: program_cache_pace. */
+double renderer_pace(const struct renderer *renderer);
+void renderer_set_pace(struct renderer *renderer, double pace);
 
 /* A file that scenes name by its SHA-256, copied; it stays while a scene names it, and for some
  * others after it. Before the first scene that does, or those are looked at anew. */
 void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length);
+
+/* Whether the scene can be drawn, as far as that can be told without a device: its code is read,
+ * checked, bounded and run in C, and every limit of drawing holds. False and `err` with the place
+ * that drawing names. `*out_warning` as resident_warning. Any thread, no renderer. */
+bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
 /* --- scenes --- */
 
@@ -89,6 +111,10 @@ uint64_t resident_revision(const struct resident *resident);       /* newest tol
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
 /* ERROR_NONE while all is well; else why the newest shape cannot be drawn. */
 const struct error *resident_error(const struct resident *resident);
+/* The newest shape; 0: it has none. */
+uint64_t resident_shape(const struct resident *resident);
+/* The same where it is refused; else 0. */
+uint64_t resident_refused_shape(const struct resident *resident);
 /* What is not right with the newest state, and yet drawn; kind ERROR_NONE: nothing. */
 const struct error *resident_warning(const struct resident *resident);
 /* Takes finished compilations over; true when some resident can show something newer. `wait_ms`
@@ -109,11 +135,17 @@ struct job_desc {
     int level;                   /* enum quality_level; -1: the scene's render settings say it */
     int samples;      /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
     int transparent;  /* 1: the background is left out, 0: not; -1: the scene's render settings */
+    bool careful;     /* it ended a process: in the smallest tiles from the start */
+    int patience;     /* times the usual bound on a tile; 0: once */
     bool exact;       /* wait for the newest revision's shader; else draw the newest drawable */
     bool in_rounds;   /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
     bool as_floats;   /* give raw values (NPY), not 8/16-bit pixels */
     bool from_camera; /* one program for one sample instead of passes: for comparison. Without
                          volumes, and light through clear things keeps its colour */
+    /* Ids of nodes: only they and what is below them are seen, inside of what is around them. None,
+     * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
+    const char *const *isolated;
+    size_t isolated_count;
 };
 
 enum job_state {
@@ -144,6 +176,11 @@ struct job_times {
     uint32_t us[FRAME_STAGES];
 };
 struct job_times job_times(const struct job *job);
+/* Of samples. */
+struct picture_rounds {
+    int done, count;
+};
+struct picture_rounds job_rounds(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 
 /* Rows from the top, no padding. PIXEL_RGBA8 has four bytes for each pixel also with 3 channels:
@@ -198,16 +235,5 @@ bool picture_file_add(struct picture_file *file, enum aov aov, const struct imag
 /* When all rows of all outputs were added. */
 bool picture_file_end(struct picture_file *file, struct error *err);
 void picture_file_destroy(struct picture_file *file);
-
-/* --- questions --- */
-
-struct pick_result {
-    bool hit;
-    char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface; "": the floor */
-    double position[3], normal[3], distance;
-};
-/* On the CPU, with the C evaluator; x and y in pixels of a width×height view. */
-struct pick_result resident_pick(const struct resident *resident, const struct record *camera,
-                                 int width, int height, double x, double y);
 
 #endif

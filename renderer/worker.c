@@ -53,9 +53,10 @@ static void on_packet(struct worker *w, const struct packet *whole)
         const char *type;
         void (*handle)(struct worker *w, const cJSON *packet);
     } rows[] = {
-        {"scene", worker_on_scene},   {"edit", worker_on_edit},     {"drop", worker_on_drop},
-        {"render", worker_on_render}, {"cancel", worker_on_cancel}, {"pick", worker_on_pick},
-        {"refuse", worker_on_refuse}, {"ping", worker_on_ping},     {"stop", on_stop},
+        {"scene", worker_on_scene},   {"edit", worker_on_edit},
+        {"drop", worker_on_drop},     {"render", worker_on_render},
+        {"cancel", worker_on_cancel}, {"judge", worker_on_judge},
+        {"ping", worker_on_ping},     {"stop", on_stop},
     };
     const cJSON *packet = whole->json;
     const char *type = json_member_text(packet, "type", "");
@@ -105,6 +106,8 @@ static void receive(struct worker *w)
 
 static void run(struct worker *w)
 {
+    struct renderer_stuck stuck;
+
     while (w->status < 0) {
         struct pollfd fds[2] = {{.fd = w->fd, .events = POLLIN},
                                 {.fd = w->wake_fd, .events = POLLIN}};
@@ -127,8 +130,9 @@ static void run(struct worker *w)
             worker_collect_encodings(w);
         }
         renderer_poll(w->renderer, 0);
-        if (renderer_stuck(w->renderer)) {
-            worker_flush(w);
+        if (renderer_stuck(w->renderer, &stuck)) {
+            worker_send_slow(w, &stuck);
+            worker_flush_all(w);
             _exit(WORKER_STUCK); /* its threads cannot be joined */
         }
         worker_announce(w);
@@ -161,7 +165,7 @@ static void finish(struct worker *w)
     }
     encoder_destroy(w->encoder);
     while (w->tasks) {
-        worker_drop_task(&w->tasks);
+        worker_drop_task(w, &w->tasks);
     }
     renderer_destroy(w->renderer);
     packet_reader_finish(&w->in);

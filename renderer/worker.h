@@ -11,32 +11,36 @@
  *   scene  {scene, revision, document}                  ready    {renderer{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, ERROR}
- *   refuse {shapes: [hex, ...]}                         warned   {scene, revision, ERROR}
+ *   judge  {shapes: [{shape, code?, measured?, limit?,  warned   {scene, revision, ERROR}
+ *           times}], pace?}                             slow     {scene, revision, shape, still,
+ *                                                                 measured, limit}
  *   render {job, scene, priority, width, height,        frame    {job, revision, newest, more,
- *           camera?, region? [x, y, width, height],               width, height, mime, STAGE_us...}
- *           aov, level?, samples, transparent?,                   + payload
+ *           camera?, region? [x, y, width, height],               round, rounds, width, height,
+ *           aov, level?, samples, transparent?,                   mime, STAGE_us...} + payload
  *           format, quality, chroma_halved, fast,       progress {job}  (now and then)
- *           zipped, exact, in_rounds}                   failed   {job, ERROR}
+ *           zipped, exact, in_rounds, careful,          failed   {job, ERROR, begun?}
+ *           patience, isolate? [node, ...]}
  *   cancel {job}
- *   pick   {pick, scene, camera?, width, height, x, y}  picked   {pick, revision, node, position,
- *                                                                 normal, distance}
  *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
- *   stop   {}                                                     tiles, pictures, resident_bytes}
+ *   stop   {}                                                     tiles, pictures, resident_bytes,
+ *                                                                 pace}
  *                                                       compiling, drawing {scene, revision, shape}
- * ERROR is code, place, message, and line and column where there are any. STAGE is each of the
+ * ERROR is code, place, message, line and column where there are any, measured and limit of what
+ * was too slow, and the shape of what is refused. STAGE is each of the
  * stages of protocol/picture.h. Several outputs (aov: names with commas) come as one ZIP.
  *
- * Before code of users is compiled, or drawn with, the worker names its scene, and an empty one
- * afterwards; it waits until the front has that. So it is known whose code ended it. A shape that
- * did so is refused by the next worker. A compiler that may never end (limits.h) ends the worker,
- * with status 4.
+ * Before code of users is compiled, or any scene drawn, the worker names it, and an empty one
+ * afterwards; it waits until the front has that. So it is known whose code ended it. A compiler
+ * that may never end (limits.h) ends the worker, which says so first (`slow`). The front tells the
+ * next worker what to make of such a shape (`judge`): it may take so many times the usual time, or
+ * it is refused (`code`). `pace`: how slow this machine compiles, as measured so far.
  *
  * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
  * `newest` is false where the picture is older than the scene because its shader still compiles.
- * Jobs run tile by tile; the lowest priority number goes first, so a viewer's frame interrupts a
- * long picture between two tiles. The worker answers pings between tiles too: silence means a
- * hang. */
+ * Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
+ * priority number goes first, so a viewer's frame interrupts a long picture between two tiles. The
+ * worker answers pings between tiles too: silence means a hang. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H
 
@@ -44,6 +48,7 @@
 #include <stdint.h>
 
 #include "renderer.h"
+#include "vigil.h"
 
 enum { WORKER_FD = 3 }; /* where the front leaves the socket for the child */
 

@@ -82,25 +82,54 @@ static void add_error(cJSON *json, const struct error *err)
         cJSON_AddNumberToObject(json, "line", err->line);
         cJSON_AddNumberToObject(json, "column", err->column);
     }
+    if (err->limit_ms > 0) {
+        cJSON_AddNumberToObject(json, "measured", err->measured_ms);
+        cJSON_AddNumberToObject(json, "limit", err->limit_ms);
+    }
 }
 
-void worker_send_failed(struct worker *w, uint64_t job, const struct error *err)
+/* No double holds it. */
+static void add_shape(cJSON *json, uint64_t shape)
+{
+    char text[17];
+
+    snprintf(text, sizeof text, "%016" PRIx64, shape);
+    cJSON_AddStringToObject(json, "shape", text);
+}
+
+static cJSON *failed(uint64_t job, const struct error *err)
 {
     cJSON *json = worker_answer("failed");
 
     cJSON_AddNumberToObject(json, "job", (double)job);
     add_error(json, err);
+    return json;
+}
+
+void worker_send_failed(struct worker *w, uint64_t job, const struct error *err)
+{
+    worker_send(w, failed(job, err), NULL, 0);
+}
+
+void worker_send_undrawn(struct worker *w, uint64_t job, const struct error *err)
+{
+    cJSON *json = failed(job, err);
+
+    cJSON_AddBoolToObject(json, "begun", true);
     worker_send(w, json, NULL, 0);
 }
 
 void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
-                       const struct error *err)
+                       const struct error *err, uint64_t shape)
 {
     cJSON *json = worker_answer(type);
 
     cJSON_AddStringToObject(json, "scene", scene);
     cJSON_AddNumberToObject(json, "revision", (double)revision);
     add_error(json, err);
+    if (shape) {
+        add_shape(json, shape);
+    }
     worker_send(w, json, NULL, 0);
 }
 
@@ -108,12 +137,24 @@ void worker_send_suspect(struct worker *w, const char *type, const char *scene, 
                          uint64_t shape)
 {
     cJSON *json = worker_answer(type);
-    char text[17];
 
-    snprintf(text, sizeof text, "%016" PRIx64, shape); /* no double holds it */
     cJSON_AddStringToObject(json, "scene", scene);
     cJSON_AddNumberToObject(json, "revision", (double)revision);
-    cJSON_AddStringToObject(json, "shape", text);
+    add_shape(json, shape);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck)
+{
+    const struct held *held = worker_find_shape(w, stuck->shape);
+    cJSON *json = worker_answer("slow");
+
+    cJSON_AddStringToObject(json, "scene", held ? held->name : "");
+    cJSON_AddNumberToObject(json, "revision", held ? (double)resident_revision(held->resident) : 0);
+    add_shape(json, stuck->shape);
+    cJSON_AddBoolToObject(json, "still", stuck->still);
+    cJSON_AddNumberToObject(json, "measured", stuck->measured_ms);
+    cJSON_AddNumberToObject(json, "limit", stuck->limit_ms);
     worker_send(w, json, NULL, 0);
 }
 
@@ -155,6 +196,7 @@ void worker_on_ping(struct worker *w, const cJSON *ping)
     cJSON_AddNumberToObject(json, "tiles", (double)counters.tiles);
     cJSON_AddNumberToObject(json, "pictures", (double)counters.pictures);
     cJSON_AddNumberToObject(json, "resident_bytes", (double)resident_bytes());
+    cJSON_AddNumberToObject(json, "pace", renderer_pace(w->renderer));
     worker_send(w, json, NULL, 0);
 }
 
@@ -178,6 +220,8 @@ void worker_send_frame(struct worker *w, const struct task *task)
     cJSON_AddNumberToObject(json, "height", task->height);
     cJSON_AddStringToObject(json, "mime", encoding->mime);
     cJSON_AddBoolToObject(json, "more", task->between);
+    cJSON_AddNumberToObject(json, "round", task->rounds.done);
+    cJSON_AddNumberToObject(json, "rounds", task->rounds.count);
     for (int i = 0; i < FRAME_STAGES; i++) {
         char name[STAGE_MEMBER_BYTES];
 

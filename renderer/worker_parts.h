@@ -4,6 +4,7 @@
 #define RENDERER_WORKER_PARTS_H
 
 #include "encoder.h"
+#include "turns.h"
 #include "worker.h"
 
 /* A scene, and what the front was told of it. */
@@ -20,7 +21,8 @@ struct task {
     uint64_t number; /* the front's */
     char *scene;
     int priority;
-    struct job *job; /* NULL once it is drawn, or given up */
+    struct turn *turn; /* its scene's */
+    struct job *job;   /* NULL once it is drawn, or given up */
     struct encode_params encode;
     struct encoding *encoding;
     bool between; /* a round is drawn and being encoded; there are more */
@@ -30,6 +32,7 @@ struct task {
     uint64_t revision;
     int width, height;
     struct job_times times;
+    struct picture_rounds rounds;
     struct task *next; /* in order of arrival */
 };
 
@@ -42,9 +45,10 @@ struct worker {
     size_t out_sent, out_length, out_capacity;
     struct held *scenes;
     struct task *tasks;
-    uint64_t told_drawing; /* shape with code of users that the front thinks is drawn */
-    uint64_t steps;
-    int status; /* -1 while running */
+    struct turns turns;
+    char told_scene[LIMIT_ID_BYTES + 16]; /* that the front thinks is drawn */
+    uint64_t told_shape;                  /* the same, where there is code of users in it */
+    int status;                           /* -1 while running */
 };
 
 enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front starts another */
@@ -59,12 +63,16 @@ cJSON *worker_answer(const char *type);
 /* Queues a packet; takes `json`. */
 void worker_send(struct worker *w, cJSON *json, const void *payload, size_t payload_length);
 void worker_send_failed(struct worker *w, uint64_t job, const struct error *err);
-/* `broken` or `warned`. */
+/* The same of a picture that was begun. */
+void worker_send_undrawn(struct worker *w, uint64_t job, const struct error *err);
+/* `broken` or `warned`. `shape`: the one that is refused; 0: none. */
 void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
-                       const struct error *err);
+                       const struct error *err, uint64_t shape);
 void worker_send_ready(struct worker *w);
 void worker_send_progress(struct worker *w, const struct task *task);
 void worker_send_frame(struct worker *w, const struct task *task);
+/* A compiler may never end, and this process will. */
+void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
 /* `compiling` or `drawing`: whose code is at work from here on; scene "": nobody's. */
 void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
                          uint64_t shape);
@@ -74,6 +82,8 @@ void worker_on_ping(struct worker *w, const cJSON *packet);
 
 struct held **worker_find_scene(struct worker *w, const char *name);
 void worker_drop_scene(struct held **at);
+/* One that needs this shape; NULL: none. */
+const struct held *worker_find_shape(const struct worker *w, uint64_t shape);
 /* Tells the front what has become drawable, or never will. */
 void worker_announce(struct worker *w);
 /* renderer_params.on_compile; `data` is the worker. */
@@ -81,13 +91,12 @@ void worker_on_compile(void *data, uint64_t shape);
 void worker_on_scene(struct worker *w, const cJSON *packet);
 void worker_on_edit(struct worker *w, const cJSON *packet);
 void worker_on_drop(struct worker *w, const cJSON *packet);
-void worker_on_refuse(struct worker *w, const cJSON *packet);
-void worker_on_pick(struct worker *w, const cJSON *packet);
+void worker_on_judge(struct worker *w, const cJSON *packet);
 
 /* --- worker_pictures.c --- */
 
-void worker_drop_task(struct task **at);
-/* The most urgent picture that can go on; NULL: none. */
+void worker_drop_task(struct worker *w, struct task **at);
+/* The picture whose turn it is; NULL: none can go on. */
 struct task *worker_choose_task(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
 void worker_step(struct worker *w, struct task *task);

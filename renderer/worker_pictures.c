@@ -9,10 +9,7 @@
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
-enum {
-    OLDEST_EVERY = 8,      /* tiles */
-    PROGRESS_US = 1000000, /* how often a long picture is told to go on */
-};
+enum { PROGRESS_US = 1000000 }; /* how often a long picture is told to go on */
 
 static uint64_t now_us(void)
 {
@@ -22,11 +19,12 @@ static uint64_t now_us(void)
     return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
 }
 
-void worker_drop_task(struct task **at)
+void worker_drop_task(struct worker *w, struct task **at)
 {
     struct task *gone = *at;
 
     *at = gone->next;
+    turns_leave(&w->turns, gone->turn);
     job_destroy(gone->job);
     free(gone->scene);
     free(gone);
@@ -102,6 +100,8 @@ static bool read_desc(const cJSON *packet, bool as_floats, struct job_desc *out,
         .transparent = json_member_bool(packet, "transparent", false),
         .exact = json_member_bool(packet, "exact", false),
         .in_rounds = json_member_bool(packet, "in_rounds", false),
+        .careful = json_member_bool(packet, "careful", false),
+        .patience = worker_read_int(packet, "patience", 1),
         .as_floats = as_floats,
     };
     if (!cJSON_HasObjectItem(packet, "transparent")) {
@@ -111,17 +111,36 @@ static bool read_desc(const cJSON *packet, bool as_floats, struct job_desc *out,
            read_level(packet, &out->level, err) && read_region(packet, &out->region, err);
 }
 
+/* The ids are borrowed from the packet. */
+static bool read_isolated(const cJSON *packet, const char *out_ids[LIMIT_ISOLATED],
+                          struct job_desc *desc, struct error *err)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(packet, "isolate"), *id;
+
+    desc->isolated = out_ids;
+    cJSON_ArrayForEach(id, list)
+    {
+        if (!cJSON_IsString(id) || desc->isolated_count == LIMIT_ISOLATED) {
+            return error_set(err, ERROR_INVALID, "isolate", "is not a list of at most %d ids",
+                             LIMIT_ISOLATED);
+        }
+        out_ids[desc->isolated_count++] = id->valuestring;
+    }
+    return true;
+}
+
 static struct job *make_job(struct resident *resident, const cJSON *packet, bool as_floats,
                             struct error *err)
 {
     struct record camera;
     struct job_desc desc;
+    const char *isolated[LIMIT_ISOLATED];
     struct job *job = NULL;
     bool given;
 
     record_init(&camera, &camera_type);
     if (worker_read_camera(packet, &camera, &given, err) &&
-        read_desc(packet, as_floats, &desc, err)) {
+        read_desc(packet, as_floats, &desc, err) && read_isolated(packet, isolated, &desc, err)) {
         desc.camera = given ? &camera : NULL;
         job = job_create(resident, &desc, err);
     }
@@ -170,11 +189,12 @@ void worker_on_render(struct worker *w, const cJSON *packet)
 
     task->number = (uint64_t)json_member_number(packet, "job", 0);
     task->scene = memory_text(json_member_text(packet, "scene", ""));
+    task->turn = turns_join(&w->turns, task->scene);
     task->priority = (int)json_member_number(packet, "priority", 0);
     task->received_us = task->told_us = now_us();
     if (!begin_task(w, packet, task, &err)) {
         worker_send_failed(w, task->number, &err);
-        worker_drop_task(&task);
+        worker_drop_task(w, &task);
         return;
     }
     while (*last) {
@@ -206,25 +226,23 @@ void worker_on_cancel(struct worker *w, const cJSON *packet)
     }
 }
 
-/* One that is in the middle of a tile; else the most urgent. Now and then the oldest, so that a
- * stream of urgent ones cannot stop a picture for good. Those waiting for a compiler or the encoder
- * let others pass. */
+/* One that is in the middle of a tile; else that of the scene whose turn it is. Those waiting for a
+ * compiler or the encoder let others pass. */
 struct task *worker_choose_task(struct worker *w)
 {
-    const bool oldest = w->steps % OLDEST_EVERY == 0;
-    struct task *best = NULL;
-
+    turns_begin(&w->turns);
     for (struct task *task = w->tasks; task; task = task->next) {
-        if (task->job && job_is_within_tile(task->job)) {
+        if (!task->job || task->between) {
+            continue;
+        }
+        if (job_is_within_tile(task->job)) {
             return task;
         }
-        if (task->job && !task->between &&
-            (!best || (!oldest && task->priority < best->priority)) &&
-            job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
-            best = task;
+        if (job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
+            turns_offer(&w->turns, task->turn, task->priority, task);
         }
     }
-    return best;
+    return turns_choose(&w->turns);
 }
 
 static void hand_rows_over(struct worker *w, struct task *task)
@@ -245,6 +263,7 @@ static void hand_rows_over(struct worker *w, struct task *task)
 static void take_times(struct task *task)
 {
     task->times = job_times(task->job);
+    task->rounds = job_rounds(task->job);
     task->times.us[FRAME_QUEUE] = (uint32_t)(task->begun_us - task->received_us);
 }
 
@@ -264,19 +283,42 @@ static void finish_drawing(struct worker *w, struct task *task)
     encoder_end(w->encoder, task->encoding, true);
 }
 
-/* Whose code draws from here on, if anybody's. */
+/* What is drawn from here on, if anything: the front knows it should this be the end. */
 static void tell_drawing(struct worker *w, const struct task *task)
 {
+    const char *scene = task ? task->scene : "";
     const uint64_t shape = task ? job_shape_with_code(task->job) : 0;
 
-    if (shape == w->told_drawing) {
+    if (shape == w->told_shape && strcmp(scene, w->told_scene) == 0) {
         return;
     }
-    w->told_drawing = shape;
-    worker_send_suspect(w, "drawing", shape ? task->scene : "", shape ? task->revision : 0, shape);
-    if (shape) {
+    w->told_shape = shape;
+    snprintf(w->told_scene, sizeof w->told_scene, "%s", scene);
+    worker_send_suspect(w, "drawing", scene, task ? task->revision : 0, shape);
+    if (task) {
         worker_flush_all(w);
     }
+}
+
+/* What its tiles have taken so far. */
+static uint64_t drawn_us(const struct task *task)
+{
+    const struct job_times times = job_times(task->job);
+    uint64_t us = 0;
+
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        us += times.us[i];
+    }
+    return us;
+}
+
+static enum job_state step(struct worker *w, struct task *task)
+{
+    const uint64_t before = drawn_us(task);
+    const enum job_state state = job_step(task->job);
+
+    turns_charge(&w->turns, task->turn, task->priority, drawn_us(task) - before);
+    return state;
 }
 
 void worker_step(struct worker *w, struct task *task)
@@ -285,11 +327,10 @@ void worker_step(struct worker *w, struct task *task)
     if (!task) {
         return;
     }
-    w->steps++;
     if (task->begun_us == 0) {
         task->begun_us = now_us();
     }
-    switch (job_step(task->job)) {
+    switch (step(w, task)) {
     case JOB_WAITING:
     case JOB_RUNNING:
         break;
@@ -303,7 +344,7 @@ void worker_step(struct worker *w, struct task *task)
         finish_drawing(w, task);
         break;
     case JOB_FAILED:
-        worker_send_failed(w, task->number, job_error(task->job));
+        worker_send_undrawn(w, task->number, job_error(task->job));
         if (job_error(task->job)->kind == ERROR_UNAVAILABLE) {
             w->status = WORKER_DEVICE_LOST;
         }
@@ -347,7 +388,7 @@ void worker_collect_encodings(struct worker *w)
         if (answer(w, *at)) {
             (*at)->between = false;
         } else {
-            worker_drop_task(at);
+            worker_drop_task(w, at);
         }
         encoding_destroy(encoding);
     }

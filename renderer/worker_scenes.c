@@ -17,6 +17,16 @@ struct held **worker_find_scene(struct worker *w, const char *name)
     return at;
 }
 
+const struct held *worker_find_shape(const struct worker *w, uint64_t shape)
+{
+    const struct held *held = w->scenes;
+
+    while (held && resident_shape(held->resident) != shape) {
+        held = held->next;
+    }
+    return held;
+}
+
 void worker_drop_scene(struct held **at)
 {
     struct held *gone = *at;
@@ -34,7 +44,7 @@ static void announce_warning(struct worker *w, struct held *held)
                        strcmp(warning->message, held->told_warning.message) == 0;
 
     if (warning->kind != ERROR_NONE && !known) {
-        worker_send_fault(w, "warned", held->name, resident_revision(held->resident), warning);
+        worker_send_fault(w, "warned", held->name, resident_revision(held->resident), warning, 0);
     }
     held->told_warning = *warning;
 }
@@ -54,7 +64,8 @@ void worker_announce(struct worker *w)
             held->told_shown = shown;
         }
         if (err->kind != ERROR_NONE && held->told_broken != revision) {
-            worker_send_fault(w, "broken", held->name, revision, err);
+            worker_send_fault(w, "broken", held->name, revision, err,
+                              resident_refused_shape(held->resident));
             held->told_broken = revision;
         }
         announce_warning(w, held);
@@ -92,7 +103,7 @@ void worker_on_scene(struct worker *w, const cJSON *packet)
     struct scene *scene = scene_read(cJSON_GetObjectItemCaseSensitive(packet, "document"), &err);
 
     if (!scene) {
-        worker_send_fault(w, "broken", name, revision, &err);
+        worker_send_fault(w, "broken", name, revision, &err, 0);
     } else if (held) {
         resident_replace(held->resident, scene, revision);
     } else {
@@ -116,7 +127,7 @@ void worker_on_edit(struct worker *w, const cJSON *packet)
         error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", name);
     }
     if (!held || !resident_edit(held->resident, ops, revision, &err)) {
-        worker_send_fault(w, "broken", name, revision, &err);
+        worker_send_fault(w, "broken", name, revision, &err, 0);
     }
 }
 
@@ -129,52 +140,31 @@ void worker_on_drop(struct worker *w, const cJSON *packet)
     }
 }
 
-void worker_on_refuse(struct worker *w, const cJSON *packet)
+/* Empty or unknown: none. */
+static enum error_kind read_kind(const char *code)
 {
-    const cJSON *shape;
+    return strcmp(code, error_kind_name(ERROR_TOO_SLOW)) == 0  ? ERROR_TOO_SLOW
+           : strcmp(code, error_kind_name(ERROR_CRASHED)) == 0 ? ERROR_CRASHED
+                                                               : ERROR_NONE;
+}
 
-    cJSON_ArrayForEach(shape, cJSON_GetObjectItemCaseSensitive(packet, "shapes"))
+void worker_on_judge(struct worker *w, const cJSON *packet)
+{
+    const double pace = json_member_number(packet, "pace", 0);
+    const cJSON *row;
+
+    if (pace > 0) {
+        renderer_set_pace(w->renderer, pace);
+    }
+    cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(packet, "shapes"))
     {
-        renderer_refuse(w->renderer, strtoull(shape->valuestring, NULL, 16));
+        const struct renderer_verdict verdict = {
+            .shape = strtoull(json_member_text(row, "shape", ""), NULL, 16),
+            .refused = read_kind(json_member_text(row, "code", "")),
+            .measured_ms = (int)json_member_number(row, "measured", 0),
+            .limit_ms = (int)json_member_number(row, "limit", 0),
+            .times = (int)json_member_number(row, "times", 1),
+        };
+        renderer_judge(w->renderer, &verdict);
     }
-}
-
-/* --- questions --- */
-
-static void add_vector(cJSON *json, const char *name, const double v[3])
-{
-    cJSON_AddItemToObject(json, name, cJSON_CreateDoubleArray(v, 3));
-}
-
-void worker_on_pick(struct worker *w, const cJSON *packet)
-{
-    struct held *held = *worker_find_scene(w, json_member_text(packet, "scene", ""));
-    const int width = worker_read_int(packet, "width", 0),
-              height = worker_read_int(packet, "height", 0);
-    cJSON *json = worker_answer("picked");
-    struct pick_result result = {0};
-    struct record camera;
-    bool given;
-
-    record_init(&camera, &camera_type);
-    if (held && width > 0 && height > 0 && worker_read_camera(packet, &camera, &given, NULL)) {
-        result =
-            resident_pick(held->resident, given ? &camera : NULL, width, height,
-                          json_member_number(packet, "x", 0), json_member_number(packet, "y", 0));
-    }
-    record_finish(&camera);
-    cJSON_AddNumberToObject(json, "pick", json_member_number(packet, "pick", 0));
-    cJSON_AddNumberToObject(json, "revision",
-                            held ? (double)resident_shown_revision(held->resident) : 0);
-    if (*result.node) {
-        cJSON_AddStringToObject(json, "node", result.node);
-    } else {
-        cJSON_AddNullToObject(json, "node");
-    }
-    if (result.hit) {
-        add_vector(json, "position", result.position);
-        add_vector(json, "normal", result.normal);
-        cJSON_AddNumberToObject(json, "distance", result.distance);
-    }
-    worker_send(w, json, NULL, 0);
 }

@@ -14,8 +14,9 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "renderer/draw/context.h"
+#include "renderer/pick.h"
 
-enum { WIDTH = 150, HEIGHT = 110, NUMERIC_EDITS = 1000 };
+enum { WIDTH = 150, HEIGHT = 110, NUMERIC_EDITS = 1000, TOGGLES = 50 };
 
 static const char document[] =
     "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[1,1.2,4],\"target\":[0,0.3,0]},"
@@ -159,6 +160,174 @@ static void test_numbers_compile_nothing(void **state)
             image = next;
         }
     }
+    assert_int_equal(renderer_counters(renderer).compilations, compilations);
+    image_finish(&image);
+    resident_destroy(resident);
+}
+
+/* Shows or hides a node, which is drawn at once. */
+static void show(struct resident *resident, const char *id, bool visible)
+{
+    char ops[128];
+
+    snprintf(ops, sizeof ops, "[{\"op\":\"set\",\"at\":\"/nodes/%s/visible\",\"value\":%s}]", id,
+             visible ? "true" : "false");
+    edit(resident, ops);
+    assert_int_equal(resident_shown_revision(resident), resident_revision(resident));
+}
+
+/* The document as somebody else opens it, with a node hidden or gone. */
+static struct image draw_edited(const char *ops)
+{
+    struct resident *resident = make_resident(document);
+    struct image image;
+
+    edit(resident, ops);
+    image = draw(resident, &usual);
+    resident_destroy(resident);
+    return image;
+}
+
+static void test_hiding_compiles_nothing(void **state)
+{
+    static const char *const ids[] = {"ball", "cube", "blend", "floor", "root"};
+    struct resident *resident = make_resident(document);
+    struct image all = draw(resident, &usual), image;
+    const uint64_t compilations = renderer_counters(renderer).compilations;
+
+    (void)state;
+    for (int i = 0; i < TOGGLES; i++) {
+        const char *id = ids[i % (int)(sizeof ids / sizeof ids[0])];
+        show(resident, id, false);
+        image = draw(resident, &usual);
+        assert_false(is_same(&image, &all));
+        image_finish(&image);
+        show(resident, id, true);
+    }
+    image = draw(resident, &usual);
+    assert_same(&image, &all);
+    image_finish(&image);
+    assert_int_equal(renderer_counters(renderer).compilations, compilations);
+    image_finish(&all);
+    resident_destroy(resident);
+}
+
+/* Not a pixel tells a hidden node from none. */
+static void test_hidden_is_gone(void **state)
+{
+    static const char *const ids[] = {"ball", "cube", "blend", "floor"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
+        struct resident *resident = make_resident(document);
+        struct image hidden, gone;
+        char remove[64];
+
+        snprintf(remove, sizeof remove, "[{\"op\":\"remove\",\"at\":\"/nodes/%s\"}]", ids[i]);
+        hidden = draw(resident, &usual);
+        image_finish(&hidden);
+        show(resident, ids[i], false);
+        hidden = draw(resident, &usual);
+        gone = draw_edited(remove);
+        assert_same(&hidden, &gone);
+        image_finish(&hidden);
+        image_finish(&gone);
+        resident_destroy(resident);
+    }
+}
+
+static struct job_desc isolating(const char *const *ids, size_t count)
+{
+    struct job_desc desc = usual;
+
+    desc.isolated = ids;
+    desc.isolated_count = count;
+    return desc;
+}
+
+/* A picture's own: others, and the scene, show nothing of it. */
+static void test_isolation_compiles_nothing(void **state)
+{
+    static const char *const cube[] = {"cube"};
+    static const char *const both[] = {"ball", "cube"};
+    const struct job_desc one = isolating(cube, 1), two = isolating(both, 2);
+    struct resident *resident = make_resident(document);
+    struct image all = draw(resident, &usual), image, alone, pair;
+    const uint64_t compilations = renderer_counters(renderer).compilations;
+
+    (void)state;
+    alone = draw(resident, &one);
+    pair = draw(resident, &two);
+    assert_false(is_same(&alone, &all));
+    assert_false(is_same(&alone, &pair));
+    image = draw(resident, &usual);
+    assert_same(&image, &all);
+    image_finish(&image);
+    assert_int_equal(resident_revision(resident), 1);
+    show(resident, "floor", false);
+    image = draw(resident, &usual);
+    assert_same(&image, &pair);
+    image_finish(&image);
+    show(resident, "ball", false);
+    image = draw(resident, &usual);
+    assert_same(&image, &alone);
+    assert_int_equal(renderer_counters(renderer).compilations, compilations);
+    image_finish(&image);
+    image_finish(&all);
+    image_finish(&alone);
+    image_finish(&pair);
+    resident_destroy(resident);
+}
+
+/* More isolations than are kept, edits between them, and one that outlives a compilation. */
+static void test_isolation_follows_edits(void **state)
+{
+    static const char *const ids[] = {"cube",     "nobody-1", "nobody-2", "nobody-3", "nobody-4",
+                                      "nobody-5", "nobody-6", "nobody-7", "nobody-8"};
+    struct resident *resident = make_resident(document);
+    struct job_desc desc = isolating(ids, 1);
+    struct image before = draw(resident, &desc), image;
+
+    (void)state;
+    for (size_t i = 1; i < sizeof ids / sizeof ids[0]; i++) {
+        const struct job_desc other = isolating(ids + i, 1);
+        image = draw(resident, &other);
+        image_finish(&image);
+    }
+    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/cube/params/size\",\"value\":[2,2,2]}]");
+    image = draw(resident, &desc);
+    assert_false(is_same(&image, &before));
+    image_finish(&before);
+    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":"
+                   "{\"id\":\"more\",\"type\":\"torus\"}}]");
+    desc.exact = false;
+    before = draw(resident, &desc); /* the old program, and the same picture */
+    assert_same(&image, &before);
+    image_finish(&before);
+    desc.exact = true;
+    before = draw(resident, &desc);
+    assert_same(&image, &before);
+    image_finish(&before);
+    image_finish(&image);
+    resident_destroy(resident);
+}
+
+/* What is hidden from the start, or becomes so before it was ever drawn, is not compiled. */
+static void test_what_was_never_drawn(void **state)
+{
+    static const char broken[] =
+        "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":{\"id\":\"bad\","
+        "\"type\":\"field\",\"params\":{\"code\":\"float sdf(vec3 p) { return p.x / (p.x - p.x); "
+        "}\"}}}]";
+    struct resident *resident = make_resident(document);
+    struct image image = draw(resident, &usual);
+    const uint64_t compilations = renderer_counters(renderer).compilations;
+
+    (void)state;
+    edit(resident, broken);
+    assert_int_equal(resident_error(resident)->kind, ERROR_COMPILE);
+    show(resident, "bad", false);
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
     assert_int_equal(renderer_counters(renderer).compilations, compilations);
     image_finish(&image);
     resident_destroy(resident);
@@ -380,6 +549,7 @@ static void test_picking_agrees(void **state)
     struct resident *resident = make_resident(document);
     struct job_desc desc = {.width = 64, .height = 48, .exact = true, .as_floats = true};
     struct image depth, id;
+    struct pick_field *field = pick_field_create(resident_scene(resident), NULL, 0, NULL);
     int different = 0;
 
     (void)state;
@@ -391,8 +561,9 @@ static void test_picking_agrees(void **state)
     assert_int_equal(depth.format, PIXEL_FLOAT);
     assert_int_equal(id.format, PIXEL_UINT32);
     for (int i = 0; i < 64 * 48; i += 7) {
-        const double x = i % 64 + 0.5, y = i / 64 + 0.5;
-        const struct pick_result pick = resident_pick(resident, NULL, 64, 48, x, y);
+        const struct pick_question question = {
+            .width = 64, .height = 48, .x = i % 64 + 0.5, .y = i / 64 + 0.5};
+        const struct pick_result pick = pick_at(field, &question);
         const float d = ((float *)depth.pixels)[i];
         const uint32_t number = ((uint32_t *)id.pixels)[i];
         const char *node = number ? field_leaf_id(resident->drawable->field, number) : "";
@@ -403,6 +574,7 @@ static void test_picking_agrees(void **state)
     assert_in_range(different, 0, 8);
     image_finish(&depth);
     image_finish(&id);
+    pick_field_unref(field);
     resident_destroy(resident);
 }
 
@@ -547,6 +719,11 @@ int main(void)
         cmocka_unit_test(test_tiles_do_not_show),
         cmocka_unit_test(test_edits_and_back),
         cmocka_unit_test(test_numbers_compile_nothing),
+        cmocka_unit_test(test_hiding_compiles_nothing),
+        cmocka_unit_test(test_hidden_is_gone),
+        cmocka_unit_test(test_isolation_compiles_nothing),
+        cmocka_unit_test(test_isolation_follows_edits),
+        cmocka_unit_test(test_what_was_never_drawn),
         cmocka_unit_test(test_outputs_together),
         cmocka_unit_test(test_both_ways),
         cmocka_unit_test(test_pictures_are_not_torn),

@@ -143,15 +143,21 @@ static void send_scene(const char *name, int revision)
     free(document);
 }
 
-static void send_render(int job, int priority, int width, int height, const char *more)
+static void send_render_of(const char *scene, int job, int priority, int width, int height,
+                           const char *more)
 {
     char line[512];
 
     snprintf(line, sizeof line,
-             "{\"type\":\"render\",\"job\":%d,\"scene\":\"s\",\"priority\":%d,\"width\":%d,"
+             "{\"type\":\"render\",\"job\":%d,\"scene\":\"%s\",\"priority\":%d,\"width\":%d,"
              "\"height\":%d,\"samples\":1,\"format\":\"png\",\"fast\":true%s}",
-             job, priority, width, height, more);
+             job, scene, priority, width, height, more);
     send_text(line);
+}
+
+static void send_render(int job, int priority, int width, int height, const char *more)
+{
+    send_render_of("s", job, priority, width, height, more);
 }
 
 /* --- tests --- */
@@ -274,6 +280,25 @@ static void test_priority(void **state)
     assert_int_equal(number("job"), 2);
     expect("frame");
     assert_int_equal(number("job"), 1);
+}
+
+/* A large picture of one scene, as urgent as can be, and small ones of another beside it. */
+static void test_scenes_take_turns(void **state)
+{
+    enum { SMALL = 8, LARGE = 100 };
+
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    send_scene("t", 1);
+    expect("shown");
+    send_render(LARGE, 0, 8000, 6000, "");
+    for (int job = 1; job <= SMALL; job++) {
+        send_render_of("t", job, job % 4, 40, 30, "");
+        expect("frame");
+        assert_int_equal(number("job"), job);
+    }
+    send_text("{\"type\":\"cancel\",\"job\":100}");
 }
 
 static void test_cancel(void **state)
@@ -416,35 +441,6 @@ static void test_refusals(void **state)
     assert_int_equal(number("revision"), 1);
 }
 
-static void test_pick(void **state)
-{
-    (void)state;
-    send_scene("s", 7);
-    expect("shown");
-    send_text("{\"type\":\"pick\",\"pick\":3,\"scene\":\"s\",\"width\":640,\"height\":360,"
-              "\"x\":320,\"y\":160}");
-    expect("picked");
-    assert_int_equal(number("pick"), 3);
-    assert_int_equal(number("revision"), 7);
-    assert_string_equal(text("node"), "ball");
-    assert_true(number("distance") > 3 && number("distance") < 6);
-    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(packet.json, "normal")),
-                     3);
-    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":8,\"ops\":["
-              "{\"op\":\"set\",\"at\":\"/environment/floor_height\",\"value\":0.5},"
-              "{\"op\":\"set\",\"at\":\"/environment/floor\",\"value\":true}]}");
-    expect("shown");
-    send_text("{\"type\":\"pick\",\"pick\":5,\"scene\":\"s\",\"width\":640,\"height\":360,"
-              "\"x\":320,\"y\":350}");
-    expect("picked");
-    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(packet.json, "node")));
-    assert_true(number("distance") > 0.5);
-    send_text("{\"type\":\"pick\",\"pick\":4,\"scene\":\"nowhere\",\"width\":640,\"height\":360,"
-              "\"x\":320,\"y\":160}");
-    expect("picked");
-    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(packet.json, "node")));
-}
-
 static void test_stop(void **state)
 {
     (void)state;
@@ -527,12 +523,12 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_render_and_edit, start, stop),
         cmocka_unit_test_setup_teardown(test_structural_edit, start, stop),
         cmocka_unit_test_setup_teardown(test_priority, start, stop),
+        cmocka_unit_test_setup_teardown(test_scenes_take_turns, start, stop),
         cmocka_unit_test_setup_teardown(test_cancel, start, stop),
         cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
         cmocka_unit_test_setup_teardown(test_outputs, start, stop),
         cmocka_unit_test_setup_teardown(test_what_is_asked, start, stop),
         cmocka_unit_test_setup_teardown(test_refusals, start, stop),
-        cmocka_unit_test_setup_teardown(test_pick, start, stop),
         cmocka_unit_test(test_stop),
         cmocka_unit_test(test_front_gone),
         cmocka_unit_test(test_malformed_packets),

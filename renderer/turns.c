@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+#include "turns.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/memory.h"
+
+struct turn {
+    struct turn *next;
+    char *scene;
+    int pictures;
+    uint64_t us;    /* drawing time, weighed by how urgent it was */
+    uint64_t steps; /* ever */
+    uint64_t round; /* in which it could go on last */
+    int priority;   /* of the offer below */
+    void *offer;    /* of this round */
+};
+
+/* What a microsecond costs, by priority. */
+static const uint64_t costs[TURNS_PRIORITIES] = {1, 1, 2, 4};
+
+static int clamped(int priority)
+{
+    return priority < 0 ? 0 : priority >= TURNS_PRIORITIES ? TURNS_PRIORITIES - 1 : priority;
+}
+
+/* --- accounts --- */
+
+struct turn *turns_join(struct turns *turns, const char *scene)
+{
+    const char *name = *scene == '~' ? "~" : scene;
+    struct turn **at = &turns->first;
+
+    while (*at && strcmp((*at)->scene, name) != 0) {
+        at = &(*at)->next;
+    }
+    if (!*at) {
+        *at = memory_alloc(1, sizeof **at);
+        (*at)->scene = memory_text(name);
+    }
+    (*at)->pictures++;
+    return *at;
+}
+
+static bool anybody_waits(const struct turns *turns)
+{
+    const struct turn *turn = turns->first;
+
+    while (turn && turn->pictures == 0) {
+        turn = turn->next;
+    }
+    return turn != NULL;
+}
+
+/* Whoever is ahead of others is remembered until they are there too. */
+static void remove_old(struct turns *turns)
+{
+    const bool waited_for = anybody_waits(turns);
+
+    for (struct turn **at = &turns->first; *at;) {
+        struct turn *turn = *at;
+
+        if (turn->pictures > 0 || (waited_for && turn->us > turns->now_us)) {
+            at = &turn->next;
+            continue;
+        }
+        *at = turn->next;
+        turns->last = turns->last == turn ? NULL : turns->last;
+        free(turn->scene);
+        free(turn);
+    }
+}
+
+void turns_leave(struct turns *turns, struct turn *turn)
+{
+    turn->pictures--;
+    remove_old(turns);
+}
+
+/* --- choosing --- */
+
+void turns_begin(struct turns *turns)
+{
+    turns->round++;
+    for (struct turn *turn = turns->first; turn; turn = turn->next) {
+        turn->offer = NULL;
+    }
+}
+
+void turns_offer(struct turns *turns, struct turn *turn, int priority, void *picture)
+{
+    const bool oldest = turn->steps % TURNS_OLDEST_EVERY == TURNS_OLDEST_EVERY - 1;
+
+    if (turn->round + 1 < turns->round && turn->us < turns->now_us) {
+        turn->us = turns->now_us;
+    }
+    turn->round = turns->round;
+    if (!turn->offer || (!oldest && clamped(priority) < turn->priority)) {
+        turn->offer = picture;
+        turn->priority = clamped(priority);
+    }
+}
+
+static uint64_t due(const struct turn *turn)
+{
+    return turn->us + (uint64_t)turn->priority * TURNS_AHEAD_US;
+}
+
+static bool is_before(const struct turns *turns, const struct turn *a, const struct turn *b)
+{
+    return due(a) != due(b) ? due(a) < due(b) : b == turns->last;
+}
+
+void *turns_choose(struct turns *turns)
+{
+    const struct turn *best = NULL;
+    uint64_t least = UINT64_MAX;
+
+    for (const struct turn *turn = turns->first; turn; turn = turn->next) {
+        if (!turn->offer) {
+            continue;
+        }
+        least = turn->us < least ? turn->us : least;
+        best = !best || is_before(turns, turn, best) ? turn : best;
+    }
+    if (best && least > turns->now_us) {
+        turns->now_us = least;
+    }
+    return best ? best->offer : NULL;
+}
+
+void turns_charge(struct turns *turns, struct turn *turn, int priority, uint64_t us)
+{
+    turn->us += us * costs[clamped(priority)];
+    turn->steps++;
+    turns->last = turn;
+}

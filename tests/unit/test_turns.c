@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/* Whose picture goes on next: the queue of the drawing thread, without anything to draw. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "renderer/turns.h"
+
+enum { MOVING, STILL, LOSSLESS, IMAGE };
+
+struct picture {
+    const char *scene;
+    int priority;
+    uint64_t step_us; /* that one of its steps takes */
+    struct turn *turn;
+    int steps;    /* done */
+    bool waiting; /* for a compiler */
+};
+
+static struct turns turns;
+
+static void join(struct picture *picture)
+{
+    picture->turn = turns_join(&turns, picture->scene);
+}
+
+static void leave(struct picture *picture)
+{
+    turns_leave(&turns, picture->turn);
+}
+
+/* The one that has a step; NULL: none. */
+static struct picture *step(struct picture *pictures, int count)
+{
+    turns_begin(&turns);
+    for (int i = 0; i < count; i++) {
+        if (!pictures[i].waiting) {
+            turns_offer(&turns, pictures[i].turn, pictures[i].priority, &pictures[i]);
+        }
+    }
+    struct picture *chosen = turns_choose(&turns);
+    if (chosen) {
+        turns_charge(&turns, chosen->turn, chosen->priority, chosen->step_us);
+        chosen->steps++;
+    }
+    return chosen;
+}
+
+static void run(struct picture *pictures, int count, int steps)
+{
+    for (int i = 0; i < count; i++) {
+        join(&pictures[i]);
+    }
+    for (int i = 0; i < steps; i++) {
+        step(pictures, count);
+    }
+    for (int i = 0; i < count; i++) {
+        leave(&pictures[i]);
+    }
+    assert_null(turns.first); /* nothing is left behind */
+}
+
+static void test_nothing(void **state)
+{
+    (void)state;
+    assert_null(step(NULL, 0));
+}
+
+/* By drawing time, not by steps. */
+static void test_equal_shares(void **state)
+{
+    struct picture two[] = {{.scene = "heavy", .priority = STILL, .step_us = 200000},
+                            {.scene = "light", .priority = STILL, .step_us = 5000}};
+
+    (void)state;
+    run(two, 2, 4100);
+    assert_in_range(two[0].steps, 99, 101);
+    assert_in_range(two[1].steps, 3999, 4001);
+}
+
+/* A scene with many pictures is one scene, and so are all those that are used once. */
+static void test_scenes_count(void **state)
+{
+    struct picture many[] = {{.scene = "a", .priority = IMAGE, .step_us = 1000},
+                             {.scene = "~1", .priority = IMAGE, .step_us = 1000},
+                             {.scene = "~2", .priority = IMAGE, .step_us = 1000},
+                             {.scene = "~3", .priority = IMAGE, .step_us = 1000},
+                             {.scene = "b", .priority = IMAGE, .step_us = 1000},
+                             {.scene = "b", .priority = IMAGE, .step_us = 1000}};
+
+    (void)state;
+    run(many, 6, 3000);
+    assert_in_range(many[0].steps, 999, 1001);
+    assert_in_range(many[1].steps + many[2].steps + many[3].steps, 999, 1001);
+    assert_in_range(many[4].steps + many[5].steps, 999, 1001);
+    assert_true(many[4].steps > many[5].steps); /* to its end, the oldest first */
+}
+
+static void test_urgent_first(void **state)
+{
+    struct picture two[] = {{.scene = "a", .priority = IMAGE, .step_us = 10000},
+                            {.scene = "b", .priority = MOVING, .step_us = 10000}};
+
+    (void)state;
+    join(&two[0]);
+    for (int i = 0; i < 50; i++) {
+        step(two, 1);
+    }
+    join(&two[1]);
+    for (int i = 0; i < 20; i++) { /* a whole picture of it */
+        assert_ptr_equal(step(two, 2), &two[1]);
+    }
+    leave(&two[0]);
+    leave(&two[1]);
+}
+
+/* However urgent one scene's pictures are, another's go on. */
+static void test_nobody_starves(void **state)
+{
+    for (int priority = MOVING; priority <= IMAGE; priority++) {
+        struct picture two[] = {{.scene = "heavy", .priority = MOVING, .step_us = 50000},
+                                {.scene = "other", .priority = priority, .step_us = 10000}};
+
+        run(two, 2, 1000);
+        assert_true(two[1].steps * 10000 * 6 > two[0].steps * 50000);
+    }
+    (void)state;
+}
+
+/* In one scene neither. */
+static void test_oldest_within_scene(void **state)
+{
+    struct picture two[] = {{.scene = "a", .priority = IMAGE, .step_us = 1000},
+                            {.scene = "a", .priority = MOVING, .step_us = 1000}};
+
+    (void)state;
+    run(two, 2, 800);
+    assert_int_equal(two[0].steps, 800 / TURNS_OLDEST_EVERY);
+}
+
+/* Who could not go on has no claim to what others got meanwhile. */
+static void test_no_credit(void **state)
+{
+    struct picture two[] = {
+        {.scene = "compiles", .priority = MOVING, .step_us = 10000, .waiting = true},
+        {.scene = "draws", .priority = MOVING, .step_us = 10000}};
+
+    (void)state;
+    join(&two[0]);
+    join(&two[1]);
+    for (int i = 0; i < 1000; i++) {
+        assert_ptr_equal(step(two, 2), &two[1]);
+    }
+    two[0].waiting = false;
+    for (int i = 0; i < 20; i++) {
+        step(two, 2);
+    }
+    assert_int_equal(two[0].steps, 10);
+    leave(&two[0]);
+    leave(&two[1]);
+}
+
+/* Small pictures, asked for again and again, each come between two tiles of a heavy one. */
+static void test_small_between_heavy(void **state)
+{
+    enum { TILES = 100 };
+    struct picture two[] = {{.scene = "heavy", .priority = MOVING, .step_us = 100000},
+                            {.scene = "light", .priority = MOVING, .step_us = 2000}};
+    int pictures = 0;
+
+    (void)state;
+    join(&two[0]);
+    while (two[0].steps < TILES) {
+        join(&two[1]);
+        while (step(two, 2) != &two[1]) {
+        }
+        leave(&two[1]);
+        pictures++;
+    }
+    assert_true(pictures >= TILES);
+    leave(&two[0]);
+    assert_null(turns.first);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing),        cmocka_unit_test(test_equal_shares),
+        cmocka_unit_test(test_scenes_count),   cmocka_unit_test(test_urgent_first),
+        cmocka_unit_test(test_nobody_starves), cmocka_unit_test(test_oldest_within_scene),
+        cmocka_unit_test(test_no_credit),      cmocka_unit_test(test_small_between_heavy),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
