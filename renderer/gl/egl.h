@@ -9,7 +9,7 @@
 
 enum { EGL_DEVICES_MAX = 32 };
 
-enum { EGL_COMPILERS = 2 }; /* threads that compile, while another draws */
+enum { EGL_COMPILERS = 3 }; /* threads that compile, while another draws */
 
 struct egl {
     EGLDisplay display;

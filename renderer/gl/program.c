@@ -5,10 +5,20 @@
 #include <time.h>
 
 #include "program_parts.h"
+#include "protocol/limits.h"
 #include "protocol/memory.h"
 
+static int64_t now_ms(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t)t.tv_sec * 1000 + t.tv_nsec / 1000000;
+}
+
 struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
-                                           const struct gl_sink *sink, struct error *err)
+                                           const struct gl_sink *sink, int code_ms,
+                                           struct error *err)
 {
     struct program_cache *cache = memory_alloc(1, sizeof *cache);
     pthread_condattr_t clock;
@@ -16,6 +26,7 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
     cache->egl = egl;
     cache->gl = gl;
     cache->sink = sink;
+    cache->code_ms = code_ms > 0 ? code_ms : LIMIT_COMPILE_CODE_MS;
     pthread_mutex_init(&cache->lock, NULL);
     pthread_cond_init(&cache->work, NULL);
     pthread_condattr_init(&clock);
@@ -141,10 +152,12 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->number_count = source->number_count;
     program->map_count = source->map_count;
     program->shape_count = source->shape_count;
+    program->patience = source->patience > 0 ? source->patience : 1;
     program->user_shaders = source->user_shaders;
     program->user_code = source->user_code;
     program->stages = source->volumes ? STAGE_COUNT : STAGE_VOLUME;
     program->refs = 1;
+    program->added_ms = now_ms();
     pthread_mutex_lock(&cache->lock);
     program->last_use = ++cache->uses;
     program->next = cache->first;

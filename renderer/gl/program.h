@@ -30,26 +30,42 @@ struct program_source {
     bool volumes;                        /* STAGE_VOLUME is wanted */
     size_t shape_count;
     size_t map_count; /* the first so many are those that the map reads */
+    int patience;     /* times the usual bound on compiling; 0: once */
 };
 
 /* The compile contexts of `egl` belong to the cache until program_cache_destroy. */
 struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
-                                           const struct gl_sink *sink, struct error *err);
+                                           const struct gl_sink *sink, int code_ms,
+                                           struct error *err);
 void program_cache_destroy(struct program_cache *cache);
 
 /* A new reference, or NULL where the shape is not known yet. */
 struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash);
 /* Starts compiling. A new reference. */
 struct program *program_cache_add(struct program_cache *cache, const struct program_source *source);
-/* The program with code of users that is to be compiled next; nothing else is compiled beside one.
+/* The program with code of users that is to be compiled next: one at a time, beside those without.
  * NULL: none, or one is at work (`*out_busy`). Borrowed. */
 struct program *program_cache_next(struct program_cache *cache, bool *out_busy);
 /* Lets the compilers have it. */
 void program_cache_allow(struct program_cache *cache, struct program *program);
-/* Whether a compiler has been at work for so long that it may never end: LIMIT_COMPILE_MS of
- * processor time; where there is code of users LIMIT_COMPILE_CODE_MS and more for each shape, the
- * compilers taken together; or twice as long without having the processor. */
-bool program_cache_stuck(struct program_cache *cache);
+
+/* A program whose compiler may never end. */
+struct program_stuck {
+    uint64_t shape;
+    bool still;                /* a deadlock; else it took too much */
+    int measured_ms, limit_ms; /* of the processors, by all compilers together */
+};
+/* Whether there is one: it took more processor time than LIMIT_COMPILE_MS, with code of users than
+ * `code_ms` of program_cache_create; and more than LIMIT_COMPILE_FACTOR times what its shapes
+ * usually take on this machine; all that times its patience. Or it has been still for
+ * LIMIT_COMPILE_STILL_MS (vigil.h). */
+bool program_cache_stuck(struct program_cache *cache, struct program_stuck *out);
+/* How slow this machine compiles, against the usual one; at least 1. Measured with programs without
+ * code of users; `set`: as another process measured it. The drawing thread's. */
+double program_cache_pace(struct program_cache *cache);
+void program_cache_set_pace(struct program_cache *cache, double pace);
+/* Processor time that the compilers have ever taken. */
+int64_t program_cache_cpu_us(const struct program_cache *cache);
 struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);
 

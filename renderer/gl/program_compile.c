@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The threads that compile programs: what they take next, and how long they may take. */
-#include <math.h>
+/* The threads that compile programs, and what they take next. */
 #include <stdlib.h>
-#include <time.h>
 
 #include "numbers.h"
 #include "program_parts.h"
-#include "protocol/limits.h"
 #include "protocol/memory.h"
 #include "renderer/draw/frame.h"
 #include "renderer/field/shader.h"
@@ -16,7 +13,6 @@ enum {
     PRELOAD_MAX = 4096, /* vec4s */
     SHARED_MAX = 2048,  /* vec4s in the 32 KiB that OpenGL 4.3 promises to each work group */
     FILES_MAX = 32,
-    WALL_FACTOR = 2, /* a compiler that waits for others may take so much longer */
 };
 
 /* --- one stage --- */
@@ -142,20 +138,11 @@ static void finish_stage(struct program_cache *cache, struct program *program,
     }
 }
 
-static int64_t clock_in_ms(clockid_t clock)
-{
-    struct timespec t;
-
-    clock_gettime(clock, &t);
-    return (int64_t)t.tv_sec * 1000 + t.tv_nsec / 1000000;
-}
-
 /* Under the lock. */
 static void begin(struct compiler *compiler, const struct program *program)
 {
     compiler->program = program;
-    compiler->begun_ms = clock_in_ms(CLOCK_MONOTONIC);
-    compiler->begun_cpu_ms = clock_in_ms(CLOCK_THREAD_CPUTIME_ID);
+    program_limit_begin(compiler);
 }
 
 static void compile_stage(struct program_cache *cache, const struct targets *targets,
@@ -171,58 +158,13 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
     gl->Finish();
     pthread_mutex_lock(&cache->lock);
     program->passes[stage] = pass;
+    program_limit_end(cache, program);
     finish_stage(cache, program, &err);
     program->refs--;
     pthread_mutex_unlock(&cache->lock);
 }
 
-/* --- what is next --- */
-
-static bool is_waiting(const struct program *program)
-{
-    return program->taken < program->stages && program->refs > 0;
-}
-
-static bool is_worked_at(const struct program *program)
-{
-    return program->taken > program->done;
-}
-
-/* Begun, or to be begun, with code of users in it. */
-static struct program *find_allowed(const struct program_cache *cache)
-{
-    struct program *p = cache->first;
-
-    while (p && !(p->allowed && (is_worked_at(p) || is_waiting(p)))) {
-        p = p->next;
-    }
-    return p;
-}
-
-/* A stage of the newest program that somebody still wants: what was asked for before it is out of
- * date. One that has been begun is finished, since another thread is at it. One with code of users
- * is alone, so that it is known whose compiler hangs or crashes. */
-static struct program *take_work(struct program_cache *cache, enum program_stage *out_stage)
-{
-    const struct program *alone = find_allowed(cache);
-    struct program *best = NULL;
-
-    for (struct program *p = cache->first; p; p = p->next) {
-        int begun = best ? (p->taken > 0) - (best->taken > 0) : 1;
-        if (alone && p != alone && is_worked_at(p)) {
-            return NULL;
-        }
-        if (is_waiting(p) && (alone ? p == alone : !p->user_code) &&
-            (begun > 0 || (begun == 0 && p->last_use > best->last_use))) {
-            best = p;
-        }
-    }
-    if (best) {
-        *out_stage = (enum program_stage)best->taken++;
-        best->refs++;
-    }
-    return best;
-}
+/* --- the threads --- */
 
 static void work(struct compiler *compiler, const struct targets *targets)
 {
@@ -231,7 +173,7 @@ static void work(struct compiler *compiler, const struct targets *targets)
     pthread_mutex_lock(&cache->lock);
     while (!cache->stop) {
         enum program_stage stage = STAGE_MARCH;
-        struct program *program = take_work(cache, &stage);
+        struct program *program = program_order_take(cache, &stage);
         if (!program) {
             pthread_cond_wait(&cache->work, &cache->lock);
             continue;
@@ -241,7 +183,7 @@ static void work(struct compiler *compiler, const struct targets *targets)
         compile_stage(cache, targets, program, stage);
         pthread_mutex_lock(&cache->lock);
         compiler->program = NULL;
-        pthread_cond_broadcast(&cache->work); /* who waits to be alone */
+        pthread_cond_broadcast(&cache->work); /* another may be at this program now */
     }
     pthread_mutex_unlock(&cache->lock);
 }
@@ -278,62 +220,10 @@ void *program_compile_main(void *data)
 
 /* --- for the drawing thread --- */
 
-struct program *program_cache_next(struct program_cache *cache, bool *out_busy)
-{
-    struct program *best = NULL;
-
-    pthread_mutex_lock(&cache->lock);
-    *out_busy = find_allowed(cache) != NULL;
-    for (struct program *p = cache->first; p && !*out_busy; p = p->next) {
-        if (p->user_code && !p->allowed && is_waiting(p) &&
-            (!best || p->last_use > best->last_use)) {
-            best = p;
-        }
-    }
-    pthread_mutex_unlock(&cache->lock);
-    return best;
-}
-
 void program_cache_allow(struct program_cache *cache, struct program *program)
 {
     pthread_mutex_lock(&cache->lock);
     program->allowed = true;
     pthread_cond_broadcast(&cache->work);
     pthread_mutex_unlock(&cache->lock);
-}
-
-/* Compilers take about the square of the shapes, with users' code in some of them as without. */
-static int64_t longest_ms(const struct program *program)
-{
-    const double part = fmin(1, (double)program->shape_count / LIMIT_DRAWN_SHAPES);
-
-    return program->user_code
-               ? LIMIT_COMPILE_CODE_MS +
-                     (int64_t)((LIMIT_COMPILE_MS - LIMIT_COMPILE_CODE_MS) * part * part)
-               : LIMIT_COMPILE_MS;
-}
-
-bool program_cache_stuck(struct program_cache *cache)
-{
-    const int64_t now = clock_in_ms(CLOCK_MONOTONIC);
-    int64_t together = 0; /* all of them may be at one program with code, which is alone */
-    bool stuck = false;
-
-    pthread_mutex_lock(&cache->lock);
-    for (int i = 0; i < EGL_COMPILERS; i++) {
-        const struct compiler *compiler = &cache->compilers[i];
-        const struct program *program = compiler->program;
-        clockid_t clock;
-
-        if (program && pthread_getcpuclockid(compiler->thread, &clock) == 0) {
-            const int64_t most = longest_ms(program);
-            const int64_t spent = clock_in_ms(clock) - compiler->begun_cpu_ms;
-
-            together += program->user_code ? spent : 0;
-            stuck = stuck || spent > most || (program->user_code && together > most) ||
-                    now - compiler->begun_ms > WALL_FACTOR * most;
-        }
-    }
-    pthread_mutex_unlock(&cache->lock);
-    return stuck;
 }
