@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* What is under a place of a picture, asked of the C evaluator: no GL and no render process. */
+#ifndef RENDERER_PICK_H
+#define RENDERER_PICK_H
+
+#include "protocol/limits.h"
+#include "protocol/scene.h"
+
+/* A scene as rays meet it, at one state. Immutable; the references are counted across threads, and
+ * any number of threads may ask at once. */
+struct pick_field;
+
+/* With one reference; `scene` is not kept. `isolated`: as in job_desc. NULL and `err` where the
+ * scene is no field. */
+struct pick_field *pick_field_create(const struct scene *scene, const char *const *isolated,
+                                     size_t isolated_count, struct error *err);
+struct pick_field *pick_field_ref(struct pick_field *field);
+void pick_field_unref(struct pick_field *field); /* NULL: nothing */
+
+struct pick_question {
+    const struct record *camera; /* camera_type; NULL: the scene's */
+    int width, height;           /* of the whole picture, pixels */
+    double x, y;                 /* in it, from its left top */
+};
+
+struct pick_result {
+    bool hit;
+    char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface; "": the floor */
+    double position[3], normal[3], distance;
+};
+
+/* Follows the ray, which hits nothing where that takes more than LIMIT_PICK_WORK. */
+struct pick_result pick_at(const struct pick_field *field, const struct pick_question *question);
+
+#endif

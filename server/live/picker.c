@@ -1,0 +1,374 @@
+/* SPDX-License-Identifier: MIT */
+#include "picker.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fallback.h"
+#include "hub.h"
+#include "protocol/code_text.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+#include "renderer/pick.h"
+#include "room.h"
+#include "say.h"
+#include "session.h"
+
+struct question {
+    struct question *next;
+    struct session *session; /* NULL: it asks no longer */
+    double pick, x, y;
+    int width, height;
+    char *camera;  /* text; NULL: the document's */
+    char *isolate; /* as in frames_view */
+};
+
+struct picker {
+    struct hub *hub;
+    pthread_t thread;
+    pthread_cond_t work; /* with the hub's lock */
+    bool stop;
+    struct question *first;   /* in order of asking */
+    struct question *current; /* the thread's; its session may go meanwhile */
+    uint64_t turns;
+};
+
+static void question_destroy(struct question *question)
+{
+    free(question->camera);
+    free(question->isolate);
+    free(question);
+}
+
+/* --- asking --- */
+
+/* Gives up the oldest of a session that has too many. */
+static void make_room(struct picker *picker, const struct session *session)
+{
+    struct question **oldest = NULL;
+    int count = 0;
+
+    for (struct question **at = &picker->first; *at; at = &(*at)->next) {
+        if ((*at)->session == session) {
+            oldest = oldest ? oldest : at;
+            count++;
+        }
+    }
+    if (count >= PICKER_WAITING) {
+        struct question *gone = *oldest;
+
+        *oldest = gone->next;
+        question_destroy(gone);
+    }
+}
+
+bool picker_ask(struct session *session, const cJSON *message, struct error *err)
+{
+    struct picker *picker = session->hub->picker;
+    const struct frames_view *view =
+        frames_find_view(&session->frames, (uint32_t)json_member_number(message, "seq", 0));
+
+    if (!view) {
+        return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");
+    }
+    make_room(picker, session);
+    struct question *question = memory_alloc(1, sizeof(*question));
+    struct question **end = &picker->first;
+    *question = (struct question){
+        .session = session,
+        .pick = json_member_number(message, "pick", 0),
+        .x = json_member_number(message, "x", 0),
+        .y = json_member_number(message, "y", 0),
+        .width = view->width,
+        .height = view->height,
+        .camera = frames_camera(session, view),
+        .isolate = view->isolate ? memory_text(view->isolate) : NULL,
+    };
+    while (*end) {
+        end = &(*end)->next;
+    }
+    *end = question;
+    pthread_cond_signal(&picker->work);
+    return true;
+}
+
+void picker_forget(struct session *session)
+{
+    struct picker *picker = session->hub->picker;
+
+    if (picker->current && picker->current->session == session) {
+        picker->current->session = NULL;
+    }
+    for (struct question **at = &picker->first; *at;) {
+        struct question *question = *at;
+
+        if (question->session != session) {
+            at = &question->next;
+            continue;
+        }
+        *at = question->next;
+        question_destroy(question);
+    }
+}
+
+static void empty_field(struct picker_field *picks)
+{
+    pick_field_unref(picks->field);
+    free(picks->isolate);
+    *picks = (struct picker_field){0};
+}
+
+void picker_finish_room(struct room *room)
+{
+    for (int i = 0; i < PICKER_FIELDS; i++) {
+        empty_field(&room->picks[i]);
+    }
+}
+
+/* --- the field --- */
+
+static bool same_isolate(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+/* What the room has for this question, or the least recently used, which is emptied for it. */
+static struct picker_field *find_field(struct picker *picker, const struct question *question)
+{
+    struct picker_field *all = question->session->room->picks, *best = all;
+
+    for (int i = 0; i < PICKER_FIELDS; i++) {
+        if (all[i].last_use > 0 && same_isolate(all[i].isolate, question->isolate)) {
+            return &all[i];
+        }
+        best = all[i].last_use < best->last_use ? &all[i] : best;
+    }
+    empty_field(best);
+    best->isolate = question->isolate ? memory_text(question->isolate) : NULL;
+    best->last_use = picker->turns;
+    return best;
+}
+
+/* A copy of the state that is picked in: the newest, or the last good one where that is what is
+ * shown. */
+static struct scene *copy_scene(struct room *room, const struct picker_field *picks,
+                                uint64_t *out_revision)
+{
+    const struct scene *good =
+        room->problem.kind != ERROR_NONE ? fallback_state(room, out_revision) : NULL;
+
+    if (!good) {
+        *out_revision = room->revision;
+    }
+    return *out_revision == picks->tried ? NULL : scene_copy(good ? good : room->scene);
+}
+
+/* Without the code, where the server runs none. Takes `scene`. */
+static struct scene *without_code(struct scene *scene)
+{
+    cJSON *document = scene_to_json(scene);
+
+    scene_destroy(scene);
+    code_text_remove(document);
+    scene = scene_read(document, NULL);
+    cJSON_Delete(document);
+    return scene;
+}
+
+/* Of a canonical list of ids. */
+static struct pick_field *make_isolated(const struct scene *scene, const char *isolate)
+{
+    cJSON *list = isolate ? json_parse(isolate, strlen(isolate), NULL) : NULL;
+    const char *ids[LIMIT_ISOLATED];
+    const cJSON *id;
+    size_t count = 0;
+
+    cJSON_ArrayForEach(id, list)
+    {
+        ids[count++] = id->valuestring;
+    }
+    struct pick_field *field = pick_field_create(scene, ids, count, NULL);
+    cJSON_Delete(list);
+    return field;
+}
+
+/* Takes `scene`. NULL where it is no field. */
+static struct pick_field *make_field(const struct hub *hub, struct scene *scene,
+                                     const char *isolate)
+{
+    struct pick_field *field = NULL;
+
+    if (hub->code_refused && code_text_in_scene(scene)) {
+        scene = without_code(scene);
+    }
+    if (scene) {
+        field = make_isolated(scene, isolate);
+    }
+    scene_destroy(scene);
+    return field;
+}
+
+/* Brings the room's field up to date, unless its session goes meanwhile. Under the lock, which it
+ * lets go for the work. A state that is no field leaves the one before. */
+static void renew(struct picker *picker, const struct question *question)
+{
+    struct room *room = question->session->room;
+    struct picker_field *picks = find_field(picker, question);
+    uint64_t revision = 0;
+    struct scene *scene = copy_scene(room, picks, &revision);
+
+    picks->last_use = picker->turns;
+    if (!scene) {
+        return;
+    }
+    hub_unlock(picker->hub);
+    struct pick_field *field = make_field(picker->hub, scene, question->isolate);
+    hub_lock(picker->hub);
+    if (!question->session || question->session->room != room) {
+        pick_field_unref(field);
+        return;
+    }
+    picks->tried = revision;
+    if (field) {
+        pick_field_unref(picks->field);
+        picks->field = field;
+        picks->revision = revision;
+    }
+}
+
+/* --- answering --- */
+
+static struct pick_result look(const struct pick_field *field, const struct question *question)
+{
+    struct pick_question asked = {
+        .width = question->width, .height = question->height, .x = question->x, .y = question->y};
+    struct pick_result result = {0};
+    struct record camera;
+
+    record_init(&camera, &camera_type);
+    if (question->camera) {
+        cJSON *json = json_parse(question->camera, strlen(question->camera), NULL);
+
+        record_read(&camera, json, "/camera", NULL);
+        cJSON_Delete(json);
+        asked.camera = &camera;
+    }
+    if (field) {
+        result = pick_at(field, &asked);
+    }
+    record_finish(&camera);
+    return result;
+}
+
+static cJSON *vector_or_null(const struct pick_result *result, const double v[3])
+{
+    return result->hit ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
+}
+
+static struct blob *say_picked(double pick, uint64_t revision, const struct pick_result *result)
+{
+    cJSON *message = say_begin("picked");
+
+    cJSON_AddNumberToObject(message, "pick", pick);
+    cJSON_AddNumberToObject(message, "revision", (double)revision);
+    cJSON_AddItemToObject(message, "node",
+                          *result->node ? cJSON_CreateString(result->node) : cJSON_CreateNull());
+    cJSON_AddItemToObject(message, "position", vector_or_null(result, result->position));
+    cJSON_AddItemToObject(message, "normal", vector_or_null(result, result->normal));
+    cJSON_AddItemToObject(message, "distance",
+                          result->hit ? cJSON_CreateNumber(result->distance) : cJSON_CreateNull());
+    return say(message);
+}
+
+/* Under the lock, which it lets go for the work. */
+static void answer(struct picker *picker, const struct question *question)
+{
+    renew(picker, question);
+    if (!question->session || !question->session->room) {
+        return;
+    }
+    const struct picker_field *picks = find_field(picker, question);
+    const uint64_t revision = picks->field ? picks->revision : picks->tried;
+    struct pick_field *field = picks->field ? pick_field_ref(picks->field) : NULL;
+
+    hub_unlock(picker->hub);
+    const struct pick_result result = look(field, question);
+    pick_field_unref(field);
+    hub_lock(picker->hub);
+    if (question->session) {
+        session_say(question->session, say_picked(question->pick, revision, &result));
+    }
+}
+
+/* The oldest of the session whose turn was longest ago. */
+static struct question *take(struct picker *picker)
+{
+    struct question **best = &picker->first;
+
+    for (struct question **at = &picker->first; *at; at = &(*at)->next) {
+        if ((*at)->session->pick_turn < (*best)->session->pick_turn) {
+            best = at;
+        }
+    }
+    struct question *question = *best;
+    *best = question->next;
+    question->session->pick_turn = ++picker->turns;
+    return question;
+}
+
+static void *run(void *data)
+{
+    struct picker *picker = data;
+
+    hub_lock(picker->hub);
+    while (!picker->stop) {
+        if (!picker->first) {
+            pthread_cond_wait(&picker->work, &picker->hub->lock);
+            continue;
+        }
+        picker->current = take(picker);
+        answer(picker, picker->current);
+        question_destroy(picker->current);
+        picker->current = NULL;
+    }
+    hub_unlock(picker->hub);
+    return NULL;
+}
+
+/* --- life --- */
+
+struct picker *picker_create(struct hub *hub, struct error *err)
+{
+    struct picker *picker = memory_alloc(1, sizeof(*picker));
+
+    picker->hub = hub;
+    pthread_cond_init(&picker->work, NULL);
+    if (pthread_create(&picker->thread, NULL, run, picker) != 0) {
+        error_set(err, ERROR_INTERNAL, "picker", "its thread cannot be started");
+        pthread_cond_destroy(&picker->work);
+        free(picker);
+        return NULL;
+    }
+    return picker;
+}
+
+void picker_destroy(struct picker *picker)
+{
+    if (!picker) {
+        return;
+    }
+    hub_lock(picker->hub);
+    picker->stop = true;
+    pthread_cond_signal(&picker->work);
+    hub_unlock(picker->hub);
+    pthread_join(picker->thread, NULL);
+    while (picker->first) {
+        struct question *question = picker->first;
+
+        picker->first = question->next;
+        question_destroy(question);
+    }
+    pthread_cond_destroy(&picker->work);
+    free(picker);
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/* What is under a place of a picture. That it agrees with pictures is in test_renderer.c. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "renderer/pick.h"
+
+static const char ball[] =
+    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],\"target\":[0,0,0]},"
+    "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1}}}";
+static const char ball_on_floor[] =
+    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],\"target\":[0,0,0]},"
+    "\"environment\":{\"floor\":true,\"floor_height\":-1},"
+    "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1}}}";
+
+static struct pick_field *make_isolated(const char *text, const char *id)
+{
+    struct error err = {0};
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+
+    assert_non_null(scene);
+    struct pick_field *field = pick_field_create(scene, &id, id != NULL, &err);
+    assert_non_null(field);
+    scene_destroy(scene);
+    return field;
+}
+
+static struct pick_field *make_field(const char *text)
+{
+    return make_isolated(text, NULL);
+}
+
+static struct pick_result look(const struct pick_field *field, double x, double y)
+{
+    return pick_at(field, &(struct pick_question){.width = 640, .height = 360, .x = x, .y = y});
+}
+
+static void test_ball(void **state)
+{
+    struct pick_field *field = make_field(ball);
+    const struct pick_result hit = look(field, 320, 180), miss = look(field, 5, 5);
+
+    (void)state;
+    assert_true(hit.hit);
+    assert_string_equal(hit.node, "ball");
+    assert_true(fabs(hit.distance - (sqrt(26) - 1)) < 1e-3);
+    assert_true(fabs(hit.normal[1] - 1 / sqrt(26)) < 1e-3);
+    assert_true(fabs(hit.position[2] - 5 / sqrt(26)) < 1e-3);
+    assert_false(miss.hit);
+    assert_string_equal(miss.node, "");
+    pick_field_unref(field);
+}
+
+/* A click finds what is seen. */
+static void test_isolated(void **state)
+{
+    static const char nested[] =
+        "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,0,5],\"target\":[0,0,0]},"
+        "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1},\"children\":["
+        "{\"id\":\"kernel\",\"type\":\"sphere\",\"params\":{\"radius\":0.5}}]}}";
+    struct pick_field *all = make_field(nested), *one = make_isolated(nested, "kernel");
+
+    (void)state;
+    assert_string_equal(look(all, 320, 180).node, "ball");
+    assert_string_equal(look(one, 320, 180).node, "kernel");
+    assert_true(fabs(look(one, 320, 180).distance - 4.5) < 1e-3);
+    pick_field_unref(all);
+    pick_field_unref(one);
+}
+
+static void test_floor(void **state)
+{
+    struct pick_field *field = make_field(ball_on_floor);
+    const struct pick_result hit = look(field, 320, 350);
+
+    (void)state;
+    assert_true(hit.hit);
+    assert_string_equal(hit.node, "");
+    assert_true(fabs(hit.position[1] + 1) < 1e-3);
+    pick_field_unref(field);
+}
+
+static void test_camera(void **state)
+{
+    struct pick_field *field = make_field(ball);
+    struct record camera;
+    struct pick_question question = {
+        .camera = &camera, .width = 100, .height = 100, .x = 50, .y = 50};
+
+    (void)state;
+    record_init(&camera, &camera_type);
+    cJSON *json = cJSON_Parse("{\"position\":[0,0,9],\"target\":[0,0,0]}");
+    assert_true(record_read(&camera, json, "/camera", NULL));
+    cJSON_Delete(json);
+    assert_true(fabs(pick_at(field, &question).distance - 8) < 1e-3);
+    record_finish(&camera);
+    pick_field_unref(field);
+}
+
+/* Repeats in repeats: more cells for one point than could be looked at in a lifetime. */
+static void test_work_is_bounded(void **state)
+{
+    enum { LEVELS = 8 };
+    char text[4096];
+    size_t length = 0;
+
+    (void)state;
+    length += (size_t)snprintf(text, sizeof text,
+                               "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],"
+                               "\"target\":[0,0,0]},\"root\":");
+    for (int i = 0; i < LEVELS; i++) {
+        length += (size_t)snprintf(text + length, sizeof text - length,
+                                   "{\"type\":\"repeat\",\"params\":{\"count\":[9,9,9]},"
+                                   "\"children\":[");
+    }
+    length += (size_t)snprintf(text + length, sizeof text - length,
+                               "{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":2}}");
+    for (int i = 0; i < LEVELS; i++) {
+        length += (size_t)snprintf(text + length, sizeof text - length, "]}");
+    }
+    snprintf(text + length, sizeof text - length, "}");
+    struct pick_field *field = make_field(text);
+    assert_false(look(field, 320, 180).hit);
+    pick_field_unref(field);
+}
+
+static void *ask_often(void *data)
+{
+    struct pick_field *field = data;
+
+    for (int i = 0; i < 1000; i++) {
+        struct pick_field *own = pick_field_ref(field);
+        const bool hit = look(own, 320, 180).hit;
+
+        pick_field_unref(own);
+        if (!hit) {
+            return data;
+        }
+    }
+    pick_field_unref(field);
+    return NULL;
+}
+
+/* The last reference may go in any thread. */
+static void test_threads(void **state)
+{
+    enum { THREADS = 4 };
+    pthread_t threads[THREADS];
+    struct pick_field *field = make_field(ball);
+
+    (void)state;
+    for (int i = 0; i < THREADS; i++) {
+        assert_int_equal(pthread_create(&threads[i], NULL, ask_often, pick_field_ref(field)), 0);
+    }
+    pick_field_unref(field);
+    for (int i = 0; i < THREADS; i++) {
+        void *failed;
+
+        pthread_join(threads[i], &failed);
+        assert_null(failed);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_ball),
+        cmocka_unit_test(test_isolated),
+        cmocka_unit_test(test_floor),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_work_is_bounded),
+        cmocka_unit_test(test_threads),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
