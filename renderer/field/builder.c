@@ -74,7 +74,15 @@ struct builder_mark builder_mark(const struct builder *b)
                                  .leaves = field->leaf_count,
                                  .points = b->points_count,
                                  .shapes = field->shape_count,
+                                 .members = field->member_count,
+                                 .loops = b->loops,
                                  .trips = b->trips};
+}
+
+void builder_add_trips(struct builder *b, uint64_t trips)
+{
+    b->trips += trips;
+    b->loops += trips > 0;
 }
 
 void builder_rewind(struct builder *b, struct builder_mark mark)
@@ -87,7 +95,44 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
     }
     b->points_count = mark.points;
     b->field->shape_count = mark.shapes;
+    b->field->member_count = mark.members;
+    b->loops = mark.loops;
     b->trips = mark.trips;
+}
+
+static void hide_shape(struct field *field, const struct field_instruction *in)
+{
+    float *head = field->numbers + 4 * ((size_t)in->numbers + FIELD_MATRIX_VEC4S);
+    head[FIELD_LEAF] = head[FIELD_SLOT] = 0;
+    head[FIELD_AWAY] = (float)FIELD_FAR;
+}
+
+/* A box that no point is nearer to than anything is. */
+static void hide_guard(struct field *field, const struct field_instruction *in)
+{
+    static const float nowhere[8] = {
+        0, 0, 0, 2, (float)-FIELD_FAR, (float)-FIELD_FAR, (float)-FIELD_FAR};
+    memcpy(field->numbers + 4 * (size_t)in->numbers, nowhere, sizeof nowhere);
+}
+
+void builder_hide(struct builder *b, struct builder_mark mark)
+{
+    struct field *field = b->field;
+    b->loops = mark.loops;
+    for (size_t i = mark.instructions; i < field->instruction_count; i++) {
+        struct field_instruction *in = &field->instructions[i];
+        if (in->hidden) {
+            continue;
+        }
+        in->hidden = true;
+        if (in->op == FIELD_SHAPE) {
+            hide_shape(field, in);
+        } else if (in->op == FIELD_GUARD) {
+            hide_guard(field, in);
+        } else if (in->op == FIELD_AFTER) {
+            field->numbers[in->seen] = (float)FIELD_FAR;
+        }
+    }
 }
 
 void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
@@ -186,6 +231,14 @@ void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
     field->leaves =
         reserve(field->leaves, &b->leaf_capacity, field->leaf_count + 1, sizeof *field->leaves);
     field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(id)};
+}
+
+void builder_add_member(struct builder *b, uint64_t hash)
+{
+    struct field *field = b->field;
+    field->members = reserve(field->members, &b->member_capacity, field->member_count + 1,
+                             sizeof *field->members);
+    field->members[field->member_count++] = hash;
 }
 
 uint64_t builder_hash(uint64_t state, uint32_t word)

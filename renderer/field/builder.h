@@ -13,21 +13,37 @@ struct builder_points {
     uint32_t argument; /* where the C evaluator has it: the count, then x, y of each */
 };
 
+/* The code that a material is shaded by. */
+struct builder_painter {
+    const char *text; /* NULL: none */
+    bool own, unlit;
+    bool clear; /* light may go through what it shades */
+    int index;  /* in the field's shaders, -1: none, or it does not compile */
+};
+
 struct builder {
     struct field *field;
     const struct scene *scene;
+    const struct field *drawn;          /* hidden nodes that stand in it are kept; NULL: none */
+    struct builder_painter *painters;   /* one for each material of the scene */
+    const struct isolation *isolation;  /* NULL: all nodes are seen */
     const struct node_type *union_type; /* of unions that no node asks for by its name */
     const struct sdf *union_sdf;
-    size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity;
+    size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity,
+        member_capacity;
     struct builder_points *points;
     size_t points_count, points_capacity;
     uint32_t index;    /* pre-order in the scene's tree, of the next node */
     uint32_t instance; /* number of the outermost `model` node around, 0: none */
     const struct node *instance_node;
-    bool cutting;     /* what comes is taken away from something else, or bounds it */
+    bool cutting;     /* what comes is taken away from something else, or bounds it; */
+    bool cuts_clear;  /* and light goes through that */
+    bool hiding;      /* a node around is hidden */
+    bool within;      /* what comes is not to be looked for in `isolation` */
     size_t depth;     /* nodes around, through models */
     size_t emitted;   /* nodes so far, in models each time anew */
     uint64_t trips;   /* loop iterations so far, in the current loop */
+    size_t loops;     /* whose iterations these are, and of which something is seen */
     bool failed;      /* what follows may be left out */
     struct error err; /* the first, once failed */
 };
@@ -39,6 +55,8 @@ uint64_t builder_hash(uint64_t state, uint32_t word);
 /* Keeps the first error, at `place`. */
 void builder_fail(struct builder *b, const struct error *err, const char *place);
 
+/* A loop of so many iterations; 0: none. */
+void builder_add_trips(struct builder *b, uint64_t trips);
 /* `count` new vec4s of zeros; returns the first. */
 uint32_t builder_add_vec4s(struct builder *b, size_t count);
 /* Room for as many numbers of the C evaluator; returns the first. */
@@ -47,11 +65,14 @@ void builder_add_instruction(struct builder *b, struct field_instruction instruc
 void builder_insert_instruction(struct builder *b, size_t position,
                                 struct field_instruction instruction);
 void builder_add_leaf(struct builder *b, uint32_t number, const char *id);
+void builder_add_member(struct builder *b, uint64_t hash);
+/* Of one that is finished. */
+bool field_has_member(const struct field *field, uint64_t hash);
 
 /* Writes `count` numbers to the buffer and, as rounded there, to the arguments. */
 void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
                  const double *numbers);
-/* The parameters of a node, from `vec4` on, where `used` components are taken already. Lengths
+/* The parameters of a node, from `vec4` on, where the first `used` components are taken. Lengths
  * are multiplied by `scale`. `sdf` may be NULL: nothing is prepared. */
 void builder_put_params(struct builder *b, const struct param *params, const struct value *values,
                         const struct sdf *sdf, double scale, uint32_t vec4, int used,
@@ -61,10 +82,13 @@ void builder_place_points(struct builder *b);
 
 /* What is taken back when something turns out to be empty space. */
 struct builder_mark {
-    size_t instructions, vec4s, arguments, leaves, points, shapes;
+    size_t instructions, vec4s, arguments, leaves, points, shapes, members;
+    size_t loops;
     uint64_t trips;
 };
 struct builder_mark builder_mark(const struct builder *b);
 void builder_rewind(struct builder *b, struct builder_mark mark);
+/* Nothing is seen of what was added since. */
+void builder_hide(struct builder *b, struct builder_mark mark);
 
 #endif

@@ -15,8 +15,11 @@ static int stored_components(enum param_type type)
 
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX])
 {
-    int taken[SDF_PARAMS_MAX + 1] = {used};
-    int vec4s = used > 0;
+    int taken[SDF_PARAMS_MAX + 1] = {0};
+    int vec4s = (used + 3) / 4;
+    for (int i = 0; i < used; i++) {
+        taken[i / 4]++;
+    }
     for (size_t i = 0; params[i].name; i++) {
         int components = stored_components(params[i].type);
         int at = 0;
@@ -55,6 +58,7 @@ void field_unref(struct field *field)
         free(field->leaves[i].id);
     }
     free(field->leaves);
+    free(field->members);
     free_codes(field->codes, field->code_count);
     free_codes(field->shaders, field->shader_count);
     free(field->instructions);

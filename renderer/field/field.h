@@ -3,9 +3,13 @@
  * and one buffer with every number in it. Its evaluators are field_distance and its kin (C, double
  * precision) and the GLSL text of shader.h.
  *
- * The shape (instructions, hence GLSL) depends on the types of the visible nodes and on how they
- * are nested. All else is numbers: transforms, parameters, ids, materials and which node has which.
- * Equal shape_hash: the same GLSL serves both.
+ * The shape (instructions, hence GLSL) depends on the types of the nodes and on how they are
+ * nested. All else is numbers: transforms, parameters, ids, materials and which node has which, and
+ * which nodes are seen. Equal shape_hash: the same GLSL serves both.
+ *
+ * A node that is not seen changes nothing of the field, of its boxes and of what GLSL answers: its
+ * shapes are FIELD_FAR away, and operations that would tell that from nothing are told their side.
+ * The C evaluator passes it over. Hidden nodes that no program has had are left out.
  *
  * Transforms are folded: a shape stands in the space of the domain modifier around it (or of the
  * scene), with its distance scaled to lengths of the scene by the least scale on every level.
@@ -38,6 +42,9 @@ enum field_op {
     FIELD_GUARD_END, /* where g > 0: d[a] = max(d[a], g) */
 };
 
+/* What a FIELD_COMBINE with `seen` makes of its operands: both, or one alone as it is. */
+enum field_side { FIELD_FIRST = -1, FIELD_BOTH, FIELD_SECOND };
+
 struct field_instruction {
     enum field_op op;
     const struct node_type *type; /* NULL for FIELD_EMPTY */
@@ -49,19 +56,42 @@ struct field_instruction {
     uint32_t choices;
     uint32_t numbers;   /* first vec4 of what it reads */
     uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
+    /* Index into field.numbers, 0: none. Of FIELD_COMBINE its enum field_side; of FIELD_AFTER what
+     * the distance is at least: FIELD_FAR where nothing is seen of it, else -FIELD_FAR. */
+    uint32_t seen;
+    /* No part of the shape, for the C evaluator: */
+    bool hidden; /* nothing is seen of it */
+    enum field_side side;
 };
 
-/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, clear),
- * then its parameters. Blocks of domain modifiers: three rows, then the row's own vec4s.
+/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, clear,
+ * away), then its parameters. Blocks of domain modifiers: three rows, then the row's own vec4s.
+ *
+ * `away` is added to the distance: 0, or FIELD_FAR where the shape is not seen.
  *
  * `clear` is 1 where the material lets light through, -1 where it does not, and 0 where the shape
  * cuts another, as every child but the first of a difference or an intersection does. GLSL may look
- * at the solid or at the clear shapes alone (`through` in glsl/through.glsl); C sees all. */
-enum { FIELD_MATRIX_VEC4S = 3, FIELD_HEAD_NUMBERS = 4 };
+ * at the solid or at the clear shapes alone (`through` in glsl/through.glsl); C sees all.
+ *
+ * Where the shape cuts another, its face is that other's, in the material of the cut: light goes
+ * through only where both let it. FIELD_CUTS_... is then added to the slot, a whole number. */
+enum {
+    FIELD_MATRIX_VEC4S = 3,
+    FIELD_HEAD_NUMBERS = 5,
+    /* Components of the head. */
+    FIELD_SCALE = 0,
+    FIELD_LEAF = 1,
+    FIELD_SLOT = 2,
+    FIELD_CLEAR = 3,
+    FIELD_AWAY = 4,
+};
+#define FIELD_CUTS_CLEAR 0.25
+#define FIELD_CUTS_SOLID 0.5
+#define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/through.glsl */
 
-/* Behind the head of a shape of a user's code: (half of the box that cuts it, scale), then what it
- * declares. */
-enum { FIELD_CUT_VEC4S = 1 };
+/* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
+ * it, scale), then what it declares. */
+enum { FIELD_HEAD_VEC4S = 2, FIELD_CUT_VEC4S = 1 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
 
 /* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half, 0).
@@ -134,12 +164,14 @@ struct field {
     struct field_leaf *leaves; /* ascending */
     size_t leaf_count;
     size_t shape_count; /* FIELD_SHAPEs */
+    uint64_t *members;  /* hashes of the nodes that stand in the program, ascending */
+    size_t member_count;
     int point_slots, distance_slots;
     uint64_t shape_hash;
     /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
      * must be kept from steps * (1 + loop_trips) above its bound. */
     uint32_t loop_trips;
-    struct bounds bounds;               /* of the visible scene */
+    struct bounds bounds;               /* of what is seen */
     struct bounds clear_bounds;         /* of what light goes through in it */
     bool clear;                         /* there is any of that */
     const struct field_code *user_code; /* the first that is not ours; NULL: none */
@@ -147,8 +179,24 @@ struct field {
 };
 
 /* The program of a scene, with one reference. NULL and `err` where transforms multiply to numbers
- * that no float can hold. */
+ * that no float can hold. Hidden nodes are left out. */
 struct field *field_compile(const struct scene *scene, struct error *err);
+/* What else a program is to be. */
+struct field_wish {
+    /* Hidden nodes that stand in this one stay in the program: where nothing else has changed it
+     * has the same shape. NULL: none. */
+    const struct field *drawn;
+    /* Ids of nodes: with any of them in the scene, only their subtrees are seen, inside of what is
+     * around them. That is a matter of numbers. The floor stays. An operation does not see operands
+     * without them: of a difference, the first that is seen is what others are taken from. */
+    const char *const *isolated;
+    size_t isolated_count;
+};
+struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
+                               struct error *err);
+/* The same, and ERROR_LIMIT where it has more shapes than can be drawn. */
+struct field *field_drawable(const struct scene *scene, const struct field_wish *wish,
+                             struct error *err);
 struct field *field_ref(struct field *field);
 void field_unref(struct field *field); /* NULL: nothing */
 
@@ -156,7 +204,7 @@ void field_unref(struct field *field); /* NULL: nothing */
 const char *field_leaf_id(const struct field *field, uint32_t number);
 
 /* The places of parameters (ending with a row whose name is NULL) behind the head of a block.
- * `used` components of the first vec4 are taken. Returns how many vec4s it has from there. */
+ * The first `used` components are taken. Returns how many vec4s it has from there. */
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
 
 /* Tries out users' code at many points, with the numbers of its first shape or material. False and
@@ -189,5 +237,13 @@ void field_normal(const struct field *field, const double p[3], double h, double
  * distance along the unit vector `direction`; -1 where there is none below `max_distance`. */
 double field_march(const struct field *field, const double origin[3], const double direction[3],
                    double max_distance, double tolerance);
+
+/* The same with a bound on its steps, each of which evaluates the field once. */
+double field_march_within(const struct field *field, const double origin[3],
+                          const double direction[3], double max_distance, double tolerance,
+                          int max_steps);
+
+/* Instructions of one evaluation, and operations of code in it, at most. */
+uint64_t field_work(const struct field *field);
 
 #endif

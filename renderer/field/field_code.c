@@ -9,7 +9,7 @@
 
 #include "protocol/memory.h"
 
-static uint64_t hash_text(uint64_t state, const char *text)
+uint64_t field_text_hash(uint64_t state, const char *text)
 {
     for (; *text; text++) {
         state = builder_hash(state, (unsigned char)*text);
@@ -19,9 +19,9 @@ static uint64_t hash_text(uint64_t state, const char *text)
 
 static uint64_t hash_code(const char *text, const struct param *params)
 {
-    uint64_t state = hash_text(BUILDER_HASH_START, text);
+    uint64_t state = field_text_hash(BUILDER_HASH_START, text);
     for (; params->name; params++) {
-        state = hash_text(builder_hash(state, (uint32_t)params->type), params->name);
+        state = field_text_hash(builder_hash(state, (uint32_t)params->type), params->name);
     }
     return state;
 }

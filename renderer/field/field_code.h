@@ -10,6 +10,9 @@
 int field_code_add(struct builder *b, enum code_use use, const char *text,
                    const struct param *params, const char *place);
 
+/* BUILDER_HASH_START, or what was hashed before, with a text behind it. */
+uint64_t field_text_hash(uint64_t state, const char *text);
+
 /* What a node of type `field` runs. */
 struct field_call {
     const char *text;

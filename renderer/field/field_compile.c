@@ -2,7 +2,10 @@
 /* From a scene to its field program. */
 #include "field.h"
 
+#include <stdlib.h>
+
 #include "field_emit.h"
+#include "field_isolate.h"
 #include "field_materials.h"
 #include "protocol/memory.h"
 
@@ -24,6 +27,7 @@ static uint64_t shape_hash(const struct field *field)
         state = builder_hash(state, (uint32_t)in->point << 16 | in->out);
         state = builder_hash(state, in->choices);
         state = builder_hash(state, in->numbers);
+        state = builder_hash(state, in->seen);
     }
     for (size_t i = 0; i < field->code_count; i++) {
         state = hash_code(state, &field->codes[i]);
@@ -65,23 +69,51 @@ static void add_floor(struct builder *b, struct result *whole)
     record_finish(&plane.params);
     if (whole->solid) {
         builder_add_instruction(b, field_union_at(b, 0));
-        floor.box = bounds_union(whole->box, floor.box);
     }
-    field_join_clear(&floor, whole);
-    *whole = floor;
+    field_join(whole, &floor);
+}
+
+static int compare_members(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+static void sort_members(struct field *field)
+{
+    if (field->member_count > 0) {
+        qsort(field->members, field->member_count, sizeof *field->members, compare_members);
+    }
+}
+
+bool field_has_member(const struct field *field, uint64_t hash)
+{
+    return field->member_count > 0 && bsearch(&hash, field->members, field->member_count,
+                                              sizeof *field->members, compare_members);
 }
 
 struct field *field_compile(const struct scene *scene, struct error *err)
 {
+    return field_compile_as(scene, &(struct field_wish){.drawn = NULL}, err);
+}
+
+struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
+                               struct error *err)
+{
     struct field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
-    struct builder builder = {.field = field, .scene = scene};
+    struct isolation *isolation = isolation_create(scene, wish->isolated, wish->isolated_count);
+    struct builder builder = {
+        .field = field, .scene = scene, .drawn = wish->drawn, .isolation = isolation};
     builder.union_type = node_type_find("union");
     builder.union_sdf = sdf_find(builder.union_type);
     struct frame frame = frame_create(0, 1, 0);
-    struct result whole = field_emit(&builder, scene->root, &frame, 0, false);
+    field_add_painters(&builder);
+    struct result whole = field_emit(&builder, scene->root, &frame, 0, FIELD_NOTHING);
     add_floor(&builder, &whole);
+    isolation_destroy(isolation);
     field_add_materials(&builder);
+    free(builder.painters);
     if (builder.failed) {
         if (err) {
             *err = builder.err;
@@ -91,13 +123,30 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     }
     if (!whole.solid) {
         builder_add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
-        whole.box = bounds_empty();
     }
-    field->bounds = whole.box;
+    sort_members(field);
+    field->bounds = whole.shown ? whole.box : bounds_empty();
     field->clear_bounds = whole.clear_box;
     field->clear = whole.clear;
     field->user_code = find_user_code(field);
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;
+}
+
+/* Compilers need about the square of the shapes: half a minute for as many as are allowed, on a
+ * CPU. */
+struct field *field_drawable(const struct scene *scene, const struct field_wish *wish,
+                             struct error *err)
+{
+    struct field *field = field_compile_as(scene, wish, err);
+    char place[ERROR_PLACE_BYTES];
+    if (!field || field->shape_count <= LIMIT_DRAWN_SHAPES) {
+        return field;
+    }
+    error_set(err, ERROR_LIMIT, error_place(place, "/nodes", scene->root->id),
+              "%zu visible shapes are above the maximum %d that can be drawn", field->shape_count,
+              LIMIT_DRAWN_SHAPES);
+    field_unref(field);
+    return NULL;
 }

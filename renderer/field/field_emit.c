@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "field_code.h"
+#include "field_isolate.h"
 #include "field_materials.h"
 
 static uint32_t subtree_count(const struct node *node)
@@ -40,30 +42,105 @@ struct field_instruction field_union_at(const struct builder *b, uint16_t slot)
         .op = FIELD_COMBINE, .type = b->union_type, .sdf = b->union_sdf, .a = slot, .b = slot + 1};
 }
 
+static enum field_before before_next(enum field_before before, const struct result *own)
+{
+    return own->shown || before == FIELD_SEEN     ? FIELD_SEEN
+           : own->solid || before == FIELD_UNSEEN ? FIELD_UNSEEN
+                                                  : FIELD_NOTHING;
+}
+
 /* The children and, where there is one, the node's own shape, which is in the slot. */
 static struct result emit_union(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, bool joined,
+                                const struct frame *frame, uint16_t slot, enum field_before before,
                                 struct result own)
 {
     for (size_t i = 0; i < node->child_count; i++) {
-        struct result child = field_emit(b, node->children[i], frame, slot, joined || own.solid);
-        field_join_clear(&own, &child);
-        if (child.solid) {
-            own.box = own.solid ? bounds_union(own.box, child.box) : child.box;
-            own.solid = true;
-        }
+        struct result child =
+            field_emit(b, node->children[i], frame, slot, before_next(before, &own));
+        field_join(&own, &child);
     }
     return own;
 }
 
+/* An operation's operands, folded from the left. */
+struct fold {
+    struct result whole;
+    size_t count;       /* of children that the operation sees */
+    bool dead, lost;    /* nothing is left, whatever comes; nothing that is seen */
+    size_t side_count;  /* numbers that say a side, */
+    uint32_t side_vec4; /* the last four of them here */
+};
+
+/* Whether the operation tells an operand that is FIELD_FAR away from none. */
+static bool needs_sides(const struct builder *b, const struct field_instruction *combine)
+{
+    const struct sdf *sdf = combine->sdf;
+    return sdf->rule != SDF_ANY || sdf->operands > 0 ||
+           (sdf->feels_far && sdf->feels_far(b->field->arguments + combine->arguments));
+}
+
+static enum field_side side_of(const struct result *first, const struct result *second)
+{
+    return !second->shown ? FIELD_FIRST : first->shown ? FIELD_BOTH : FIELD_SECOND;
+}
+
+static void add_combine(struct builder *b, struct field_instruction combine, struct fold *fold,
+                        const struct result *child)
+{
+    combine.side = side_of(&fold->whole, child);
+    if (needs_sides(b, &combine)) {
+        size_t component = fold->side_count++ % 4;
+        if (component == 0) {
+            fold->side_vec4 = builder_add_vec4s(b, 1);
+        }
+        combine.seen = 4 * fold->side_vec4 + (uint32_t)component;
+        b->field->numbers[combine.seen] = (float)combine.side;
+    }
+    builder_add_instruction(b, combine);
+}
+
+/* The box of the first operands with one more. */
+static struct bounds folded_box(const struct result *whole, const struct result *child,
+                                enum sdf_rule rule)
+{
+    if (!whole->shown || !child->shown) {
+        return child->shown || !whole->solid ? child->box : whole->box;
+    }
+    return rule == SDF_ANY   ? bounds_union(whole->box, child->box)
+           : rule == SDF_ALL ? bounds_intersection(whole->box, child->box)
+                             : whole->box;
+}
+
+static void fold_child(struct builder *b, struct fold *fold,
+                       const struct field_instruction *combine, const struct result *child,
+                       bool leads)
+{
+    enum sdf_rule rule = combine->sdf->rule;
+    bool vital = leads || (rule == SDF_ALL && !child->hidden);
+    fold->count += !child->apart && (leads || !child->hidden);
+    fold->dead = fold->dead || (vital && !child->solid);
+    fold->lost = fold->lost || (vital && !child->shown && !child->apart);
+    if (!child->solid || fold->dead) {
+        return;
+    }
+    struct result *whole = &fold->whole;
+    if (whole->solid) {
+        add_combine(b, *combine, fold, child);
+    }
+    field_join_clear(whole, child);
+    whole->box = folded_box(whole, child, rule);
+    whole->solid = true;
+    whole->shown = whole->shown || child->shown;
+}
+
 /* Folds the children from the left into `slot`. */
-static struct result emit_folded(struct builder *b, const struct node *node,
-                                 struct field_instruction combine, const struct frame *frame,
-                                 uint16_t slot)
+static struct fold emit_folded(struct builder *b, const struct node *node,
+                               struct field_instruction combine, const struct frame *frame,
+                               uint16_t slot)
 {
     enum sdf_rule rule = combine.sdf->rule;
-    struct result whole = {.hidden = false};
-    bool dead = false;
+    struct fold fold = {.count = 0};
+    bool cutting = b->cutting;
     combine.a = slot;
     combine.b = slot + 1;
     for (size_t i = 0; i < node->child_count; i++) {
@@ -71,30 +148,16 @@ static struct result emit_folded(struct builder *b, const struct node *node,
             skip(b, node->children[i]);
             continue;
         }
-        bool cutting = b->cutting;
-        b->cutting = cutting || (i > 0 && rule != SDF_ANY);
-        struct result child = field_emit(b, node->children[i], frame, slot + whole.solid, false);
+        b->cutting = cutting || (fold.count > 0 && rule != SDF_ANY);
+        b->cuts_clear = cutting ? b->cuts_clear : fold.whole.clear || !fold.whole.shown;
+        struct result child =
+            field_emit(b, node->children[i], frame, slot + fold.whole.solid, FIELD_NOTHING);
         b->cutting = cutting;
-        bool leads = rule == SDF_FIRST && i == 0;
-        dead =
-            dead || (leads && !child.solid) || (rule == SDF_ALL && !child.hidden && !child.solid);
-        if (!child.solid || dead) {
-            continue;
-        }
-        if (!whole.solid) {
-            whole = child;
-            continue;
-        }
-        builder_add_instruction(b, combine);
-        field_join_clear(&whole, &child);
-        if (rule == SDF_ANY) {
-            whole.box = bounds_union(whole.box, child.box);
-        } else if (rule == SDF_ALL) {
-            whole.box = bounds_intersection(whole.box, child.box);
-        }
+        fold_child(b, &fold, &combine, &child, rule == SDF_FIRST && i == 0);
     }
-    whole.solid = whole.solid && !dead;
-    return whole;
+    fold.whole.solid = fold.whole.solid && !fold.dead;
+    fold.whole.shown = fold.whole.shown && !fold.lost;
+    return fold;
 }
 
 /* The box after the node changed the field of `count` operands in it. */
@@ -113,11 +176,11 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
     add_block(b, node, sdf, frame->scale, &combine);
-    struct result whole = emit_folded(b, node, combine, frame, slot);
-    if (whole.solid) {
-        whole.box = changed_box(node, sdf, whole.box, node->child_count);
+    struct fold fold = emit_folded(b, node, combine, frame, slot);
+    if (fold.whole.solid) {
+        fold.whole.box = changed_box(node, sdf, fold.whole.box, fold.count);
     }
-    return whole;
+    return fold.whole;
 }
 
 static struct result emit_distance(struct builder *b, const struct node *node,
@@ -126,7 +189,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
     struct field_instruction change = {
         .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
     add_block(b, node, sdf, frame->scale, &change);
-    struct result whole = emit_union(b, node, frame, slot, false, (struct result){0});
+    struct result whole = emit_union(b, node, frame, slot, FIELD_NOTHING, (struct result){0});
     if (whole.solid) {
         builder_add_instruction(b, change);
         whole.box = changed_box(node, sdf, whole.box, 1);
@@ -164,7 +227,8 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     struct frame inside = frame_create(inner, frame->scale, frame->material);
     uint64_t trips_before = b->trips;
     b->trips = 0;
-    struct result whole = emit_union(b, node, &inside, slot + loops, false, (struct result){0});
+    struct result whole =
+        emit_union(b, node, &inside, slot + loops, FIELD_NOTHING, (struct result){0});
     if (!whole.solid) {
         return whole;
     }
@@ -174,12 +238,15 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, (int)own_count, own_numbers);
     if (loops) {
         b->trips = (uint64_t)domain->cells(own_numbers) * (1 + b->trips);
+        b->loops++;
         next.op = FIELD_LOOP_END, next.b = slot + 1;
         builder_add_instruction(b, next);
     }
-    b->trips += domain->trips ? (uint64_t)domain->trips(params) : 0;
+    builder_add_trips(b, domain->trips ? (uint64_t)domain->trips(params) : 0);
     if (domain->after) {
         next.op = FIELD_AFTER, next.b = slot, next.out = own;
+        next.seen = 4 * builder_add_vec4s(b, 1);
+        b->field->numbers[next.seen] = (float)-FIELD_FAR;
         builder_add_instruction(b, next);
     }
     b->trips += trips_before;
@@ -188,7 +255,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
 }
 
 static struct result emit_model(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, bool joined,
+                                const struct frame *frame, uint16_t slot, enum field_before before,
                                 uint32_t number)
 {
     const struct resource *model = node_model(b->scene, node);
@@ -200,7 +267,7 @@ static struct result emit_model(struct builder *b, const struct node *node,
         b->instance = number;
         b->instance_node = node;
     }
-    struct result result = field_emit(b, model->root, frame, slot, joined);
+    struct result result = field_emit(b, model->root, frame, slot, before);
     if (outermost) {
         b->instance = 0;
     }
@@ -227,27 +294,41 @@ static bool continues(const struct builder *b, const struct node *node)
     return false;
 }
 
-static struct result emit_joining(struct builder *b, const struct node *node,
-                                  const struct frame *frame, uint16_t slot, bool joined,
-                                  uint32_t number)
+/* What is around isolated nodes is not seen itself. */
+static struct result emit_own_shape(struct builder *b, const struct node *node,
+                                    const struct frame *frame, uint16_t slot, uint32_t number)
 {
+    struct builder_mark mark = builder_mark(b);
+    struct result own = field_emit_shape(b, node, frame, slot, number);
+    if (own.solid && b->isolation && !b->within) {
+        own.shown = own.clear = false;
+        builder_hide(b, mark);
+    }
+    return own;
+}
+
+static struct result emit_joining(struct builder *b, const struct node *node,
+                                  const struct frame *frame, uint16_t slot,
+                                  enum field_before before, uint32_t number)
+{
+    bool joined = before != FIELD_NOTHING;
     struct result own = {.hidden = false};
     switch (node->type->kind) {
     case KIND_SHAPE:
     case KIND_FLAT:
     case KIND_CODE:
-        own = field_emit_shape(b, node, frame, slot + joined, number);
+        own = emit_own_shape(b, node, frame, slot + joined, number);
         if (own.solid && joined) {
             builder_add_instruction(b, field_union_at(b, slot));
         }
         break;
     case KIND_MODEL:
-        own = emit_model(b, node, frame, slot, joined, number);
+        own = emit_model(b, node, frame, slot, before, number);
         break;
     default:
         break;
     }
-    return emit_union(b, node, frame, slot, joined, own);
+    return emit_union(b, node, frame, slot, before, own);
 }
 
 static struct result emit_apart(struct builder *b, const struct node *node,
@@ -264,12 +345,13 @@ static struct result emit_apart(struct builder *b, const struct node *node,
     }
 }
 
-/* Puts a guard around what was emitted since `before` into `slot`, which held a distance already.
- * It pays where there are loops: llvmpipe runs all else whether it is needed or not. */
-static void guard(struct builder *b, struct builder_mark before, uint16_t slot,
-                  const struct frame *outer, const struct bounds *box)
+/* Puts a guard around what was emitted since `mark` into `slot`, which held a distance already. It
+ * pays where there are loops: llvmpipe runs all else whether it is needed or not. Where nothing is
+ * seen before, the guard is always 0: the subtree's distance is taken as it is. */
+static void guard(struct builder *b, struct builder_mark mark, enum field_before before,
+                  uint16_t slot, const struct frame *outer, const struct bounds *box)
 {
-    if (b->trips == before.trips) {
+    if (b->trips == mark.trips) {
         return;
     }
     struct bounds placed = bounds_transform(box, outer->back, 1);
@@ -280,14 +362,14 @@ static void guard(struct builder *b, struct builder_mark before, uint16_t slot,
         numbers[i] = ends ? placed.low[i] + half : 0;
         numbers[4 + i] = ends ? half : FIELD_UNCUT;
     }
-    numbers[3] = outer->slot_scale;
+    numbers[3] = before == FIELD_SEEN && b->loops > mark.loops ? outer->slot_scale : 0;
     struct field_instruction in = {.op = FIELD_GUARD,
                                    .a = slot,
                                    .point = outer->point,
                                    .numbers = builder_add_vec4s(b, 2),
                                    .arguments = builder_add_arguments(b, 8)};
     builder_put(b, in.numbers, 0, in.arguments, 8, numbers);
-    builder_insert_instruction(b, before.instructions, in);
+    builder_insert_instruction(b, mark.instructions, in);
     in.op = FIELD_GUARD_END;
     builder_add_instruction(b, in);
     b->trips++;
@@ -316,13 +398,45 @@ static void check(struct builder *b, const struct node *node, const struct frame
     builder_fail(b, &err, place);
 }
 
-struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
-                         uint16_t slot, bool joined)
+/* Of what makes its part of the program, apart from its children. */
+static uint64_t member_hash(const struct builder *b, const struct node *node)
 {
-    if (b->failed || record_number(&node->common, "visible") == 0) {
-        skip(b, node);
-        return (struct result){.hidden = true};
+    uint64_t hash = field_text_hash(BUILDER_HASH_START, node->id);
+    hash = builder_hash(builder_hash(hash, (uint32_t)node->type->number),
+                        field_choices(&node->params));
+    struct field_call call;
+    if (node->type->kind == KIND_CODE && field_call_of(b->scene, node, &call)) {
+        hash = field_text_hash(hash, call.text);
     }
+    return hash;
+}
+
+/* Whether the node has no part in the program. */
+static bool is_left_out(const struct builder *b, bool hidden, uint64_t member)
+{
+    return (hidden || b->hiding) && !(b->drawn && field_has_member(b->drawn, member));
+}
+
+static struct result emit_node(struct builder *b, const struct node *node,
+                               const struct frame *frame, uint16_t slot, enum field_before before,
+                               uint32_t number)
+{
+    bool joined = before != FIELD_NOTHING;
+    if (continues(b, node)) {
+        return emit_joining(b, node, frame, slot, before, number);
+    }
+    struct result result = emit_apart(b, node, frame, slot + joined);
+    result.clear_box = result.box;
+    if (result.solid && joined) {
+        builder_add_instruction(b, field_union_at(b, slot));
+    }
+    return result;
+}
+
+static struct result emit_entered(struct builder *b, const struct node *node,
+                                  const struct frame *outer, uint16_t slot,
+                                  enum field_before before, struct result result)
+{
     uint32_t number = b->instance ? b->instance : ++b->index;
     double from[12], ratio;
     struct frame frame = frame_enter(outer, node, from, &ratio);
@@ -330,28 +444,56 @@ struct result field_emit(struct builder *b, const struct node *node, const struc
     if (*material) {
         frame.material = field_material_slot(b->scene, material);
     }
+    const struct result nothing = result;
+    struct builder_mark mark = builder_mark(b);
     b->depth++;
     check(b, node, &frame);
-    struct builder_mark before = builder_mark(b);
-    struct result result = {.hidden = false};
-    if (!b->failed && continues(b, node)) {
-        result = emit_joining(b, node, &frame, slot, joined, number);
-    } else if (!b->failed) {
-        result = emit_apart(b, node, &frame, slot + joined);
-        result.clear_box = result.box;
-        if (result.solid && joined) {
-            builder_add_instruction(b, field_union_at(b, slot));
-        }
+    if (!b->failed) {
+        result = emit_node(b, node, &frame, slot, before, number);
     }
     b->depth--;
+    result.hidden = nothing.hidden;
+    result.apart = nothing.apart;
     if (!result.solid) {
-        builder_rewind(b, before);
-        return result;
+        builder_rewind(b, mark);
+        return nothing;
     }
     result.box = bounds_transform(&result.box, from, ratio);
     result.clear_box = bounds_transform(&result.clear_box, from, ratio);
-    if (joined) {
-        guard(b, before, slot, outer, &result.box);
+    if (before != FIELD_NOTHING) {
+        guard(b, mark, before, slot, outer, &result.box);
     }
+    if (result.hidden || result.apart || !result.shown) {
+        result.shown = result.clear = false;
+        builder_hide(b, mark);
+    }
+    return result;
+}
+
+static enum isolated_part part_of(const struct builder *b, const struct node *node)
+{
+    return b->isolation && !b->within ? isolation_part(b->isolation, node) : ISOLATED_ITSELF;
+}
+
+struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
+                         uint16_t slot, enum field_before before)
+{
+    bool hidden = record_number(&node->common, "visible") == 0;
+    uint64_t member = member_hash(b, node);
+    if (b->failed || is_left_out(b, hidden, member)) {
+        skip(b, node);
+        return (struct result){.hidden = true};
+    }
+    bool hiding = b->hiding;
+    builder_add_member(b, member);
+    enum isolated_part part = part_of(b, node);
+    bool within = b->within;
+    b->hiding = hiding || hidden;
+    b->within = part != ISOLATED_AROUND;
+    struct result result =
+        emit_entered(b, node, outer, slot, before,
+                     (struct result){.hidden = hidden, .apart = part == ISOLATED_AWAY});
+    b->hiding = hiding;
+    b->within = within;
     return result;
 }

@@ -5,11 +5,14 @@
 
 #include "field_shape.h"
 
-/* Leaves the distance of the subtree in `slot`. `joined`: the slot holds a distance already, whose
- * place a union with the subtree takes; unions of unions thus are one. The result's boxes are the
- * subtree's alone, in the space that `outer` is in. */
+/* What a slot holds already: nothing, the distance of what is not seen, or of what is. */
+enum field_before { FIELD_NOTHING, FIELD_UNSEEN, FIELD_SEEN };
+
+/* Leaves the distance of the subtree in `slot`. Where that holds a distance already a union with
+ * the subtree takes its place; unions of unions thus are one. The result's boxes are the subtree's
+ * alone, in the space that `outer` is in. */
 struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
-                         uint16_t slot, bool joined);
+                         uint16_t slot, enum field_before before);
 
 /* The union of `slot` and the one behind it. */
 struct field_instruction field_union_at(const struct builder *b, uint16_t slot);

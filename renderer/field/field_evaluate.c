@@ -5,8 +5,7 @@
 
 #include "field.h"
 #include "field_code.h"
-
-#define FAR 1e9 /* as in glsl/operations.glsl */
+#include "field_materials.h"
 
 enum { MIXED_MAX = 4 };
 
@@ -14,6 +13,7 @@ enum { MIXED_MAX = 4 };
 struct paint {
     size_t slot;
     double weight, place[3];
+    double cuts; /* FIELD_CUTS_..., or 0 */
 };
 
 /* What is known of a surface besides its distance. */
@@ -49,15 +49,20 @@ static const float *material_numbers(const struct field *field, size_t slot)
     return field->numbers + 4 * (field->material_base + slot * field->material_stride);
 }
 
-/* A user's function, cut by its box. */
+/* A user's function, asked inside its box alone and cut by it: as in glsl/user.glsl. */
 static double run_code(const struct field *field, const struct field_instruction *in,
                        const double p[3], const double *n)
 {
     const double *cut = n + FIELD_HEAD_NUMBERS;
-    double d = code_distance(field->codes[in->choices].code, p, cut + 4, NULL) * n[0];
-    double q[3] = {fabs(p[0]) - cut[0], fabs(p[1]) - cut[1], fabs(p[2]) - cut[2]};
-    double outside = hypot(hypot(fmax(q[0], 0), fmax(q[1], 0)), fmax(q[2], 0));
-    return fmax(d, (outside + fmin(fmax(q[0], fmax(q[1], q[2])), 0)) * cut[3]);
+    double within[3], square = 0, face = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double beyond = fabs(p[i]) - cut[i];
+        within[i] = fmin(fmax(p[i], -cut[i]), cut[i]);
+        square += beyond > 0 ? beyond * beyond : 0;
+        face = fmax(face, beyond);
+    }
+    double d = code_distance(field->codes[in->choices].code, within, cut + 4, NULL) * n[0];
+    return square > 0 ? hypot(sqrt(square) * cut[3], fmax(d, 0)) : fmax(d, face * cut[3]);
 }
 
 static void run_shape(struct machine *m, const struct field_instruction *in, const double *n)
@@ -70,8 +75,11 @@ static void run_shape(struct machine *m, const struct field_instruction *in, con
     if (!m->tints) {
         return;
     }
-    m->tints[in->a] = (struct tint){.leaf = (uint32_t)n[1], .weight = 1};
-    m->tints[in->a].paints[0] = (struct paint){(size_t)n[2], 1, {local[0], local[1], local[2]}};
+    m->tints[in->a] = (struct tint){.leaf = (uint32_t)n[FIELD_LEAF], .weight = 1};
+    m->tints[in->a].paints[0] = (struct paint){.slot = (size_t)n[FIELD_SLOT],
+                                               .weight = 1,
+                                               .place = {local[0], local[1], local[2]},
+                                               .cuts = n[FIELD_SLOT] - floor(n[FIELD_SLOT])};
 }
 
 /* Takes a material in, in the place of the weakest if it is new. */
@@ -79,7 +87,8 @@ static void add_paint(struct paint paints[MIXED_MAX], const struct paint *more, 
 {
     const double weight = more->weight * share;
     int i = 0;
-    while (i < MIXED_MAX && !(paints[i].weight > 0 && paints[i].slot == more->slot)) {
+    while (i < MIXED_MAX && !(paints[i].weight > 0 && paints[i].slot == more->slot &&
+                              paints[i].cuts == more->cuts)) {
         i++;
     }
     if (i < MIXED_MAX) {
@@ -110,9 +119,24 @@ static void mix_tints(struct tint *a, const struct tint *b, double share)
     }
 }
 
+/* One operand alone. */
+static void run_side(struct machine *m, const struct field_instruction *in)
+{
+    if (in->side == FIELD_SECOND) {
+        m->d[in->a] = m->d[in->b];
+        if (m->tints) {
+            m->tints[in->a] = m->tints[in->b];
+        }
+    }
+}
+
 static void run_combine(struct machine *m, const struct field_instruction *in, const double *n)
 {
     double share;
+    if (in->side != FIELD_BOTH) {
+        run_side(m, in);
+        return;
+    }
     m->d[in->a] = in->sdf->combine(m->d[in->a], m->d[in->b], n, &share);
     if (m->tints) {
         mix_tints(&m->tints[in->a], &m->tints[in->b], share);
@@ -121,7 +145,7 @@ static void run_combine(struct machine *m, const struct field_instruction *in, c
 
 static void run_empty(struct machine *m, uint16_t slot)
 {
-    m->d[slot] = FAR;
+    m->d[slot] = FIELD_FAR;
     if (m->tints) {
         m->tints[slot] = (struct tint){.weight = 1, .paints = {{.weight = 1}}};
     }
@@ -194,6 +218,14 @@ static void run_guard_end(struct machine *m, const struct field_instruction *in,
     }
 }
 
+/* What others may read is empty space. */
+static void run_hidden(struct machine *m, const struct field_instruction *in)
+{
+    if (in->op == FIELD_SHAPE || in->op == FIELD_LOOP) {
+        run_empty(m, in->a);
+    }
+}
+
 static void run(struct machine *m, const double p[3])
 {
     const struct field *field = m->field;
@@ -202,6 +234,10 @@ static void run(struct machine *m, const double p[3])
     for (size_t i = 0; i < field->instruction_count;) {
         const struct field_instruction *in = &field->instructions[i++];
         const double *n = field->arguments + in->arguments;
+        if (in->hidden) {
+            run_hidden(m, in);
+            continue;
+        }
         switch (in->op) {
         case FIELD_EMPTY:
             run_empty(m, in->a);
@@ -249,47 +285,70 @@ double field_distance(const struct field *field, const double p[3])
     return machine.d[0];
 }
 
-/* Adds the colour that a shader gives. */
-static void add_color(const struct field *field, const struct paint *paint, const double p[3],
-                      const struct field_view *view, double material[FIELD_MATERIAL_NUMBERS])
+/* What a shader says of the point. */
+static void apply_shader(const struct code *code, const struct paint *paint, const double p[3],
+                         const struct field_view *view, const double *numbers,
+                         double material[FIELD_MATERIAL_NUMBERS])
 {
-    const float *block = material_numbers(field, paint->slot);
     struct code_shading at = {.ray_distance = view->distance};
-    double numbers[4 * LIMIT_DECLARED], color[4];
-    int shader = field_shader_numbers(field, paint->slot, numbers);
+    double color[4];
     memcpy(at.world_position, p, sizeof at.world_position);
     memcpy(at.object_position, paint->place, sizeof at.object_position);
     memcpy(at.world_normal, view->normal, sizeof at.world_normal);
     memcpy(at.ray_direction, view->direction, sizeof at.ray_direction);
-    code_shade(field->shaders[shader].code, &at, numbers, color, NULL);
-    double *to = material + (block[FIELD_UNLIT] > 0 ? FIELD_EMISSION : FIELD_DIFFUSE);
-    for (int i = 0; i < 3; i++) {
-        to[i] += paint->weight * fmax(color[i], 0);
+    if (code_gives_surface(code)) {
+        struct code_surface surface;
+        code_surface(code, &at, numbers, &surface, NULL);
+        field_put_surface(material, &surface);
+        return;
     }
+    code_shade(code, &at, numbers, color, NULL);
+    double *to = material + (material[FIELD_UNLIT] > 0 ? FIELD_EMISSION : FIELD_DIFFUSE);
+    for (int i = 0; i < 3; i++) {
+        to[i] += color[i];
+    }
+}
+
+/* The numbers of a material at a point. */
+static void paint_material(const struct field *field, const struct paint *paint, const double p[3],
+                           const struct field_view *view, double out[FIELD_MATERIAL_NUMBERS])
+{
+    const float *block = material_numbers(field, paint->slot);
+    double numbers[4 * LIMIT_DECLARED];
+    const int shader = field_shader_numbers(field, paint->slot, numbers);
+    for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
+        out[i] = block[i];
+    }
+    if (shader >= 0) {
+        apply_shader(field->shaders[shader].code, paint, p, view, numbers, out);
+    }
+    out[FIELD_TRANSMISSION] *= paint->cuts != FIELD_CUTS_SOLID;
 }
 
 /* The mean of the materials by their shares. The model is that of the first; gloss, which means
  * another thing in each model, the mean of those that share it. */
 static void mix_materials(const struct field *field, const struct paint paints[MIXED_MAX],
+                          const double p[3], const struct field_view *view,
                           double out[FIELD_MATERIAL_NUMBERS])
 {
-    const float *first = material_numbers(field, paints[0].slot);
-    double gloss = 0, alike = 0, sum = 0;
+    double gloss = 0, alike = 0, sum = 0, model = 0;
     for (int i = 0; i < MIXED_MAX; i++) {
         sum += paints[i].weight;
     }
     for (int i = 0; i < MIXED_MAX && paints[i].weight > 0; i++) {
-        const float *material = material_numbers(field, paints[i].slot);
         const double share = paints[i].weight / sum;
+        double material[FIELD_MATERIAL_NUMBERS];
+        paint_material(field, &paints[i], p, view, material);
         for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
             out[j] += share * material[j];
         }
-        if (material[FIELD_MODEL] == first[FIELD_MODEL]) {
+        model = i == 0 ? material[FIELD_MODEL] : model;
+        if (material[FIELD_MODEL] == model) {
             alike += share;
             gloss += share * material[FIELD_GLOSS];
         }
     }
-    out[FIELD_MODEL] = first[FIELD_MODEL];
+    out[FIELD_MODEL] = model;
     out[FIELD_GLOSS] = gloss / alike;
 }
 
@@ -304,12 +363,7 @@ struct field_surface field_surface(const struct field *field, const double p[3],
     run(&machine, p);
     struct field_surface out = {.distance = machine.d[0], .number = tints[0].leaf};
     const struct paint *paints = tints[0].paints;
-    mix_materials(field, paints, out.material);
-    for (int i = 0; i < MIXED_MAX && paints[i].weight > 0; i++) {
-        if (material_numbers(field, paints[i].slot)[FIELD_SHADER] > 0) {
-            add_color(field, &paints[i], p, view ? view : &nowhere, out.material);
-        }
-    }
+    mix_materials(field, paints, p, view ? view : &nowhere, out.material);
     return out;
 }
 
@@ -333,12 +387,12 @@ void field_normal(const struct field *field, const double p[3], double h, double
     }
 }
 
-double field_march(const struct field *field, const double origin[3], const double direction[3],
-                   double max_distance, double tolerance)
+double field_march_within(const struct field *field, const double origin[3],
+                          const double direction[3], double max_distance, double tolerance,
+                          int max_steps)
 {
-    enum { STEPS_MAX = 10000 };
     double t = 0;
-    for (int step = 0; step < STEPS_MAX && t < max_distance; step++) {
+    for (int step = 0; step < max_steps && t < max_distance; step++) {
         double p[3];
         for (int i = 0; i < 3; i++) {
             p[i] = origin[i] + t * direction[i];
@@ -350,4 +404,35 @@ double field_march(const struct field *field, const double origin[3], const doub
         t += d;
     }
     return -1;
+}
+
+double field_march(const struct field *field, const double origin[3], const double direction[3],
+                   double max_distance, double tolerance)
+{
+    enum { STEPS_MAX = 10000 };
+    return field_march_within(field, origin, direction, max_distance, tolerance, STEPS_MAX);
+}
+
+/* Loops of shapes and modifiers themselves are in field.loop_trips. */
+uint64_t field_work(const struct field *field)
+{
+    enum { WORK_MAX = INT32_MAX };
+    uint64_t times[LIMIT_NODE_DEPTH + 1] = {1}, work = 1 + field->loop_trips;
+    int depth = 0;
+    for (size_t i = 0; i < field->instruction_count && work < WORK_MAX; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        uint64_t own = 1;
+        if (in->op == FIELD_LOOP) {
+            const int cells = in->sdf->domain->cells(field->arguments + in->arguments);
+            depth++;
+            times[depth] = times[depth - 1] * (uint64_t)cells;
+            times[depth] = times[depth] < WORK_MAX ? times[depth] : WORK_MAX;
+        } else if (in->op == FIELD_LOOP_END) {
+            depth--;
+        } else if (in->op == FIELD_SHAPE && !in->sdf) {
+            own += (uint64_t)code_work(field->codes[in->choices].code);
+        }
+        work += times[depth] * own;
+    }
+    return work;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "field_code.h"
+#include "protocol/memory.h"
 #include "renderer/code/shades.h"
 
 size_t field_material_slot(const struct scene *scene, const char *name)
@@ -36,11 +37,13 @@ static double transmission_of(const struct record *record)
                : 0;
 }
 
-bool field_material_clear(const struct scene *scene, size_t slot)
+bool field_material_clear(const struct builder *b, size_t slot)
 {
+    const struct resource_list *materials = &b->scene->materials;
     const struct resource *material =
-        slot > 0 && slot <= scene->materials.count ? scene->materials.items[slot - 1] : NULL;
-    return material && !material->shader && transmission_of(&material->record) > 0;
+        slot > 0 && slot <= materials->count ? materials->items[slot - 1] : NULL;
+    return material && (material->shader ? b->painters[slot - 1].clear
+                                         : transmission_of(&material->record) > 0);
 }
 
 static void put_vector(float *to, const struct record *record, const char *name)
@@ -158,18 +161,40 @@ static void put_floor(float *to, const struct record *environment)
 
 /* --- shaders --- */
 
-/* The code that a material's colour comes from. */
-struct painter {
-    const char *text; /* NULL: none */
-    bool own, unlit;
-    int index; /* in the field's shaders, -1: none, or it does not compile */
-};
+void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surface *surface)
+{
+    const double r = (surface->ior - 1) / (surface->ior + 1);
+    const double f0 = fmax(r * r, surface->reflectivity);
+    if (to[FIELD_UNLIT] > 0) {
+        for (int i = 0; i < 3; i++) {
+            to[FIELD_EMISSION + i] += surface->color[i] + surface->emission[i];
+        }
+        return;
+    }
+    double most = 0;
+    for (int i = 0; i < 3; i++) {
+        double mirrored = f0 + (surface->color[i] - f0) * surface->metallic;
+        to[FIELD_DIFFUSE + i] = surface->color[i] * (1 - surface->metallic);
+        to[FIELD_SPECULAR + i] = mirrored;
+        to[FIELD_EMISSION + i] = surface->emission[i];
+        to[FIELD_AMBIENT + i] = 1;
+        to[FIELD_ABSORPTION + i] = surface->absorption[i];
+        most = fmax(most, mirrored);
+    }
+    to[FIELD_GLOSS] = surface->roughness;
+    to[FIELD_REFLECTIVITY] = most;
+    /* What may be clear always is a little: see glsl/mixture.glsl. */
+    to[FIELD_TRANSMISSION] =
+        fmax(surface->transmission, to[FIELD_TRANSMISSION] > 0 ? 1.0 / 255 : 0);
+    to[FIELD_IOR] = surface->ior;
+    to[FIELD_MODEL] = FIELD_STANDARD;
+}
 
-static struct painter painter_of(const struct resource *material)
+static struct builder_painter painter_of(const struct resource *material)
 {
     const struct resource *shader = material->shader;
     const struct shade *own = shader ? NULL : shade_find(material->record.type->name);
-    struct painter painter = {.own = own != NULL, .index = -1};
+    struct builder_painter painter = {.own = own != NULL, .index = -1};
     if (material->users > 0 && shader) {
         painter.text = record_text(&shader->record, "code");
         painter.unlit = record_is(&shader->record, "lighting", "unlit");
@@ -180,7 +205,8 @@ static struct painter painter_of(const struct resource *material)
     return painter;
 }
 
-static void add_painter(struct builder *b, const struct resource *material, struct painter *painter)
+static void add_painter(struct builder *b, const struct resource *material,
+                        struct builder_painter *painter)
 {
     char place[ERROR_PLACE_BYTES] = "";
     if (material->shader) {
@@ -189,17 +215,20 @@ static void add_painter(struct builder *b, const struct resource *material, stru
     painter->index =
         field_code_add(b, CODE_SHADE, painter->text, material->record.type->params, place);
     if (painter->index >= 0) {
-        b->field->shaders[painter->index].own = painter->own;
+        struct field_code *shader = &b->field->shaders[painter->index];
+        shader->own = painter->own;
+        painter->clear = !painter->unlit && code_is_clear(shader->code);
     }
 }
 
-/* Compiles the shaders that are used, and leaves room for what they read. */
-static void add_painters(struct builder *b, struct painter *out_painters)
+/* And leaves room for what they read. */
+void field_add_painters(struct builder *b)
 {
     const struct resource_list *materials = &b->scene->materials;
     size_t most = 0;
+    b->painters = memory_alloc(materials->count + 1, sizeof *b->painters);
     for (size_t i = 0; i < materials->count; i++) {
-        struct painter *painter = &out_painters[i];
+        struct builder_painter *painter = &b->painters[i];
         *painter = painter_of(materials->items[i]);
         if (painter->text) {
             add_painter(b, materials->items[i], painter);
@@ -212,14 +241,19 @@ static void add_painters(struct builder *b, struct painter *out_painters)
     b->field->material_stride = FIELD_MATERIAL_VEC4S + most;
 }
 
-/* What the shader reads, and where its colour goes. */
+/* What the shader reads, where its colour goes, and what it may do besides. */
 static void put_painter(struct builder *b, uint32_t vec4, const struct record *record,
-                        const struct painter *painter)
+                        const struct builder_painter *painter)
 {
+    const struct field_code *shader = &b->field->shaders[painter->index];
     float *to = b->field->numbers + 4 * (size_t)vec4;
     uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
     to[FIELD_SHADER] = (float)(painter->index + 1);
     to[FIELD_UNLIT] = painter->unlit;
+    if (!painter->unlit && code_gives_surface(shader->code)) {
+        to[FIELD_REFLECTIVITY] = 1;
+        to[FIELD_TRANSMISSION] = painter->clear;
+    }
     builder_put_params(b, record->type->params, record->values, NULL, 1,
                        vec4 + FIELD_MATERIAL_VEC4S, 0, arguments);
 }
@@ -231,8 +265,7 @@ void field_add_materials(struct builder *b)
 {
     struct field *field = b->field;
     const struct resource_list *materials = &b->scene->materials;
-    struct painter painters[LIMIT_MATERIALS];
-    add_painters(b, painters);
+    const struct builder_painter *painters = b->painters;
     size_t stride = field->material_stride, slots = materials->count + 2;
     field->material_count = materials->count;
     field->material_base = builder_add_vec4s(b, slots * stride);

@@ -43,11 +43,13 @@ static void add_leaf(struct builder *b, uint32_t number, const struct node *node
 static void fill_head(const struct builder *b, const struct frame *frame, double slope,
                       uint32_t number, double out_head[FIELD_HEAD_NUMBERS])
 {
-    bool clear = field_material_clear(b->scene, frame->material);
-    out_head[0] = frame->scale / slope;
-    out_head[1] = number;
-    out_head[2] = (double)frame->material;
-    out_head[3] = b->cutting ? 0 : clear ? 1 : -1;
+    bool clear = field_material_clear(b, frame->material);
+    const double cuts = b->cuts_clear ? FIELD_CUTS_CLEAR : FIELD_CUTS_SOLID;
+    out_head[FIELD_SCALE] = frame->scale / slope;
+    out_head[FIELD_LEAF] = number;
+    out_head[FIELD_SLOT] = (double)frame->material + (b->cutting ? cuts : 0);
+    out_head[FIELD_CLEAR] = b->cutting ? 0 : clear ? 1 : -1;
+    out_head[FIELD_AWAY] = 0;
 }
 
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
@@ -67,7 +69,7 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
     builder_put_params(b, node->params.type->params, node->params.values, sdf, 1,
                        block + FIELD_MATRIX_VEC4S, FIELD_HEAD_NUMBERS,
                        arguments + 12 + FIELD_HEAD_NUMBERS);
-    b->trips += sdf->trips ? (uint64_t)sdf->trips(numbers) : 0;
+    builder_add_trips(b, sdf->trips ? (uint64_t)sdf->trips(numbers) : 0);
     add_leaf(b, number, node);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
                                                           .type = node->type,
@@ -109,7 +111,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
     }
     fill_head(b, frame, call.lipschitz, number, head);
     int count = sdf_numbers(call.params, call.values, numbers);
-    size_t heads = FIELD_MATRIX_VEC4S + 1;
+    size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
     uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
     uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + 4 + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
@@ -118,7 +120,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
     builder_put_params(b, call.params, call.values, NULL, 1,
                        block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
                        arguments + 12 + FIELD_HEAD_NUMBERS + 4);
-    b->trips += (uint64_t)code_trips(code->code);
+    builder_add_trips(b, (uint64_t)code_trips(code->code));
     add_leaf(b, number, node);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
                                                           .type = node->type,
@@ -127,13 +129,13 @@ static struct result emit_code(struct builder *b, const struct node *node,
                                                           .choices = (uint32_t)index,
                                                           .numbers = block,
                                                           .arguments = arguments});
-    return (struct result){.solid = true, .box = box};
+    return (struct result){.solid = true, .shown = true, .box = box};
 }
 
 struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
-    struct result result = {.solid = true};
+    struct result result = {.solid = true, .shown = true};
     if (node->type->kind == KIND_CODE) {
         result = emit_code(b, node, frame, slot, number);
     } else {
@@ -141,9 +143,21 @@ struct result field_emit_shape(struct builder *b, const struct node *node,
         emit_shape(b, node, sdf, frame, slot, number);
         result.box = shape_box(node, sdf);
     }
-    result.clear = result.solid && !b->cutting && field_material_clear(b->scene, frame->material);
+    result.clear = result.solid && !b->cutting && field_material_clear(b, frame->material);
     result.clear_box = result.box;
     return result;
+}
+
+void field_join(struct result *to, const struct result *from)
+{
+    field_join_clear(to, from);
+    if (from->shown) {
+        to->box = to->shown ? bounds_union(to->box, from->box) : from->box;
+    } else if (!to->solid) {
+        to->box = from->box;
+    }
+    to->solid = to->solid || from->solid;
+    to->shown = to->shown || from->shown;
 }
 
 void field_join_clear(struct result *to, const struct result *from)

@@ -8,14 +8,19 @@
 
 struct result {
     bool hidden;             /* not drawn at all: an operation does not see it */
+    bool apart;              /* nor because others are isolated */
     bool solid;              /* there is an instruction for it; else empty space */
-    struct bounds box;       /* in the space of the frame that it was emitted in */
+    bool shown;              /* and something of it is seen; else it is as good as empty space */
+    struct bounds box;       /* of what is shown, or any where nothing is, in the space of the
+                                frame that it was emitted in */
     bool clear;              /* light goes through some of it, */
     struct bounds clear_box; /* which is in here */
 };
 
 /* Joins what is clear in both. */
 void field_join_clear(struct result *to, const struct result *from);
+/* Takes an operand of a union in. */
+void field_join(struct result *to, const struct result *from);
 
 /* Adds the instruction that leaves the distance of the node's own shape in `slot`; `number` is its
  * leaf's. The node is of KIND_SHAPE, KIND_FLAT or KIND_CODE. */

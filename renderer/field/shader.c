@@ -76,13 +76,14 @@ static void write_local(const struct writer *w, const struct field_instruction *
 static void write_code(const struct writer *w, const struct field_instruction *in)
 {
     const struct field_code *code = &w->field->codes[in->choices];
-    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, own = head + 1 + FIELD_CUT_VEC4S;
-    fprintf(w->out, "cut(user_%u(", in->choices);
+    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
+    fprintf(w->out, "unless_away(cut(user_%u(within(", in->choices);
     write_local(w, in);
-    write_places(w, code, "N(", own);
+    fprintf(w->out, ", N(%u))", cut);
+    write_places(w, code, "N(", cut + FIELD_CUT_VEC4S);
     fprintf(w->out, ") * N(%u).x, ", head);
     write_local(w, in);
-    fprintf(w->out, ", N(%u))", head + 1);
+    fprintf(w->out, ", N(%u)), N(%u).x)", cut, head + 1);
 }
 
 static void write_shape(struct writer *w, const struct field_instruction *in)
@@ -103,7 +104,11 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
     } else {
         write_code(w, in);
     }
-    fprintf(w->out, w->surface ? ", N(%u).w), N(%u).yz);\n" : ", N(%u).w);\n", head, head);
+    fprintf(w->out, ", N(%u).w, N(%u).x)", head, head + 1);
+    if (w->surface) {
+        fprintf(w->out, ", N(%u).yz)", head);
+    }
+    fprintf(w->out, ";\n");
     w->mixed[in->a] = false;
 }
 
@@ -118,6 +123,42 @@ static void write_call(const struct writer *w, const struct field_instruction *i
     }
     write_params(w, in, in->numbers, 0);
     fprintf(w->out, ")");
+}
+
+/* "N(7).y" */
+static void write_number(const struct writer *w, uint32_t index)
+{
+    fprintf(w->out, "N(%u).%c", index / 4, "xyzw"[index % 4]);
+}
+
+/* What two distances make. */
+static void write_both(const struct writer *w, const struct field_instruction *in)
+{
+    if (!in->seen) {
+        write_call(w, in, "");
+        return;
+    }
+    fprintf(w->out, "sided(");
+    write_call(w, in, "");
+    fprintf(w->out, ", ");
+    write_distance(w, in->a);
+    fprintf(w->out, ", ");
+    write_distance(w, in->b);
+    fprintf(w->out, ", ");
+    write_number(w, in->seen);
+    fprintf(w->out, ")");
+}
+
+/* The share of the second in that. */
+static void write_share(const struct writer *w, const struct field_instruction *in)
+{
+    fprintf(w->out, in->seen ? "sided_share(" : "");
+    write_call(w, in, "_share");
+    if (in->seen) {
+        fprintf(w->out, ", ");
+        write_number(w, in->seen);
+        fprintf(w->out, ")");
+    }
 }
 
 static void write_mixed(struct writer *w, uint16_t slot)
@@ -139,13 +180,13 @@ static void write_surfaces(struct writer *w, const struct field_instruction *in)
         write_mixed(w, in->a);
     } else if (objects) {
         fprintf(w->out, "o%u = ", in->a);
-        write_call(w, in, "_share");
+        write_share(w, in);
         fprintf(w->out, " > 0.5 ? o%u : o%u;\n", in->b, in->a);
     }
     fprintf(w->out, mixed ? "m%u = blend(" : "h%u = choose(", in->a);
-    write_call(w, in, "");
+    write_both(w, in);
     fprintf(w->out, ", ");
-    write_call(w, in, "_share");
+    write_share(w, in);
     fprintf(w->out, mixed ? ", m%u, " : ", h%u, ", in->a);
     fprintf(w->out, w->mixed[in->b] ? "m%u" : "h%u", in->b);
     if (mixed && objects && !w->mixed[in->b]) {
@@ -160,7 +201,7 @@ static void write_combine(struct writer *w, const struct field_instruction *in)
         write_surfaces(w, in);
     } else {
         fprintf(w->out, "d%u = ", in->a);
-        write_call(w, in, "");
+        write_both(w, in);
         fprintf(w->out, ";\n");
     }
 }
@@ -176,10 +217,12 @@ static void write_change(const struct writer *w, const struct field_instruction 
 static void write_after(const struct writer *w, const struct field_instruction *in)
 {
     write_distance(w, in->a);
-    fprintf(w->out, " = %s_after(", in->type->glsl);
+    fprintf(w->out, " = max(%s_after(", in->type->glsl);
     write_distance(w, in->a);
     fprintf(w->out, ", p%u", in->point);
     write_vec4s(w, in->numbers, in->sdf->domain->vec4s);
+    fprintf(w->out, "), ");
+    write_number(w, in->seen);
     fprintf(w->out, ");\n");
 }
 
@@ -312,21 +355,23 @@ static void write_slots(const struct writer *w, const char *type, const char *na
     }
 }
 
-/* The colour that the material in a slot has by its shader, and whether it is lit. */
+/* What the material in a slot is by its shader. */
 static void write_paint(const struct writer *w)
 {
     const struct field *field = w->field;
     fprintf(w->out,
-            "vec4 paint(Shading at, float slot)\n{\n"
+            "void apply_shader(Shading at, float slot, inout Paint paint)\n{\n"
             "int i = %zu + %zu * int(slot);\n"
-            "int shader = int(N_ANY(i + 2).w);\nvec4 color = vec4(0.0);\n",
+            "int shader = int(paint.emission.w);\nbool unlit = paint.ambient.w > 0.5;\n",
             field->material_base, field->material_stride);
     for (size_t i = 0; i < field->shader_count; i++) {
-        fprintf(w->out, "if (shader == %zu) {\ncolor = shade_%zu(at", i + 1, i);
+        bool whole = code_gives_surface(field->shaders[i].code);
+        fprintf(w->out, "if (shader == %zu) {\npaint_%s(paint, shade_%zu(at", i + 1,
+                whole ? "surface" : "color", i);
         write_places(w, &field->shaders[i], "N_ANY(i + ", FIELD_MATERIAL_VEC4S);
-        fprintf(w->out, ");\n}\n");
+        fprintf(w->out, whole ? "), unlit);\n}\n" : ").rgb, unlit);\n}\n");
     }
-    fprintf(w->out, "return vec4(max(color.rgb, 0.0), N_ANY(i + 3).w);\n}\n");
+    fprintf(w->out, "}\n");
 }
 
 static void write_codes(const struct writer *w, const struct field_code *codes, size_t count,
@@ -350,18 +395,19 @@ static void write_functions(const struct writer *w)
 /* Materials are read here alone, and each shader stands here alone. */
 static void write_materials(const struct writer *w)
 {
-    fprintf(w->out,
-            "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
-            "int i = %zu + %zu * int(m0.slots.x);\n"
-            "surface_add(s, m0, N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),\n"
-            "N_ANY(i + 5));\n",
-            w->field->material_base, w->field->material_stride);
+    fprintf(
+        w->out,
+        "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
+        "int i = %zu + %zu * int(m0.slots.x);\n"
+        "Paint paint = Paint(N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),\n"
+        "N_ANY(i + 5));\n",
+        w->field->material_base, w->field->material_stride);
     if (w->field->shader_count > 0) {
         fputs("at.object_position = m0.places[0];\n"
-              "surface_paint(s, m0, paint(at, m0.slots.x));\n",
+              "apply_shader(at, m0.slots.x, paint);\n",
               w->out);
     }
-    fputs("mixture_next(m0);\n}\n", w->out);
+    fputs("surface_add(s, m0, paint);\nmixture_next(m0);\n}\n", w->out);
 }
 
 static void write_map(struct writer *w)

@@ -33,11 +33,15 @@ static void numbers_lie_where_the_header_says(void **state)
         "\"attenuation_color\":[1,0.36787944117144233,0]}}},");
     const struct field *field = pair.field;
     const float want[] = {
-        0.5f * 2, 0, 0, 0,                                       /* k */
-        0.5f,     0, 0, -10, 0, 0.5f, 0, -20,   0, 0, 0.5f, -30, /* round_box */
-        2,        3, 2, -1,  3, 4,    5, 0.25f,                  /* scale, leaf, slot, solid */
-        0.5f,     0, 0, 0,   0, 0.5f, 0, 0,     0, 0, 0.5f, 0,   /* capsule */
-        2,        4, 0, -1,  1, 2,    3, 7,     4, 5, 6,    0,
+        0.5f * 2, 3,   0,     0, /* k, order */
+        0.5f,     0,   0,     -10, 0,    0.5f,
+        0,        -20, 0,     0,   0.5f, -30, /* round_box */
+        2,        3,   2,     -1,  0,    3,
+        4,        5,   0.25f, 0,   0,    0, /* scale, leaf, slot, solid, away */
+        0.5f,     0,   0,     0,   0,    0.5f,
+        0,        0,   0,     0,   0.5f, 0, /* capsule */
+        2,        4,   0,     -1,  0,    1,
+        2,        3,   4,     5,   6,    7,
     };
     size_t own = sizeof want / sizeof want[0];
     for (size_t i = 0; i < own; i++) {
