@@ -5,6 +5,7 @@
 #define RENDERER_CONTEXT_H
 
 #include "draw.h"
+#include "pace.h"
 #include "renderer/gl/egl.h"
 #include "snapshot.h"
 
@@ -20,9 +21,20 @@ struct renderer {
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;
-    uint64_t *refused; /* shapes */
-    size_t refused_count;
+    struct renderer_verdict *verdicts;
+    size_t verdict_count;
     bool told_compile; /* on_compile was called with a shape, and not yet with 0 */
+};
+
+enum { ISOLATIONS_KEPT = 8 }; /* of a scene; the least recently used go beyond this */
+
+/* A scene with nodes isolated: of the same program as the scene itself. */
+struct isolated_view {
+    char *key;                 /* the ids, a line each; NULL: free */
+    uint64_t renewals;         /* of the resident when `newest` was made */
+    uint64_t last_use;         /* counts jobs */
+    struct snapshot *newest;   /* NULL: not made yet */
+    struct snapshot *drawable; /* the newest whose program is ready; NULL: none yet */
 };
 
 struct resident {
@@ -33,10 +45,22 @@ struct resident {
     struct snapshot *newest;   /* NULL while the scene is no field */
     struct snapshot *drawable; /* the newest whose program is ready; NULL: none yet */
     struct error error;
+    struct pace *pace;
+    uint64_t refused_shape;  /* why there is no newest, if that is it; else 0 */
+    uint64_t renewals, uses; /* counted */
+    struct isolated_view isolated[ISOLATIONS_KEPT];
 };
+
+/* NULL: nothing is known of the shape. */
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape);
 
 /* A snapshot of the scene as it is now becomes the newest. */
 void resident_renew(struct resident *resident);
+/* What a picture shows: the newest state, or unless that is asked for (`exact`) the newest that can
+ * be drawn. Borrowed until the resident changes. NULL and `err`: nothing. */
+struct snapshot *resident_snapshot(struct resident *resident, const struct job_desc *desc,
+                                   struct error *err);
+void resident_forget_views(struct resident *resident);
 
 void renderer_log(const struct renderer *renderer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -2,6 +2,7 @@
 /* Passes over a tile, timing, read-back. */
 #include "draw.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -15,7 +16,8 @@ enum {
      * urgent picture waits for about a tenth of a second. A GPU wants more work at once. */
     TILE_SOFTWARE = 256,
     TILE_GPU = 512,
-    TILE_LEAST = 64,       /* for many samples of all pixels */
+    TILE_LEAST = 64,       /* for many samples of all pixels, where that is fast */
+    TILE_SMALLEST = 8,     /* one work group */
     FIRST_ROUND = 4,       /* samples, where a picture is drawn in rounds; */
     ROUND_GROWTH = 4,      /* each next one has so many times as many */
     MARGIN = 1,            /* pixels around a tile, which edges are found by */
@@ -112,6 +114,14 @@ void draw_destroy(struct draw *draw)
     free(draw);
 }
 
+/* Pixels of the tile around which the passes see a margin. */
+static int margin_of(const struct draw_plan *plan)
+{
+    return plan->antialiasing == ANTIALIASING_EDGES || plan->antialiasing == ANTIALIASING_ADAPTIVE
+               ? MARGIN
+               : 0;
+}
+
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
 {
     const bool full = plan->antialiasing == ANTIALIASING_FULL;
@@ -121,6 +131,14 @@ int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
         side /= 2;
     }
     return side - 2 * MARGIN;
+}
+
+int draw_tile_side_of(const struct draw *draw, const struct draw_plan *plan, int doublings)
+{
+    const int most = draw_tile_side(draw, plan);
+    const int side = (TILE_SMALLEST << doublings) - 2 * margin_of(plan); /* whole work groups */
+
+    return side < most ? side : most;
 }
 
 uint64_t draw_compilations(const struct draw *draw)
@@ -133,6 +151,21 @@ uint64_t draw_rays(const struct draw *draw)
     return draw->rays;
 }
 
+/* "#define STEPS_WHITE 64.0" and the colours, as GLSL. */
+static void define_steps(char *out, size_t size)
+{
+    size_t used =
+        (size_t)snprintf(out, size, "#define STEPS_WHITE %d.0\n#define STEPS_RAMP vec3[%d](",
+                         STEPS_WHITE, STEPS_COLORS);
+
+    for (int i = 0; i < STEPS_COLORS; i++) {
+        const unsigned char *c = steps_colors[i];
+        used += (size_t)snprintf(out + used, size - used, "%svec3(%d.0, %d.0, %d.0) / 255.0",
+                                 i ? ", " : "", c[0], c[1], c[2]);
+    }
+    snprintf(out + used, size - used, ")\n");
+}
+
 /* The resolve pass of a form. */
 static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form, struct error *err)
 {
@@ -140,10 +173,11 @@ static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form
                                         "surface.glsl", "gbuffer.glsl", "tone.glsl",
                                         "edges.glsl",   "resolve.glsl", NULL};
     struct pass *pass = &draw->resolve[form - forms];
-    char defines[64];
+    char defines[512];
 
     if (pass->program == 0) {
-        snprintf(defines, sizeof defines, "#define %s\n", form->define);
+        const int used = snprintf(defines, sizeof defines, "#define %s\n", form->define);
+        define_steps(defines + used, sizeof defines - (size_t)used);
         if (!pass_init(pass, draw->gl, &(struct pass_source){.defines = defines, .files = files},
                        err)) {
             return NULL;
@@ -251,15 +285,19 @@ bool draw_next_round(struct draw_picture *picture)
     return picture->from < all;
 }
 
-/* --- a tile --- */
-
-/* Pixels of the tile around which the passes see a margin. */
-static int margin_of(const struct draw_plan *plan)
+struct picture_rounds draw_rounds(const struct draw_picture *picture)
 {
-    return plan->antialiasing == ANTIALIASING_EDGES || plan->antialiasing == ANTIALIASING_ADAPTIVE
-               ? MARGIN
-               : 0;
+    struct picture_rounds rounds = {.done = picture->from >= picture->plan.samples, .count = 1};
+
+    for (int samples = FIRST_ROUND; picture->kept && samples < picture->plan.samples;
+         samples *= ROUND_GROWTH) {
+        rounds.count++;
+        rounds.done += picture->from >= samples;
+    }
+    return rounds;
 }
+
+/* --- a tile --- */
 
 /* The tile's pixels and how many samples they have: from the targets, or back into them. */
 static void keep(const struct wave *wave, const struct draw_picture *picture, bool back)

@@ -75,8 +75,10 @@ struct draw_picture {
  * device. */
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err);
 void draw_destroy(struct draw *draw);
-/* Side of the tiles that a picture is drawn in, in pixels: smaller ones for many samples. */
+/* Largest side of the tiles that a picture is drawn in, in pixels: less for many samples. */
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan);
+/* The same for sides from the smallest one on, which is doubled so many times. */
+int draw_tile_side_of(const struct draw *draw, const struct draw_plan *plan, int doublings);
 uint64_t draw_compilations(const struct draw *draw);
 /* Mirrored and broken rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
@@ -91,6 +93,7 @@ void draw_end(struct draw *draw, struct draw_picture *picture);
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region);
 /* After the last tile: false when all samples are there. */
 bool draw_next_round(struct draw_picture *picture);
+struct picture_rounds draw_rounds(const struct draw_picture *picture);
 /* The first sample of each pixel, or those that the last round left. Where `samples` of the slot is
  * not 0 then, the tile is not finished: draw_tile_more draws one more, and nothing else may be
  * drawn until it is 0. */

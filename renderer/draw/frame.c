@@ -53,9 +53,11 @@ static struct frame_light make_light(const struct record *record)
         light.extent[3] = (float)cos(angle);
     }
     light.place[3] = directional ? LIGHT_DIRECTIONAL : spot ? LIGHT_SPOT : LIGHT_POINT;
-    set3(light.color, record_vector(record, "color"), record_number(record, "intensity"));
+    /* One that gives no light is black and casts no shadow: numbers, so nothing is compiled. */
+    const bool lit = record_number(record, "visible") != 0;
+    set3(light.color, record_vector(record, "color"), lit ? record_number(record, "intensity") : 0);
     light.color[3] = (float)record_number(record, "size");
-    light.extent[2] = (float)choice(record, "shadow");
+    light.extent[2] = lit ? (float)choice(record, "shadow") : 0;
     return light;
 }
 
@@ -98,19 +100,30 @@ static double waves_above(double part, int octaves)
     return deviation * sqrt(3) / M_PI * log(odds);
 }
 
+/* A ball is an ellipsoid with three radii alike. */
+static void set_volume_shape(struct frame_volume *volume, const struct record *record)
+{
+    if (strcmp(record->type->name, "box") == 0) {
+        set3(volume->extent, record_vector(record, "size"), 0.5);
+        volume->place[3] = VOLUME_BOX;
+        return;
+    }
+    volume->place[3] = VOLUME_ELLIPSOID;
+    if (strcmp(record->type->name, "ellipsoid") == 0) {
+        set3(volume->extent, record_vector(record, "radii"), 1);
+    } else {
+        const double radius = record_number(record, "radius");
+        set3(volume->extent, (const double[]){radius, radius, radius}, 1);
+    }
+}
+
 static struct frame_volume make_volume(const struct record *record)
 {
     struct frame_volume volume = {0};
     const int octaves = (int)record_number(record, "octaves");
 
     set3(volume.place, record_vector(record, "position"), 1);
-    if (strcmp(record->type->name, "box") == 0) {
-        set3(volume.extent, record_vector(record, "size"), 0.5);
-        volume.place[3] = VOLUME_BOX;
-    } else {
-        volume.extent[0] = (float)record_number(record, "radius");
-        volume.place[3] = VOLUME_SPHERE;
-    }
+    set_volume_shape(&volume, record);
     volume.extent[3] = (float)record_number(record, "falloff");
     set3(volume.color, record_vector(record, "color"), 1);
     volume.color[3] = (float)record_number(record, "density");
@@ -152,6 +165,13 @@ static void set_bounds(struct frame_block *block, const struct frame_extent *ext
     }
 }
 
+static double occlusion_reach(const struct record *render, const struct frame_extent *extent)
+{
+    const double own = record_number(render, "occlusion_reach");
+
+    return own > 0 ? own : 0.06 * extent->scale;
+}
+
 void frame_set_scene(struct frame_block *block, const struct scene *scene,
                      const struct frame_extent *extent)
 {
@@ -168,7 +188,8 @@ void frame_set_scene(struct frame_block *block, const struct scene *scene,
     set_clear(block, extent);
     block->bounds_max[3] = (float)record_number(render, "max_distance");
     block->zenith[3] = (float)exp2(record_number(render, "exposure"));
-    block->ground[3] = (float)(0.06 * extent->scale);
+    block->ground[3] = (float)occlusion_reach(render, extent);
+    block->panorama[3] = (float)record_number(render, "occlusion_strength");
     block->modes[2] = choice(render, "tone_map");
 }
 

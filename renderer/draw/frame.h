@@ -12,7 +12,7 @@
 /* Values of glsl/frame.glsl. */
 enum { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT };
 enum { SKY_GRADIENT, SKY_SOLID, SKY_IMAGE };
-enum { VOLUME_BOX, VOLUME_SPHERE };
+enum { VOLUME_BOX, VOLUME_ELLIPSOID };
 enum { /* bits */
        EFFECT_SHADOWS = 1,
        EFFECT_REFLECTIONS = 2,

@@ -1,151 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* One picture, tile by tile, handed out by rows of tiles. Holds a snapshot of the scene, so nothing
  * later reaches it. */
-#include "context.h"
-
-#include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
+#include "job_parts.h"
 #include "protocol/memory.h"
 
-enum { ROUNDS_PIXELS_MAX = 1 << 22 };
-
-struct job {
-    struct renderer *renderer;
-    struct snapshot *snapshot;
-    struct camera camera;
-    const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
-    struct plan_wish wish;
-    bool in_rounds;
-    enum job_state state;
-    int width, height; /* of the whole picture */
-    struct job_region region;
-    int tile_side, columns, tiles;
-    int started, collected; /* tiles */
-    bool begun;             /* `picture` is valid */
-    struct draw_picture picture;
-    uint8_t *rows[AOV_COUNT]; /* of the row of tiles that is collected; NULL: taken, or none yet */
-    double depth_far;
-    struct job_times times;
-    struct error error;
+enum {
+    ROUNDS_PIXELS_MAX = 1 << 22,
+    PACE_WRONG_US =
+        8 * PACE_LONG_US, /* so slow a tile is begun anew, with its row, in smaller ones */
 };
-
-/* --- what is asked --- */
-
-static bool check_side(const char *name, int side, struct error *err)
-{
-    return (side >= 1 && side <= LIMIT_IMAGE_SIDE) ||
-           error_set(err, ERROR_LIMIT, name, "%d is not in 1..%d", side, LIMIT_IMAGE_SIDE);
-}
-
-static bool check_region(const struct job_desc *desc, struct error *err)
-{
-    const struct job_region r = desc->region;
-
-    return (r.width == 0 && r.height == 0) ||
-           (r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0 && r.width <= desc->width - r.x &&
-            r.height <= desc->height - r.y) ||
-           error_set(err, ERROR_LIMIT, "region", "%d,%d,%d,%d is not inside of %d x %d pixels", r.x,
-                     r.y, r.width, r.height, desc->width, desc->height);
-}
-
-static bool check_desc(const struct job_desc *desc, struct error *err)
-{
-    if (!check_side("width", desc->width, err) || !check_side("height", desc->height, err) ||
-        !check_region(desc, err)) {
-        return false;
-    }
-    if ((long)desc->width * desc->height > LIMIT_IMAGE_PIXELS) {
-        return error_set(err, ERROR_LIMIT, "height", "%d x %d pixels are above the maximum %d",
-                         desc->width, desc->height, LIMIT_IMAGE_PIXELS);
-    }
-    if (desc->samples < 0 || desc->samples > 4) {
-        return error_set(err, ERROR_LIMIT, "samples", "%d is not in 0..4", desc->samples);
-    }
-    if (desc->level >= QUALITY_COUNT) {
-        return error_set(err, ERROR_INVALID, "level", "unknown");
-    }
-    return true;
-}
-
-static bool find_forms(struct job *job, const struct job_desc *desc, struct error *err)
-{
-    bool any = false;
-
-    for (int i = 0; i < AOV_COUNT; i++) {
-        any |= desc->aovs[i];
-    }
-    for (int i = 0; i < AOV_COUNT; i++) {
-        const enum aov aov = (enum aov)i;
-
-        if (!desc->aovs[i] && (any || aov != AOV_COLOR)) {
-            continue;
-        }
-        job->forms[i] = draw_form_find(aov, desc->as_floats);
-        if (!job->forms[i]) {
-            return error_set(err, ERROR_INVALID, "aov", "%s has raw values alone: format npy",
-                             aov_name(aov));
-        }
-    }
-    return true;
-}
-
-static double target_distance(const struct record *camera)
-{
-    const double *a = record_vector(camera, "position"), *b = record_vector(camera, "target");
-    const double d = sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                          (a[2] - b[2]) * (a[2] - b[2]));
-
-    return d > 1e-6 ? d : 1;
-}
-
-static void set_desc(struct job *job, const struct job_desc *desc)
-{
-    const struct record *camera = desc->camera ? desc->camera : &job->snapshot->camera;
-    const struct job_region whole = {0, 0, desc->width, desc->height};
-
-    job->width = desc->width;
-    job->height = desc->height;
-    job->region = desc->region.width > 0 ? desc->region : whole;
-    job->camera = camera_from_record(camera, desc->width, desc->height);
-    job->depth_far = 2 * target_distance(camera);
-    job->in_rounds = desc->in_rounds;
-    job->wish = (struct plan_wish){
-        .level = desc->level,
-        .samples = job->forms[AOV_COLOR] ? desc->samples : 1,
-        .transparent = desc->transparent >= 0
-                           ? desc->transparent
-                           : record_number(&job->snapshot->render, "transparent") != 0,
-        .from_camera = desc->from_camera,
-    };
-}
-
-struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err)
-{
-    struct snapshot *snapshot =
-        desc->exact || !resident->drawable ? resident->newest : resident->drawable;
-    struct job *job;
-
-    if (!check_desc(desc, err)) {
-        return NULL;
-    }
-    if (!snapshot) {
-        if (err) {
-            *err = resident->error;
-        }
-        return NULL;
-    }
-    job = memory_alloc(1, sizeof *job);
-    if (!find_forms(job, desc, err)) {
-        free(job);
-        return NULL;
-    }
-    job->renderer = resident->renderer;
-    job->snapshot = snapshot_ref(snapshot);
-    job->state = JOB_WAITING;
-    set_desc(job, desc);
-    return job;
-}
 
 /* --- drawing --- */
 
@@ -163,6 +29,18 @@ static bool may_have_rounds(const struct job *job)
         }
     }
     return job->in_rounds && (long)job->region.width * job->region.height <= ROUNDS_PIXELS_MAX;
+}
+
+static void begin_row(struct job *job, int y, int doublings)
+{
+    const struct draw *draw = job->renderer->draw;
+    const struct draw_plan *plan = &job->picture.plan;
+    const int side = draw_tile_side_of(draw, plan, doublings);
+
+    while (doublings > 0 && draw_tile_side_of(draw, plan, doublings - 1) == side) {
+        doublings--; /* the largest */
+    }
+    job->row = (struct row){.y = y, .doublings = doublings, .side = side};
 }
 
 /* When its program is there, the picture's own buffers. */
@@ -183,13 +61,14 @@ static enum job_state begin(struct job *job)
     }
     frame_set_camera(&block, &job->camera, job->width, job->height);
     plan_make(&plan, &block, &snapshot->render, &job->wish, &snapshot->extent);
-    job->tile_side = draw_tile_side(job->renderer->draw, &plan);
-    job->columns = (job->region.width + job->tile_side - 1) / job->tile_side;
-    job->tiles = job->columns * ((job->region.height + job->tile_side - 1) / job->tile_side);
     if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan, &job->error)) {
         return fail(job);
     }
     job->begun = true;
+    if (job->careful) {
+        job->pace->doublings[job->level] = 0;
+    }
+    begin_row(job, 0, job->pace->doublings[job->level]);
     if (may_have_rounds(job)) {
         draw_in_rounds(
             job->renderer->draw, &job->picture,
@@ -205,14 +84,33 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-static struct tile tile_at(const struct job *job, int index)
+static struct tile next_tile(const struct job *job)
 {
-    const int x = index % job->columns * job->tile_side;
-    const int y = index / job->columns * job->tile_side;
+    const struct row *row = &job->row;
 
-    return (struct tile){job->region.x + x, job->region.y + y,
-                         smaller(job->tile_side, job->region.width - x),
-                         smaller(job->tile_side, job->region.height - y)};
+    return (struct tile){job->region.x + row->x, job->region.y + row->y,
+                         smaller(row->side, job->region.width - row->x),
+                         smaller(row->side, job->region.height - row->y)};
+}
+
+static bool all_started(const struct job *job)
+{
+    return job->row.y >= job->region.height;
+}
+
+/* What the row took decides how large the tiles of the next one are. */
+static void end_tile_start(struct job *job)
+{
+    struct row *row = &job->row;
+
+    row->x += row->side;
+    if (row->x < job->region.width) {
+        return;
+    }
+    if (row->slowest_us < PACE_SHORT_US) {
+        pace_grow(job->pace, job->level, row->doublings);
+    }
+    begin_row(job, row->y + row->side, job->pace->doublings[job->level]);
 }
 
 /* The slot of the tile that was started last. */
@@ -226,23 +124,99 @@ bool job_is_within_tile(const struct job *job)
     return job->started > 0 && last_slot(job)->samples > 0;
 }
 
+/* --- how long it takes --- */
+
+/* Of a sample that is drawn when the call returns: by the clock or by the processors, whichever is
+ * less, because who has to wait for a processor is not slow for that. */
+struct watch {
+    int64_t wall_us, cpu_us;
+};
+
+static int64_t clock_in_us(clockid_t clock)
+{
+    struct timespec t;
+
+    clock_gettime(clock, &t);
+    return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
+}
+
+static struct watch look_at_clocks(const struct job *job)
+{
+    return (struct watch){clock_in_us(CLOCK_MONOTONIC),
+                          clock_in_us(CLOCK_PROCESS_CPUTIME_ID) -
+                              program_cache_cpu_us(job->renderer->programs)};
+}
+
+/* False: even the smallest tile takes too long. */
+static bool learn(struct job *job, int64_t took_us, int64_t cpu_us)
+{
+    struct row *row = &job->row;
+
+    row->slowest_us = took_us > row->slowest_us ? took_us : row->slowest_us;
+    if (took_us > PACE_LONG_US) {
+        pace_shrink(job->pace, job->level, row->doublings);
+    }
+    return row->doublings > 0 || cpu_us <= job->limit_us ||
+           error_set_slow(&job->error, "", "the smallest part of the picture took",
+                          (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
+}
+
+/* Nothing of the row was handed out yet. */
+static void begin_row_anew(struct job *job)
+{
+    for (int i = 0; i < DRAW_SLOTS; i++) {
+        if (job->picture.slots[i].fence) {
+            draw_wait(job->renderer->draw, &job->picture, i, &job->error);
+        }
+        job->picture.slots[i].samples = 0;
+    }
+    for (int i = 0; i < AOV_COUNT; i++) {
+        free(job->rows[i]);
+        job->rows[i] = NULL;
+    }
+    job->started = job->collected = 0;
+    begin_row(job, job->row.y, job->pace->doublings[job->level]);
+}
+
+/* --- a sample of a tile --- */
+
+static bool draw_sample(struct job *job, const struct draw_scene *scene)
+{
+    struct draw *draw = job->renderer->draw;
+
+    if (job_is_within_tile(job)) {
+        job->steps[(job->started - 1) % DRAW_SLOTS]++;
+        return draw_tile_more(draw, &job->picture, scene, (job->started - 1) % DRAW_SLOTS,
+                              &job->error);
+    }
+    job->steps[job->started % DRAW_SLOTS] = 1;
+    return draw_tile(draw, &job->picture, scene, next_tile(job), job->started++ % DRAW_SLOTS,
+                     &job->error);
+}
+
 /* The next tile, or the next sample of the one under way. */
 static bool draw_next(struct job *job)
 {
-    struct draw *draw = job->renderer->draw;
     const struct draw_scene scene = {job->snapshot->program,
                                      snapshot_numbers(job->renderer, job->snapshot),
                                      job->snapshot->environment};
+    const struct watch before = look_at_clocks(job);
 
-    if (job_is_within_tile(job)) {
-        return draw_tile_more(draw, &job->picture, &scene, (job->started - 1) % DRAW_SLOTS,
-                              &job->error);
-    }
-    if (!draw_tile(draw, &job->picture, &scene, tile_at(job, job->started),
-                   job->started % DRAW_SLOTS, &job->error)) {
+    if (!draw_sample(job, &scene)) {
         return false;
     }
-    job->started++;
+    const struct watch after = look_at_clocks(job);
+    const int64_t wall_us = after.wall_us - before.wall_us, cpu_us = after.cpu_us - before.cpu_us;
+    const int64_t took_us = wall_us < cpu_us ? wall_us : cpu_us;
+
+    if (job->renderer->info.software && !learn(job, took_us, cpu_us)) {
+        return false;
+    }
+    if (took_us > PACE_WRONG_US && job->row.doublings > 0 && job->picture.from == 0) {
+        begin_row_anew(job);
+    } else if (!job_is_within_tile(job)) {
+        end_tile_start(job);
+    }
     return true;
 }
 
@@ -258,7 +232,18 @@ static void open_rows(struct job *job, const struct tile *tile)
     }
 }
 
-static bool collect(struct job *job)
+/* What a GPU took is known only here. */
+static bool learn_from_device(struct job *job, const struct draw_slot *slot, int steps)
+{
+    int64_t together = 0;
+
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        together += i == FRAME_READ ? 0 : (int64_t)slot->stage_us[i];
+    }
+    return learn(job, together / steps, together / steps);
+}
+
+static bool collect(struct job *job, bool *out_row_ends)
 {
     const int slot = job->collected % DRAW_SLOTS;
     const struct draw_slot *from = &job->picture.slots[slot];
@@ -266,7 +251,7 @@ static bool collect(struct job *job)
     if (!draw_wait(job->renderer->draw, &job->picture, slot, &job->error)) {
         return false;
     }
-    if (job->collected % job->columns == 0) {
+    if (from->tile.x == job->region.x) {
         open_rows(job, &from->tile);
     }
     for (int i = 0; i < AOV_COUNT; i++) {
@@ -283,7 +268,9 @@ static bool collect(struct job *job)
     }
     job->collected++;
     job->renderer->counters.tiles++;
-    return true;
+    job->rows_height = from->tile.height;
+    *out_row_ends = from->tile.x + from->tile.width == job->region.x + job->region.width;
+    return job->renderer->info.software || learn_from_device(job, from, job->steps[slot]);
 }
 
 static bool rows_are_taken(const struct job *job)
@@ -301,11 +288,12 @@ static enum job_state after_rows(struct job *job)
     if (!rows_are_taken(job)) {
         return JOB_ROWS;
     }
-    if (job->collected < job->tiles) {
+    if (job->collected < job->started || !all_started(job)) {
         return job->state = JOB_RUNNING;
     }
     if (draw_next_round(&job->picture)) {
         job->started = job->collected = 0;
+        begin_row(job, 0, job->pace->doublings[job->level]);
         return job->state = JOB_ROUND;
     }
     job->renderer->counters.pictures++;
@@ -333,16 +321,18 @@ enum job_state job_step(struct job *job)
         return job->state;
     }
     if ((job_is_within_tile(job) ||
-         (job->started < job->tiles && job->started - job->collected < DRAW_SLOTS)) &&
+         (!all_started(job) && job->started - job->collected < DRAW_SLOTS)) &&
         !draw_next(job)) {
         return fail(job);
     }
     while (job->state == JOB_RUNNING && !job_is_within_tile(job) &&
-           (job->started == job->tiles || job->started - job->collected == DRAW_SLOTS)) {
-        if (!collect(job)) {
+           (all_started(job) || job->started - job->collected == DRAW_SLOTS)) {
+        bool row_ends;
+
+        if (!collect(job, &row_ends)) {
             return fail(job);
         }
-        if (job->collected % job->columns == 0) {
+        if (row_ends) {
             job->state = JOB_ROWS;
         }
     }
@@ -366,6 +356,11 @@ uint64_t job_shape_with_code(const struct job *job)
     return snapshot_shape_with_code(job->snapshot);
 }
 
+struct picture_rounds job_rounds(const struct job *job)
+{
+    return job->begun ? draw_rounds(&job->picture) : (struct picture_rounds){0, 1};
+}
+
 struct job_times job_times(const struct job *job)
 {
     return job->times;
@@ -383,72 +378,6 @@ void job_destroy(struct job *job)
         free(job->rows[i]);
     }
     snapshot_unref(job->renderer, job->snapshot);
+    pace_unref(job->pace);
     free(job);
-}
-
-/* --- rows --- */
-
-static bool is_gray(const struct draw_form *form)
-{
-    return form->aov == AOV_DEPTH && !form->floats;
-}
-
-static struct image shape_of(const struct job *job, enum aov aov, int height)
-{
-    const struct draw_form *form = job->forms[aov];
-    struct image image = {.width = job->region.width, .height = height, .channels = 1};
-    size_t pixel_bytes = 2;
-
-    if (!form) {
-        return (struct image){0};
-    }
-    if (is_gray(form)) {
-        image.format = PIXEL_GRAY16;
-    } else {
-        const bool bytes = form->read_type == GL_UNSIGNED_BYTE;
-
-        image.format = bytes                         ? PIXEL_RGBA8
-                       : form->read_type == GL_FLOAT ? PIXEL_FLOAT
-                                                     : PIXEL_UINT32;
-        image.channels = !bytes                                      ? form->read_bytes / 4
-                         : aov == AOV_COLOR && job->wish.transparent ? 4
-                                                                     : 3;
-        pixel_bytes = (size_t)form->read_bytes;
-    }
-    image.bytes = (size_t)image.width * (size_t)height * pixel_bytes;
-    return image;
-}
-
-struct image job_image_shape(const struct job *job, enum aov aov)
-{
-    return shape_of(job, aov, job->region.height);
-}
-
-/* Distances to 16 bits: 0 at the eye, 65535 at twice the distance of the camera's target, beyond,
- * and where nothing is. */
-static void *depth_to_gray(const float *from, size_t count, double far)
-{
-    uint16_t *to = memory_alloc(count, sizeof *to);
-
-    for (size_t i = 0; i < count; i++) {
-        const double x = from[i] / far;
-        to[i] = x < 1 ? (uint16_t)lround(x * 65535) : 65535;
-    }
-    return to;
-}
-
-struct image job_take_rows(struct job *job, enum aov aov)
-{
-    const int row = (job->collected - 1) / job->columns;
-    struct image image = shape_of(job, aov, tile_at(job, row * job->columns).height);
-
-    image.pixels = job->rows[aov];
-    job->rows[aov] = NULL;
-    if (job->forms[aov] && is_gray(job->forms[aov])) {
-        void *raw = image.pixels;
-
-        image.pixels = depth_to_gray(raw, image.bytes / 2, job->depth_far);
-        free(raw);
-    }
-    return image;
 }

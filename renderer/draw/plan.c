@@ -30,8 +30,8 @@ static bool set_steps(struct frame_block *block, int wanted, int wanted_shadow,
     int steps = wanted, shadow_steps = wanted_shadow;
 
     if (extent->limit_loops) {
-        /* Four points for the normal, and one evaluation of the surface. */
-        const int most = (LOOP_BUDGET / each - 5) / rounds;
+        /* Eight points for the normal, and one evaluation of the surface. */
+        const int most = (LOOP_BUDGET / each - 9) / rounds;
         const int most_shadow = (LOOP_BUDGET / each - block->effects[0]) / lights - 1;
         steps = most < steps ? most : steps;
         shadow_steps = most_shadow < shadow_steps ? most_shadow : shadow_steps;

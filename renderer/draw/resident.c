@@ -8,9 +8,6 @@
 #include "protocol/edit.h"
 #include "protocol/memory.h"
 
-/* How far a picked point may be off the surface, for each unit of the greatest distance. */
-static const double PICK_TOLERANCE = 1e-6;
-
 /* Takes over what has become drawable; true when that is something newer. */
 static bool advance(struct resident *resident)
 {
@@ -34,14 +31,29 @@ static bool advance(struct resident *resident)
     return false;
 }
 
+/* What is drawn, or is going to be: what stands in there and is hidden stays in it. */
+static const struct field *drawn_field(const struct resident *resident)
+{
+    const struct snapshot *newest = resident->newest;
+
+    if (resident->drawable) {
+        return resident->drawable->field;
+    }
+    return newest && program_state(newest->program) != PROGRAM_FAILED ? newest->field : NULL;
+}
+
 void resident_renew(struct resident *resident)
 {
     struct renderer *renderer = resident->renderer;
+    const struct field_wish wish = {.drawn = drawn_field(resident)};
     struct error err = {0};
+    uint64_t refused = 0;
     struct snapshot *snapshot =
-        snapshot_create(renderer, resident->scene, resident->revision, &err);
+        snapshot_create(renderer, resident->scene, resident->revision, &wish, &refused, &err);
 
+    resident->renewals++;
     resident->error = err;
+    resident->refused_shape = refused;
     snapshot_unref(renderer, resident->newest);
     resident->newest = snapshot;
     if (snapshot && snapshot->fewer_steps) {
@@ -60,6 +72,7 @@ struct resident *resident_create(struct renderer *renderer, struct scene *scene,
     resident->renderer = renderer;
     resident->scene = scene;
     resident->revision = revision;
+    resident->pace = pace_create();
     resident->next = renderer->residents;
     renderer->residents = resident;
     resident_renew(resident);
@@ -79,7 +92,9 @@ void resident_destroy(struct resident *resident)
     }
     snapshot_unref(resident->renderer, resident->newest);
     snapshot_unref(resident->renderer, resident->drawable);
+    resident_forget_views(resident);
     scene_destroy(resident->scene);
+    pace_unref(resident->pace);
     free(resident);
 }
 
@@ -110,6 +125,16 @@ const struct scene *resident_scene(const struct resident *resident)
 uint64_t resident_shape_with_code(const struct resident *resident)
 {
     return resident->newest ? snapshot_shape_with_code(resident->newest) : 0;
+}
+
+uint64_t resident_shape(const struct resident *resident)
+{
+    return resident->newest ? program_shape(resident->newest->program) : 0;
+}
+
+uint64_t resident_refused_shape(const struct resident *resident)
+{
+    return resident->refused_shape;
 }
 
 uint64_t resident_revision(const struct resident *resident)
@@ -162,35 +187,4 @@ bool renderer_poll(struct renderer *renderer, int wait_ms)
         allow_next(renderer);
     }
     return news;
-}
-
-struct pick_result resident_pick(const struct resident *resident, const struct record *record,
-                                 int width, int height, double x, double y)
-{
-    const struct snapshot *snapshot = resident->drawable ? resident->drawable : resident->newest;
-    const struct record *used = record ? record : &resident->scene->camera;
-    const struct camera camera = camera_from_record(used, width, height);
-    const double far = record_number(&resident->scene->render, "max_distance");
-    struct pick_result result = {0};
-    double origin[3], direction[3], t, print;
-
-    if (!snapshot) {
-        return result;
-    }
-    camera_ray(&camera, width, height, x, y, origin, direction);
-    t = field_march(snapshot->field, origin, direction, far, PICK_TOLERANCE * far);
-    if (t < 0) {
-        return result;
-    }
-    for (int i = 0; i < 3; i++) {
-        result.position[i] = origin[i] + t * direction[i];
-    }
-    print = camera.pixel_radius * (camera.orthographic ? 1 : t);
-    field_normal(snapshot->field, result.position, 0.5 * print + 1e-6, result.normal);
-    result.distance = t;
-    result.hit = true;
-    const char *id = field_leaf_id(snapshot->field,
-                                   field_surface(snapshot->field, result.position, NULL).number);
-    snprintf(result.node, sizeof result.node, "%s", id ? id : "");
-    return result;
 }

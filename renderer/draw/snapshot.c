@@ -22,29 +22,39 @@ static size_t number_capacity(const struct field *field)
     return capacity;
 }
 
-static bool is_refused(const struct renderer *renderer, uint64_t shape)
+/* Because of what it did to another process. */
+static bool refuse(const struct field *field, const struct scene *scene,
+                   const struct renderer_verdict *verdict, struct error *err)
 {
-    size_t i = 0;
+    const bool code = field->user_code != NULL;
+    char place[32 + LIMIT_ID_BYTES];
 
-    while (i < renderer->refused_count && renderer->refused[i] != shape) {
-        i++;
+    snprintf(place, sizeof place, "/nodes/%s", scene->root->id);
+    if (verdict->refused == ERROR_TOO_SLOW) {
+        return error_set_slow(err, code ? field->user_code->place : place,
+                              code ? "compiling this code takes" : "compiling this scene takes",
+                              verdict->measured_ms, verdict->limit_ms);
     }
-    return i < renderer->refused_count;
+    return error_set(err, verdict->refused, code ? field->user_code->place : place,
+                     "compiling this %s ended the render process", code ? "code" : "scene");
 }
 
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
-                                   bool volumes, struct error *out_warning, struct error *err)
+                                   const struct scene *scene, uint64_t *out_refused,
+                                   struct error *out_warning, struct error *err)
 {
+    const bool volumes = scene->volumes.count > 0;
     const size_t capacity = number_capacity(field);
     const uint64_t key = field->shape_hash ^ ((capacity + volumes) * UINT64_C(0x9e3779b97f4a7c15));
+    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key);
     struct program *program;
     char *map, *surface;
 
-    if (field->user_code && is_refused(renderer, key)) {
-        error_set(err, ERROR_QUARANTINED, field->user_code->place,
-                  "the shader with this code ended the render process");
+    if (verdict && verdict->refused != ERROR_NONE) {
+        *out_refused = key;
+        refuse(field, scene, verdict, err);
         return NULL;
     }
     program = program_cache_find(renderer->programs, key);
@@ -66,6 +76,7 @@ static struct program *get_program(struct renderer *renderer, const struct field
                                                          .user_code = field->user_code != NULL,
                                                          .volumes = volumes,
                                                          .shape_count = field->shape_count,
+                                                         .patience = verdict ? verdict->times : 1,
                                                          .map_count = field->material_base});
     free(map);
     free(surface);
@@ -82,21 +93,16 @@ static double scene_scale(const struct record *camera)
     return scale > 1e-6 ? scale : 1;
 }
 
-/* A field of which a program can be made. Compilers need about the square of the shapes: half a
- * minute for as many as are allowed, on a CPU. */
-static struct field *make_field(const struct scene *scene, struct error *err)
+/* What is hidden is no reason not to draw the rest. */
+static struct field *make_some_field(const struct scene *scene, const struct field_wish *wish,
+                                     struct error *err)
 {
-    struct field *field = field_compile(scene, err);
+    struct field *field = field_drawable(scene, wish, err);
+    struct field_wish less = *wish;
 
-    if (field && field->shape_count > LIMIT_DRAWN_SHAPES) {
-        char place[32 + LIMIT_ID_BYTES];
-
-        snprintf(place, sizeof place, "/nodes/%s", scene->root->id);
-        error_set(err, ERROR_LIMIT, place,
-                  "%zu visible shapes are above the maximum %d that can be drawn",
-                  field->shape_count, LIMIT_DRAWN_SHAPES);
-        field_unref(field);
-        return NULL;
+    if (!field && wish->drawn) {
+        less.drawn = NULL;
+        field = field_drawable(scene, &less, err);
     }
     return field;
 }
@@ -161,9 +167,10 @@ static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
 }
 
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, struct error *err)
+                                 uint64_t revision, const struct field_wish *wish,
+                                 uint64_t *out_refused, struct error *err)
 {
-    struct field *field = make_field(scene, err);
+    struct field *field = make_some_field(scene, wish, err);
     struct snapshot *snapshot;
     struct program *program;
     struct error warning = {0};
@@ -171,7 +178,7 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     if (!field) {
         return NULL;
     }
-    program = get_program(renderer, field, scene->volumes.count > 0, &warning, err);
+    program = get_program(renderer, field, scene, out_refused, &warning, err);
     if (!program) {
         field_unref(field);
         return NULL;

@@ -25,9 +25,11 @@ struct snapshot {
 
 struct renderer;
 
-/* Finds or starts the program. NULL and `err` when the scene is no field. */
+/* Finds or starts the program, in which what is hidden has its part where it may. NULL and `err`
+ * when the scene is no field, or its shape is refused: then that is in `*out_refused`. */
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, struct error *err);
+                                 uint64_t revision, const struct field_wish *wish,
+                                 uint64_t *out_refused, struct error *err);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* The shape of its program where there is code of users in it; else 0. */
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);

@@ -32,7 +32,8 @@ void aim(ivec2 here, Ray ray, vec4 g)
     Incoming in_light = incoming(light, p);
     vec2 span = box_span(clear_min.xyz, clear_max.xyz, p, in_light.direction);
     vec3 arrives = imageLoad(seen, ivec3(here, turn.y)).rgb;
-    bool leaving = ray.inside && g.w > 0.0;
+    bool painted = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0)).painted;
+    bool leaving = ray.inside && g.w > 0.0 && !painted;
     bool crossed = span.y > max(span.x, 0.0) && span.x < in_light.reach;
     if (t < INFINITY && crossed && !leaving && dot(g.xyz, in_light.direction) > 0.0 &&
         any(greaterThan(arrives, vec3(0.0))) && int(light.extent.z) != SHADOW_NONE) {
@@ -50,13 +51,17 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
     vec3 medium = imageLoad(media, here).rgb;
     float t = abs(g.w), left = weight.w;
     bool leaving = ray.inside && g.w > 0.0;
-    bool through_it = t < left && t < INFINITY && (leaving || s.transmission > 0.0);
+    bool reached = t < left && t < INFINITY;
+    bool through_it = reached && !s.painted && (leaving || s.transmission > 0.0);
     float c = max(-dot(ray.direction, g.xyz), 0.0);
 
     weight.rgb *= exp(-medium * (ray.inside ? min(min(t, left), bounds_max.w) : 0.0));
+    if (reached && s.painted) { /* shadow.glsl sees no side of what is clear */
+        weight.rgb = vec3(0.0);
+    }
     if (through_it) {
         float mirror = interface_mirror(s.ior, c, false); /* it is not bent: c is the one outside */
-        weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * s.diffuse;
+        weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * dye(s);
     }
     if (through_it && turn.z == 1) {
         vec3 p = ray.origin + ray.direction * t - g.xyz * (0.75 * footprint(ray, t));

@@ -139,3 +139,26 @@ vec4 code_color(vec4 c)
     }
     return vec4(1.0, 0.0, 1.0, 1.0);
 }
+
+/* What a shader says of a point: Surface of renderer/code/types.c, in its order. */
+struct CodeSurface {
+    vec3 color;
+    float metallic, roughness, reflectivity, transmission, ior;
+    vec3 emission, absorption;
+};
+
+/* Within its limits; magenta where something is no number. */
+CodeSurface code_surface(CodeSurface s)
+{
+    vec4 a = vec4(s.color, s.metallic), b = vec4(s.emission, s.roughness);
+    vec4 c = vec4(s.absorption, s.ior), d = vec4(s.reflectivity, s.transmission, 0.0, 0.0);
+    vec4 far = vec4(CODE_FAR);
+    if (!(all(lessThan(abs(a), far)) && all(lessThan(abs(b), far)) &&
+          all(lessThan(abs(c), far)) && all(lessThan(abs(d), far)))) {
+        return CodeSurface(vec3(1.0, 0.0, 1.0), 0.0, 0.5, 0.0, 0.0, 1.5, vec3(0.0), vec3(0.0));
+    }
+    return CodeSurface(clamp(s.color, 0.0, CODE_BRIGHT), clamp(s.metallic, 0.0, 1.0),
+                       clamp(s.roughness, 0.0, 1.0), clamp(s.reflectivity, 0.0, 1.0),
+                       clamp(s.transmission, 0.0, 1.0), clamp(s.ior, 1.0, 4.0),
+                       clamp(s.emission, 0.0, CODE_BRIGHT), clamp(s.absorption, 0.0, 65000.0));
+}

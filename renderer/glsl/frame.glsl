@@ -12,7 +12,7 @@
 #define SKY_SOLID 1
 #define SKY_IMAGE 2
 #define VOLUME_BOX 0
-#define VOLUME_SPHERE 1
+#define VOLUME_ELLIPSOID 1
 #define DENSITY_CONSTANT 0
 #define DENSITY_NOISE 1
 #define DENSITY_FIELD 2
@@ -33,7 +33,7 @@ struct Light {
 
 struct Volume {
     vec4 place;    /* xyz: centre; w: VOLUME_... */
-    vec4 extent;   /* xyz: half lengths, or radius; w: falloff */
+    vec4 extent;   /* xyz: half lengths, or radii; w: falloff */
     vec4 color;    /* w: density */
     vec4 emission; /* w: anisotropy */
     vec4 noise;    /* frequency, octaves, seed, height of waves above which they fill it */
@@ -52,7 +52,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 zenith;     /* w: exposure factor */
     vec4 horizon;    /* w: intensity of ambient light */
     vec4 ground;     /* w: reach of ambient occlusion */
-    vec4 panorama;   /* cosine and sine of the picture's turn, brightness, unused */
+    vec4 panorama;   /* cosine, sine of the picture's turn; brightness; strength of occlusion */
     vec4 fog_color;  /* w: density */
     vec4 fog_shape;  /* x: 1 / height of thinning, 0: none; y: base; z, w: unused */
     ivec4 size;      /* width, height in pixels; samples per axis; steps of a ray */
@@ -71,7 +71,7 @@ uniform ivec4 tile;
 #define PASS_COARSE 1 /* one for each block: march alone */
 #define PASS_LIST 2   /* those of a list: group.glsl */
 
-/* x: which sample of each pixel; y: which light; z, w: unused. */
+/* Four numbers of the pass; each says at its head what they are. */
 uniform ivec4 turn;
 
 /* Where a ray is inside of a box: entry and exit; exit < entry where it misses it. */

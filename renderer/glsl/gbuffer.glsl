@@ -8,7 +8,7 @@
  *                       z  specular, model            10 bits each, 2 bits
  *                       w  ior, transmission, reflectivity   a half, 8 bits each
  *   more      rgba32ui  x  emission                   shared exponent
- *                       y  ambient                    10 bits each, 2 unused
+ *                       y  ambient, 1 where painted   10 bits each, 2 bits
  *                       z  absorption                 shared exponent
  *                       w  id
  *
@@ -54,8 +54,8 @@ void surface_pack(Surface s, out uvec4 matter, out uvec4 more)
     uint ior = packHalf2x16(vec2(s.ior, 0.0));
     matter = uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
                    parts_pack(s.specular, s.model), ior | parts);
-    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, 0), shared_pack(s.absorption),
-                 s.id);
+    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, s.painted ? 1 : 0),
+                 shared_pack(s.absorption), s.id);
 }
 
 Surface surface_unpack(uvec4 matter, uvec4 more)
@@ -72,6 +72,7 @@ Surface surface_unpack(uvec4 matter, uvec4 more)
     s.reflectivity = parts.w;
     s.emission = shared_unpack(more.x);
     s.ambient = parts_unpack(more.y);
+    s.painted = more.y >> 30 == 1u;
     s.absorption = shared_unpack(more.z);
     s.id = more.w;
     return s;

@@ -119,37 +119,67 @@ Surface surface_begin(inout Mixture m)
     m.shares = sum > 0.0 ? m.shares / sum : vec4(1.0, 0.0, 0.0, 0.0);
     m.weight = 0.0;
     return Surface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0, -1,
-                   uint(m.leaf));
+                   false, uint(m.leaf));
 }
+
+/* Parts of a slot: its shape cuts something (renderer/field/field.h). */
+#define CUTS_CLEAR 0.25
+#define CUTS_SOLID 0.5
+
+/* A material's numbers as surface_add takes them, which its shader changes. */
+struct Paint {
+    vec4 diffuse_gloss, specular, emission, ambient, optics, absorption;
+};
+
+#ifdef USER_SHADERS
+/* With the colour that a shader gives. */
+void paint_color(inout Paint paint, vec3 color, bool unlit)
+{
+    paint.diffuse_gloss.rgb += unlit ? vec3(0.0) : color;
+    paint.emission.rgb += unlit ? color : vec3(0.0);
+}
+
+/* All of it is what a shader says. What may be clear always is a little, so that light on its way
+ * to other things finds it. In C: field_put_surface. */
+void paint_surface(inout Paint paint, CodeSurface c, bool unlit)
+{
+    if (unlit) {
+        paint.emission.rgb += c.color + c.emission;
+        return;
+    }
+    float r = (c.ior - 1.0) / (c.ior + 1.0), least = paint.optics.y > 0.0 ? 1.0 / 255.0 : 0.0;
+    vec3 mirrored = mix(vec3(max(r * r, c.reflectivity)), c.color, c.metallic);
+    float most = max(mirrored.r, max(mirrored.g, mirrored.b));
+    paint.diffuse_gloss = vec4(c.color * (1.0 - c.metallic), c.roughness);
+    paint.specular = vec4(mirrored, 0.0);
+    paint.emission = vec4(c.emission, 0.0);
+    paint.ambient = vec4(1.0);
+    paint.optics = vec4(most, max(c.transmission, least), c.ior, float(MODEL_STANDARD));
+    paint.absorption = vec4(c.absorption, 0.0);
+}
+#endif
 
 /* Adds the strongest material, of these numbers. The model is that of the first; gloss, which means
  * another thing in each model, is the mean of those that share it, and m.weight is their part. */
-void surface_add(inout Surface s, inout Mixture m, vec4 diffuse_gloss, vec4 specular, vec4 emission,
-                 vec4 ambient, vec4 optics, vec4 absorption)
+void surface_add(inout Surface s, inout Mixture m, Paint paint)
 {
-    float share = m.shares.x;
-    int model = int(optics.w);
+    float share = m.shares.x, cuts = fract(m.slots.x);
+    int model = int(paint.optics.w);
+    float goes_through = cuts == CUTS_SOLID ? 0.0 : paint.optics.y;
+    s.painted = s.model < 0 ? cuts == CUTS_CLEAR && goes_through == 0.0 : s.painted;
     s.model = s.model < 0 ? model : s.model;
     if (model == s.model) {
         m.weight += share;
-        s.gloss = mix(s.gloss, diffuse_gloss.w, share / m.weight);
+        s.gloss = mix(s.gloss, paint.diffuse_gloss.w, share / m.weight);
     }
-    s.diffuse += share * diffuse_gloss.rgb;
-    s.specular += share * specular.rgb;
-    s.emission += share * emission.rgb;
-    s.ambient += share * ambient.rgb;
-    s.reflectivity += share * optics.x;
-    s.transmission += share * optics.y;
-    s.ior += share * optics.z;
-    s.absorption += share * absorption.rgb;
-}
-
-/* Adds what the strongest material's shader gives: color, and 1 where it is not lit. */
-void surface_paint(inout Surface s, Mixture m, vec4 color)
-{
-    vec3 added = m.shares.x * color.rgb;
-    s.diffuse += color.a > 0.5 ? vec3(0.0) : added;
-    s.emission += color.a > 0.5 ? added : vec3(0.0);
+    s.diffuse += share * paint.diffuse_gloss.rgb;
+    s.specular += share * paint.specular.rgb;
+    s.emission += share * paint.emission.rgb;
+    s.ambient += share * paint.ambient.rgb;
+    s.reflectivity += share * paint.optics.x;
+    s.transmission += share * goes_through;
+    s.ior += share * paint.optics.z;
+    s.absorption += share * paint.absorption.rgb;
 }
 
 /* Leaves the strongest material behind. */

@@ -68,10 +68,11 @@ float op_morph_share(float a, float b, float t)
 #define KERNEL_EXPONENTIAL 4
 #define KERNEL_ROOT 5
 #define KERNEL_POWER 6
+#define KERNEL_POLYNOMIAL 7
 
 /* How far below the lesser of two distances their blend is, where they are x apart. The kernel is a
  * literal wherever this is called, so that one line stays of it. */
-float blend_depth(float x, float k, int kernel)
+float blend_depth(float x, float k, int kernel, float order)
 {
     float h = max(k - x, 0.0) / k, y = 1.0 - h;
     return kernel == KERNEL_CUBIC         ? k * h * h * h / 6.0
@@ -79,11 +80,12 @@ float blend_depth(float x, float k, int kernel)
            : kernel == KERNEL_CIRCULAR    ? k * (1.0 - 0.5 * (y + sqrt(2.0 - y * y)))
            : kernel == KERNEL_EXPONENTIAL ? log2(1.0 + exp2(-k * x)) / k
            : kernel == KERNEL_ROOT        ? 0.5 * k / (sqrt(x * x + k) + x)
+           : kernel == KERNEL_POLYNOMIAL  ? k * pow(h, order) / (2.0 * order)
                                           : k * h * h * 0.25;
 }
 
 /* The derivative of the blend by the greater of the two. */
-float blend_greater(float x, float k, int kernel)
+float blend_greater(float x, float k, int kernel, float order)
 {
     float h = max(k - x, 0.0) / k, y = 1.0 - h, root = sqrt(x * x + k);
     return kernel == KERNEL_CUBIC         ? 0.5 * h * h
@@ -91,6 +93,7 @@ float blend_greater(float x, float k, int kernel)
            : kernel == KERNEL_CIRCULAR    ? 0.5 - 0.5 * y / sqrt(2.0 - y * y)
            : kernel == KERNEL_EXPONENTIAL ? 1.0 / (1.0 + exp2(k * x))
            : kernel == KERNEL_ROOT        ? 0.5 * k / (root * (root + x))
+           : kernel == KERNEL_POLYNOMIAL  ? 0.5 * pow(h, order - 1.0)
                                           : 0.5 * h;
 }
 
@@ -101,21 +104,21 @@ float power_ratio(float least, float most)
 }
 
 /* The smooth minimum. */
-float smin(float a, float b, float k, int kernel)
+float smin(float a, float b, float k, int kernel, float order)
 {
     float least = min(a, b), most = max(a, b);
     if (kernel == KERNEL_POWER) {
         float part = exp2(k * log2(power_ratio(least, most)));
         return least > 0.0 ? least * exp2(-log2(1.0 + part) / k) : least;
     }
-    return least - blend_depth(most - least, k, kernel);
+    return least - blend_depth(most - least, k, kernel, order);
 }
 
 /* Share of b in the smooth minimum: its derivative by b, by the sum of both. */
-float smin_share(float a, float b, float k, int kernel)
+float smin_share(float a, float b, float k, int kernel, float order)
 {
     float least = min(a, b), most = max(a, b);
-    float greater = blend_greater(most - least, k, kernel);
+    float greater = blend_greater(most - least, k, kernel, order);
     if (kernel == KERNEL_POWER) {
         float share = exp2((k + 1.0) * log2(power_ratio(least, most)));
         greater = least > 0.0 ? share / (1.0 + share) : 0.0;
@@ -124,37 +127,37 @@ float smin_share(float a, float b, float k, int kernel)
 }
 
 /* In either, blended where the distances are near each other. */
-float op_smooth_union(float a, float b, float k, int kernel)
+float op_smooth_union(float a, float b, float k, int kernel, float order)
 {
-    return smin(a, b, k, kernel);
+    return smin(a, b, k, kernel, order);
 }
 
 /* Share of b in the smooth union. */
-float op_smooth_union_share(float a, float b, float k, int kernel)
+float op_smooth_union_share(float a, float b, float k, int kernel, float order)
 {
-    return smin_share(a, b, k, kernel);
+    return smin_share(a, b, k, kernel, order);
 }
 
 /* In both, blended. */
-float op_smooth_intersection(float a, float b, float k, int kernel)
+float op_smooth_intersection(float a, float b, float k, int kernel, float order)
 {
-    return -smin(-a, -b, k, kernel);
+    return -smin(-a, -b, k, kernel, order);
 }
 
 /* Share of b in the smooth intersection. */
-float op_smooth_intersection_share(float a, float b, float k, int kernel)
+float op_smooth_intersection_share(float a, float b, float k, int kernel, float order)
 {
-    return smin_share(-a, -b, k, kernel);
+    return smin_share(-a, -b, k, kernel, order);
 }
 
 /* In a but not in b, blended. */
-float op_smooth_difference(float a, float b, float k, int kernel)
+float op_smooth_difference(float a, float b, float k, int kernel, float order)
 {
-    return -smin(-a, b, k, kernel);
+    return -smin(-a, b, k, kernel, order);
 }
 
 /* Share of b in the smooth difference. */
-float op_smooth_difference_share(float a, float b, float k, int kernel)
+float op_smooth_difference_share(float a, float b, float k, int kernel, float order)
 {
-    return smin_share(-a, b, k, kernel);
+    return smin_share(-a, b, k, kernel, order);
 }

@@ -57,7 +57,7 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
                bool last, vec4 weight, vec3 medium, inout vec4 total)
 {
     float t = abs(g.w);
-    bool hit = t < INFINITY, solid = g.w < 0.0;
+    bool hit = t < INFINITY, solid = g.w < 0.0 || s.painted;
     float way = hit ? t : bounds_max.w;
     bool leaving = hit && ray.inside && !solid;
     vec3 n = hit ? g.xyz : vec3(0.0, 1.0, 0.0);

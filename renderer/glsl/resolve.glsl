@@ -43,26 +43,33 @@ vec3 id_color(uint id)
     return id == 0u ? vec3(0.0) : value * mix(vec3(1.0), c, 0.75);
 }
 
-/* From blue over green and yellow to red. */
-vec3 heat(float x)
+#ifdef OUT_STEPS
+/* STEPS_WHITE and STEPS_RAMP are those of protocol/picture.h. */
+vec3 steps_color(float steps)
 {
-    vec3 c = clamp(1.5 - abs(4.0 * clamp(x, 0.0, 1.0) - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
-    return c * c * (3.0 - 2.0 * c);
+    const vec3 ramp[] = STEPS_RAMP;
+    float place = clamp(steps / STEPS_WHITE, 0.0, 1.0) * float(ramp.length() - 1);
+    int i = min(int(place), ramp.length() - 2);
+    return mix(ramp[i], ramp[i + 1], place - float(i));
 }
+#endif
 
 vec3 color_of(vec4 c, float coverage)
 {
     return srgb(coverage > 0.0 ? c.rgb / coverage : vec3(0.0));
 }
 
-/* Part of the lights' light that arrives, all of them together. */
+/* Part of the light that arrives, of all lights together that throw shadows. */
 vec3 light_seen(ivec2 here)
 {
     vec3 sum = vec3(0.0);
+    float count = 0.0;
     for (int i = zero; i < modes.x; i++) {
-        sum += texelFetch(visibility, ivec3(here, i), 0).rgb;
+        bool counts_in = int(lights[i].extent.z) != SHADOW_NONE;
+        sum += counts_in ? texelFetch(visibility, ivec3(here, i), 0).rgb : vec3(0.0);
+        count += counts_in ? 1.0 : 0.0;
     }
-    return modes.x > 0 ? sum / float(modes.x) : vec3(1.0);
+    return count > 0.0 ? sum / count : vec3(1.0);
 }
 
 void main()
@@ -98,7 +105,7 @@ void main()
 #elif defined(OUT_ID_RAW)
     out_pixel = uvec4(s.id);
 #elif defined(OUT_STEPS)
-    out_pixel = vec4(heat(texelFetch(steps, here, 0).x / float(size.w)), 1.0);
+    out_pixel = vec4(steps_color(texelFetch(steps, here, 0).x), 1.0);
 #elif defined(OUT_STEPS_RAW)
     out_pixel = texelFetch(steps, here, 0).xxxx;
 #elif defined(OUT_ALBEDO)

@@ -34,7 +34,7 @@ Ways ways_at(Ray ray, vec3 n, Surface s, bool leaving, vec3 weight, bool deeper)
     vec3 outer = mirror_part(s, n, view);
     float left = 1.0 - max(outer.x, max(outer.y, outer.z));
     w.mirror = leaving ? vec3(inner) : outer;
-    w.passing = leaving ? vec3(1.0 - inner) : left * s.transmission * s.diffuse;
+    w.passing = leaving ? vec3(1.0 - inner) : left * s.transmission * dye(s);
 
     vec3 least = vec3(deeper ? clear_max.w : INFINITY);
     float sharp = leaving ? 1.0 : mirror_sharpness(s);

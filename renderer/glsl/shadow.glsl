@@ -4,8 +4,6 @@
  * SEEN(light, vec4(part in rgb, unused)). What light goes through throws no shadow here:
  * clear_pass.glsl colours its light. */
 
-#define OCCLUSION_STRENGTH 0.9
-
 /* A ray on its way to a light. */
 struct Passage {
     float far, print; /* its end; what counts as nothing */
@@ -87,17 +85,20 @@ bool soft_step(inout Passage s, float d)
     return on;
 }
 
-/* Distance of occlusion sample i, 0 and up: dense near the surface. */
+/* Occlusion is the mean over u from 0 to 1 of how much less than t the field is at
+ * t = reach * u * u along the normal, as a part of t (Evans: Fast approximations for global
+ * illumination on dynamic scenes, SIGGRAPH 2006; his sum over places, as an integral). Each sample
+ * stands for an equal part of u, at its mean t. Places nearer than `start` would be within the
+ * surface's rounding. */
 float occlusion_place(int i, float start)
 {
-    float x = float(i + 1) / float(max(effects.x, 1));
-    return start + ground.w * x * x;
+    float n = float(max(effects.x, 1)), x = float(i);
+    return max(start, ground.w * (x * (x + 1.0) + 1.0 / 3.0) / (n * n));
 }
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
- * once. Occlusion is how much less than the distance from the surface the field is along the normal
- * (Evans: Fast approximations for global illumination on dynamic scenes, SIGGRAPH 2006). The rays
- * of soft shadows go on beyond the bounds, as far as these may still cover a part of the disc. */
+ * once. The rays of soft shadows go on beyond the bounds, as far as these may still cover a part of
+ * the disc. */
 void look(vec3 p, vec3 n, float print, bool hit)
 {
     float near = 2.0 * print, lift = 1.5 * print, open = 1.0;
@@ -117,15 +118,13 @@ void look(vec3 p, vec3 n, float print, bool hit)
         int steps = outward ? effects.x : lit && kind != SHADOW_NONE && far > near ? modes.w : 0;
         Passage s = passage(near, far, print, light.color.w, lambert, lift);
         float x = outward ? occlusion_place(0, near) : near;
-        float dark = 0.0, weight = 1.0, weights = 0.0;
+        float dark = 0.0;
 
         steps = hit ? steps : 0;
         for (int i = zero; i < steps; i++) {
             float d = map(base + along * x);
             if (outward) {
-                dark += weight * clamp(1.0 - d / x, 0.0, 1.0);
-                weights += weight;
-                weight *= 0.75;
+                dark += clamp(1.0 - d / x, 0.0, 1.0);
                 x = occlusion_place(i + 1, near);
             } else {
                 bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, d);
@@ -136,7 +135,7 @@ void look(vec3 p, vec3 n, float print, bool hit)
             }
         }
         if (outward) {
-            open = 1.0 - OCCLUSION_STRENGTH * dark / max(weights, 1.0);
+            open = max(1.0 - panorama.w * dark / float(max(steps, 1)), 0.0);
             OPEN(open);
         } else {
             float seen = kind == SHADOW_HARD ? hard_end(s) : s.seen;

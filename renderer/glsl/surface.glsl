@@ -16,8 +16,16 @@ struct Surface {
     float transmission; /* part of the light that goes through */
     float ior;
     int model;
+    bool painted; /* the cut of something clear, which light does not go through */
     uint id; /* 1 + pre-order index of the leaf */
 };
+
+/* What is left of white light that goes through the outside, into it. The colour of a standard
+ * surface dyes it, as glTF's does; a phong surface that hides little has little of its colour. */
+vec3 dye(Surface s)
+{
+    return s.model == MODEL_STANDARD ? s.diffuse : vec3(1.0);
+}
 
 /* How a point of it is seen. */
 struct Shading {

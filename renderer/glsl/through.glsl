@@ -8,8 +8,26 @@ const float FAR = 1e9;
  * those that it does not go through are. */
 float through = 0.0;
 
-/* The distance of a shape that may be away; `clear` is the fourth number of its head. */
-float hidden(float d, float clear)
+/* The distance of a shape that may be away; `clear` and `away` are the last numbers of its head. */
+float hidden(float d, float clear, float away)
 {
-    return d + max(clear * through, 0.0);
+    return d + max(clear * through, away);
+}
+
+/* A distance that may be no number, which does not matter where it is away. */
+float unless_away(float d, float away)
+{
+    return away > 0.0 ? 0.0 : d;
+}
+
+/* What two distances make, or one of them alone: -1 the first, 1 the second. */
+float sided(float d, float a, float b, float side)
+{
+    return side == 0.0 ? d : side > 0.0 ? b : a;
+}
+
+/* The share of the second in that. */
+float sided_share(float share, float side)
+{
+    return side == 0.0 ? share : max(side, 0.0);
 }

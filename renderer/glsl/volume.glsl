@@ -16,10 +16,26 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
     if (int(volume.place.w) == VOLUME_BOX) {
         return box_span(-volume.extent.xyz, volume.extent.xyz, from, direction);
     }
-    float middle = -dot(from, direction);
-    vec3 aside = from + middle * direction;
-    float half_way = volume.extent.x * volume.extent.x - dot(aside, aside);
+    /* In lengths of the radii it is the unit ball. */
+    vec3 place = from / volume.extent.xyz, way = direction / volume.extent.xyz;
+    float part = 1.0 / dot(way, way), middle = -dot(place, way) * part;
+    vec3 aside = place + middle * way;
+    float half_way = (1.0 - dot(aside, aside)) * part;
     return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
+}
+
+/* How far inside of it a place is, `from` its centre. Of an ellipsoid: true at the rim (Quilez:
+ * ellipsoid SDF, 2008) and in the middle, and between them something between. */
+float volume_rim(Volume volume, vec3 from)
+{
+    if (int(volume.place.w) == VOLUME_BOX) {
+        vec3 sides = volume.extent.xyz - abs(from);
+        return min(sides.x, min(sides.y, sides.z));
+    }
+    vec3 radii = volume.extent.xyz, place = from / radii;
+    float k = length(place), slope = length(place / radii);
+    float least = min(radii.x, min(radii.y, radii.z));
+    return (1.0 - k) * (slope > 0.0 ? mix(least, k / slope, min(k, 1.0)) : least);
 }
 
 /* Sum of octaves, each with twice the frequency and half of the height of the one before, and
@@ -40,9 +56,8 @@ float waves_at(vec3 p, int octaves, uint seed)
 /* Density at p, which is d from the scene. */
 float volume_density(Volume volume, vec3 p, float d)
 {
-    vec3 from = p - volume.place.xyz, sides = volume.extent.xyz - abs(from);
-    float rim = int(volume.place.w) == VOLUME_BOX ? min(sides.x, min(sides.y, sides.z))
-                                                  : volume.extent.x - length(from);
+    vec3 from = p - volume.place.xyz;
+    float rim = volume_rim(volume, from);
     float density = volume.color.w * smoothstep(0.0, max(volume.extent.w, 1e-6), rim);
     int source = int(volume.source.x);
     int octaves = source == DENSITY_NOISE && rim > 0.0 ? int(volume.noise.y) : 0;
@@ -147,7 +162,7 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
         Incoming lamp = incoming(lights[i], p);
         Walk walk = walk_towards(lights[i], lamp, p, on_surface);
         float end = i < modes.x ? walk.end : -1.0;
-        float at = 0.0, stride = 0.0, smoky = 0.0, depth = 0.0, before = 0.0, open = 1.0;
+        float at = 0.0, smoky = 0.0, gone = 0.0, depth = 0.0, before = 0.0, open = 1.0;
 
         for (int k = zero; k <= 3 * counts.y; k++) {
             through = k == 0 ? 0.0 : FAR;
@@ -157,6 +172,7 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
                 here = smoke;
             } else {
                 depth += 0.5 * smoky * (before + smoke.density);
+                gone += smoky;
                 open = walk.sharpness > 0.0 ? min(open, walk.sharpness * d / at) : 1.0;
             }
             if (at >= end || open < 0.004 || !(on_surface || here.density > 0.0)) {
@@ -165,12 +181,13 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
             bool in_smoke = at >= walk.first && at < walk.last;
             float room = in_smoke ? min(walk.longest, walk.last - at)
                                   : (at < walk.first ? walk.first : end) - at;
-            stride = walk.sharpness > 0.0 ? min(max(d, 0.1 * walk.longest), room) : room;
+            float stride = walk.sharpness > 0.0 ? min(max(d, 0.1 * walk.longest), room) : room;
             smoky = in_smoke ? stride : 0.0;
             before = smoke.density;
             at += stride;
         }
-        float left = exp(-depth);
+        /* Out of steps, as close to a surface: as if all went on as it went. */
+        float left = exp(-depth * (gone > 0.0 ? (walk.last - walk.first) / gone : 1.0));
         open = max(open, 0.0);
         if (on_surface && i < modes.x && shadow_sharpness(lights[i]) > 0.0) {
             DIMMED(i, left);

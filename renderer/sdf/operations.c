@@ -39,9 +39,10 @@ static double combine_morph(double a, double b, const double *n, double *out_sha
     return a * (1 - n[0]) + b * n[0];
 }
 
-/* --- blends: n = k, kernel --- */
+/* --- blends: n = k, kernel, order --- */
 
-enum kernel { QUADRATIC, CUBIC, QUARTIC, CIRCULAR, EXPONENTIAL, ROOT, POWER }; /* registry order */
+/* In the order of the registry. */
+enum kernel { QUADRATIC, CUBIC, QUARTIC, CIRCULAR, EXPONENTIAL, ROOT, POWER, POLYNOMIAL };
 
 #define K_MIN 1e-7 /* nothing divides by less */
 /* Below, the power kernel is nearly 0 even far from all surfaces, so that no ray gets anywhere. */
@@ -61,6 +62,7 @@ static void blend_scale(double *n, double scale)
     case CUBIC:
     case QUARTIC:
     case CIRCULAR:
+    case POLYNOMIAL:
         n[0] *= scale;
         break;
     case EXPONENTIAL:
@@ -77,10 +79,10 @@ static void blend_scale(double *n, double scale)
 /* How far below the lesser of two distances their blend is, where they are x apart, and its
  * derivative by the greater. Written so that nothing is the difference of great numbers: floats
  * keep their digits far away too. The power kernel is no function of x. */
-static double blend_depth(double x, double k, enum kernel kernel, double *out_greater)
+static double blend_depth(double x, double k, const double *n, double *out_greater)
 {
     double h = fmax(k - x, 0) / k, y = 1 - h, root;
-    switch (kernel) {
+    switch ((enum kernel)n[1]) {
     case CUBIC:
         *out_greater = h * h / 2;
         return k * h * h * h / 6;
@@ -98,6 +100,9 @@ static double blend_depth(double x, double k, enum kernel kernel, double *out_gr
         root = sqrt(x * x + k);
         *out_greater = k / (2 * root * (root + x));
         return k / (2 * (root + x));
+    case POLYNOMIAL:
+        *out_greater = pow(h, n[2] - 1) / 2;
+        return k * pow(h, n[2]) / (2 * n[2]);
     case QUADRATIC:
     case POWER:
         break;
@@ -125,7 +130,7 @@ static double smin(double a, double b, const double *n, double *out_share)
     enum kernel kernel = (enum kernel)n[1];
     double least = fmin(a, b), most = fmax(a, b), greater;
     double d = kernel == POWER ? power_blend(least, most, n[0], &greater)
-                               : least - blend_depth(most - least, n[0], kernel, &greater);
+                               : least - blend_depth(most - least, n[0], n, &greater);
     *out_share = b < a ? 1 - greater : greater;
     return d;
 }
@@ -147,7 +152,7 @@ static double blend_lowered(const double *n, size_t count)
     enum kernel kernel = (enum kernel)n[1];
     double k = blend_k(n), x = 0, greater;
     for (size_t i = 1; i < count && kernel != POWER; i++) {
-        x += blend_depth(x, k, kernel, &greater);
+        x += blend_depth(x, k, n, &greater);
     }
     return x;
 }
@@ -159,13 +164,19 @@ static double blend_stretched(const double *n, size_t count)
     return power ? pow((double)count, 1 / blend_k(n)) : 1;
 }
 
+/* Only polynomials and the circle end. */
+static bool blend_feels_far(const double *n)
+{
+    return (enum kernel)n[1] >= EXPONENTIAL;
+}
+
 const struct sdf sdf_operations[] = {
     {"union", .combine = combine_union, .rule = SDF_ANY},
     {"intersection", .combine = combine_intersection, .rule = SDF_ALL},
     {"difference", .combine = combine_difference, .rule = SDF_FIRST},
     {"exclusive", .combine = combine_exclusive, .rule = SDF_ANY},
     {"smooth_union", .scale = blend_scale, .combine = smin, .rule = SDF_ANY, .soft = true,
-     .lowered = blend_lowered, .stretched = blend_stretched},
+     .feels_far = blend_feels_far, .lowered = blend_lowered, .stretched = blend_stretched},
     {"smooth_intersection", .scale = blend_scale, .combine = combine_smooth_intersection,
      .rule = SDF_ALL, .soft = true},
     {"smooth_difference", .scale = blend_scale, .combine = combine_smooth_difference,

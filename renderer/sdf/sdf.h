@@ -70,7 +70,10 @@ struct sdf {
     /* KIND_COMBINE: `*out_share` is the derivative by `b`, in magnitude; `a` has the rest. */
     double (*combine)(double a, double b, const double *n, double *out_share);
     enum sdf_rule rule;
-    bool soft;       /* shares between 0 and 1 occur */
+    bool soft; /* shares between 0 and 1 occur */
+    /* SDF_ANY only: whether an operand that is FIELD_FAR away changes the other in double
+     * precision; NULL: no. Depends on choices alone. */
+    bool (*feels_far)(const double *n);
     size_t operands; /* only the first so many children count; 0: all */
 
     /* KIND_DISTANCE */

@@ -11,6 +11,7 @@
 #include "protocol/json.h"
 #include "tests/support/compiled.h"
 #include "tests/support/probe.h"
+#include "tests/support/progress.h"
 #include "tests/support/random_scene.h"
 
 /* Half side of the cube of points: with the shapes in it, the size of the scenes. */
@@ -76,36 +77,11 @@ static void compare_distances(size_t index, size_t points)
     }
 }
 
-/* The leaf and material may differ only where two leaves are nearly equal: then they are those of
- * the C evaluator nearby. */
-static bool surface_agrees(const struct field *field, const float point[3],
-                           const struct probe_answer *answer)
-{
-    double p[3];
-    to_double(point, p);
-    for (int corner = -1; corner < 8; corner++) {
-        double q[3];
-        for (int j = 0; j < 3; j++) {
-            q[j] = p[j] + (corner < 0 ? 0 : (corner >> j & 1) ? 1e-4 : -1e-4);
-        }
-        struct field_surface want = field_surface(field, q, NULL);
-        bool same = want.number == answer->leaf;
-        for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
-            /* Blends as narrow as 0.15 change by 1/(2k) per unit; the numbers are up to 4. */
-            same = same && fabs(want.material[j] - answer->material[j]) <= 0.01;
-        }
-        if (same) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void compare_surfaces(size_t index, size_t points)
 {
     for (size_t i = 0; i < points; i++) {
         const struct probe_answer *answer = &batch.answers[index * points + i];
-        if (!surface_agrees(batch.fields[index], batch.points[i], answer)) {
+        if (!probe_agrees(batch.fields[index], batch.points[i], answer)) {
             fail_scene(index, "surfaces differ, leaf", answer->leaf, i);
         }
     }
@@ -222,6 +198,7 @@ static void nested_scenes_agree(void **state)
         limits.depth = 1 + i % 8;
         batch_add_random(&random, random_type(&random, kind, &limits), -1, 0, &limits);
         if (batch.count == FIELDS_MAX) {
+            progress("%d scenes", i + 1);
             plan.surface = i % 5 == 0; /* it takes more than twice as long to compile */
             check_batch(&random, &limits, plan);
         }

@@ -59,6 +59,12 @@ static double quartic(double a, double b, double k)
     return fmin(a, b) - pow(step_of(a, b, k), 4) * k / 8;
 }
 
+/* min(a, b) - max(k - |a - b|, 0)^n / (2 n k^(n - 1)), of any order. */
+static double polynomial(double a, double b, double k, int n)
+{
+    return fmin(a, b) - pow(fmax(k - fabs(a - b), 0), n) / (2 * n * pow(k, n - 1));
+}
+
 static double circular(double a, double b, double k)
 {
     double y = 1 - step_of(a, b, k);
@@ -83,12 +89,12 @@ static double power_form(double a, double b, double k)
 
 static const struct closed_form {
     const char *kernel;
-    double (*blend)(double a, double b, double k);
+    double (*blend)(double a, double b, double k); /* NULL: polynomial, which has an order */
     bool compact;
 } closed_forms[] = {
-    {"quadratic", quadratic, true},      {"cubic", cubic, true}, {"quartic", quartic, true},
-    {"circular", circular, true},        {"root", root, false},  {"power", power_form, false},
-    {"exponential", exponential, false},
+    {"quadratic", quadratic, true},      {"cubic", cubic, true},     {"quartic", quartic, true},
+    {"circular", circular, true},        {"root", root, false},      {"power", power_form, false},
+    {"exponential", exponential, false}, {"polynomial", NULL, true},
 };
 
 static const struct closed_form *closed_form_of(size_t kernel)
@@ -103,11 +109,22 @@ static const struct closed_form *closed_form_of(size_t kernel)
     return NULL;
 }
 
-static double smooth_union(double a, double b, double k, size_t kernel)
+/* n = k, kernel, order. */
+static double printed(double a, double b, const double n[3])
 {
-    const double n[2] = {k, (double)kernel};
+    const struct closed_form *form = closed_form_of((size_t)n[1]);
+    return form->blend ? form->blend(a, b, n[0]) : polynomial(a, b, n[0], (int)n[2]);
+}
+
+static double smooth_union(double a, double b, const double n[3])
+{
     double share;
     return row("smooth_union")->combine(a, b, n, &share);
+}
+
+static double random_order(struct random *random)
+{
+    return 2 + (double)random_below(random, 15);
 }
 
 static void kernels_are_their_printed_formulas(void **state)
@@ -116,17 +133,41 @@ static void kernels_are_their_printed_formulas(void **state)
     struct random random = {31};
     assert_int_equal(kernel_count(), sizeof closed_forms / sizeof closed_forms[0]);
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
-        const struct closed_form *form = closed_form_of(kernel);
         for (int i = 0; i < 2000; i++) {
             double a = random_between(&random, -3, 3), k = random_between(&random, 0.05, 3);
-            double b = a + random_between(&random, -1, 1) * (i % 2 ? 4 : 0.5);
-            double n[2] = {k, (double)kernel}, share, low = form->blend(a, b, k);
-            double high = -form->blend(-a, -b, k), cut = -form->blend(-a, b, k);
-            assert_true(fabs(smooth_union(a, b, k, kernel) - low) < 1e-9);
-            assert_true(smooth_union(a, b, k, kernel) == smooth_union(b, a, k, kernel));
+            double b = a + random_between(&random, -1, 1) * (i % 2 ? 4 : 0.5), share;
+            double n[3] = {k, (double)kernel, random_order(&random)};
+            double low = printed(a, b, n), high = -printed(-a, -b, n), cut = -printed(-a, b, n);
+            assert_true(fabs(smooth_union(a, b, n) - low) < 1e-9);
+            assert_true(smooth_union(a, b, n) == smooth_union(b, a, n));
             assert_true(fabs(row("smooth_intersection")->combine(a, b, n, &share) - high) < 1e-9);
             assert_true(fabs(row("smooth_difference")->combine(a, b, n, &share) - cut) < 1e-9);
         }
+    }
+}
+
+static double kernel_index(const char *name)
+{
+    size_t kernel = 0;
+    while (strcmp(kernel_param()->choices[kernel], name) != 0) {
+        kernel++;
+    }
+    return (double)kernel;
+}
+
+static void orders_with_names_are_polynomials(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"quadratic", "cubic", "quartic"};
+    struct random random = {38};
+    for (int i = 0; i < 3000; i++) {
+        double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1);
+        const double named[3] = {0.7, kernel_index(names[i % 3]), 9};
+        const double order[3] = {0.7, kernel_index("polynomial"), 2 + i % 3};
+        double share, other;
+        double d = row("smooth_union")->combine(a, b, named, &share);
+        assert_true(fabs(d - row("smooth_union")->combine(a, b, order, &other)) < 1e-12);
+        assert_true(fabs(share - other) < 1e-12);
     }
 }
 
@@ -136,12 +177,15 @@ static void compact_kernels_reach_as_far_as_k(void **state)
     struct random random = {32};
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (int i = 0; i < 1000 && closed_form_of(kernel)->compact; i++) {
-            double a = random_between(&random, -3, 3), k = random_between(&random, 0.01, 2);
+            const double n[3] = {random_between(&random, 0.01, 2), (double)kernel,
+                                 random_order(&random)};
+            double a = random_between(&random, -3, 3), k = n[0];
             double sign = i % 2 ? 1 : -1, beyond = k * random_between(&random, 1, 3);
-            double within = k * random_between(&random, 0, 0.95);
-            assert_true(smooth_union(a, a + sign * beyond, k, kernel) ==
-                        fmin(a, a + sign * beyond));
-            assert_true(smooth_union(a, a + sign * within, k, kernel) < fmin(a, a + sign * within));
+            /* Nearer to k a high order has less left than doubles have digits. */
+            double within =
+                k * random_between(&random, 0, closed_form_of(kernel)->blend ? 0.95 : 0.8);
+            assert_true(smooth_union(a, a + sign * beyond, n) == fmin(a, a + sign * beyond));
+            assert_true(smooth_union(a, a + sign * within, n) < fmin(a, a + sign * within));
         }
     }
 }
@@ -154,7 +198,7 @@ static void far_operands_do_no_harm(void **state)
     for (size_t kernel = 0; kernel < kernel_count(); kernel++) {
         for (size_t i = 0; i < 7 * 7 * 5; i++) {
             double a = far[i % 7], b = far[i / 7 % 7], share;
-            const double n[2] = {ks[i / 49], (double)kernel};
+            const double n[3] = {ks[i / 49], (double)kernel, 2 + (double)(i % 15)};
             double d = row("smooth_union")->combine(a, b, n, &share);
             assert_true(isfinite(d) && d <= fmin(a, b) && share >= 0 && share <= 1);
             /* Where one is far nearer, nothing is left of the other. */
@@ -175,15 +219,16 @@ static size_t kernels_of(const struct node_type *type)
 
 /* Numbers of a row with the kernel, where it has one. */
 static void random_numbers_of(struct random *random, const struct node_type *type, size_t kernel,
-                              double n[2])
+                              double n[3])
 {
     bool power = kernels_of(type) > 1 && closed_form_of(kernel)->blend == power_form;
     n[0] = type->record.params[0].name ? random_between(random, 0.05, 1) : 0;
     n[0] = power ? 1 + 3 * n[0] : n[0];
     n[1] = (double)kernel;
+    n[2] = random_order(random);
 }
 
-typedef void check(struct random *random, const struct node_type *type, const double n[2]);
+typedef void check(struct random *random, const struct node_type *type, const double n[3]);
 
 static void for_each_operation(struct random *random, int rounds, check *run)
 {
@@ -191,7 +236,7 @@ static void for_each_operation(struct random *random, int rounds, check *run)
         const struct node_type *type = node_type_at(i);
         for (size_t kernel = 0; type->kind == KIND_COMBINE && kernel < kernels_of(type); kernel++) {
             for (int round = 0; round < rounds; round++) {
-                double n[2];
+                double n[3];
                 random_numbers_of(random, type, kernel, n);
                 run(random, type, n);
             }
@@ -211,7 +256,7 @@ static bool is_edge(double a, double b)
     return fmin(fabs(a - b), fmin(fabs(a + b), fmin(fabs(a), fabs(b)))) < 1e-3;
 }
 
-static void check_share(struct random *random, const struct node_type *type, const double n[2])
+static void check_share(struct random *random, const struct node_type *type, const double n[3])
 {
     const double h = 1e-5;
     double a = random_between(random, -1, 1), b = random_between(random, -1, 1), share;
@@ -235,7 +280,7 @@ static void shares_are_derivatives(void **state)
 }
 
 /* Where both operands change by at most so much, so does the result: near, far, over every edge. */
-static void check_steepness(struct random *random, const struct node_type *type, const double n[2])
+static void check_steepness(struct random *random, const struct node_type *type, const double n[3])
 {
     double a = random_between(random, -1, 1), step = pow(10, random_between(random, -4, 0.5));
     double b = random_below(random, 2) ? a + random_between(random, -0.1, 0.1)
@@ -266,7 +311,7 @@ static double fold(const struct node_type *type, const double *operands, size_t 
 
 /* How far below its operands a fold comes, and how small a part of them: as far as the row says,
  * which equal operands need. */
-static void check_lowered(struct random *random, const struct node_type *type, const double n[2])
+static void check_lowered(struct random *random, const struct node_type *type, const double n[3])
 {
     const struct sdf *sdf = sdf_find(type);
     double operands[OPERANDS_MAX] = {0}, least = INFINITY;
@@ -294,7 +339,7 @@ static void blends_are_lowered_as_far_as_they_say(void **state)
     struct random random = {35};
     for_each_operation(&random, 2000, check_lowered);
     /* Very many children of one blend. */
-    const double n[2] = {0.1, 0};
+    const double n[3] = {0.1, 0, 0};
     assert_true(row("smooth_union")->lowered(n, 10000) <= 0.1);
 }
 
@@ -344,8 +389,8 @@ static char *operation_text(const struct node_type *type, const double n[2], con
         snprintf(numbers, sizeof numbers, "\"%s\":%.9g", params[0].name, n[0]);
     }
     if (kernels_of(type) > 1) {
-        snprintf(numbers + strlen(numbers), sizeof numbers - strlen(numbers), ",\"kernel\":\"%s\"",
-                 kernel_param()->choices[(size_t)n[1]]);
+        snprintf(numbers + strlen(numbers), sizeof numbers - strlen(numbers),
+                 ",\"kernel\":\"%s\",\"order\":%g", kernel_param()->choices[(size_t)n[1]], n[2]);
     }
     if (asprintf(&text, "{\"type\":\"%s\",\"params\":{%s}%s," BALLS "}", type->record.name, numbers,
                  more) < 0) {
@@ -354,7 +399,7 @@ static char *operation_text(const struct node_type *type, const double n[2], con
     return text;
 }
 
-static void check_in_scenes(struct random *random, const struct node_type *type, const double n[2])
+static void check_in_scenes(struct random *random, const struct node_type *type, const double n[3])
 {
     char more[96];
     double scale = pow(2, random_between(random, -4, 4));
@@ -422,8 +467,7 @@ static void exclusive_is_an_odd_number_of_children(void **state)
 static void a_power_is_at_least_one(void **state)
 {
     (void)state;
-    double small[2] = {0.1, (double)(kernel_count() - 1)}, one[2] = {1, small[1]};
-    assert_string_equal(kernel_param()->choices[(size_t)one[1]], "power");
+    double small[3] = {0.1, kernel_index("power"), 0}, one[3] = {1, small[1], 0};
     row("smooth_union")->scale(small, 7);
     row("smooth_union")->scale(one, 0.1);
     assert_true(small[0] == 1 && one[0] == 1);
@@ -455,6 +499,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kernels_are_their_printed_formulas),
+        cmocka_unit_test(orders_with_names_are_polynomials),
         cmocka_unit_test(compact_kernels_reach_as_far_as_k),
         cmocka_unit_test(far_operands_do_no_harm),
         cmocka_unit_test(shares_are_derivatives),

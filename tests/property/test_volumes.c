@@ -105,10 +105,26 @@ static double way_inside(const double d[3], const double centre[3], const double
     return fmax(leave - enter, 0);
 }
 
+/* The same within an ellipsoid: a ball, in lengths of its radii. */
+static double way_in_egg(const double d[3], const double centre[3], const double radii[3])
+{
+    double a = 0, b = 0, c = -1;
+    for (int i = 0; i < 3; i++) {
+        const double way = d[i] / radii[i], from = ((i == 2 ? 5 : 0) - centre[i]) / radii[i];
+        a += way * way;
+        b += way * from;
+        c += from * from;
+    }
+    return b * b > a * c ? 2 * sqrt(b * b - a * c) / a : 0;
+}
+
 #define PLAIN "\"source\":\"constant\",\"falloff\":0,"
 #define BLACK PLAIN "\"color\":[0,0,0],"
 #define A_BOX "{\"type\":\"box\"," BLACK "\"density\":0.8}"
 #define A_BALL "{\"type\":\"sphere\"," BLACK "\"density\":2,\"position\":[0.3,0.2,-1]}"
+#define AN_EGG                                                                                     \
+    "{\"type\":\"ellipsoid\"," BLACK                                                               \
+    "\"density\":2,\"position\":[0.3,0.2,-1],\"radii\":[0.6,1.1,1.7]}"
 #define TWO_BOXES                                                                                  \
     "{\"type\":\"box\"," BLACK "\"density\":0.5},"                                                 \
     "{\"type\":\"box\"," BLACK "\"density\":1.5,\"size\":[1,3,1],\"position\":[0.4,0,0.8]}"
@@ -144,6 +160,51 @@ static void what_is_let_through(void **state)
         }
         image_finish(&image);
     }
+}
+
+static void an_egg_lets_through_what_a_stretched_ball_does(void **state)
+{
+    (void)state;
+    static const double centre[3] = {0.3, 0.2, -1}, radii[3] = {0.6, 1.1, 1.7};
+    int inside = 0;
+    struct image image =
+        draw(&(struct setting){.camera = perspective, .volumes = AN_EGG, .around = 1});
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            double d[3];
+            pixel_ray(x, y, d);
+            const double way = way_in_egg(d, centre, radii);
+            assert_near(red(&image, x, y), exp(-2 * way), 0.01, "an egg", x, y);
+            inside += way > 0;
+        }
+    }
+    image_finish(&image);
+    assert_true(inside > 30);
+}
+
+/* Seen along z through its middle: the density grows over the falloff, from either end. */
+static void density_grows_from_the_rim_of_an_egg(void **state)
+{
+    (void)state;
+    static const char *const shapes[] = {"\"type\":\"sphere\",\"radius\":8",
+                                         "\"type\":\"ellipsoid\",\"radii\":[8,8,8]",
+                                         "\"type\":\"ellipsoid\",\"radii\":[30,50,8]"};
+    double found[3];
+    for (int i = 0; i < 3; i++) {
+        char volume[300];
+        snprintf(volume, sizeof volume,
+                 "{%s,\"source\":\"constant\",\"falloff\":2,\"color\":[0,0,0],"
+                 "\"position\":[0,0,-10],\"density\":0.1}",
+                 shapes[i]);
+        struct image image = draw(&(struct setting){
+            .camera = along_z, .volumes = volume, .around = 1, .render = ",\"level\":\"final\""});
+        found[i] = red(&image, WIDTH / 2, HEIGHT / 2);
+        image_finish(&image);
+    }
+    /* smoothstep is a half on average over its way */
+    assert_near(found[0], exp(-0.1 * (16 - 2)), 0.02, "a ball", 0, 0);
+    assert_near(found[1], found[0], 1e-4, "three radii alike", 0, 0);
+    assert_near(found[2], found[0], 0.02, "a flat one", 0, 0);
 }
 
 static void emission_and_absorption(void **state)
@@ -271,6 +332,30 @@ static void the_scene_throws_shadows(void **state)
     image = draw(&s);
     assert_near(red(&image, WIDTH / 2, 3 * HEIGHT / 4), lit, 0.05, "off", WIDTH / 2,
                 3 * HEIGHT / 4);
+    image_finish(&image);
+}
+
+/* Light that comes low over a floor, beside which steps are short: the part that is scattered at a
+ * place is dimmed by the smoke on its way, of which none may be left out. Along z all is alike. */
+static void smoke_close_to_a_floor_dims_as_elsewhere(void **state)
+{
+    (void)state;
+    static const double density = 0.6, up = 0.2;
+    const double across = sqrt(1 - up * up), all = 1 - exp(-density * 4);
+    struct image image = draw(&(struct setting){
+        .camera = "\"type\":\"orthographic\",\"position\":[0,-0.75,5],\"target\":[0,-0.75,0],"
+                  "\"height\":0.1",
+        .volumes = "{\"type\":\"box\"," PLAIN "\"density\":0.6,\"color\":[1,1,1],"
+                   "\"position\":[4,0,0],\"size\":[16,1.6,4]}",
+        .children = "{\"type\":\"plane\",\"params\":{\"offset\":-0.8}}",
+        .lights = "{\"type\":\"directional\",\"intensity\":30,\"shadow\":\"hard\","
+                  "\"direction\":[-0.9797958971,-0.2,0]}"});
+    for (int y = 0; y < HEIGHT - 1; y++) { /* the last row may be the floor */
+        const double height = -0.75 + 0.1 * (0.5 - (y + 0.5) / HEIGHT);
+        const double way = fmin((0.8 - height) / up, 12 / across);
+        assert_near(red(&image, WIDTH / 2, y), 30 * phase(0, 0) * all * exp(-density * way), 0.02,
+                    "light", WIDTH / 2, y);
+    }
     image_finish(&image);
 }
 
@@ -440,11 +525,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_let_through),
+        cmocka_unit_test(an_egg_lets_through_what_a_stretched_ball_does),
+        cmocka_unit_test(density_grows_from_the_rim_of_an_egg),
         cmocka_unit_test(emission_and_absorption),
         cmocka_unit_test(light_scattered_once),
         cmocka_unit_test(what_is_behind_a_wall_is_not_there),
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(the_scene_throws_shadows),
+        cmocka_unit_test(smoke_close_to_a_floor_dims_as_elsewhere),
         cmocka_unit_test(smoke_throws_shadows),
         cmocka_unit_test(density_by_field),
         cmocka_unit_test(noise_fills_its_part),
