@@ -50,7 +50,8 @@ static bool check_type(struct checker *checker, struct variable *variable)
         return CHECK_FAIL(checker, variable->at, "%s cannot be the type of a %s",
                           type_name(variable->type, name), parameter ? "parameter" : "variable");
     }
-    if (type_is_handle(variable->type) && (variable->length || variable->unsized)) {
+    if ((type_is_handle(variable->type) || type_is_surface(variable->type)) &&
+        (variable->length || variable->unsized)) {
         return CHECK_FAIL(checker, variable->at, "there are no arrays of %s",
                           type_name(variable->type, name));
     }
@@ -362,7 +363,8 @@ static bool declare_parameters(struct checker *checker, const struct param *para
         [PARAM_FLOAT] = {BASE_FLOAT, 1, 1, 0}, [PARAM_INT] = {BASE_INT, 1, 1, 0},
         [PARAM_BOOL] = {BASE_BOOL, 1, 1, 0},   [PARAM_VEC2] = {BASE_FLOAT, 2, 1, 0},
         [PARAM_VEC3] = {BASE_FLOAT, 3, 1, 0},  [PARAM_VEC4] = {BASE_FLOAT, 4, 1, 0},
-        [PARAM_COLOR] = {BASE_FLOAT, 3, 1, 0},
+        [PARAM_IVEC2] = {BASE_INT, 2, 1, 0},   [PARAM_IVEC3] = {BASE_INT, 3, 1, 0},
+        [PARAM_IVEC4] = {BASE_INT, 4, 1, 0},   [PARAM_COLOR] = {BASE_FLOAT, 3, 1, 0},
     };
     enum { DATA_MIN = 8 };
     struct tree *tree = checker->tree;
@@ -393,7 +395,7 @@ static bool is_entry(const struct function *f, enum code_use use)
     }
     if (use == CODE_SHADE) {
         bool color = f->result.base == BASE_FLOAT && f->result.rows >= 3 && f->result.columns == 1;
-        return color && strcmp(f->name->text, "shade") == 0 &&
+        return (color || type_is_surface(f->result)) && strcmp(f->name->text, "shade") == 0 &&
                (!p || (p->type.base == BASE_FRAGMENT && !q));
     }
     return type_is(f->result, BASE_FLOAT) && p && type_equal(p->type, type_vector(BASE_FLOAT, 3)) &&

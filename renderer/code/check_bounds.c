@@ -104,6 +104,7 @@ static long size_of(const struct expr *expr)
     case EXPR_VARIABLE:
     case EXPR_SWIZZLE:
     case EXPR_FIELD:
+    case EXPR_PART:
     case EXPR_DATA:
         return 0;
     case EXPR_INDEX:

@@ -91,7 +91,7 @@ static bool check_components(struct checker *checker, struct expr *expr)
         bool whole_matrix =
             type_is_matrix(arg->type) && (expr->arg_count > 1 || type.base != BASE_FLOAT);
         ok = ok && arg->type.count == 0 && type_components(arg->type) > 0 && !whole_matrix &&
-             have < want; /* else it would not be used at all */
+             !type_is_surface(arg->type) && have < want; /* else it would not be used at all */
         have += type_components(arg->type);
     }
     if (expr->arg_count == 1) {
@@ -107,6 +107,24 @@ static bool check_components(struct checker *checker, struct expr *expr)
     return check_fold(checker, expr);
 }
 
+/* Surface(), or Surface(color): all else is the default. */
+static bool check_surface(struct checker *checker, struct expr *expr)
+{
+    if (!check_arguments(checker, expr)) {
+        return false;
+    }
+    if (expr->arg_count > 1) {
+        return CHECK_FAIL(checker, expr->at, "Surface takes a color or nothing, not %d arguments",
+                          expr->arg_count);
+    }
+    if (!expr->args) {
+        expr->value = surface_defaults;
+        return true;
+    }
+    return check_fit(checker, &expr->args, type_vector(BASE_FLOAT, 3), "the color") &&
+           check_fold(checker, expr);
+}
+
 bool check_list(struct checker *checker, struct expr *list, struct type *type, bool unsized)
 {
     if (unsized) {
@@ -115,6 +133,9 @@ bool check_list(struct checker *checker, struct expr *list, struct type *type, b
                                    LIMIT_CODE_ARRAY, "code_array");
         }
         type->count = (uint8_t)list->arg_count;
+    }
+    if (type_is_surface(*type)) {
+        return CHECK_FAIL(checker, list->at, "{ } is no value of Surface; set its members");
     }
     list->list = false;
     list->type = *type;
@@ -139,6 +160,10 @@ bool check_construct(struct checker *checker, struct expr *expr)
     if (expr->type.base == BASE_VOID || type_is_handle(expr->type)) {
         return CHECK_FAIL(checker, expr->at, "no value of %s can be made",
                           type_name(expr->type, name));
+    }
+    if (type_is_surface(expr->type)) {
+        return expr->array ? CHECK_FAIL(checker, expr->at, "there are no arrays of Surface")
+                           : check_surface(checker, expr);
     }
     if (expr->array) {
         bool unsized = !expr->a;

@@ -163,8 +163,9 @@ static bool check_comparison(struct checker *checker, struct expr *expr)
     bool ok = order ? type_is_number(a) && type_is_number(b) &&
                           join_bases(checker, expr, false, false) && type_is_scalar(a) &&
                           type_is_scalar(b)
-                    : type_components(a) > 0 && a.count == 0 && b.count == 0 && a.rows == b.rows &&
-                          a.columns == b.columns && join_bases(checker, expr, false, false);
+                    : type_components(a) > 0 && !type_is_surface(a) && a.count == 0 &&
+                          b.count == 0 && a.rows == b.rows && a.columns == b.columns &&
+                          join_bases(checker, expr, false, false);
     return ok || refuse(checker, expr);
 }
 

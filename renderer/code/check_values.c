@@ -219,6 +219,8 @@ bool check_place(struct checker *checker, const struct expr *expr)
                                   e->name->text);
             }
             break;
+        case EXPR_PART:
+            break;
         case EXPR_FIELD:
         case EXPR_DATA:
             return CHECK_FAIL(checker, e->at, "%.40s can only be read", e->name->text);
@@ -234,7 +236,7 @@ static bool check_index(struct checker *checker, struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     struct type type = expr->a->type;
-    if (type_components(type) < 2 && type.count == 0) {
+    if ((type_components(type) < 2 && type.count == 0) || type_is_surface(type)) {
         return CHECK_FAIL(checker, expr->at, "%s has no index", type_name(type, name));
     }
     if (!type_is(expr->b->type, BASE_INT) && !type_is(expr->b->type, BASE_UINT)) {
@@ -301,6 +303,25 @@ static bool check_fragment_member(struct checker *checker, struct expr *expr)
                       expr->name->text, nearest_hint(&nearest, hint, sizeof hint));
 }
 
+static bool check_surface_member(struct checker *checker, struct expr *expr)
+{
+    char hint[80];
+    struct nearest nearest = {.text = expr->name->text};
+    for (int i = 0; i < SURFACE_MEMBERS; i++) {
+        if (strcmp(surface_members[i].name, expr->name->text) == 0) {
+            expr->kind = EXPR_PART;
+            expr->field = (uint8_t)i;
+            expr->type = type_vector(BASE_FLOAT, surface_members[i].rows);
+            expr->effects = expr->a->effects;
+            checker->tree->clear |= strcmp(expr->name->text, "transmission") == 0;
+            return check_fold(checker, expr);
+        }
+        nearest_consider(&nearest, surface_members[i].name);
+    }
+    return CHECK_FAIL(checker, expr->at, "Surface has no member %.40s%s", expr->name->text,
+                      nearest_hint(&nearest, hint, sizeof hint));
+}
+
 static bool check_primitive_member(struct checker *checker, struct expr *expr)
 {
     static const double no_id = 0;
@@ -332,6 +353,9 @@ static bool check_member(struct checker *checker, struct expr *expr)
     }
     if (type.base == BASE_PRIMITIVE) {
         return check_primitive_member(checker, expr);
+    }
+    if (type_is_surface(type)) {
+        return check_surface_member(checker, expr);
     }
     if (!type_is_vector(type) && !type_is_scalar(type)) {
         return CHECK_FAIL(checker, expr->at, "%s has no members", type_name(type, name));

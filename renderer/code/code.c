@@ -2,6 +2,7 @@
 /* The public face: compiled code, and running it. */
 #include "code.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +59,11 @@ int code_trips(const struct code *code)
     return (int)code->tree.entry->trips;
 }
 
+int code_work(const struct code *code)
+{
+    return (int)code->tree.entry->work;
+}
+
 /* --- running --- */
 
 /* What the document declares. */
@@ -89,7 +95,7 @@ struct code_call {
     const double *p, *numbers;
     const struct code_shading *shading;
     struct code_fault *fault;
-    double out[4];
+    double out[SURFACE_NUMBERS];
 };
 
 static void run(const struct code *code, struct code_call *call, double *frame)
@@ -104,7 +110,8 @@ static void run(const struct code *code, struct code_call *call, double *frame)
     machine_prepare(&code->machine, frame);
     set_numbers(code, call->numbers, frame);
     machine_run(&code->machine, entry->entry, frame, call->fault);
-    memcpy(call->out, frame + code->machine.result, entry->result.rows * sizeof *call->out);
+    memcpy(call->out, frame + code->machine.result,
+           (size_t)type_components(entry->result) * sizeof *call->out);
 }
 
 static __attribute__((noinline)) void run_small(const struct code *code, struct code_call *call)
@@ -137,6 +144,41 @@ double code_distance(const struct code *code, const double p[3], const double *n
     struct code_call call = {.p = p, .numbers = n, .fault = fault};
     run_any(code, &call);
     return fabs(call.out[0]) < CODE_FAR ? call.out[0] : CODE_FAR;
+}
+
+bool code_gives_surface(const struct code *code)
+{
+    return type_is_surface(code->tree.entry->result);
+}
+
+bool code_is_clear(const struct code *code)
+{
+    return code_gives_surface(code) && code->tree.clear;
+}
+
+/* Where something is no number: magenta, as colours are. */
+void code_surface(const struct code *code, const struct code_shading *at, const double *n,
+                  struct code_surface *out, struct code_fault *fault)
+{
+    struct code_call call = {.shading = at, .numbers = n, .fault = fault};
+    bool is_number = true;
+    run_any(code, &call);
+    for (int i = 0; i < SURFACE_NUMBERS; i++) {
+        is_number = is_number && fabs(call.out[i]) < CODE_FAR;
+    }
+    if (!is_number) {
+        memcpy(call.out, surface_defaults, sizeof call.out);
+        call.out[0] = call.out[2] = 1;
+        call.out[1] = 0;
+    }
+    for (int i = 0; i < SURFACE_MEMBERS; i++) {
+        const struct surface_member *member = &surface_members[i];
+        for (double *x = call.out + member->at; x < call.out + member->at + member->rows; x++) {
+            *x = fmin(fmax(*x, member->low), member->high);
+        }
+    }
+    static_assert(sizeof *out == sizeof call.out, "members in their order");
+    memcpy(out, call.out, sizeof *out);
 }
 
 void code_shade(const struct code *code, const struct code_shading *at, const double *n,

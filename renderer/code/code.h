@@ -17,12 +17,12 @@
 
 enum code_use {
     CODE_DISTANCE, /* float sdf(vec3 p), or float NAME(vec3 p, Primitive3D primitive) */
-    CODE_SHADE,    /* vec3 or vec4 shade(FragmentProperties properties) */
+    CODE_SHADE,    /* vec3, vec4 or Surface shade(FragmentProperties properties) */
 };
 
 /* `params` are those that the document declares, ending with a row whose name is NULL: float, int,
- * bool, vec2, vec3, vec4, color. Code reads them as variables of these names, which it may declare
- * once more without a value; primitive.data[i] is component i of all of them in order. */
+ * bool, vec2 to vec4, ivec2 to ivec4, color. Code reads them as variables of these names, which it
+ * may declare once more without a value; primitive.data[i] is component i of all of them. */
 struct code_source {
     enum code_use use;
     const char *text;
@@ -37,7 +37,8 @@ void code_destroy(struct code *code); /* NULL: nothing */
 
 /* Writes the GLSL of all functions, the last of which is
  *     float NAME(vec3 p, float a, vec3 b, ...)       CODE_DISTANCE
- *     vec4 NAME(Shading s, float a, vec3 b, ...)     CODE_SHADE (struct: glsl/surface.glsl)
+ *     vec4 NAME(Shading s, float a, vec3 b, ...)     CODE_SHADE (struct: glsl/surface.glsl), or
+ *     CodeSurface NAME(Shading s, ...)               where code_gives_surface
  * with one argument for each of `params`, whole numbers and booleans as float. It calls functions
  * of glsl/code.glsl. All names begin with NAME, which has no two underscores in a row and none at
  * the end. `source_number` is what #line gives as the number of the string; lines after the text
@@ -46,6 +47,8 @@ void code_write(const struct code *code, const char *name, int source_number, FI
 
 /* Loop iterations of one call, at most. */
 int code_trips(const struct code *code);
+/* Operations of one call, at most. */
+int code_work(const struct code *code);
 
 /* Where something first went wrong while running: a division by 0, which gives a very large number,
  * or a value that is no number, or infinite in a float. */
@@ -59,11 +62,25 @@ struct code_fault {
 double code_distance(const struct code *code, const double p[3], const double *n,
                      struct code_fault *fault);
 
+/* Of CODE_SHADE: whether it returns a Surface; and whether it says how much light that lets
+ * through. */
+bool code_gives_surface(const struct code *code);
+bool code_is_clear(const struct code *code);
+
 struct code_shading {
     double world_position[3], object_position[3], world_normal[3], ray_direction[3], ray_distance;
 };
 void code_shade(const struct code *code, const struct code_shading *at, const double *n,
                 double out_rgba[4], struct code_fault *fault);
+
+/* What a shader says of a point: the members of surface_members (types.h), in their order. */
+struct code_surface {
+    double color[3], metallic, roughness, reflectivity, transmission, ior, emission[3],
+        absorption[3];
+};
+/* Only where code_gives_surface, for which code_shade is not. */
+void code_surface(const struct code *code, const struct code_shading *at, const double *n,
+                  struct code_surface *out, struct code_fault *fault);
 
 /* Runs the function at points all over the box, and along short ways there. False and `err`, with
  * line and column, where it divides by 0 or gives no number; or where it changes faster than

@@ -41,8 +41,14 @@ static uint16_t alloc_local(struct lower *lower, int count)
     return at;
 }
 
-static void lower_zero(struct lower *lower, const struct variable *variable)
+/* What a variable holds that was given nothing. */
+static void lower_nothing(struct lower *lower, const struct variable *variable)
 {
+    if (type_is_surface(variable->type)) {
+        lower_move(lower, variable->at_frame,
+                   lower_number(lower, surface_defaults, SURFACE_NUMBERS), SURFACE_NUMBERS);
+        return;
+    }
     lower_step(lower, (struct step){.kind = STEP_ZERO,
                                     .n = (uint16_t)type_components(variable->type),
                                     .out = variable->at_frame});
@@ -59,7 +65,7 @@ static void lower_declaration(struct lower *lower, const struct stmt *stmt)
     if (stmt->expr) {
         lower_move(lower, variable->at_frame, lower_value(lower, stmt->expr), count);
     } else {
-        lower_zero(lower, variable);
+        lower_nothing(lower, variable);
     }
 }
 
@@ -186,7 +192,7 @@ static void lower_function(struct lower *lower, struct function *function)
     function->entry = (uint16_t)(lower->label = lower->code->step_count);
     for (struct variable *v = function->parameters; v; v = v->next) {
         if (v->direction == DIRECTION_OUT) {
-            lower_zero(lower, v);
+            lower_nothing(lower, v);
         }
     }
     lower_statement(lower, function->body);

@@ -58,6 +58,12 @@ struct spot lower_spot(struct lower *lower, const struct expr *expr)
         spot_swizzle(&spot, expr);
         return spot;
     }
+    if (!expr->value && expr->kind == EXPR_PART) {
+        struct spot spot = lower_spot(lower, expr->a);
+        spot.at = (uint16_t)(spot.at + surface_members[expr->field].at);
+        spot.type = expr->type;
+        return spot;
+    }
     return (struct spot){lower_value(lower, expr), MACHINE_NOWHERE, expr->type, 0, {0}};
 }
 

@@ -59,9 +59,22 @@ static uint16_t lower_spread(struct lower *lower, const struct expr *expr)
     return step.out;
 }
 
+/* Of a colour, which comes first; all else is the default. */
+static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
+{
+    uint16_t color = lower_value(lower, expr->args), out = lower_alloc(lower, SURFACE_NUMBERS);
+    uint16_t all = lower_number(lower, surface_defaults, SURFACE_NUMBERS);
+    lower_move(lower, out, all, SURFACE_NUMBERS);
+    lower_step(lower, (struct step){.kind = STEP_MOVE, .n = 3, .out = out, .a = color});
+    return out;
+}
+
 static uint16_t lower_construct(struct lower *lower, const struct expr *expr)
 {
     struct type type = expr->type;
+    if (type_is_surface(type)) {
+        return lower_surface(lower, expr);
+    }
     int count = type_components(type), filled = 0;
     if (expr->arg_count == 1 && type.count == 0) {
         struct type own = expr->args->type;
@@ -212,6 +225,7 @@ uint16_t lower_value(struct lower *lower, const struct expr *expr)
     case EXPR_CONSTRUCT:
         return lower_construct(lower, expr);
     case EXPR_INDEX:
+    case EXPR_PART:
     case EXPR_SWIZZLE: {
         struct spot spot = lower_spot(lower, expr);
         return lower_load(lower, &spot);

@@ -128,19 +128,31 @@ static bool probe_distance(struct probe *probe, int points, double lipschitz)
                      probe->greatest, lipschitz);
 }
 
-static bool probe_shade(const struct probe *probe, int points)
+/* Whether the colour is the one that stands for none. */
+static bool shade_at(const struct code *code, const struct code_shading *at, const double *n,
+                     struct code_fault *fault)
 {
     static const double magenta[4] = {1, 0, 1, 1};
+    double color[4];
+    if (code_gives_surface(code)) {
+        struct code_surface surface;
+        code_surface(code, at, n, &surface, fault);
+        return memcmp(surface.color, magenta, sizeof surface.color) == 0;
+    }
+    code_shade(code, at, n, color, fault);
+    return memcmp(color, magenta, sizeof color) == 0;
+}
+
+static bool probe_shade(const struct probe *probe, int points)
+{
     for (int i = 0; i < points; i++) {
         struct code_shading at = {.ray_distance = 1 + i};
         struct code_fault fault;
-        double color[4];
         point_of(probe, i, at.world_position);
         memcpy(at.object_position, at.world_position, sizeof at.object_position);
         direction_of(i, at.world_normal);
         direction_of(i + points, at.ray_direction);
-        code_shade(probe->code, &at, probe->numbers, color, &fault);
-        bool none = memcmp(color, magenta, sizeof color) == 0;
+        bool none = shade_at(probe->code, &at, probe->numbers, &fault);
         if (fault.line > 0 && (none || !fault.infinite)) {
             return refuse(probe, &fault, at.world_position);
         }

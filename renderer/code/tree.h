@@ -100,6 +100,7 @@ enum expr_kind {
     EXPR_MEMBER,    /* a.name; of vectors, once checked: */
     EXPR_SWIZZLE,   /* the components `swizzle` of a */
     EXPR_FIELD,     /* member `field` of FragmentProperties */
+    EXPR_PART,      /* member `field` of a, a Surface */
     EXPR_DATA,      /* primitive.data */
 };
 
@@ -192,6 +193,7 @@ struct tree {
     int number_count; /* of the declared parameters */
     int data_count;   /* elements of primitive.data */
     bool data_used, shading_used;
+    bool clear; /* it says how much light a surface lets through */
     struct function *entry;
     struct error *err;
 };

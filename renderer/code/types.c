@@ -40,9 +40,20 @@ static const struct {
     {"float4x4", {BASE_FLOAT, 4, 4, 0}}, {"half4x4", {BASE_FLOAT, 4, 4, 0}},
     {"Primitive3D", {BASE_PRIMITIVE, 1, 1, 0}},
     {"FragmentProperties", {BASE_FRAGMENT, 1, 1, 0}},
+    {"Surface", {BASE_SURFACE, 1, 1, 0}},
     /* clang-format on */
 };
 enum { NAMES = sizeof names / sizeof names[0] };
+
+/* As struct CodeSurface and code_surface() of glsl/code.glsl; protocol/README.md says what they
+ * are. */
+const struct surface_member surface_members[SURFACE_MEMBERS] = {
+    {"color", 3, 0, 0, 65504},    {"metallic", 1, 3, 0, 1},        {"roughness", 1, 4, 0, 1},
+    {"reflectivity", 1, 5, 0, 1}, {"transmission", 1, 6, 0, 1},    {"ior", 1, 7, 1, 4},
+    {"emission", 3, 8, 0, 65504}, {"absorption", 3, 11, 0, 65000},
+};
+const double surface_defaults[SURFACE_NUMBERS] = {0.8, 0.8, 0.8, 0, 0.5, 0, 0,
+                                                  1.5, 0,   0,   0, 0,   0, 0};
 
 bool type_find(const char *text, size_t length, struct type *out)
 {
@@ -115,6 +126,9 @@ int type_components(struct type type)
     if (type.base == BASE_VOID || type_is_handle(type)) {
         return 0;
     }
+    if (type.base == BASE_SURFACE) {
+        return SURFACE_NUMBERS;
+    }
     return type.rows * type.columns * (type.count > 0 ? type.count : 1);
 }
 
@@ -136,6 +150,11 @@ bool type_is_matrix(struct type type)
 bool type_is_handle(struct type type)
 {
     return type.base == BASE_PRIMITIVE || type.base == BASE_FRAGMENT;
+}
+
+bool type_is_surface(struct type type)
+{
+    return type.base == BASE_SURFACE;
 }
 
 bool type_is_number(struct type type)

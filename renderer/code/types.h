@@ -15,6 +15,7 @@ enum base {
     BASE_BOOL,
     BASE_PRIMITIVE, /* Primitive3D: holds nothing of its own, stands for the declared parameters */
     BASE_FRAGMENT,  /* FragmentProperties: stands for the point that is shaded */
+    BASE_SURFACE,   /* Surface: all that a shader may say of a point */
 };
 
 struct type {
@@ -25,6 +26,16 @@ struct type {
 };
 
 enum { TYPE_NAME_BYTES = 32 };
+
+/* A member of Surface: floats from `at` on among its numbers, as in struct code_surface. */
+struct surface_member {
+    const char *name;
+    uint8_t rows, at;
+    double low, high; /* what is outside of these is moved to the nearest */
+};
+enum { SURFACE_MEMBERS = 8, SURFACE_NUMBERS = 14 };
+extern const struct surface_member surface_members[SURFACE_MEMBERS];
+extern const double surface_defaults[SURFACE_NUMBERS]; /* of a Surface that was given nothing */
 
 /* The type of this name, be it GLSL's or HLSL's. */
 bool type_find(const char *text, size_t length, struct type *out);
@@ -47,6 +58,7 @@ bool type_is_matrix(struct type type);
 bool type_is_handle(struct type type);  /* Primitive3D or FragmentProperties */
 bool type_is_number(struct type type);  /* float, int, uint, and vectors and matrices of them */
 bool type_is_integer(struct type type); /* int, uint, and vectors of them */
+bool type_is_surface(struct type type);
 bool type_is(struct type type, enum base base); /* a scalar of this base */
 
 #endif

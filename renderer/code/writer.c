@@ -24,7 +24,7 @@ static void begin_line(struct writer *w, struct at at)
 static void write_declared(struct writer *w, const struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
-    PUT(w, "%s ", type_name(variable->type, name));
+    PUT(w, "%s ", writer_type(variable->type, name));
     writer_variable(w, variable);
 }
 
@@ -32,7 +32,7 @@ static void write_nothing(struct writer *w, struct type type)
 {
     static const double zeros[LIMIT_CODE_ARRAY * 16];
     PUT(w, " = ");
-    writer_constant(w, type, zeros);
+    writer_constant(w, type, type_is_surface(type) ? surface_defaults : zeros);
     PUT(w, ";");
     end_line(w);
 }
@@ -177,7 +177,7 @@ static void write_function(struct writer *w, const struct function *function)
 {
     char name[TYPE_NAME_BYTES];
     begin_line(w, function->at);
-    PUT(w, "%s %s_f%d", type_name(function->result, name), w->name, function->number);
+    PUT(w, "%s %s_f%d", writer_type(function->result, name), w->name, function->number);
     write_parameters(w, function);
     PUT(w, " {");
     end_line(w);
@@ -237,10 +237,11 @@ static void write_inputs(struct writer *w)
 static void write_input(struct writer *w, const struct variable *v)
 {
     int n = v->number;
+    char name[TYPE_NAME_BYTES];
     PUT(w, "%s_d%d = ", w->name, n);
     switch (v->type.base) {
     case BASE_INT:
-        PUT(w, "int(floor(a%d + 0.5));\n", n);
+        PUT(w, "%s(floor(a%d + 0.5));\n", type_name(v->type, name), n);
         break;
     case BASE_BOOL:
         PUT(w, "a%d != 0.0;\n", n);
@@ -268,8 +269,12 @@ static void write_data(struct writer *w)
 static void write_entry(struct writer *w, enum code_use use)
 {
     const struct tree *tree = w->tree;
-    bool shade = use == CODE_SHADE;
-    PUT(w, "%s %s(%s", shade ? "vec4" : "float", w->name, shade ? "Shading s" : "vec3 p");
+    bool shade = use == CODE_SHADE, surface = shade && type_is_surface(tree->entry->result);
+    PUT(w, "%s %s(%s",
+        surface ? "CodeSurface"
+        : shade ? "vec4"
+                : "float",
+        w->name, shade ? "Shading s" : "vec3 p");
     for (const struct variable *v = tree->declared; v; v = v->next) {
         char name[TYPE_NAME_BYTES];
         PUT(w, ", %s a%d", type_name(type_vector(BASE_FLOAT, v->type.rows), name), v->number);
@@ -287,7 +292,9 @@ static void write_entry(struct writer *w, enum code_use use)
         PUT(w, "%s_s = s;\n", w->name);
     }
     int entry = tree->entry->number;
-    if (!shade) {
+    if (surface) {
+        PUT(w, "return code_surface(%s_f%d());\n}\n", w->name, entry);
+    } else if (!shade) {
         PUT(w, "return code_distance(%s_f%d(p));\n}\n", w->name, entry);
     } else if (tree->entry->result.rows == 3) {
         PUT(w, "return code_color(vec4(%s_f%d(), 1.0));\n}\n", w->name, entry);

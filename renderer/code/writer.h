@@ -29,6 +29,8 @@ struct writer {
 #define PUT(w, ...) fprintf((w)->out, __VA_ARGS__)
 
 void writer_expr(struct writer *w, const struct expr *expr);
+/* The name that it has in GLSL; returns `out` or a text that stays. */
+const char *writer_type(struct type type, char out[TYPE_NAME_BYTES]);
 void writer_variable(struct writer *w, const struct variable *variable);
 void writer_constant(struct writer *w, struct type type, const double *value);
 void writer_number(struct writer *w, enum base base, double number);

@@ -39,10 +39,31 @@ void writer_number(struct writer *w, enum base base, double number)
     }
 }
 
+const char *writer_type(struct type type, char out[TYPE_NAME_BYTES])
+{
+    return type_is_surface(type) ? "CodeSurface" : type_name(type, out);
+}
+
+/* Members from `first` on. */
+static void write_members(struct writer *w, int first, const double *value)
+{
+    for (int i = first; i < SURFACE_MEMBERS; i++) {
+        const struct surface_member *member = &surface_members[i];
+        PUT(w, i > 0 ? ", " : "");
+        writer_constant(w, type_vector(BASE_FLOAT, member->rows), value + member->at);
+    }
+}
+
 void writer_constant(struct writer *w, struct type type, const double *value)
 {
     char name[TYPE_NAME_BYTES];
     int count = type_components(type);
+    if (type_is_surface(type)) {
+        PUT(w, "CodeSurface(");
+        write_members(w, 0, value);
+        PUT(w, ")");
+        return;
+    }
     if (count == 1 && type.count == 0) {
         writer_number(w, (enum base)type.base, *value);
         return;
@@ -184,12 +205,15 @@ static void write_construct(struct writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     bool whole = type_is_integer(expr->type);
-    PUT(w, "%s(", type_name(expr->type, name));
+    PUT(w, "%s(", writer_type(expr->type, name));
     for (const struct expr *arg = expr->args; arg; arg = arg->next) {
         bool guarded = whole && arg->type.base == BASE_FLOAT;
         PUT(w, "%s", !guarded ? "" : expr->type.base == BASE_UINT ? "code_uint(" : "code_int(");
         writer_expr(w, arg);
         PUT(w, "%s%s", guarded ? ")" : "", arg->next ? ", " : "");
+    }
+    if (type_is_surface(expr->type)) {
+        write_members(w, 1, surface_defaults);
     }
     PUT(w, ")");
 }
@@ -280,6 +304,10 @@ void writer_expr(struct writer *w, const struct expr *expr)
         break;
     case EXPR_FIELD:
         write_field(w, expr);
+        break;
+    case EXPR_PART:
+        writer_expr(w, expr->a);
+        PUT(w, ".%s", surface_members[expr->field].name);
         break;
     case EXPR_DATA:
         PUT(w, "%s_data", w->name);

@@ -384,3 +384,34 @@ float sdf(vec3 p) { int i = 1; int j = i++ + i; return 1.0; }
 float sdf(vec3 p) { int i = 1; i = i++; return 1.0; }
 //! 1:72 x is used and changed
 float f(out float x) { return x; } float sdf(vec3 p) { float x; return max(x, f(x)); }
+//! shade 2:7 Surface has no member gloss
+Surface shade() { Surface s;
+    s.gloss = 1.0; return s; }
+//! shade 1:32 did you mean "roughness"
+Surface shade() { Surface s; s.rougness = 1.0; return s; }
+//! shade 1:38 the value is vec3, not float
+Surface shade() { Surface s; s.ior = vec3(1); return s; }
+//! shade 1:27 there are no arrays of Surface
+Surface shade() { Surface s[2]; return s[0]; }
+//! shade 1:34 the value returned is Surface, not vec3
+vec3 shade() { Surface s; return s; }
+//! shade 1:26 the value returned is vec3, not Surface
+Surface shade() { return vec3(1); }
+//! shade 1:26 Surface takes a color or nothing, not 2 arguments
+Surface shade() { return Surface(vec3(1), 0.5); }
+//! shade 1:34 the color is Surface, not vec3
+Surface shade() { return Surface(Surface()); }
+//! shade 1:31 Surface has no index
+Surface shade() { Surface s; s[0] = 1.0; return s; }
+//! shade 1:42 + cannot join Surface and Surface
+Surface shade() { Surface s, t; return s + t; }
+//! shade 1:39 == cannot join Surface and Surface
+Surface shade() { Surface s, t; if (s == t) { return s; } return t; }
+//! shade 1:42 { } is no value of Surface; set its members
+Surface shade() { Surface s; Surface t = {1.0}; return s; }
+//! shade 1:48 s is constant and cannot be changed
+Surface shade() { const Surface s = Surface(); s.ior = 2.0; return s; }
+//! shade 1:23 vec3 cannot be made of (Surface)
+vec3 shade() { return vec3(Surface()); }
+//! 1:9 sdf does not have the form float sdf(vec3 p)
+Surface sdf(vec3 p) { return Surface(); }

@@ -386,14 +386,23 @@ static void listings_of_the_thesis_agree(void **state)
 static void parameters_and_shaders_agree(void **state)
 {
     static const struct param types[] = {
-        {.name = "f", .type = PARAM_FLOAT}, {.name = "i", .type = PARAM_INT},
-        {.name = "b", .type = PARAM_BOOL},  {.name = "v2", .type = PARAM_VEC2},
-        {.name = "v3", .type = PARAM_VEC3}, {.name = "v4", .type = PARAM_VEC4},
-        {.name = "c", .type = PARAM_COLOR}, {.name = NULL},
+        {.name = "f", .type = PARAM_FLOAT},
+        {.name = "i", .type = PARAM_INT},
+        {.name = "b", .type = PARAM_BOOL},
+        {.name = "v2", .type = PARAM_VEC2},
+        {.name = "v3", .type = PARAM_VEC3},
+        {.name = "v4", .type = PARAM_VEC4},
+        {.name = "c", .type = PARAM_COLOR},
+        {.name = "i2", .type = PARAM_IVEC2},
+        {.name = "i3", .type = PARAM_IVEC3},
+        {.name = "i4", .type = PARAM_IVEC4},
+        {.name = NULL},
     };
     static const char *const distances[] = {
         "float g() { return f + float(i / 2); } float sdf(vec3 p) { return b ? g() + v2.y : p.x; }",
         "float sdf(vec3 p) { return dot(v3, p) + v4.w - c.z; }",
+        "int2 i2; float sdf(vec3 p) { int2 h = i2 / 2; return float(h.x * 10 + h.y) + p.x; }",
+        "float sdf(vec3 p) { return vec3(i3 % 3).z + float(i4[int(p.x) & 3]) + p.y; }",
         "float sdf(vec3 p, Primitive3D q) { float s = 0.0; for (int k = 0; k < 15; k++)\n"
         "s += q.data[k] * p[k % 3]; return s + q.data[int(p.x * 10.0)]; }",
     };
@@ -410,6 +419,42 @@ static void parameters_and_shaders_agree(void **state)
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         code_batch_add(&batch, distances[i], CODE_DISTANCE, types);
     }
+    for (size_t i = 0; i < sizeof shaders / sizeof shaders[0]; i++) {
+        code_batch_add(&batch, shaders[i], CODE_SHADE, types);
+    }
+    code_batch_run(&batch, 0);
+}
+
+static void surfaces_agree(void **state)
+{
+    static const struct param types[] = {{.name = "tint", .type = PARAM_COLOR}, {.name = NULL}};
+    static const char *const shaders[] = {
+        "Surface shade(FragmentProperties f) { Surface s; return s; }",
+        "Surface shade() { return Surface(); }",
+        "Surface shade() { return Surface(tint); }",
+        "Surface shade() { Surface s = Surface(0.5); s.color.yz = vec2(0.25, 1); return s; }",
+        "Surface shade(FragmentProperties f) { Surface s;\n"
+        "s.metallic = f.world_position.x; s.roughness += f.world_position.y;\n"
+        "s.reflectivity = 0.5 * f.world_position.z; s.transmission = 1.0 - s.metallic;\n"
+        "s.ior = 1.0 + f.world_position.x * f.world_position.x; s.emission[1] = f.ray_distance;\n"
+        "s.absorption = abs(f.world_position) * 9.0; s.absorption.x++; return s; }",
+        "void wet(inout Surface s, float part) { s.roughness *= part; s.color *= 1.0 - part; }\n"
+        "Surface two(Surface a, Surface b, float x) { return x > 0.0 ? a : b; }\n"
+        "Surface shade(FragmentProperties f) { const Surface plain = Surface(vec3(0.3));\n"
+        "Surface s = plain, t; t.ior = 2.0; wet(s, 0.25);\n"
+        "return two(s, t, f.world_position.x); }",
+        "void make(out Surface s) { s.emission = vec3(1, 2, 3); }\n"
+        "Surface shade() { Surface s = Surface(tint); s.ior = 3.0; make(s); Surface t = s;\n"
+        "t.color = s.emission * Surface().ior; return t; }",
+        "Surface shade(FragmentProperties f) { Surface s; for (int i = 0; i < 3; i++) {\n"
+        "s.color[i] = fract(f.world_position[i]); s.emission[i] += float(i); } return s; }",
+        "Surface shade() { Surface s; s.color = vec3(-1, 1e6, 2); s.ior = 9.0; s.metallic = 7.0;\n"
+        "s.absorption = vec3(1e6); s.emission = vec3(-1); s.transmission = -3.0; return s; }",
+        "Surface shade(FragmentProperties f) { Surface s; s.ior = f.world_position.x / 0.0001 *\n"
+        "1e9; return s; }",
+    };
+    struct code_batch batch = {.gpu = &gpu, .numbers = numbers};
+    (void)state;
     for (size_t i = 0; i < sizeof shaders / sizeof shaders[0]; i++) {
         code_batch_add(&batch, shaders[i], CODE_SHADE, types);
     }
@@ -472,6 +517,7 @@ int main(void)
         cmocka_unit_test(accepted_code_agrees),
         cmocka_unit_test(listings_of_the_thesis_agree),
         cmocka_unit_test(parameters_and_shaders_agree),
+        cmocka_unit_test(surfaces_agree),
         cmocka_unit_test(random_code_agrees),
         cmocka_unit_test(changed_code_compiles),
     };

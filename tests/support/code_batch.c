@@ -40,6 +40,12 @@ static void run_in_c(const struct code_gpu_job *job, const double *numbers, cons
 {
     if (job->use == CODE_SHADE) {
         const struct code_shading at = code_gpu_shading(p);
+        if (code_gives_surface(job->code)) {
+            struct code_surface surface;
+            code_surface(job->code, &at, numbers, &surface, NULL);
+            code_gpu_digest(&surface, out);
+            return;
+        }
         code_shade(job->code, &at, numbers, out, NULL);
     } else {
         out[0] = out[1] = out[2] = out[3] = code_distance(job->code, p, numbers, NULL);

@@ -26,6 +26,8 @@ bool code_gpu_init(struct code_gpu *gpu, struct error *err);
 void code_gpu_finish(struct code_gpu *gpu);
 /* What a shader is told about a point. */
 struct code_shading code_gpu_shading(const double p[3]);
+/* What stands for a Surface among the values. */
+void code_gpu_digest(const struct code_surface *surface, double out[4]);
 /* Value of job j at point i: out[j * CODE_GPU_POINTS + i], a distance in its first component. All
  * get the same numbers. False: the driver refuses the program, and `err` has its words. */
 bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t count,

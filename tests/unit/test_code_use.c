@@ -13,6 +13,8 @@
 #include <cmocka.h>
 
 #include "renderer/code/code.h"
+#include "renderer/code/types.h"
+#include "tests/support/text_file.h"
 
 static const struct param no_params[] = {{.name = NULL}};
 
@@ -29,12 +31,20 @@ static struct code *compile(const char *text, enum code_use use, const struct pa
 /* --- what is around the code --- */
 
 static const struct param every_type[] = {
-    {.name = "f", .type = PARAM_FLOAT}, {.name = "i", .type = PARAM_INT},
-    {.name = "b", .type = PARAM_BOOL},  {.name = "v2", .type = PARAM_VEC2},
-    {.name = "v3", .type = PARAM_VEC3}, {.name = "v4", .type = PARAM_VEC4},
-    {.name = "c", .type = PARAM_COLOR}, {.name = NULL},
+    {.name = "f", .type = PARAM_FLOAT},
+    {.name = "i", .type = PARAM_INT},
+    {.name = "b", .type = PARAM_BOOL},
+    {.name = "v2", .type = PARAM_VEC2},
+    {.name = "v3", .type = PARAM_VEC3},
+    {.name = "v4", .type = PARAM_VEC4},
+    {.name = "c", .type = PARAM_COLOR},
+    {.name = "i2", .type = PARAM_IVEC2},
+    {.name = "i3", .type = PARAM_IVEC3},
+    {.name = "i4", .type = PARAM_IVEC4},
+    {.name = NULL},
 };
-static const double every_number[15] = {0.5, 3, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 0.25, 0.5, 0.75};
+static const double every_number[24] = {0.5,  3,   1,    2, 4,  5,  6,  7,  8,  9,  10, 11,
+                                        0.25, 0.5, 0.75, 7, -3, 20, 21, 22, 30, 31, 32, 33};
 
 static double run_with_params(const char *text)
 {
@@ -56,10 +66,16 @@ static void parameters_are_variables(void **state)
     assert_float_equal(run_with_params("float g() { return f; }\n"
                                        "float sdf(vec3 p) { float f = 2.0; return f * g(); }"),
                        1, 0);
+    /* Whole numbers divide as such, and come from the nearest. */
+    assert_float_equal(run_with_params("int2 i2; ivec3 i3;\nfloat sdf(vec3 p) {\n"
+                                       "int2 half_of = i2 / 2; return half_of.x + half_of.y; }"),
+                       3 - 1, 0);
+    assert_float_equal(run_with_params("float sdf(vec3 p) { return i3[2] % 5 + (i4.wz / 4).x; }"),
+                       2 + 8, 0);
     /* All of them in a row. */
     assert_float_equal(run_with_params("float sdf(vec3 p, Primitive3D q) { float s = 0.0;\n"
-                                       "for (int k = 0; k < 15; k++) s += q.data[k]; return s; }"),
-                       0.5 + 3 + 1 + 2 + 4 + 5 + 6 + 7 + 8 + 9 + 10 + 11 + 1.5, 0);
+                                       "for (int k = 0; k < 24; k++) s += q.data[k]; return s; }"),
+                       0.5 + 3 + 1 + 2 + 4 + 5 + 6 + 7 + 8 + 9 + 10 + 11 + 1.5 + 4 + 63 + 126, 0);
 }
 
 static void parameters_are_not_assigned(void **state)
@@ -72,12 +88,14 @@ static void parameters_are_not_assigned(void **state)
         {"float sdf(vec3 p) { f = 1.0; return f; }", 1, 21, "which can only read it"},
         {"float sdf(vec3 p) {\n v3.x += 1.0; return f; }", 2, 2, "which can only read it"},
         {"float2 v3;\nfloat sdf(vec3 p) { return 1.0; }", 1, 8, "v3 is declared as vec3, not vec2"},
+        {"float2 i2;\nfloat sdf(vec3 p) { return 1.0; }", 1, 8,
+         "i2 is declared as ivec2, not vec2"},
         {"const float f = 2.0;", 1, 13, "f is a parameter, which has its value from outside"},
         {"const float k = f;", 1, 17, "its value must be constant"},
         {"float sdf(vec3 p) { float a[i]; return 1.0; }", 1, 29, "constant int"},
         {"float sdf(vec3 p) { for (int k = 0; k < i; k++) {} return 1.0; }", 1, 39,
          "the bound of the loop is not constant"},
-        {"float sdf(vec3 p, Primitive3D q) { return q.data[15]; }", 1, 50, "outside of float[15]"},
+        {"float sdf(vec3 p, Primitive3D q) { return q.data[24]; }", 1, 50, "outside of float[24]"},
         {"float sdf(vec3 p) { return v5.x; }", 1, 28, "did you mean \"v"},
     };
     (void)state;
@@ -217,7 +235,7 @@ static void written_text_names_lines(void **state)
               "#line 8 33\n(user_7_v3 += 1.0);\n(user_7_v3.x = user_7_d8.y);\n"
               "#line 11 33\nreturn user_7_f0(user_7_v3.x);\n}\n}\n"
               "float user_7(vec3 p, float a4, float a5, float a6, vec2 a7, vec3 a8, vec4 a9,"
-              " vec3 a10)\n"
+              " vec3 a10, vec2 a11, vec3 a12, vec4 a13)\n"
               "{\nuser_7_d4 = a4;\nuser_7_d8 = a8;\nreturn code_distance(user_7_f2(p));\n}\n");
     free(glsl);
 }
@@ -311,13 +329,36 @@ static void probes_find_what_is_wrong(void **state)
           CODE_SHADE, 0, "/ divides by 0", 2);
 }
 
+/* Every member, its default and its range, as the protocol's page tells them. */
+static void members_of_surface_are_documented(void **state)
+{
+    (void)state;
+    char *page = text_file_read("protocol/README.md", NULL);
+    for (int i = 0; i < SURFACE_MEMBERS; i++) {
+        const struct surface_member *member = &surface_members[i];
+        char row[120];
+        snprintf(row, sizeof row, "| `%s` | %s | %g | %g to %.6g |", member->name,
+                 member->rows == 3 ? "vec3" : "float", surface_defaults[member->at], member->low,
+                 member->high);
+        if (!strstr(page, row)) {
+            fail_msg("protocol/README.md has no row %s", row);
+        }
+    }
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters_are_variables), cmocka_unit_test(parameters_are_not_assigned),
-        cmocka_unit_test(shaders_see_the_point),    cmocka_unit_test(loops_are_counted),
-        cmocka_unit_test(written_text_is_guarded),  cmocka_unit_test(written_text_names_lines),
-        cmocka_unit_test(faults_name_the_place),    cmocka_unit_test(probes_find_what_is_wrong),
+        cmocka_unit_test(parameters_are_variables),
+        cmocka_unit_test(parameters_are_not_assigned),
+        cmocka_unit_test(shaders_see_the_point),
+        cmocka_unit_test(loops_are_counted),
+        cmocka_unit_test(written_text_is_guarded),
+        cmocka_unit_test(written_text_names_lines),
+        cmocka_unit_test(faults_name_the_place),
+        cmocka_unit_test(probes_find_what_is_wrong),
+        cmocka_unit_test(members_of_surface_are_documented),
     };
     return cmocka_run_group_tests_name("code in use", tests, NULL, NULL);
 }
