@@ -8,6 +8,7 @@
 #include "protocol/memory.h"
 #include "protocol/nearest.h"
 #include "protocol/nodes.h"
+#include "protocol/utf8.h"
 
 static const char extension[] = ".json";
 
@@ -77,6 +78,18 @@ bool import_take(const struct importing *importing, const struct import_item *it
     *out = import_member(object, name);
     return !*out || (*out)->kind == kind ||
            import_fail(importing, item, *out, "%s: expected %s", name, kinds[kind]);
+}
+
+bool import_has(const struct importing *importing, enum import_role role, const char *name)
+{
+    for (size_t i = 0; i < importing->count; i++) {
+        const struct import_item *one = &importing->items[i];
+
+        if (one->role == role && (strcmp(one->stem, name) == 0 || strcmp(one->name, name) == 0)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 struct import_item *import_find(const struct importing *importing, const struct import_item *item,
@@ -213,12 +226,24 @@ bool import_reads(const char *path)
     return length > end && strcmp(path + length - end, extension) == 0;
 }
 
+/* The last part of a path without .json. A file system takes any bytes for a name: what a document
+ * cannot hold becomes U+FFFD. */
 static char *stem_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char *stem = memory_text(slash ? slash + 1 : path);
+    static const char replacement[] = "\xef\xbf\xbd";
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    size_t left = strlen(name) - (sizeof extension - 1), used = 0;
+    char *stem = memory_alloc(left * (sizeof replacement - 1) + 1, 1);
 
-    stem[strlen(stem) - (sizeof extension - 1)] = '\0';
+    while (left > 0) {
+        const size_t length = utf8_sequence(name, left), step = length ? length : 1;
+        const bool plain = length > 0 && (unsigned char)*name >= 0x20 && *name != 0x7f;
+
+        memcpy(stem + used, plain ? name : replacement, plain ? step : sizeof replacement - 1);
+        used += plain ? step : sizeof replacement - 1;
+        name += step;
+        left -= step;
+    }
     return stem;
 }
 

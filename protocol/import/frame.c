@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* About where an imported scene is, for a camera that sees all of it: boxes of the types that
- * import makes. What a user's code bounds is guessed from the numbers that it is given. */
+/* About where an imported scene is, for a camera that sees all of it: boxes of the types that the
+ * thesis has, others and what a user's code bounds guessed from the numbers that they are given. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -77,23 +77,67 @@ static double guess(const struct record *params)
     return most > 0 ? most : 1;
 }
 
+/* How far a type's lengths may take it from where it is: the sum of them. Of a `size` a half. */
+static double reach(const struct record *params)
+{
+    double sum = 0;
+
+    for (size_t i = 0; params->type->params[i].name; i++) {
+        const struct param *param = &params->type->params[i];
+        const double part = strcmp(param->name, "size") == 0 ? 0.5 : 1;
+        const int count = param_components(param->type);
+        double most = 0;
+
+        for (int k = 0; k < count && param->unit == UNIT_LENGTH; k++) {
+            most = fmax(most, part * fabs(params->values[i].number[k]));
+        }
+        for (int k = 0; param->type == PARAM_POINTS && k < 2 * params->values[i].number[0]; k++) {
+            most = fmax(most, fabs(params->values[i].points[k]));
+        }
+        sum += most;
+    }
+    return sum;
+}
+
+static bool is_endless(const struct node *node)
+{
+    return strcmp(node->type->record.name, "plane") == 0;
+}
+
 static void add_own(struct box *box, const struct node *node)
 {
     const char *type = node->type->record.name;
     const struct record *params = &node->params;
 
-    if (strcmp(type, "sphere") == 0) {
-        const double r = record_number(params, "radius");
-        box_add_half(box, r, r, r);
-    } else if (strcmp(type, "box") == 0) {
+    if (strcmp(type, "box") == 0) {
         const double *size = record_vector(params, "size");
         box_add_half(box, size[0] / 2, size[1] / 2, size[2] / 2);
     } else if (strcmp(type, "cylinder") == 0) {
         const double r = record_number(params, "radius");
         box_add_half(box, r, record_number(params, "height") / 2, r);
-    } else if (strcmp(type, "field") == 0) {
+    } else if (node->type->kind == KIND_CODE) {
         const double r = guess(params);
         box_add_half(box, r, r, r);
+    } else if (node->type->kind == KIND_SHAPE || node->type->kind == KIND_FLAT) {
+        const double r = is_endless(node) ? 0 : reach(params);
+        if (r > 0) {
+            box_add_half(box, r, r, r);
+        }
+    }
+}
+
+/* By what a modifier may put beyond its children. */
+static void grow(struct box *box, const struct node *node)
+{
+    const struct record *params = &node->params;
+    const bool repeat = strcmp(node->type->record.name, "repeat") == 0;
+
+    for (int i = 0; box->some && i < 3; i++) {
+        const double copies = repeat ? fmax(record_vector(params, "count")[i] - 1, 0) : 0;
+        const double by = repeat ? copies / 2 * record_vector(params, "spacing")[i] : reach(params);
+
+        box->low[i] -= by;
+        box->high[i] += by;
     }
 }
 
@@ -118,6 +162,9 @@ static struct box node_box(const struct scene *scene, const struct node *node, s
         if (inner.some) {
             box_add(&box, inner.low, inner.high);
         }
+    }
+    if (node->type->group == GROUP_MODIFIER) {
+        grow(&box, node);
     }
     return box_placed(&node->transform, &box);
 }

@@ -205,6 +205,8 @@ static cJSON *build(struct importing *importing, const struct import_item *scene
     cJSON_AddStringToObject(sun, "id", "sun");
     cJSON_AddStringToObject(sun, "type", "directional");
     cJSON_AddNumberToObject(sun, "intensity", 3);
+    /* Colours are shown as the format's renderer shows them. */
+    cJSON_AddStringToObject(cJSON_AddObjectToObject(document, "render"), "tone_map", "none");
     root = cJSON_AddObjectToObject(document, "root");
     cJSON_AddStringToObject(root, "id", "root");
     cJSON_AddStringToObject(root, "type", "union");

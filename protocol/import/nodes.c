@@ -5,30 +5,6 @@
 #include <string.h>
 
 #include "parts.h"
-#include "protocol/nearest.h"
-
-/* THE TABLE of built-in types: what a primitive reads of its `data`, in order. */
-static const struct built_in {
-    const char *group, *name, *type;
-    struct {
-        const char *param;
-        int components;
-        double factor;
-    } data[2];
-} built_ins[] = {
-    {"Primitives", "Sphere", "sphere", {{"radius", 1, 1}}},
-    {"Primitives", "Cuboid", "box", {{"size", 3, 1}}},
-    {"Primitives", "Box", "box", {{"size", 3, 1}}},
-    {"Primitives", "Cylinder", "cylinder", {{"height", 1, 2}, {"radius", 1, 1}}},
-    {"Primitives", "Plane", "plane", {{"normal", 3, 1}, {"offset", 1, -1}}},
-    {"Operations", "Union", "union", {{NULL, 0, 0}}},
-    {"Operations", "Intersection", "intersection", {{NULL, 0, 0}}},
-    {"Operations", "Subtraction", "difference", {{NULL, 0, 0}}},
-    {"Operations", "SmoothUnion", "smooth_union", {{"k", 1, 1}}},
-    {"Operations", "SmoothIntersection", "smooth_intersection", {{"k", 1, 1}}},
-    {"Operations", "SmoothSubtraction", "smooth_difference", {{"k", 1, 1}}},
-};
-enum { BUILT_INS = sizeof built_ins / sizeof built_ins[0], BUILT_IN_VALUES = 2 };
 
 static const char *const node_members[] = {"type",        "model",    "data", "transform",
                                            "material_id", "children", NULL};
@@ -57,46 +33,17 @@ static const struct import_value *type_value(const struct importing *importing,
     return type ? type : model;
 }
 
-/* What stands behind "GROUP/"; NULL: another group. */
-static const char *name_in(const char *type, const char *group)
+const char *import_name_in(const char *type, const char *group)
 {
     const size_t length = strlen(group);
 
     return strncmp(type, group, length) == 0 && type[length] == '/' ? type + length + 1 : NULL;
 }
 
-static const struct built_in *find_built_in(const char *type)
-{
-    for (size_t i = 0; i < BUILT_INS; i++) {
-        const char *name = name_in(type, built_ins[i].group);
-
-        if (name && strcmp(name, built_ins[i].name) == 0) {
-            return &built_ins[i];
-        }
-    }
-    return NULL;
-}
-
-static bool fail_type(const struct importing *importing, const struct import_item *item,
-                      const struct import_value *type)
-{
-    struct nearest nearest = {.text = type->text};
-    char names[BUILT_INS][40], hint[64];
-
-    for (size_t i = 0; i < BUILT_INS; i++) {
-        snprintf(names[i], sizeof names[i], "%s/%s", built_ins[i].group, built_ins[i].name);
-        nearest_consider(&nearest, names[i]);
-    }
-    return import_fail(importing, item, type,
-                       "\"%.64s\" is no type: expected Primitives/NAME, Operations/NAME or "
-                       "Models/NAME%s",
-                       type->text, nearest_hint(&nearest, hint, sizeof hint));
-}
-
 /* --- its numbers --- */
 
-static bool read_data(const struct importing *importing, const struct import_item *item,
-                      const struct import_value *list, double out[IMPORT_DATA_MAX])
+bool import_read_data(const struct importing *importing, const struct import_item *item,
+                      const struct import_value *list, size_t most, double *out)
 {
     size_t count = 0;
 
@@ -104,42 +51,10 @@ static bool read_data(const struct importing *importing, const struct import_ite
         if (one->kind != IMPORT_NUMBER) {
             return import_fail(importing, item, one, "data: expected a number");
         }
-        if (count == IMPORT_DATA_MAX) {
-            return import_fail(importing, item, one, "data: more than %d numbers", IMPORT_DATA_MAX);
+        if (count == most) {
+            return import_fail(importing, item, one, "data: more than %zu numbers", most);
         }
         out[count++] = one->number;
-    }
-    return true;
-}
-
-static bool add_built_in_data(const struct importing *importing, const struct import_item *item,
-                              const struct built_in *built_in, const struct import_value *list,
-                              cJSON *node)
-{
-    double data[IMPORT_DATA_MAX];
-    size_t wanted = 0, used = 0;
-
-    for (int i = 0; i < BUILT_IN_VALUES; i++) {
-        wanted += (size_t)built_in->data[i].components;
-    }
-    if (!read_data(importing, item, list, data)) {
-        return false;
-    }
-    if (list->count < wanted || (wanted == 0 && list->count > 0)) {
-        return import_fail(importing, item, list, "data: expected %zu number%s for %s", wanted,
-                           wanted == 1 ? "" : "s", built_in->name);
-    }
-    cJSON *params = wanted ? cJSON_AddObjectToObject(node, "params") : NULL;
-    for (int i = 0; i < BUILT_IN_VALUES && built_in->data[i].param; i++) {
-        const int count = built_in->data[i].components;
-
-        for (int k = 0; k < count; k++) {
-            data[used + (size_t)k] *= built_in->data[i].factor;
-        }
-        cJSON_AddItemToObject(params, built_in->data[i].param,
-                              count == 1 ? cJSON_CreateNumber(data[used])
-                                         : cJSON_CreateDoubleArray(data + used, count));
-        used += (size_t)count;
     }
     return true;
 }
@@ -154,7 +69,7 @@ static bool add_custom_data(const struct importing *importing, const struct impo
     if (!list) {
         return true;
     }
-    if (!read_data(importing, item, list, data)) {
+    if (!import_read_data(importing, item, list, IMPORT_DATA_MAX, data)) {
         return false;
     }
     for (int i = 0; i < primitive->numbers; i++) {
@@ -254,48 +169,66 @@ cJSON *import_bare_node(struct importing *importing, const char *type,
     return node;
 }
 
+static cJSON *built_in_node(struct importing *importing, const struct import_item *item,
+                            const struct import_value *value,
+                            const struct import_built_in *built_in, const char *name,
+                            const struct import_value *data)
+{
+    cJSON *node = import_bare_node(importing, built_in->type->record.name, item, value);
+
+    if (data && !import_add_data(importing, item, built_in, name, data, node)) {
+        cJSON_Delete(node);
+        return NULL;
+    }
+    return node;
+}
+
+/* A node of what a file has: a model or a primitive. */
+static cJSON *named_node(struct importing *importing, const struct import_item *item,
+                         const struct import_value *value, const struct import_item *named,
+                         const struct import_value *data)
+{
+    const bool model = named->role == IMPORT_MODEL;
+    cJSON *node, *params;
+
+    if (model && data && data->count > 0) {
+        import_fail(importing, item, data, "data: a model takes no numbers");
+        return NULL;
+    }
+    node = import_bare_node(importing, model ? "model" : "field", item, value);
+    cJSON_AddStringToObject(node, "name", *named->name ? named->name : named->stem);
+    params = cJSON_AddObjectToObject(node, "params");
+    cJSON_AddStringToObject(params, model ? "model" : "primitive", named->id);
+    if (!model && !add_custom_data(importing, item, named, data, params)) {
+        cJSON_Delete(node);
+        return NULL;
+    }
+    return node;
+}
+
 /* A node with what its type and data make of it. */
 static cJSON *typed_node(struct importing *importing, const struct import_item *item,
                          const struct import_value *value)
 {
     const struct import_value *type = type_value(importing, item, value), *data;
-    const struct built_in *built_in = type ? find_built_in(type->text) : NULL;
-    const char *model = type ? name_in(type->text, "Models") : NULL;
-    const char *primitive = type ? name_in(type->text, "Primitives") : NULL;
-    cJSON *node = NULL;
+    const struct import_item *named;
+    struct import_built_in built_in;
 
     if (!type || !import_take(importing, item, value, "data", IMPORT_LIST, &data)) {
         return NULL;
     }
-    if (built_in) {
-        node = import_bare_node(importing, built_in->type, item, value);
-        if (data && !add_built_in_data(importing, item, built_in, data, node)) {
-            cJSON_Delete(node);
-            return NULL;
-        }
-    } else if (model || primitive) {
-        const struct import_item *named =
-            import_find(importing, item, type, model ? IMPORT_MODEL : IMPORT_PRIMITIVE,
-                        model ? model : primitive);
-        if (!named) {
-            return NULL;
-        }
-        if (model && data && data->count > 0) {
-            import_fail(importing, item, data, "data: a model takes no numbers");
-            return NULL;
-        }
-        node = import_bare_node(importing, model ? "model" : "field", item, value);
-        cJSON_AddStringToObject(node, "name", *named->name ? named->name : named->stem);
-        cJSON *params = cJSON_AddObjectToObject(node, "params");
-        cJSON_AddStringToObject(params, model ? "model" : "primitive", named->id);
-        if (primitive && !add_custom_data(importing, item, named, data, params)) {
-            cJSON_Delete(node);
-            return NULL;
-        }
-    } else {
-        fail_type(importing, item, type);
+    if (import_find_built_in(importing, type->text, &built_in)) {
+        return built_in_node(importing, item, value, &built_in, strchr(type->text, '/') + 1, data);
     }
-    return node;
+    const char *model = import_name_in(type->text, "Models");
+    const char *primitive = import_name_in(type->text, "Primitives");
+    if (!model && !(primitive && import_has(importing, IMPORT_PRIMITIVE, primitive))) {
+        import_fail_type(importing, item, type);
+        return NULL;
+    }
+    named = import_find(importing, item, type, model ? IMPORT_MODEL : IMPORT_PRIMITIVE,
+                        model ? model : primitive);
+    return named ? named_node(importing, item, value, named, data) : NULL;
 }
 
 static bool add_children(struct importing *importing, const struct import_item *item,
@@ -341,10 +274,12 @@ static bool count_below(struct importing *importing, const struct import_item *i
     const struct import_value *type = type_value(importing, item, node);
     const struct import_value *data = import_member(node, "data");
     const struct import_value *children = import_member(node, "children");
-    const char *name = type ? name_in(type->text, "Primitives") : NULL;
+    const char *name = type ? import_name_in(type->text, "Primitives") : NULL;
+    struct import_built_in built_in;
     bool ok = type != NULL;
 
-    if (name && data && !find_built_in(type->text)) {
+    if (name && data && !import_find_built_in(importing, type->text, &built_in) &&
+        import_has(importing, IMPORT_PRIMITIVE, name)) {
         struct import_item *primitive = import_find(importing, item, type, IMPORT_PRIMITIVE, name);
 
         ok = primitive != NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files import*.c share and nobody else includes. */
+/* What the files of this folder share and nobody else includes. */
 #ifndef PROTOCOL_IMPORT_PARTS_H
 #define PROTOCOL_IMPORT_PARTS_H
 
@@ -7,7 +7,7 @@
 #include "protocol/limits.h"
 #include "text.h"
 
-enum { IMPORT_DATA_MAX = 8 }; /* numbers of a primitive */
+enum { IMPORT_DATA_MAX = 8 }; /* numbers in the buffer of a primitive */
 
 enum import_role {
     IMPORT_SCENE,
@@ -47,7 +47,7 @@ struct importing {
     struct error *err;
 };
 
-/* --- import_files.c --- */
+/* --- files.c --- */
 
 /* Reads, recognises and names all files. */
 bool import_read_files(struct importing *importing, const struct import_source *source,
@@ -74,7 +74,34 @@ struct import_item *import_find(const struct importing *importing, const struct 
 void import_mark(struct importing *importing, const char *list, const char *name,
                  const struct import_item *item, const struct import_value *value);
 
-/* --- import_nodes.c --- */
+/* Whether any file has this name. */
+bool import_has(const struct importing *importing, enum import_role role, const char *name);
+
+/* --- built_in.c --- */
+
+struct import_built_in {
+    const struct node_type *type;
+    const struct import_own *own; /* NULL: named and given as in the registry */
+};
+
+/* What "Primitives/Torus" means; false: nothing that is built in, or a file has the name. */
+bool import_find_built_in(const struct importing *importing, const char *name,
+                          struct import_built_in *out);
+/* Says that there is no such type, and what was probably meant; false. */
+bool import_fail_type(const struct importing *importing, const struct import_item *item,
+                      const struct import_value *type);
+/* The node's `params` out of its data; `name` is what messages call it. */
+bool import_add_data(const struct importing *importing, const struct import_item *item,
+                     const struct import_built_in *built_in, const char *name,
+                     const struct import_value *list, cJSON *node);
+
+/* --- nodes.c --- */
+
+/* What stands behind "GROUP/"; NULL: another group. */
+const char *import_name_in(const char *type, const char *group);
+/* At most `most` numbers of a list. */
+bool import_read_data(const struct importing *importing, const struct import_item *item,
+                      const struct import_value *list, size_t most, double *out);
 
 /* A node of the document with all below it; NULL and err on failure. */
 cJSON *import_node(struct importing *importing, const struct import_item *item,
@@ -85,7 +112,7 @@ cJSON *import_bare_node(struct importing *importing, const char *type,
 /* Finds how many numbers of its `data` each primitive is given. */
 bool import_count_data(struct importing *importing);
 
-/* --- import_resources.c: members of the document's objects --- */
+/* --- resources.c: members of the document's objects --- */
 
 cJSON *import_primitive(struct importing *importing, const struct import_item *item);
 cJSON *import_shader(struct importing *importing, const struct import_item *item);
@@ -93,7 +120,7 @@ cJSON *import_material(struct importing *importing, const struct import_item *it
 /* How many numbers of `data` the code of a primitive reads. */
 int import_data_read(const char *code);
 
-/* --- import_frame.c --- */
+/* --- frame.c --- */
 
 /* Puts the children of the root side by side. */
 void import_lay_out(struct scene *scene);

@@ -17,7 +17,7 @@ static const struct property_type {
     int components;
 } property_types[] = {
     {"float", "float", 1}, {"float2", "vec2", 2}, {"float3", "vec3", 3}, {"float4", "vec4", 4},
-    {"int", "int", 1},     {"int2", "vec2", 2},   {"int3", "vec3", 3},
+    {"int", "int", 1},     {"int2", "ivec2", 2},  {"int3", "ivec3", 3},  {"int4", "ivec4", 4},
 };
 enum { PROPERTY_TYPES = sizeof property_types / sizeof property_types[0] };
 
@@ -202,7 +202,7 @@ static bool read_property(const struct importing *importing, const struct import
     return (at && *at == '\0' && *out->name && out->type) ||
            import_fail(importing, item, value,
                        "expected a property as \"[float] [Range(0, 1)] _Name\", of type float, "
-                       "float2, float3, float4, int, int2 or int3");
+                       "float2, float3, float4, int, int2, int3 or int4");
 }
 
 static bool is_colour(const struct property *property)

@@ -13,6 +13,7 @@
 
 #include "protocol/import/import.h"
 #include "protocol/import/text.h"
+#include "protocol/json.h"
 #include "tests/support/compiled.h"
 #include "tests/support/text_file.h"
 
@@ -319,6 +320,214 @@ static void test_operations(void **state)
     }
 }
 
+/* "round_box" as "RoundBox". */
+static void camel(const char *name, char *out)
+{
+    bool first = true;
+
+    for (; *name; name++) {
+        if (*name != '_') {
+            *out++ = (char)(first && *name >= 'a' ? *name - 'a' + 'A' : *name);
+        }
+        first = *name == '_';
+    }
+    *out = '\0';
+}
+
+static const char *group_of(const struct node_type *type)
+{
+    return type->group == GROUP_PRIMITIVE || type->group == GROUP_SHAPE ? "Primitives"
+           : type->group == GROUP_MODIFIER                              ? "Modifiers"
+                                                                        : "Operations";
+}
+
+/* Without data each is as the registry makes it; a file's own names are Models and the rest. */
+static void test_every_type_has_a_name(void **state)
+{
+    size_t named = 0;
+    char text[256], name[64];
+
+    (void)state;
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const struct node_type *type = node_type_at(i);
+
+        if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
+            continue;
+        }
+        camel(type->record.name, name);
+        for (int again = 0; again < 1 + (type->group == GROUP_MODIFIER); again++) {
+            snprintf(text, sizeof text,
+                     ONE_NODE("{\"type\": \"%s/%s\", \"children\": [{\"type\": "
+                              "\"Primitives/Sphere\"}]}"),
+                     again ? "Operations" : group_of(type), name);
+            struct scene *scene = import_texts("s.json", text, NULL);
+            if (!scene) {
+                fail_msg("%s: %s", text, err.message);
+            }
+            assert_ptr_equal(scene->root->children[0]->type, type);
+            scene_destroy(scene);
+        }
+        named++;
+    }
+    assert_int_equal(named + 2, node_type_count());
+}
+
+static const struct node *first_node(struct scene **out, const char *node)
+{
+    char text[512];
+
+    snprintf(text, sizeof text, ONE_NODE("%s"), node);
+    *out = import_texts("s.json", text, NULL);
+    if (!*out) {
+        fail_msg("%s: %d:%d: %s", node, err.line, err.column, err.message);
+    }
+    return (*out)->root->children[0];
+}
+
+/* Numbers in the order of the row: vectors as their parts, switches as 0 and 1, a choice by its
+ * place, points as pairs. What is not reached keeps its default. */
+static void test_data_in_order(void **state)
+{
+    static const struct {
+        const char *node, *params;
+    } rows[] = {
+        {"{\"type\": \"Primitives/Torus\", \"data\": [2, 0.5]}", "{\"radius\":2,\"tube\":0.5}"},
+        {"{\"type\": \"Primitives/Torus\", \"data\": [2, 0.5, 0, 0, 0, 0, 0, 0]}",
+         "{\"radius\":2,\"tube\":0.5}"},
+        {"{\"type\": \"Primitives/RoundBox\", \"data\": [2, 3, 4]}", "{\"size\":[2,3,4]}"},
+        {"{\"type\": \"Primitives/RoundBox\", \"data\": [2, 3, 4, 0.5]}",
+         "{\"size\":[2,3,4],\"radius\":0.5}"},
+        {"{\"type\": \"Primitives/Quad\", \"data\": [0,0,0, 1,0,0, 1,1,0, 0,1,0, 0.25]}",
+         "{\"a\":[0,0,0],\"b\":[1,0,0],\"c\":[1,1,0],\"d\":[0,1,0],\"thickness\":0.25}"},
+        {"{\"type\": \"Primitives/Polygon\", \"data\": [0, 0, 1, 0, 1, 1, 0.5, 2, 0, 1]}",
+         "{\"points\":[[0,0],[1,0],[1,1],[0.5,2],[0,1]]}"},
+        {"{\"type\": \"Modifiers/Mirror\", \"data\": [0, 1, 1]}", "{\"axes\":[false,true,true]}"},
+        {"{\"type\": \"Operations/Repeat\", \"data\": [1, 2, 3, 4, -1, 0]}",
+         "{\"spacing\":[1,2,3],\"count\":[4,-1,0]}"},
+        {"{\"type\": \"Modifiers/Twist\", \"data\": [0.75]}", "{\"rate\":0.75}"},
+        {"{\"type\": \"Operations/SmoothUnion\", \"data\": [0.25, 1]}",
+         "{\"k\":0.25,\"kernel\":\"cubic\"}"},
+        {"{\"type\": \"Operations/Morph\", \"data\": [0.25]}", "{\"t\":0.25}"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        struct scene *scene;
+        const struct node *node = first_node(&scene, rows[i].node);
+        cJSON *json = cJSON_CreateObject();
+        record_print(&node->params, json);
+        char *text = json_print(json, false);
+
+        assert_string_equal(text, rows[i].params);
+        free(text);
+        cJSON_Delete(json);
+        scene_destroy(scene);
+    }
+}
+
+/* The thesis' prism has the name of ours. */
+static void test_files_come_first(void **state)
+{
+    static const char prism[] = "{\"name\": \"HexPrism\", \"id\": 40, \"code\": "
+                                "\"float sdf(vec3 p) { return length(p) - 1.0; }\"}";
+    struct scene *scene = import_texts("s.json", ONE_NODE("{\"type\": \"Primitives/HexPrism\"}"),
+                                       "p.json", prism, NULL);
+
+    (void)state;
+    assert_non_null(scene);
+    assert_int_equal(scene->root->children[0]->type->kind, KIND_CODE);
+    scene_destroy(scene);
+}
+
+/* The camera is far enough away for what is larger than a ball of 1. */
+static void test_camera_sees_built_in_types(void **state)
+{
+    struct scene *scene;
+
+    (void)state;
+    first_node(&scene, "{\"type\": \"Primitives/Torus\", \"data\": [5, 1]}");
+    check_seen(scene, (double[3]){6, 0, 0});
+    check_seen(scene, (double[3]){0, 0, -6});
+    scene_destroy(scene);
+    first_node(&scene, "{\"type\": \"Modifiers/Repeat\", \"data\": [4, 1, 1, 5, 0, 0], "
+                       "\"children\": [{\"type\": \"Primitives/Octahedron\", \"data\": [1]}]}");
+    check_seen(scene, (double[3]){9, 0, 0});
+    check_seen(scene, (double[3]){-9, 0, 0});
+    scene_destroy(scene);
+}
+
+/* Code of the thesis says each property once more, with the type of its annotation. */
+static void test_properties_of_every_type(void **state)
+{
+    static const char shader[] =
+        "{\"name\": \"Pos\", \"properties\": [\"[float] _F\", \"[float2] _F2\", \"[float3] _F3\", "
+        "\"[float4] _F4\", \"[int] _I\", \"[int2] _I2\", \"[int3] [Range(-4, 4)] _I3\", "
+        "\"[int4] _I4\"], \"code\": \"float _F; float2 _F2; float3 _F3; float4 _F4; int _I; "
+        "int2 _I2; int3 _I3; int4 _I4;\nfloat3 shade(FragmentProperties p) { return "
+        "float3(_I2.y % 3, _I3.z, _I4.w) + _F3 * _F4.xyz * _F2.x * _F * float(_I); }\"}";
+    static const char material[] =
+        "{\"base_shader\": \"Pos\", \"properties\": ["
+        "{\"name\": \"_I2\", \"type\": \"int2\", \"value\": \"(1, 5)\"}, "
+        "{\"name\": \"_I3\", \"type\": \"int3\", \"value\": \"(1, 2, -3)\"}, "
+        "{\"name\": \"_I4\", \"value\": \"(1, 2, 3, 4)\"}]}";
+    static const double three[] = {1, 2, -3};
+    struct scene *scene = import_texts("pos.json", shader, "m.json", material, NULL);
+
+    (void)state;
+    if (!scene) {
+        fail_msg("%s:%d:%d: %s", err.place, err.line, err.column, err.message);
+    }
+    const struct record *record = &resource_find(&scene->materials, "m")->record;
+    assert_int_equal(record->type->params[record_type_find(record->type, "_I2")].type, PARAM_IVEC2);
+    assert_memory_equal(record_vector(record, "_I3"), three, sizeof three);
+    field_unref(compile_field(scene));
+    scene_destroy(scene);
+    assert_null(import_texts("pos.json", shader, "m.json",
+                             "{\"base_shader\": \"Pos\", \"properties\": [{\"name\": \"_I2\", "
+                             "\"value\": \"(1, 0.5)\"}]}",
+                             NULL));
+    assert_non_null(strstr(err.message, "0.5 (y) is not a whole number"));
+}
+
+/* What a document cannot hold of a name is replaced; it reads back. */
+static void test_names_that_are_no_text(void **state)
+{
+    static const char model[] = "{\"model\": {\"type\": \"Primitives/Sphere\"}}";
+    static const char *const paths[] = {"sc\xe9ne.json",
+                                        "d/a\x01\x7f"
+                                        "b.json",
+                                        "\xff.json", "\xed\xa0\x80.json"};
+    static const char *const names[] = {"sc\xef\xbf\xbdne",
+                                        "a\xef\xbf\xbd\xef\xbf\xbd"
+                                        "b",
+                                        "\xef\xbf\xbd", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"};
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(paths); i++) {
+        struct scene *scene = import_texts(paths[i], model, NULL);
+        assert_non_null(scene);
+        assert_string_equal(record_text(&scene->info, "name"), names[i]);
+        char *text = scene_print(scene, false);
+        struct scene *again = scene_parse(text, strlen(text), &err);
+        if (!again) {
+            fail_msg("%s: %s", err.place, err.message);
+        }
+        scene_destroy(again);
+        free(text);
+        scene_destroy(scene);
+    }
+}
+
+/* Colours go into the picture as the shader gives them. */
+static void test_colours_are_kept(void **state)
+{
+    struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
+
+    (void)state;
+    assert_true(record_is(&scene->render, "tone_map", "none"));
+    scene_destroy(scene);
+}
+
 /* Printed there: Rx and Ry with the signs of a turn the other way, Rz as ours. */
 static void test_rotation(void **state)
 {
@@ -423,6 +632,25 @@ static void test_refused(void **state)
         {NODE("{}"), 1, 12, "expected one member type"},
         {NODE("{\"type\": \"Sphere\"}"), 1, 21, "is no type"},
         {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "no file has the primitive"},
+        {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "did you mean \"Primitives/Sphere\"?"},
+        {NODE("{\"type\": \"Modifiers/Twists\"}"), 1, 21, "did you mean \"Modifiers/Twist\"?"},
+        {NODE("{\"type\": \"Modifiers/Union\"}"), 1, 21, "is no type"},
+        {NODE("{\"type\": \"Primitives/RoundBox\", \"data\": [1, 1]}"), 1, 52,
+         "data: expected 3 numbers for RoundBox"},
+        {NODE("{\"type\": \"Primitives/CappedTorus\", \"data\": [1, 1, 1, 1, 1, 1, 1, 1, 1]}"), 1,
+         80, "data: more than 8 numbers"},
+        {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 2]}"), 1, 49,
+         "data: expected 3 numbers for count, and 1 is left"},
+        {NODE("{\"type\": \"Modifiers/Mirror\", \"data\": [1, 2, 0]}"), 1, 49,
+         "data: expected 0 or 1 for each axis for axes"},
+        {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 0.5, 1, 1]}"), 1, 12,
+         "count: 0.5 (x) is not a whole number"},
+        {NODE("{\"type\": \"Operations/SmoothUnion\", \"data\": [1, 99]}"), 1, 55,
+         "data: expected the place of one of its choices, from 0 for kernel"},
+        {NODE("{\"type\": \"Primitives/Polygon\", \"data\": [1, 0, 0, 1, 0, 0, 1]}"), 1, 51,
+         "data: expected x and y of each point for points"},
+        {NODE("{\"type\": \"Operations/Union\", \"data\": [1]}"), 1, 49,
+         "data: expected 0 numbers for Union"},
         {NODE("{\"type\": \"Operations/Unoin\"}"), 1, 21, "did you mean \"Operations/Union\"?"},
         {NODE("{\"type\": \"Models/Nobody\"}"), 1, 21, "no file has the model \"Nobody\""},
         {NODE("{" SPHERE ", \"data\": []}"), 1, 50, "data: expected 1 number for Sphere"},
@@ -537,6 +765,13 @@ int main(void)
         cmocka_unit_test(test_side_by_side),
         cmocka_unit_test(test_built_in_types),
         cmocka_unit_test(test_operations),
+        cmocka_unit_test(test_every_type_has_a_name),
+        cmocka_unit_test(test_data_in_order),
+        cmocka_unit_test(test_files_come_first),
+        cmocka_unit_test(test_camera_sees_built_in_types),
+        cmocka_unit_test(test_properties_of_every_type),
+        cmocka_unit_test(test_names_that_are_no_text),
+        cmocka_unit_test(test_colours_are_kept),
         cmocka_unit_test(test_rotation),
         cmocka_unit_test(test_ids),
         cmocka_unit_test(test_commas_and_line_breaks),
