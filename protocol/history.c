@@ -1,20 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Undo and redo: for each author two stacks of steps, each step the edit that undoes or redoes. */
-#include <search.h>
+/* Undo and redo: for each author two stacks of steps (history_step.c). */
 #include <stdlib.h>
 #include <string.h>
 
-#include "edit.h"
+#include "history_parts.h"
 #include "limits.h"
 #include "memory.h"
-
-struct step {
-    char *group;
-    cJSON *ops;
-    size_t count;
-    bool values;  /* nothing but values are set: places may be joined */
-    void *places; /* search tree of the places set, while `values` */
-};
 
 struct stack {
     struct step **items;
@@ -30,103 +21,6 @@ struct author {
 struct history {
     struct author *newest;
 };
-
-/* --- steps --- */
-
-static void keep(void *item)
-{
-    (void)item;
-}
-
-static int compare_places(const void *a, const void *b)
-{
-    return strcmp(a, b);
-}
-
-static void step_destroy(struct step *step)
-{
-    tdestroy(step->places, keep);
-    cJSON_Delete(step->ops);
-    free(step->group);
-    free(step);
-}
-
-static const char *place_of(const cJSON *op)
-{
-    return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "at"));
-}
-
-/* Sets a value on which no other operation depends, as one may on a type, on what is declared, and
- * on which model a node names. */
-static bool sets_value(const cJSON *op)
-{
-    static const char *const others[] = {"/type",  "/shader", "/primitive",
-                                         "/model", "/params", "/properties"};
-    const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(op, "op"));
-    if (!name || strcmp(name, "set") != 0 || !place_of(op)) {
-        return false;
-    }
-    const char *last = strrchr(place_of(op), '/');
-    for (size_t i = 0; last && i < sizeof others / sizeof others[0]; i++) {
-        if (strcmp(last, others[i]) == 0) {
-            return false;
-        }
-    }
-    return last;
-}
-
-static struct step *step_create(const char *group, cJSON *ops)
-{
-    struct step *step = memory_alloc(1, sizeof *step);
-    step->group = memory_text(group ? group : "");
-    step->ops = ops;
-    step->values = true;
-    for (const cJSON *op = ops->child; op; op = op->next) {
-        step->values = step->values && sets_value(op);
-        step->count++;
-    }
-    for (const cJSON *op = step->values ? ops->child : NULL; op; op = op->next) {
-        tsearch(place_of(op), &step->places, compare_places);
-    }
-    return step;
-}
-
-/* Drops what the step would set again later: only its older value counts. */
-static void drop_places(struct step *newer, const struct step *step)
-{
-    for (cJSON *op = newer->ops->child, *next; op; op = next) {
-        next = op->next;
-        if (tfind(place_of(op), &step->places, compare_places)) {
-            cJSON_Delete(cJSON_DetachItemViaPointer(newer->ops, op));
-            newer->count--;
-        }
-    }
-}
-
-/* Puts `newer` in front of the step and frees it; false where they are too many together. */
-static bool step_join(struct step *step, struct step *newer)
-{
-    if (step->count + newer->count > LIMIT_OPERATIONS) {
-        return false;
-    }
-    if (step->values && newer->values) {
-        drop_places(newer, step);
-    } else {
-        tdestroy(step->places, keep);
-        step->places = NULL;
-        step->values = false;
-    }
-    step->count += newer->count;
-    while (newer->ops->child) {
-        cJSON *last = cJSON_DetachItemViaPointer(newer->ops, newer->ops->child->prev);
-        cJSON_InsertItemInArray(step->ops, 0, last);
-        if (step->values) {
-            tsearch(place_of(last), &step->places, compare_places);
-        }
-    }
-    step_destroy(newer);
-    return true;
-}
 
 /* --- stacks --- */
 
@@ -222,11 +116,9 @@ void history_destroy(struct history *history)
     free(history);
 }
 
-void history_record(struct history *history, const char *author_name, const char *group,
-                    cJSON *inverse)
+static void record_edit(struct author *author, const struct history_entry *entry)
 {
-    struct author *author = hear_of(history, author_name);
-    struct step *step = step_create(group, inverse);
+    struct step *step = step_create(entry->group, entry->label, entry->applied, entry->inverse);
     struct stack *undo = &author->undo;
     struct step *newest = undo->count > 0 ? undo->items[undo->count - 1] : NULL;
     clear(&author->redo);
@@ -236,39 +128,104 @@ void history_record(struct history *history, const char *author_name, const char
     }
 }
 
+/* Steps above were found to be gone: nothing of them applied. */
+static void drop_above(struct stack *stack, size_t left)
+{
+    while (stack->count > left) {
+        step_destroy(stack->items[--stack->count]);
+    }
+}
+
+static void record_move(struct stack *from, struct stack *to, const struct history_entry *entry)
+{
+    push(to, step_create(NULL, entry->label, entry->applied, entry->inverse));
+    drop_above(from, from->count > 0 ? from->count - 1 : 0);
+}
+
+void history_record(struct history *history, const struct history_entry *entry)
+{
+    struct author *author = hear_of(history, entry->author);
+    drop_above(&author->undo, entry->undo);
+    drop_above(&author->redo, entry->redo);
+    switch (entry->kind) {
+    case HISTORY_EDIT:
+        record_edit(author, entry);
+        break;
+    case HISTORY_UNDO:
+        record_move(&author->undo, &author->redo, entry);
+        break;
+    case HISTORY_REDO:
+        record_move(&author->redo, &author->undo, entry);
+        break;
+    }
+}
+
+/* Tells of the first of the values that somebody else has set since. */
+static bool fail_overwritten(const cJSON *skipped, struct error *err)
+{
+    const cJSON *at = cJSON_GetObjectItemCaseSensitive(skipped->child, "at");
+    return error_set(err, ERROR_CONFLICT, cJSON_GetStringValue(at),
+                     "somebody else has changed this since");
+}
+
 /* Applies the newest step of one stack and puts what takes it back on the other. A step of which
  * nothing applies any more is gone: the next call reaches the one below. */
-static bool go(struct stack *from, struct stack *to, struct scene *scene, cJSON **out_applied,
+static bool go(struct author *author, bool redo, struct scene *scene, struct history_move *out,
                struct error *err)
 {
+    struct stack *from = redo ? &author->redo : &author->undo;
+    struct stack *to = redo ? &author->undo : &author->redo;
+    struct history_move move = {.undo = author->undo.count, .redo = author->redo.count};
     struct step *step = from->items[--from->count];
-    cJSON *inverse;
-    bool ok = edit_apply_some(scene, step->ops, out_applied, &inverse, err);
+    cJSON *inverse = NULL;
+    move.skipped = step_take_overwritten(step, scene);
+    bool ok = step->count > 0 ? edit_apply_some(scene, step->ops, &move.applied, &inverse, err)
+                              : fail_overwritten(move.skipped, err);
     if (ok) {
-        push(to, step_create(NULL, inverse));
+        push(to, step_create(NULL, step->label, move.applied, inverse));
+        move.inverse = inverse;
+        move.label = to->items[to->count - 1]->label;
     }
     step_destroy(step);
+    if (out) {
+        *out = move;
+    } else {
+        history_move_finish(&move);
+    }
     return ok;
 }
 
-bool history_undo(struct history *history, struct scene *scene, const char *author_name,
-                  cJSON **out_applied, struct error *err)
+void history_move_finish(struct history_move *move)
+{
+    cJSON_Delete(move->applied);
+    cJSON_Delete(move->skipped);
+    *move = (struct history_move){0};
+}
+
+static bool move_step(struct history *history, bool redo, struct scene *scene,
+                      const char *author_name, struct history_move *out, struct error *err)
 {
     struct author *author = find_author(history, author_name);
-    if (!author || author->undo.count == 0) {
-        return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to undo");
+    if (out) {
+        *out = (struct history_move){0};
     }
-    return go(&author->undo, &author->redo, scene, out_applied, err);
+    if (!author || (redo ? author->redo.count : author->undo.count) == 0) {
+        return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to %s",
+                         redo ? "redo" : "undo");
+    }
+    return go(author, redo, scene, out, err);
+}
+
+bool history_undo(struct history *history, struct scene *scene, const char *author_name,
+                  struct history_move *out, struct error *err)
+{
+    return move_step(history, false, scene, author_name, out, err);
 }
 
 bool history_redo(struct history *history, struct scene *scene, const char *author_name,
-                  cJSON **out_applied, struct error *err)
+                  struct history_move *out, struct error *err)
 {
-    struct author *author = find_author(history, author_name);
-    if (!author || author->redo.count == 0) {
-        return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to redo");
-    }
-    return go(&author->redo, &author->undo, scene, out_applied, err);
+    return move_step(history, true, scene, author_name, out, err);
 }
 
 void history_depth(const struct history *history, const char *author_name, size_t *out_undo,
@@ -277,4 +234,12 @@ void history_depth(const struct history *history, const char *author_name, size_
     const struct author *author = find_author(history, author_name);
     *out_undo = author ? author->undo.count : 0;
     *out_redo = author ? author->redo.count : 0;
+}
+
+const char *history_label(const struct history *history, const char *author_name, bool redo,
+                          size_t index)
+{
+    const struct author *author = find_author(history, author_name);
+    const struct stack *stack = !author ? NULL : redo ? &author->redo : &author->undo;
+    return stack && index < stack->count ? stack->items[stack->count - 1 - index]->label : NULL;
 }

@@ -29,10 +29,19 @@ struct store {
     bool closing;
 };
 
+void store_step_finish(struct store_step *step)
+{
+    free(step->group);
+    free(step->label);
+    free(step->inverse);
+    *step = (struct store_step){0};
+}
+
 static void write_destroy(struct store_write *write)
 {
     free(write->text);
     free(write->name);
+    store_step_finish(&write->step);
     if (write->asset) {
         free(write->asset->bytes);
         free(write->asset);
@@ -40,12 +49,19 @@ static void write_destroy(struct store_write *write)
     free(write);
 }
 
+static void edits_destroy(struct store_edit *edits, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        free(edits[i].ops);
+        store_step_finish(&edits[i].step);
+    }
+    free(edits);
+}
+
 void store_loaded_finish(struct store_loaded *loaded)
 {
-    for (size_t i = 0; i < loaded->edit_count; i++) {
-        free(loaded->edits[i].ops);
-    }
-    free(loaded->edits);
+    edits_destroy(loaded->edits, loaded->edit_count);
+    edits_destroy(loaded->past, loaded->past_count);
     free(loaded->authors);
     free(loaded->document);
     memset(loaded, 0, sizeof(*loaded));
@@ -208,6 +224,12 @@ bool store_load_asset(struct store *store, const char *id, void **out_bytes, siz
                       struct error *err)
 {
     return store_sqlite_load_asset(store->db, id, out_bytes, out_length, err);
+}
+
+bool store_load_poster(struct store *store, const char *scene, void **out_bytes, size_t *out_length,
+                       struct error *err)
+{
+    return store_sqlite_load_poster(store->db, scene, out_bytes, out_length, err);
 }
 
 void store_push(struct store *store, struct store_write *write)

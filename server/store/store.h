@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes on disk: for each a snapshot of its document, the log of edits since, and the newest edit
- * number of each author; and the files that scenes name. Writes are queued and committed in order
- * by one thread, as many as wait in one transaction; what was told durable survives kill -9 and
- * loss of power. A failed commit ends the program with STORE_EXIT_STATUS: after a failed fsync
- * nothing on disk can be trusted to become durable by trying again. Only store_sqlite.c knows the
- * database. */
+/* Scenes on disk: for each a snapshot of its document, the log of edits since with what undoes
+ * them, and the newest edit number of each author; and the files that scenes name. Writes are
+ * queued and committed in order by one thread, as many as wait in one transaction; what was told
+ * durable survives kill -9 and loss of power. A failed commit ends the program with
+ * STORE_EXIT_STATUS: after a failed fsync nothing on disk can be trusted to become durable by
+ * trying again. Only store_sqlite.c knows the database. */
 #ifndef SERVER_STORE_H
 #define SERVER_STORE_H
 
@@ -17,7 +17,9 @@
 
 enum {
     STORE_EXIT_STATUS = 74, /* EX_IOERR */
-    STORE_LOG_KEPT = 10000, /* edits kept before the newest snapshot, for reading by people */
+    STORE_LOG_KEPT = 10000, /* edits kept before the newest snapshot */
+    STORE_PAST = 4096,      /* edits that are read to know what can be undone */
+    STORE_PAST_BYTES = 16777216,
 };
 
 struct store;
@@ -28,7 +30,8 @@ enum store_kind {
     STORE_REPLACE,  /* a new document at a new revision */
     STORE_SNAPSHOT, /* the document at a revision that the log has reached */
     STORE_DELETE,
-    STORE_ASSET, /* a file, once */
+    STORE_ASSET,  /* a file, once */
+    STORE_POSTER, /* the scene's last picture, in `asset`; what it was before is gone */
 };
 
 /* A file that scenes name by its SHA-256. */
@@ -39,16 +42,26 @@ struct store_asset {
     void *bytes; /* NULL in a list */
 };
 
+/* What an edit means for undo, as in struct history_entry. Owned. */
+struct store_step {
+    int kind; /* enum history_kind */
+    size_t undo, redo;
+    char *group, *label;
+    char *inverse; /* NULL: it cannot be undone */
+};
+void store_step_finish(struct store_step *step);
+
 struct store_write {
     enum store_kind kind;
     char scene[LIMIT_ID_BYTES + 1];
     uint64_t revision;
     char author[LIMIT_ID_BYTES + 1];
-    int64_t edit; /* the author's number; 0: none */
-    char *text;   /* owned: operations of an edit, else the document */
-    char *name;   /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
+    int64_t edit;           /* the author's number; 0: none */
+    char *text;             /* owned: operations of an edit, else the document */
+    struct store_step step; /* of STORE_EDIT; owned */
+    char *name; /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
     size_t nodes;
-    struct store_asset *asset; /* owned, with its bytes: of STORE_ASSET */
+    struct store_asset *asset; /* owned, with its bytes: of STORE_ASSET and STORE_POSTER */
     int64_t time_ms;           /* since 1970 */
     /* On the writer's thread after the commit; may be NULL. */
     void (*on_durable)(void *data);
@@ -64,22 +77,27 @@ struct store_scene {
     int64_t modified_ms;
 };
 
-/* What store_load found: a document, and the edits that come after it in order. */
 struct store_edit {
     uint64_t revision;
     char author[LIMIT_ID_BYTES + 1];
     int64_t edit;
     char *ops;
+    struct store_step step;
 };
 struct store_author {
     char author[LIMIT_ID_BYTES + 1];
     int64_t edit;
 };
+/* What store_load found: a document, the edits that come after it in order, and the newest edits
+ * with what undoes them, from before and after the document's revision. */
 struct store_loaded {
     char *document;
     uint64_t revision; /* of `document` */
     struct store_edit *edits;
     size_t edit_count;
+    struct store_edit *past;
+    size_t past_count;
+    size_t past_bytes;
     struct store_author *authors;
     size_t author_count;
 };
@@ -102,6 +120,9 @@ bool store_list_assets(struct store *store,
 /* Any thread; the caller frees the bytes. */
 bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,
                       struct error *err);
+/* The scene's last picture, a JPEG; as store_load_asset. */
+bool store_load_poster(struct store *store, const char *scene, void **out_bytes, size_t *out_length,
+                       struct error *err);
 /* Any thread; takes a `write` from the heap, with its texts. Never waits. */
 void store_push(struct store *store, struct store_write *write);
 /* Waits until everything pushed before is committed and told. */

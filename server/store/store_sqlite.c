@@ -26,14 +26,28 @@ static const char *const schema[] = {
     "CREATE TABLE assets(id TEXT PRIMARY KEY, type TEXT NOT NULL, width INTEGER NOT NULL,"
     " height INTEGER NOT NULL, time INTEGER NOT NULL, bytes BLOB NOT NULL);"
     "PRAGMA user_version = 2;",
+    /* What undoes an edit, and how it became a step of undo; nothing at and before scenes.replaced
+     * can be undone. */
+    "ALTER TABLE edits ADD COLUMN kind INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE edits ADD COLUMN undo INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE edits ADD COLUMN redo INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE edits ADD COLUMN step TEXT NOT NULL DEFAULT '';"
+    "ALTER TABLE edits ADD COLUMN label TEXT NOT NULL DEFAULT '';"
+    "ALTER TABLE edits ADD COLUMN inverse TEXT NOT NULL DEFAULT '';"
+    "ALTER TABLE scenes ADD COLUMN replaced INTEGER NOT NULL DEFAULT 0;"
+    "PRAGMA user_version = 3;",
+    "CREATE TABLE posters(scene TEXT PRIMARY KEY, bytes BLOB NOT NULL);"
+    "PRAGMA user_version = 4;",
 };
 enum { SCHEMA_VERSION = sizeof schema / sizeof schema[0] };
 
 /* Parameters of every statement: 1 scene, 2 revision, 3 author, 4 edit, 5 text, 6 name, 7 nodes,
- * 8 time, 9 edits kept; of an asset 10 id, 11 type, 12 width, 13 height, 14 bytes. */
+ * 8 time, 9 edits kept; of an asset 10 id, 11 type, 12 width, 13 height, 14 bytes; of an edit's
+ * step 15 kind, 16 undo, 17 redo, 18 group, 19 label, 20 inverse. */
 enum statement {
     CREATE_SCENE,
     UPDATE_SCENE,
+    SET_REPLACED,
     ADD_SNAPSHOT,
     DROP_SNAPSHOTS,
     ADD_EDIT,
@@ -44,6 +58,8 @@ enum statement {
     DELETE_EDITS,
     DELETE_AUTHORS,
     ADD_ASSET,
+    SET_POSTER,
+    DELETE_POSTER,
     STATEMENT_COUNT
 };
 
@@ -51,11 +67,13 @@ static const char *const texts[STATEMENT_COUNT] = {
     [CREATE_SCENE] = "INSERT INTO scenes(id, name, revision, nodes, modified)"
                      " VALUES(?1, ?6, ?2, ?7, ?8)",
     [UPDATE_SCENE] = "UPDATE scenes SET name=?6, revision=?2, nodes=?7, modified=?8 WHERE id=?1",
+    [SET_REPLACED] = "UPDATE scenes SET replaced=?2 WHERE id=?1",
     [ADD_SNAPSHOT] = "INSERT OR REPLACE INTO snapshots(scene, revision, document)"
                      " VALUES(?1, ?2, ?5)",
     [DROP_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1 AND revision<?2",
-    [ADD_EDIT] = "INSERT INTO edits(scene, revision, author, edit, time, ops)"
-                 " VALUES(?1, ?2, ?3, ?4, ?8, ?5)",
+    [ADD_EDIT] = "INSERT INTO edits(scene, revision, author, edit, time, ops, kind, undo,"
+                 " redo, step, label, inverse)"
+                 " VALUES(?1, ?2, ?3, ?4, ?8, ?5, ?15, ?16, ?17, ?18, ?19, ?20)",
     [SET_AUTHOR] = "INSERT INTO authors(scene, author, edit) SELECT ?1, ?3, ?4 WHERE ?4 > 0"
                    " ON CONFLICT(scene, author) DO UPDATE SET edit=excluded.edit",
     [CUT_LOG] = "DELETE FROM edits WHERE scene=?1 AND revision<=?2-?9",
@@ -63,18 +81,24 @@ static const char *const texts[STATEMENT_COUNT] = {
     [DELETE_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1",
     [DELETE_EDITS] = "DELETE FROM edits WHERE scene=?1",
     [DELETE_AUTHORS] = "DELETE FROM authors WHERE scene=?1",
+    /* The scene may have been deleted meanwhile. */
+    [SET_POSTER] = "INSERT OR REPLACE INTO posters(scene, bytes) SELECT id, ?14 FROM scenes"
+                   " WHERE id=?1",
+    [DELETE_POSTER] = "DELETE FROM posters WHERE scene=?1",
     [ADD_ASSET] = "INSERT OR IGNORE INTO assets(id, type, width, height, time, bytes)"
                   " VALUES(?10, ?11, ?12, ?13, ?8, ?14)",
 };
 
 /* What each kind of write runs. */
-static const int steps[][5] = {
+static const int steps[][6] = {
     [STORE_CREATE] = {CREATE_SCENE, ADD_SNAPSHOT, -1},
     [STORE_EDIT] = {ADD_EDIT, SET_AUTHOR, UPDATE_SCENE, -1},
-    [STORE_REPLACE] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, UPDATE_SCENE, -1},
+    [STORE_REPLACE] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, UPDATE_SCENE, SET_REPLACED, -1},
     [STORE_SNAPSHOT] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, CUT_LOG, -1},
-    [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, -1},
+    [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, DELETE_POSTER,
+                      -1},
     [STORE_ASSET] = {ADD_ASSET, -1},
+    [STORE_POSTER] = {SET_POSTER, -1},
 };
 
 struct store_sqlite {
@@ -196,6 +220,16 @@ static void bind_asset(sqlite3_stmt *statement, const struct store_asset *asset)
     sqlite3_bind_blob64(statement, 14, asset->bytes, asset->length, SQLITE_STATIC);
 }
 
+static void bind_step(sqlite3_stmt *statement, const struct store_step *step)
+{
+    sqlite3_bind_int(statement, 15, step->kind);
+    sqlite3_bind_int64(statement, 16, (sqlite3_int64)step->undo);
+    sqlite3_bind_int64(statement, 17, (sqlite3_int64)step->redo);
+    bind_text(statement, 18, step->group);
+    bind_text(statement, 19, step->label);
+    bind_text(statement, 20, step->inverse);
+}
+
 static bool run_statement(struct store_sqlite *db, int which, const struct store_write *write,
                           struct error *err)
 {
@@ -210,6 +244,7 @@ static bool run_statement(struct store_sqlite *db, int which, const struct store
     sqlite3_bind_int64(statement, 7, (sqlite3_int64)write->nodes);
     sqlite3_bind_int64(statement, 8, write->time_ms);
     sqlite3_bind_int64(statement, 9, STORE_LOG_KEPT);
+    bind_step(statement, &write->step);
     if (write->asset) {
         bind_asset(statement, write->asset);
     }
@@ -321,16 +356,70 @@ static void document_row(void *data, sqlite3_stmt *statement)
     loaded->document = column_text(statement, 1);
 }
 
+static struct store_edit *add_edit(struct store_edit **edits, size_t *count,
+                                   sqlite3_stmt *statement)
+{
+    *edits = memory_resize(*edits, *count + 1, sizeof(**edits));
+    struct store_edit *edit = &(*edits)[(*count)++];
+    *edit = (struct store_edit){
+        .revision = (uint64_t)sqlite3_column_int64(statement, 0),
+        .edit = sqlite3_column_int64(statement, 2),
+        .ops = column_text(statement, 3),
+    };
+    column_id(statement, 1, edit->author);
+    return edit;
+}
+
 static void edit_row(void *data, sqlite3_stmt *statement)
 {
     struct store_loaded *loaded = data;
 
-    loaded->edits = memory_resize(loaded->edits, loaded->edit_count + 1, sizeof(*loaded->edits));
-    struct store_edit *edit = &loaded->edits[loaded->edit_count++];
-    edit->revision = (uint64_t)sqlite3_column_int64(statement, 0);
-    column_id(statement, 1, edit->author);
-    edit->edit = sqlite3_column_int64(statement, 2);
-    edit->ops = column_text(statement, 3);
+    add_edit(&loaded->edits, &loaded->edit_count, statement);
+}
+
+/* Newest first; what lies before the first that is too much stays unread. */
+static void past_row(void *data, sqlite3_stmt *statement)
+{
+    struct store_loaded *loaded = data;
+
+    loaded->past_bytes +=
+        (size_t)sqlite3_column_bytes(statement, 3) + (size_t)sqlite3_column_bytes(statement, 9);
+    if (loaded->past_bytes > STORE_PAST_BYTES) {
+        return;
+    }
+    struct store_edit *edit = add_edit(&loaded->past, &loaded->past_count, statement);
+    edit->step = (struct store_step){
+        .kind = sqlite3_column_int(statement, 4),
+        .undo = (size_t)sqlite3_column_int64(statement, 5),
+        .redo = (size_t)sqlite3_column_int64(statement, 6),
+        .group = column_text(statement, 7),
+        .label = column_text(statement, 8),
+        .inverse = column_text(statement, 9),
+    };
+}
+
+static void turn_round(struct store_edit *edits, size_t count)
+{
+    for (size_t i = 0; i < count / 2; i++) {
+        const struct store_edit edit = edits[i];
+
+        edits[i] = edits[count - 1 - i];
+        edits[count - 1 - i] = edit;
+    }
+}
+
+static bool load_past(struct store_sqlite *db, const char *scene, struct store_loaded *out,
+                      struct error *err)
+{
+    bool ok = query(db,
+                    "SELECT e.revision, e.author, e.edit, e.ops, e.kind, e.undo, e.redo,"
+                    " e.step, e.label, e.inverse FROM edits e JOIN scenes s ON s.id=e.scene"
+                    " WHERE e.scene=?1 AND e.revision>s.replaced AND e.inverse<>''"
+                    " ORDER BY e.revision DESC LIMIT ?2",
+                    scene, STORE_PAST, past_row, out, err);
+
+    turn_round(out->past, out->past_count);
+    return ok;
 }
 
 static void author_row(void *data, sqlite3_stmt *statement)
@@ -360,6 +449,7 @@ static bool load_rows(struct store_sqlite *db, const char *scene, struct store_l
                  "SELECT revision, author, edit, ops FROM edits WHERE scene=?1 AND revision>?2"
                  " ORDER BY revision",
                  scene, (int64_t)out->revision, edit_row, out, err) &&
+           load_past(db, scene, out, err) &&
            query(db, "SELECT author, edit FROM authors WHERE scene=?1", scene, 0, author_row, out,
                  err);
 }
@@ -427,18 +517,32 @@ static void bytes_row(void *data, sqlite3_stmt *statement)
     memcpy(call->bytes, sqlite3_column_blob(statement, 0), call->length);
 }
 
-bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
-                             size_t *out_length, struct error *err)
+static bool load_bytes(struct store_sqlite *db, const char *sql, const char *id, const char *what,
+                       void **out_bytes, size_t *out_length, struct error *err)
 {
     struct bytes_call call = {0};
 
     pthread_mutex_lock(&db->read_lock);
-    bool ok = query(db, "SELECT bytes FROM assets WHERE id=?1", id, 0, bytes_row, &call, err);
+    bool ok = query(db, sql, id, 0, bytes_row, &call, err);
     pthread_mutex_unlock(&db->read_lock);
     if (ok && !call.bytes) {
-        ok = error_set(err, ERROR_NOT_FOUND, "", "there is no asset %s", id);
+        ok = error_set(err, ERROR_NOT_FOUND, "", "there is no %s %s", what, id);
     }
     *out_bytes = call.bytes;
     *out_length = call.length;
     return ok;
+}
+
+bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
+                             size_t *out_length, struct error *err)
+{
+    return load_bytes(db, "SELECT bytes FROM assets WHERE id=?1", id, "asset", out_bytes,
+                      out_length, err);
+}
+
+bool store_sqlite_load_poster(struct store_sqlite *db, const char *scene, void **out_bytes,
+                              size_t *out_length, struct error *err)
+{
+    return load_bytes(db, "SELECT bytes FROM posters WHERE scene=?1", scene, "picture of",
+                      out_bytes, out_length, err);
 }

@@ -23,5 +23,7 @@ bool store_sqlite_list_assets(struct store_sqlite *db,
                               struct error *err);
 bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
                              size_t *out_length, struct error *err);
+bool store_sqlite_load_poster(struct store_sqlite *db, const char *scene, void **out_bytes,
+                              size_t *out_length, struct error *err);
 
 #endif

@@ -40,12 +40,23 @@ static int tear_down(void **state)
     return 0;
 }
 
+/* Takes `applied` and `inverse`. */
+static void record(struct history *steps, const char *author, const char *group, cJSON *applied,
+                   cJSON *inverse)
+{
+    struct history_entry entry = {
+        .author = author, .group = group, .applied = applied, .inverse = inverse};
+    history_depth(steps, author, &entry.undo, &entry.redo);
+    history_record(steps, &entry);
+    cJSON_Delete(applied);
+}
+
 static void edit_as(const char *author, const char *group, const char *text)
 {
-    cJSON *ops = json_parse(text, strlen(text), &err), *inverse;
+    cJSON *ops = json_parse(text, strlen(text), &err), *applied, *inverse;
     assert_non_null(ops);
-    assert_true(edit_apply(scene, ops, NULL, &inverse, &err));
-    history_record(history, author, group, inverse);
+    assert_true(edit_apply(scene, ops, &applied, &inverse, &err));
+    record(history, author, group, applied, inverse);
     cJSON_Delete(ops);
 }
 
@@ -64,18 +75,12 @@ static double radius_of(const char *id)
 
 static bool undo(const char *author)
 {
-    cJSON *applied = NULL;
-    bool ok = history_undo(history, scene, author, &applied, &err);
-    cJSON_Delete(applied);
-    return ok;
+    return history_undo(history, scene, author, NULL, &err);
 }
 
 static bool redo(const char *author)
 {
-    cJSON *applied = NULL;
-    bool ok = history_redo(history, scene, author, &applied, &err);
-    cJSON_Delete(applied);
-    return ok;
+    return history_redo(history, scene, author, NULL, &err);
 }
 
 static void assert_depth(const char *author, size_t undo_steps, size_t redo_steps)
@@ -103,10 +108,10 @@ static void test_a_group_is_one_step(void **state)
         set_radius("anna", "drag", "body", i);
     }
     assert_depth("anna", 1, 0);
-    cJSON *applied;
-    assert_true(history_undo(history, scene, "anna", &applied, &err));
-    assert_int_equal(cJSON_GetArraySize(applied), 1); /* only the oldest value was kept */
-    cJSON_Delete(applied);
+    struct history_move move;
+    assert_true(history_undo(history, scene, "anna", &move, &err));
+    assert_int_equal(cJSON_GetArraySize(move.applied), 1); /* only the oldest value was kept */
+    history_move_finish(&move);
     char *after = scene_print(scene, false);
     assert_string_equal(before, after);
     assert_true(redo("anna"));
@@ -157,6 +162,57 @@ static void test_what_others_removed_is_skipped(void **state)
     assert_float_equal(radius_of("head"), 0.5, 0);
     assert_true(undo("bert"));
     assert_float_equal(radius_of("body"), 3, 0);
+}
+
+static void test_newer_values_of_others_are_left_alone(void **state)
+{
+    (void)state;
+    struct history_move move;
+    set_radius("bert", "", "body", 0.4);
+    set_radius("anna", "", "body", 0.7);
+    assert_false(history_undo(history, scene, "bert", &move, &err));
+    assert_int_equal(err.kind, ERROR_CONFLICT);
+    assert_string_equal(err.place, "/nodes/body/params/radius");
+    assert_float_equal(radius_of("body"), 0.7, 0);
+    char *skipped = json_print(move.skipped, false);
+    assert_string_equal(skipped,
+                        "[{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":null}]");
+    free(skipped);
+    history_move_finish(&move);
+    assert_true(undo("anna"));
+    assert_float_equal(radius_of("body"), 0.4, 0);
+}
+
+static void test_the_rest_of_such_a_step_is_undone(void **state)
+{
+    (void)state;
+    struct history_move move;
+    set_radius("bert", "g", "body", 0.4);
+    set_radius("bert", "g", "head", 0.3);
+    set_radius("bert", "g", "body", 0.6);
+    set_radius("anna", "", "body", 0.7);
+    assert_true(history_undo(history, scene, "bert", &move, &err));
+    assert_int_equal(cJSON_GetArraySize(move.applied), 1);
+    assert_int_equal(cJSON_GetArraySize(move.skipped), 1);
+    history_move_finish(&move);
+    assert_float_equal(radius_of("body"), 0.7, 0);
+    assert_float_equal(radius_of("head"), 0.5, 0);
+    assert_true(redo("bert"));
+    assert_float_equal(radius_of("body"), 0.7, 0);
+    assert_float_equal(radius_of("head"), 0.3, 0);
+}
+
+static void test_a_value_that_was_put_back_is_no_conflict(void **state)
+{
+    (void)state;
+    set_radius("bert", "", "body", 0.4);
+    set_radius("anna", "", "body", 0.7);
+    assert_true(undo("anna"));
+    assert_true(undo("bert"));
+    assert_float_equal(radius_of("body"), 0.5, 0);
+    set_radius("anna", "", "body", 0.7);
+    assert_false(redo("bert"));
+    assert_float_equal(radius_of("body"), 0.7, 0);
 }
 
 /* Dropping an older value would here leave the material in use when its insertion is undone. */
@@ -249,13 +305,158 @@ static void test_authors_are_bounded(void **state)
 
 static const char *const authors[] = {"anna", "bert"};
 
+/* --- rebuilt from a log --- */
+
+enum { LOGGED = 60 };
+
+struct logged {
+    enum history_kind kind;
+    const char *author, *group;
+    char *label;
+    cJSON *applied, *inverse;
+    size_t undo, redo;
+};
+
+static bool log_edit(struct logged *entry, struct random *random, struct scene *wild,
+                     struct history *steps)
+{
+    cJSON *ops = random_edit(random, wild), *inverse;
+    bool ok = edit_apply(wild, ops, &entry->applied, &inverse, NULL);
+    if (ok) {
+        history_depth(steps, entry->author, &entry->undo, &entry->redo);
+        entry->group = random_below(random, 2) ? "g" : "";
+        entry->inverse = cJSON_Duplicate(inverse, true);
+        asprintf(&entry->label, "label %zu", (size_t)random_below(random, 1000));
+        history_record(steps, &(struct history_entry){.author = entry->author,
+                                                      .group = entry->group,
+                                                      .label = entry->label,
+                                                      .applied = entry->applied,
+                                                      .inverse = inverse,
+                                                      .undo = entry->undo,
+                                                      .redo = entry->redo});
+    }
+    cJSON_Delete(ops);
+    return ok;
+}
+
+static bool log_move(struct logged *entry, struct scene *wild, struct history *steps)
+{
+    struct history_move move;
+    bool ok = (entry->kind == HISTORY_UNDO ? history_undo
+                                           : history_redo)(steps, wild, entry->author, &move, NULL);
+    if (ok) {
+        entry->label = strdup(move.label);
+        entry->inverse = cJSON_Duplicate(move.inverse, true);
+        entry->undo = move.undo;
+        entry->redo = move.redo;
+        entry->applied = move.applied;
+        move.applied = NULL;
+    }
+    history_move_finish(&move);
+    return ok;
+}
+
+/* The last that an author does tells which steps there still are. */
+static size_t log_last(struct logged *log, const char *author, struct random *random,
+                       struct scene *wild, struct history *steps)
+{
+    log[0] = (struct logged){.kind = HISTORY_EDIT, .author = author};
+    while (!log_edit(&log[0], random, wild, steps)) {
+    }
+    log[1] = (struct logged){.kind = HISTORY_UNDO, .author = author};
+    return log_move(&log[1], wild, steps) ? 2 : 1;
+}
+
+static size_t log_random(struct logged *log, struct random *random, struct scene *wild,
+                         struct history *steps)
+{
+    size_t count = 0;
+    while (count < LOGGED) {
+        struct logged *entry = &log[count];
+        unsigned kind = random_below(random, 6);
+        *entry = (struct logged){.kind = kind == 0   ? HISTORY_REDO
+                                         : kind <= 2 ? HISTORY_UNDO
+                                                     : HISTORY_EDIT,
+                                 .author = authors[random_below(random, 2)]};
+        count += entry->kind == HISTORY_EDIT ? log_edit(entry, random, wild, steps)
+                                             : log_move(entry, wild, steps);
+    }
+    count += log_last(log + count, authors[0], random, wild, steps);
+    return count + log_last(log + count, authors[1], random, wild, steps);
+}
+
+static struct history *rebuild(const struct logged *log, size_t count)
+{
+    struct history *steps = history_create();
+    for (size_t i = 0; i < count; i++) {
+        history_record(steps, &(struct history_entry){.kind = log[i].kind,
+                                                      .author = log[i].author,
+                                                      .group = log[i].group,
+                                                      .label = log[i].label,
+                                                      .applied = log[i].applied,
+                                                      .inverse = log[i].inverse,
+                                                      .undo = log[i].undo,
+                                                      .redo = log[i].redo});
+    }
+    return steps;
+}
+
+/* Undoes and redoes all of an author's steps; both must do the same. */
+static void assert_same_steps(struct history *a, struct history *b, const char *author,
+                              struct scene *first, struct scene *second)
+{
+    for (int redoing = 0; redoing < 2; redoing++) {
+        bool ok = true;
+        while (ok) {
+            const char *label = history_label(a, author, redoing, 0);
+            assert_string_equal(label ? label : "none", history_label(b, author, redoing, 0)
+                                                            ? history_label(b, author, redoing, 0)
+                                                            : "none");
+            ok = (redoing ? history_redo : history_undo)(a, first, author, NULL, NULL);
+            assert_int_equal((redoing ? history_redo : history_undo)(b, second, author, NULL, NULL),
+                             ok);
+            char *one = scene_print(first, false), *two = scene_print(second, false);
+            assert_string_equal(one, two);
+            free(one);
+            free(two);
+        }
+    }
+}
+
+static void test_a_log_gives_back_the_steps(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        struct random random = {seed};
+        struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
+        struct history *steps = history_create();
+        struct logged log[LOGGED + 4];
+        size_t count = log_random(log, &random, wild, steps);
+        char *text = scene_print(wild, false);
+        struct scene *copy = scene_parse(text, strlen(text), &err);
+        struct history *again = rebuild(log, count);
+        for (size_t i = 0; i < 2; i++) {
+            assert_same_steps(steps, again, authors[i], wild, copy);
+        }
+        for (size_t i = 0; i < count; i++) {
+            cJSON_Delete(log[i].applied);
+            free(log[i].label);
+        }
+        free(text);
+        scene_destroy(copy);
+        scene_destroy(wild);
+        history_destroy(steps);
+        history_destroy(again);
+    }
+}
+
 static void random_step(struct random *random, struct scene *wild, struct history *steps)
 {
     static const char *const groups[] = {"", "", "a", "b"};
-    cJSON *ops = random_edit(random, wild), *inverse;
-    if (edit_apply(wild, ops, NULL, &inverse, NULL)) {
-        history_record(steps, authors[random_below(random, 2)], groups[random_below(random, 4)],
-                       inverse);
+    cJSON *ops = random_edit(random, wild), *applied, *inverse;
+    if (edit_apply(wild, ops, &applied, &inverse, NULL)) {
+        record(steps, authors[random_below(random, 2)], groups[random_below(random, 4)], applied,
+               inverse);
     }
     cJSON_Delete(ops);
 }
@@ -308,9 +509,9 @@ static void test_undoing_everything_gives_the_beginning(void **state)
         struct history *steps = history_create();
         char *before = scene_print(wild, false);
         for (int i = 0; i < 40; i++) {
-            cJSON *ops = random_edit(&random, wild), *inverse;
-            if (edit_apply(wild, ops, NULL, &inverse, NULL)) {
-                history_record(steps, "anna", random_below(&random, 2) ? "g" : "", inverse);
+            cJSON *ops = random_edit(&random, wild), *applied, *inverse;
+            if (edit_apply(wild, ops, &applied, &inverse, NULL)) {
+                record(steps, "anna", random_below(&random, 2) ? "g" : "", applied, inverse);
             }
             cJSON_Delete(ops);
         }
@@ -341,12 +542,18 @@ int main(void)
                                         tear_down),
         cmocka_unit_test_setup_teardown(test_authors_undo_their_own, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_what_others_removed_is_skipped, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_newer_values_of_others_are_left_alone, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_the_rest_of_such_a_step_is_undone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_value_that_was_put_back_is_no_conflict, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(test_groups_with_more_than_values_keep_all, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(test_groups_keep_what_values_depend_on, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_steps_are_bounded, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_authors_are_bounded, set_up, tear_down),
         cmocka_unit_test(test_undos_and_redos_cancel),
+        cmocka_unit_test(test_a_log_gives_back_the_steps),
         cmocka_unit_test(test_undoing_everything_gives_the_beginning),
     };
     return cmocka_run_group_tests_name("history", tests, NULL, NULL);

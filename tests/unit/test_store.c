@@ -87,6 +87,76 @@ static void gives_back_document_edits_and_authors(void **state)
 }
 
 /* An author's number twice, or a revision twice, is a fault of ours: nothing of the batch stays. */
+static struct store_write step_of(uint64_t revision, const char *group, const char *inverse)
+{
+    struct store_write write =
+        write_of(STORE_EDIT, "past", revision, "ann", (int64_t)revision, "[1]");
+
+    write.step = (struct store_step){.kind = 1,
+                                     .undo = 7,
+                                     .redo = 9,
+                                     .group = (char *)group,
+                                     .label = "move",
+                                     .inverse = (char *)inverse};
+    return write;
+}
+
+/* Back to the newest document that was put in the place of another. */
+static void gives_back_what_undoes(void **state)
+{
+    struct store_sqlite *db = open_database("p.sqlite");
+    struct store_loaded loaded;
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "past", 1, "", 0, "first")));
+    assert_true(commit_one(db, step_of(2, "g", "[2]")));
+    assert_true(commit_one(db, write_of(STORE_REPLACE, "past", 3, "", 0, "second")));
+    assert_true(commit_one(db, step_of(4, "g", "[4]")));
+    assert_true(commit_one(db, step_of(5, "", "[5]")));
+    assert_true(commit_one(db, write_of(STORE_SNAPSHOT, "past", 5, "", 0, "third")));
+    assert_true(commit_one(db, step_of(6, "", NULL))); /* cannot be undone */
+    assert_true(commit_one(db, step_of(7, "", "[7]")));
+    assert_true(store_sqlite_load(db, "past", &loaded, NULL));
+    assert_int_equal(loaded.edit_count, 2);
+    assert_int_equal(loaded.past_count, 3);
+    assert_int_equal(loaded.past[0].revision, 4);
+    assert_int_equal(loaded.past[2].revision, 7);
+    assert_string_equal(loaded.past[0].step.inverse, "[4]");
+    assert_string_equal(loaded.past[0].step.group, "g");
+    assert_string_equal(loaded.past[0].step.label, "move");
+    assert_int_equal(loaded.past[0].step.kind, 1);
+    assert_int_equal(loaded.past[0].step.undo, 7);
+    assert_int_equal(loaded.past[0].step.redo, 9);
+    store_loaded_finish(&loaded);
+    store_sqlite_close(db);
+}
+
+/* The newest; and none of a scene that is gone. */
+static void gives_back_posters(void **state)
+{
+    struct store_sqlite *db = open_database("q.sqlite");
+    struct store_asset picture = {.bytes = (void *)"first", .length = 5};
+    struct store_write write = write_of(STORE_POSTER, "s", 0, "", 0, NULL);
+    size_t length = 0;
+    void *bytes = NULL;
+
+    (void)state;
+    write.asset = &picture;
+    assert_true(commit_one(db, write));
+    assert_false(store_sqlite_load_poster(db, "s", &bytes, &length, NULL));
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "document")));
+    assert_true(commit_one(db, write));
+    picture.bytes = (void *)"other";
+    assert_true(commit_one(db, write));
+    assert_true(store_sqlite_load_poster(db, "s", &bytes, &length, NULL));
+    assert_int_equal(length, 5);
+    assert_memory_equal(bytes, "other", 5);
+    free(bytes);
+    assert_true(commit_one(db, write_of(STORE_DELETE, "s", 2, "", 0, NULL)));
+    assert_false(store_sqlite_load_poster(db, "s", &bytes, &length, NULL));
+    store_sqlite_close(db);
+}
+
 static void a_commit_is_all_or_nothing(void **state)
 {
     struct store_sqlite *db = open_database("b.sqlite");
@@ -176,7 +246,13 @@ static void knows_older_databases(void **state)
     (void)state;
     assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
     store_sqlite_close(db);
-    run_sql("d.sqlite", "DROP TABLE assets; PRAGMA user_version = 1");
+    run_sql("d.sqlite", "DROP TABLE assets; DROP TABLE posters; ALTER TABLE edits DROP COLUMN kind;"
+                        "ALTER TABLE edits DROP COLUMN undo;"
+                        "ALTER TABLE edits DROP COLUMN redo;"
+                        "ALTER TABLE edits DROP COLUMN step;"
+                        "ALTER TABLE edits DROP COLUMN label;"
+                        "ALTER TABLE edits DROP COLUMN inverse;"
+                        "ALTER TABLE scenes DROP COLUMN replaced; PRAGMA user_version = 1");
     db = open_database("d.sqlite");
     assert_true(store_sqlite_load(db, "s", &loaded, NULL));
     assert_string_equal(loaded.document, "first");
@@ -240,6 +316,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gives_back_document_edits_and_authors),
+        cmocka_unit_test(gives_back_what_undoes),
+        cmocka_unit_test(gives_back_posters),
         cmocka_unit_test(a_commit_is_all_or_nothing),
         cmocka_unit_test(gives_back_files),
         cmocka_unit_test(knows_older_databases),
