@@ -12,19 +12,18 @@
 #include "memory.h"
 #include "nearest.h"
 
-static const struct {
-    const char *name;
-    enum param_type type;
-} types[] = {
-    {"float", PARAM_FLOAT}, {"int", PARAM_INT},     {"bool", PARAM_BOOL},   {"vec2", PARAM_VEC2},
-    {"vec3", PARAM_VEC3},   {"vec4", PARAM_VEC4},   {"color", PARAM_COLOR}, {"float2", PARAM_VEC2},
-    {"float3", PARAM_VEC3}, {"float4", PARAM_VEC4},
+static const enum param_type types[] = {
+    PARAM_FLOAT, PARAM_INT,   PARAM_BOOL,  PARAM_VEC2,  PARAM_VEC3,
+    PARAM_VEC4,  PARAM_IVEC2, PARAM_IVEC3, PARAM_IVEC4, PARAM_COLOR,
 };
 
-enum { TYPE_COUNT = sizeof types / sizeof types[0] };
+const char *const definition_types[] = {"float", "int",   "bool",  "vec2",  "vec3", "vec4",
+                                        "ivec2", "ivec3", "ivec4", "color", NULL};
 
-const char *const definition_types[] = {"float", "int",  "bool",  "vec2",
-                                        "vec3",  "vec4", "color", NULL};
+const struct definition_alias definition_aliases[] = {
+    {"float2", "vec2"}, {"float3", "vec3"}, {"float4", "vec4"}, {"int2", "ivec2"},
+    {"int3", "ivec3"},  {"int4", "ivec4"},  {NULL, NULL},
+};
 
 enum { ROW_NAME, ROW_TYPE, ROW_DEFAULT, ROW_RANGE, ROW_DOC, ROW_MEMBERS };
 static const char *const row_members[] = {"name", "type", "default", "range", "doc", NULL};
@@ -55,6 +54,16 @@ static bool read_name(struct param *out, const cJSON *json, const char *place, s
                out->name, LIMIT_ID_BYTES);
 }
 
+/* The canonical name; others stay as they are. */
+static const char *canonical(const char *name)
+{
+    int i = 0;
+    while (definition_aliases[i].name && strcmp(definition_aliases[i].name, name) != 0) {
+        i++;
+    }
+    return definition_aliases[i].name ? definition_aliases[i].type : name;
+}
+
 static bool read_type(struct param *out, const cJSON *json, const char *place, struct error *err)
 {
     struct nearest nearest = {0};
@@ -62,12 +71,12 @@ static bool read_type(struct param *out, const cJSON *json, const char *place, s
     if (!json_read_text(json, &nearest.text, place, row_members[ROW_TYPE], err)) {
         return false;
     }
-    for (int i = 0; i < TYPE_COUNT; i++) {
-        if (strcmp(types[i].name, nearest.text) == 0) {
-            out->type = types[i].type;
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        if (strcmp(param_type_name(types[i]), canonical(nearest.text)) == 0) {
+            out->type = types[i];
             return true;
         }
-        nearest_consider(&nearest, types[i].name);
+        nearest_consider(&nearest, param_type_name(types[i]));
     }
     return error_set(err, ERROR_INVALID, error_place(path, place, row_members[ROW_TYPE]),
                      "\"%.64s\" is no type of a parameter%s", nearest.text,
@@ -76,7 +85,7 @@ static bool read_type(struct param *out, const cJSON *json, const char *place, s
 
 static bool read_range(struct param *out, const cJSON *json, const char *place, struct error *err)
 {
-    const struct param pair = {.type = out->type == PARAM_INT ? PARAM_INT : PARAM_FLOAT};
+    const struct param pair = {.type = param_is_whole(out->type) ? PARAM_INT : PARAM_FLOAT};
     char path[ERROR_PLACE_BYTES];
     double low[4], high[4];
     if (!json) {

@@ -15,9 +15,12 @@ struct definition {
     size_t first_declared; /* index of the first declared row */
 };
 
-/* Types that may be declared, by their canonical names; NULL-terminated. float2 and the like are
- * read too. */
+/* Types that may be declared, by their canonical names; NULL-terminated. */
 extern const char *const definition_types[];
+/* HLSL's spellings, which are read too; ends with a row whose name is NULL. */
+extern const struct definition_alias {
+    const char *name, *type;
+} definition_aliases[];
 
 /* Checks declarations; their names may not be among those of `taken` (may be NULL). */
 bool definition_check(const cJSON *rows, const struct record_type *taken, const char *place,

@@ -22,22 +22,52 @@ bool edit_apply(struct scene *scene, const cJSON *ops, cJSON **out_applied, cJSO
 bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
                      cJSON **out_inverse, struct error *err);
 
-/* Undo and redo of one scene, a pair of stacks per author. A redo is built when its undo happens,
- * so n undos and n redos give back what was there, others' edits included. */
+/* Undo and redo of one scene, a pair of stacks of steps per author. A redo is built when its undo
+ * happens, so n undos and n redos give back what was there, others' edits included.
+ *
+ * A step knows the values that its edits left. Where there is another one now, somebody else has
+ * set it, and undo and redo leave it alone. */
 struct history;
+
+enum history_kind { HISTORY_EDIT, HISTORY_UNDO, HISTORY_REDO };
+
+/* What was done, as it may be kept and recorded again: of the same entries the same steps come. */
+struct history_entry {
+    enum history_kind kind;
+    const char *author;
+    const char *group; /* of an edit; NULL or "": a step of its own */
+    const char *label; /* for people; may be NULL */
+    const cJSON *applied;
+    cJSON *inverse;    /* taken */
+    size_t undo, redo; /* steps that the author had before it */
+};
 
 struct history *history_create(void);
 void history_destroy(struct history *history);
-/* Records an edit's inverse. Edits of one author with the same non-empty group join in one step;
- * of several sets of one place in a group only the oldest value is kept. Takes `inverse`. */
-void history_record(struct history *history, const char *author, const char *group, cJSON *inverse);
+/* Edits of one author with the same non-empty group join in one step; of several sets of one place
+ * in a group only the oldest value is kept. An undo or redo moves a step without applying it. */
+void history_record(struct history *history, const struct history_entry *entry);
+
+/* What an undo or redo did. */
+struct history_move {
+    cJSON *applied;       /* as of edit_apply; NULL: nothing */
+    cJSON *skipped;       /* operations left out, since others have set their places; or NULL */
+    const cJSON *inverse; /* the history's, until its next change */
+    const char *label;    /* the same */
+    size_t undo, redo;    /* as in struct history_entry */
+};
+void history_move_finish(struct history_move *move);
 /* Applies the newest step of the author to the scene and moves it to the other stack. False with
- * ERROR_NOT_FOUND when there is none. `*out_applied` as in edit_apply. */
+ * ERROR_NOT_FOUND when there is none, and with ERROR_CONFLICT when others have set all of its
+ * places: then `skipped` has the operations, and the step is gone. `out` may be NULL. */
 bool history_undo(struct history *history, struct scene *scene, const char *author,
-                  cJSON **out_applied, struct error *err);
+                  struct history_move *out, struct error *err);
 bool history_redo(struct history *history, struct scene *scene, const char *author,
-                  cJSON **out_applied, struct error *err);
+                  struct history_move *out, struct error *err);
 void history_depth(const struct history *history, const char *author, size_t *out_undo,
                    size_t *out_redo);
+/* Of the author's step number `index` of a stack, the newest is 0; NULL: there is none. */
+const char *history_label(const struct history *history, const char *author, bool redo,
+                          size_t index);
 
 #endif

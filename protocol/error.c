@@ -34,6 +34,7 @@ static bool fill(struct error *err, enum error_kind kind, const char *place, con
     }
     memcpy(err->message, text, sizeof text);
     err->line = err->column = 0;
+    err->measured_ms = err->limit_ms = 0;
     return false;
 }
 
@@ -58,6 +59,18 @@ bool error_set_at(struct error *err, enum error_kind kind, const char *place, in
         va_end(args);
         err->line = line;
         err->column = column;
+    }
+    return false;
+}
+
+bool error_set_slow(struct error *err, const char *place, const char *what, int measured_ms,
+                    int limit_ms)
+{
+    if (err) {
+        error_set(err, ERROR_TOO_SLOW, place, "%s over %.3g s of processor time (limit %.3g s)",
+                  what, measured_ms / 1000.0, limit_ms / 1000.0);
+        err->measured_ms = measured_ms;
+        err->limit_ms = limit_ms;
     }
     return false;
 }

@@ -18,7 +18,8 @@
     X(PRECONDITION, "precondition", 412) /* If-Match names another revision */                     \
     X(FORBIDDEN, "forbidden", 403)       /* not with these rights */                               \
     X(COMPILE, "compile", 422)           /* a shader does not compile */                           \
-    X(QUARANTINED, "quarantined", 503)   /* drawing it ended a worker: not before it is edited */  \
+    X(TOO_SLOW, "too_slow", 503)         /* it took more time than it may: not before a retry */   \
+    X(CRASHED, "crashed", 503)           /* it ended the render process: not before a retry */     \
     X(UNAVAILABLE, "unavailable", 503)   /* not now: worker restarting, queue full, draining */    \
     X(INTERNAL, "internal", 500)         /* our fault */
 
@@ -36,7 +37,8 @@ struct error {
     enum error_kind kind;
     char place[ERROR_PLACE_BYTES];
     char message[320];
-    int line, column; /* in the text at `place`, from 1; 0: not in a text */
+    int line, column;          /* in the text at `place`, from 1; 0: not in a text */
+    int measured_ms, limit_ms; /* ERROR_TOO_SLOW: time of the processors; else 0 */
 };
 
 /* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well.
@@ -47,6 +49,10 @@ bool error_set(struct error *err, enum error_kind kind, const char *place, const
 /* The same, in a text. */
 bool error_set_at(struct error *err, enum error_kind kind, const char *place, int line, int column,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
+
+/* ERROR_TOO_SLOW: "WHAT over 2.1 s (limit 2 s)", as "compiling this code took". */
+bool error_set_slow(struct error *err, const char *place, const char *what, int measured_ms,
+                    int limit_ms);
 
 /* "PLACE/MEMBER" in `out` of ERROR_PLACE_BYTES; where too long it keeps the end. Returns `out`. */
 const char *error_place(char *out, const char *place, const char *member);

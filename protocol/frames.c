@@ -4,7 +4,7 @@
 
 #include "messages.h"
 
-enum { VERSION = 2 };
+enum { VERSION = 3 };
 
 static void put(uint8_t **at, uint64_t value, int bytes)
 {
@@ -39,6 +39,9 @@ void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEAD
     for (int i = 0; i < 4; i++) {
         put(&at, sides[i], 2);
     }
+    put(&at, header->round, 1);
+    put(&at, header->rounds, 1);
+    put(&at, 0, 2);
     for (int i = 0; i < FRAME_STAGES; i++) {
         put(&at, header->stage_us[i], 4);
     }
@@ -64,6 +67,9 @@ bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_heade
     for (int i = 0; i < 4; i++) {
         *sides[i] = (uint16_t)take(&at, 2);
     }
+    header.round = (uint8_t)take(&at, 1);
+    header.rounds = (uint8_t)take(&at, 1);
+    take(&at, 2);
     for (int i = 0; i < FRAME_STAGES; i++) {
         header.stage_us[i] = (uint32_t)take(&at, 4);
     }

@@ -40,16 +40,27 @@
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
-      "the same with code in it, and few shapes")                                                  \
+      "the same with code in it, at least")                                                        \
+    X(COMPILE_FACTOR, "compile_factor", 2, "times",                                                \
+      "the same, of what so many shapes take without code on this machine")                        \
+    X(COMPILE_STILL_MS, "compile_still_ms", 30000, "milliseconds",                                 \
+      "a compiler that neither uses a processor nor waits for one")                                \
+    X(RETRY_FACTOR, "retry_factor", 5, "times", "time for what is tried again")                    \
+    X(RETRY_TIMES, "retry_times", 125, "times", "the same, after several retries")                 \
+    X(TILE_MS, "tile_ms", 10000, "milliseconds", "drawing the smallest part of a picture")         \
     X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
     X(NAME_BYTES, "name_bytes", 200, "bytes", "a display name")                                    \
     X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \
     X(OPERATIONS, "operations", 10000, "operations", "operations of one edit")                     \
+    X(POSTER_BYTES, "poster_bytes", 1048576, "bytes", "the last picture that is kept of a scene")  \
     X(UNDO_GROUPS, "undo_groups", 1000, "groups", "undo steps kept for one author")                \
     X(IMAGE_SIDE, "image_side", 16384, "pixels", "width or height of a picture")                   \
     X(IMAGE_PIXELS, "image_pixels", 268435456, "pixels", "width times height of a picture")        \
     X(IMAGE_BYTES, "image_bytes", 268435456, "bytes", "one finished picture, as it is sent")       \
     X(VIEW_SIDE, "view_side", 4096, "pixels", "width or height of a live view")                    \
+    X(PICK_WORK, "pick_work", 50000000, "operations",                                              \
+      "the ray of a pick: instructions of the field, operations of code in it")                    \
+    X(ISOLATED, "isolated", 256, "nodes", "nodes that a view isolates")                            \
     X(FRAMES_IN_FLIGHT, "frames_in_flight", 2, "frames",                                           \
       "frames sent and not yet acknowledged, per client")                                          \
     X(SESSIONS, "sessions", 256, "sessions", "live connections")                                   \

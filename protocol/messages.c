@@ -11,7 +11,14 @@
 #include "nearest.h"
 #include "nodes.h"
 
-enum field_kind { FIELD_VALUE, FIELD_CLIENT, FIELD_CAMERA, FIELD_OPERATIONS, FIELD_OBJECT };
+enum field_kind {
+    FIELD_VALUE,
+    FIELD_CLIENT,
+    FIELD_CAMERA,
+    FIELD_OPERATIONS,
+    FIELD_NODES,
+    FIELD_OBJECT
+};
 
 struct field {
     struct param param; /* of FIELD_OBJECT and the like only name and doc */
@@ -42,6 +49,10 @@ static const char *const levels[] = {"info", "warning", "error", NULL};
 #define TEXT_PLACE \
     {.param = {"line", COUNT, .doc = "Line in the text at the place, from 1."}}, \
     {.param = {"column", COUNT, .doc = "Column in it, from 1."}}
+#define SKIPPED \
+    {.param = {"skipped", .doc = "Of an undo or redo: operations left out, since somebody else" \
+                                 " has changed their places. An edit of them does them."}, \
+     .kind = FIELD_OPERATIONS}
 #define REVISION {.param = {"revision", COUNT, .doc = "Revision of the scene."}, .required = true}
 
 static const struct message_type client_messages[MESSAGE_COUNT] = {
@@ -56,12 +67,15 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
          .required = true},
         {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
-        {.param = {"camera", .doc = "As in the document; absent: the document's."},
+        {.param = {"camera", .doc = "What differs from the document's; absent: nothing."},
          .kind = FIELD_CAMERA},
         {.param = {"aov", PARAM_ENUM, .choices = aov_picture_names, .doc = "Which output."}},
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
-        {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}})},
+        {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}},
+        {.param = {"isolate", .doc = "Ids: this client's pictures and picks show these nodes and"
+                                     " what is below them. Absent, or none in the scene: all."},
+         .kind = FIELD_NODES})},
     [MESSAGE_EDIT] = {"edit", "Changes the scene.", FIELDS(
         EDIT_NUMBER,
         {.param = {"ops", .doc = "The operations."}, .required = true, .kind = FIELD_OPERATIONS},
@@ -76,6 +90,8 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"seq", SMALL, .doc = "The view meant."}})},
     [MESSAGE_ACK] = {"ack", "A frame was shown.", FIELDS(
         {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
+    [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", FIELDS(
+        {.param = {"place", PARAM_TEXT, .doc = "Of the notice; absent: whatever it is."}})},
 };
 
 static const struct message_type server_messages[] = {
@@ -90,6 +106,10 @@ static const struct message_type server_messages[] = {
          .kind = FIELD_OBJECT},
         {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
          .required = true},
+        {.param = {"undo_labels", .doc = "Names of this client's newest steps, newest first."},
+         .kind = FIELD_OBJECT},
+        {.param = {"redo_labels", .doc = "The same of steps that can be redone."},
+         .kind = FIELD_OBJECT},
         {.param = {"limits", .doc = "Limits by name."}, .required = true, .kind = FIELD_OBJECT})},
     {"document", "Replaces everything.", FIELDS(
         REVISION,
@@ -99,7 +119,8 @@ static const struct message_type server_messages[] = {
         EDIT_NUMBER, REVISION,
         {.param = {"durable", PARAM_BOOL, .doc = "Whether it is committed."}, .required = true},
         {.param = {"undo", COUNT, .doc = "Steps left to undo."}, .required = true},
-        {.param = {"redo", COUNT, .doc = "Steps left to redo."}, .required = true})},
+        {.param = {"redo", COUNT, .doc = "Steps left to redo."}, .required = true},
+        SKIPPED)},
     {"changed", "Somebody else's edit, or the result of one's own undo or redo.", FIELDS(
         REVISION,
         {.param = {"author", PARAM_TEXT, .doc = "Client that made the edit."}, .required = true},
@@ -111,7 +132,7 @@ static const struct message_type server_messages[] = {
         {.param = {"code", PARAM_TEXT, .doc = "Kind of error."}, .required = true},
         {.param = {"place", PARAM_TEXT, .doc = "Where."}, .required = true},
         {.param = {"message", PARAM_TEXT, .doc = "Why, with value and limit."}, .required = true},
-        TEXT_PLACE)},
+        TEXT_PLACE, SKIPPED)},
     {"picked", "What is under the pointer; null where nothing is.", FIELDS(
         {.param = {"pick", SMALL, .doc = "Number of the question."}, .required = true},
         REVISION,
@@ -119,13 +140,23 @@ static const struct message_type server_messages[] = {
         {.param = {"position", PARAM_VEC3, .doc = "Where it was hit."}},
         {.param = {"normal", PARAM_VEC3, .doc = "Direction of the surface."}},
         {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}})},
+    {"compiling", "The newest state is being made ready; the picture is of an older one.", FIELDS(
+        REVISION,
+        {.param = {"over", PARAM_BOOL, .doc = "It can be drawn, or never will be."},
+         .required = true},
+        {.param = {"elapsed_ms", COUNT, .doc = "How long it has taken so far."}, .required = true},
+        {.param = {"expected_ms", COUNT,
+          .doc = "How long scenes of that size took before; absent: that is not known."}})},
     {"notice", "Something to show.", FIELDS(
         {.param = {"level", PARAM_ENUM, .choices = levels, .doc = "How bad it is."},
          .required = true},
         {.param = {"code", PARAM_TEXT, .doc = "What it is, for programs."}, .required = true},
         {.param = {"message", PARAM_TEXT, .doc = "What it is, for people."}, .required = true},
         {.param = {"place", PARAM_TEXT, .doc = "Where in the document."}},
-        TEXT_PLACE)},
+        TEXT_PLACE,
+        {.param = {"measured", COUNT,
+          .doc = "Of what was too slow: milliseconds of processor time that it took, and more."}},
+        {.param = {"limit", COUNT, .doc = "Milliseconds that it might take."}})},
     {"bye", "The last message.", FIELDS(
         {.param = {"reason", PARAM_TEXT, .doc = "Why the connection ends."}, .required = true},
         {.param = {"retry_ms", COUNT, .doc = "When to come back; absent: never."}})},
@@ -148,6 +179,30 @@ static bool check_client(const cJSON *json, const char *place, struct error *err
                      LIMIT_ID_BYTES);
 }
 
+static bool check_nodes(const cJSON *json, const char *place, struct error *err)
+{
+    const cJSON *id;
+    int index = 0;
+    if (!cJSON_IsArray(json)) {
+        return error_set(err, ERROR_SYNTAX, place, "expected a list of ids");
+    }
+    cJSON_ArrayForEach(id, json)
+    {
+        if (index == LIMIT_ISOLATED) {
+            return error_set(err, ERROR_LIMIT, place, "%d ids are above the maximum %d",
+                             cJSON_GetArraySize(json), LIMIT_ISOLATED);
+        }
+        if (!cJSON_IsString(id) || !record_name_valid(id->valuestring)) {
+            char item[ERROR_PLACE_BYTES], number[16];
+            snprintf(number, sizeof number, "%d", index);
+            error_place(item, place, number);
+            return error_set(err, ERROR_INVALID, item, "expected the id of a node");
+        }
+        index++;
+    }
+    return true;
+}
+
 static bool check_field(const struct field *field, const cJSON *json, const char *place,
                         struct error *err)
 {
@@ -164,6 +219,8 @@ static bool check_field(const struct field *field, const cJSON *json, const char
         return ok;
     case FIELD_OPERATIONS:
         return edit_check(json, err);
+    case FIELD_NODES:
+        return check_nodes(json, place, err);
     case FIELD_OBJECT:
         return cJSON_IsObject(json) || error_set(err, ERROR_SYNTAX, place, "expected an object");
     case FIELD_VALUE:
@@ -285,6 +342,7 @@ static cJSON *describe_field(const struct field *field)
     static const char *const names[] = {
         [FIELD_CAMERA] = "camera",
         [FIELD_OPERATIONS] = "operations",
+        [FIELD_NODES] = "nodes",
         [FIELD_OBJECT] = "object",
     };
     cJSON *row;

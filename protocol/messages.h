@@ -17,6 +17,7 @@ enum message_kind {
     MESSAGE_REDO,
     MESSAGE_PICK,
     MESSAGE_ACK,
+    MESSAGE_RETRY,
     MESSAGE_COUNT
 };
 
@@ -39,7 +40,7 @@ bool json_member_bool(const cJSON *object, const char *name, bool fallback);
 
 /* --- frames --- */
 
-enum { FRAME_HEADER_BYTES = 36 + 4 * FRAME_STAGES, FRAME_PART_HEADER_BYTES = 8 };
+enum { FRAME_HEADER_BYTES = 40 + 4 * FRAME_STAGES, FRAME_PART_HEADER_BYTES = 8 };
 
 enum frame_codec { FRAME_JPEG = 1, FRAME_PNG = 2 };
 
@@ -59,6 +60,7 @@ struct frame_header {
     uint32_t input;                   /* `seq` of the newest view message that the picture shows */
     uint16_t width, height;           /* of the picture */
     uint16_t view_width, view_height; /* of the view that it fills */
+    uint8_t round, rounds;            /* which of how many rounds of samples it is, from 1 */
     uint32_t stage_us[FRAME_STAGES];
 };
 

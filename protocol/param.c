@@ -23,6 +23,7 @@ static const struct {
     [PARAM_MATERIAL] = {"material", 0}, [PARAM_VEC2] = {"vec2", 2},   [PARAM_VEC4] = {"vec4", 4},
     [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
     [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},   [PARAM_ASSET] = {"asset", 0},
+    [PARAM_IVEC2] = {"ivec2", 2},       [PARAM_IVEC4] = {"ivec4", 4},
 };
 
 int param_components(enum param_type type)
@@ -49,6 +50,11 @@ const char *param_unit_name(enum param_unit unit)
 bool param_is_text(enum param_type type)
 {
     return param_components(type) == 0 && type != PARAM_POINTS;
+}
+
+bool param_is_whole(enum param_type type)
+{
+    return type == PARAM_INT || type == PARAM_IVEC2 || type == PARAM_IVEC3 || type == PARAM_IVEC4;
 }
 
 void param_range(const struct param *param, double *out_min, double *out_max)
@@ -80,7 +86,7 @@ static const char *number_fault(const struct param *param, double number, double
     if (!isfinite(number)) {
         return "is not a finite number";
     }
-    if ((param->type == PARAM_INT || param->type == PARAM_IVEC3) && number != floor(number)) {
+    if (param_is_whole(param->type) && number != floor(number)) {
         return "is not a whole number";
     }
     if (param->nonzero && number == 0) {
@@ -441,11 +447,16 @@ cJSON *param_describe(const struct param *param)
     for (int i = 0; choices && param->choices[i]; i++) {
         cJSON_AddItemToArray(choices, cJSON_CreateString(param->choices[i]));
     }
-    if (param->group) {
-        cJSON_AddStringToObject(row, "group", param->group);
-    }
-    if (param->when) {
-        cJSON_AddStringToObject(row, "when", param->when);
+    const struct {
+        const char *name, *text;
+    } texts[] = {{"group", param->group},
+                 {"when", param->when},
+                 {"zero", param->zero},
+                 {"means", param->means}};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        if (texts[i].text) {
+            cJSON_AddStringToObject(row, texts[i].name, texts[i].text);
+        }
     }
     cJSON_AddStringToObject(row, "doc", param->doc);
     return row;

@@ -17,8 +17,10 @@ enum param_type {
     PARAM_VEC2,
     PARAM_VEC3,
     PARAM_VEC4,
-    PARAM_BVEC3,    /* three booleans */
-    PARAM_IVEC3,    /* three integers */
+    PARAM_BVEC3, /* three booleans */
+    PARAM_IVEC2, /* two integers */
+    PARAM_IVEC3,
+    PARAM_IVEC4,
     PARAM_COLOR,    /* linear RGB, three numbers >= 0; a zero pair bounds it by LIMIT_COORDINATE */
     PARAM_ENUM,     /* one of `choices`; number[0] is its index */
     PARAM_TEXT,     /* free text, at most LIMIT_NAME_BYTES */
@@ -52,6 +54,8 @@ struct param {
     bool main;                  /* among the two that a compact view shows */
     const char *group;          /* the heading that forms put it under; NULL: none */
     const char *when;           /* it matters only then: "type=sky", "opacity!=1"; NULL: always */
+    const char *zero;           /* what forms show for 0: "auto"; NULL: 0 is a number like others */
+    const char *means;          /* what it shares with rows of other shaders; NULL: nothing */
     const char *doc;
 };
 
@@ -66,7 +70,8 @@ struct value {
 int param_components(enum param_type type);        /* 1 to 4, or 0 for texts and points */
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
-bool param_is_text(enum param_type type); /* a value's `text` is used */
+bool param_is_text(enum param_type type);  /* a value's `text` is used */
+bool param_is_whole(enum param_type type); /* its numbers have no fraction */
 /* The range that holds, also where the row names none. */
 void param_range(const struct param *param, double *out_min, double *out_max);
 /* Checks JSON against the row; numbers go to `out` (a text and points stay in the JSON). */

@@ -14,12 +14,14 @@
     X(NORMAL, "normal", 3, false, true, "Unit normal in the world; 0 where nothing is.") \
     X(POSITION, "position", 3, false, false, "Place in the world; 0 where nothing is.") \
     X(ID, "id", 1, true, true, "1 + the leaf's place in the tree; 0 where nothing is.") \
-    X(STEPS, "steps", 1, false, true, "Steps that the ray took.") \
+    X(STEPS, "steps", 1, false, true, \
+      "Steps that the ray took; as a picture the lighter, the more.") \
     X(ALBEDO, "albedo", 3, false, true, "Colour of the surface, without light.") \
     X(SPECULAR, "specular", 3, false, true, "Colour of its mirror image, head-on.") \
     X(OPTICAL, "optical", 4, false, true, \
       "Reflectivity, index of refraction, opacity, roughness.") \
-    X(SHADOW, "shadow", 3, false, true, "Part of the lights' light that arrives.") \
+    X(SHADOW, "shadow", 3, false, true, \
+      "Part of the light that arrives, of the lights that throw shadows; 1 where none does.") \
     X(OCCLUSION, "occlusion", 1, false, true, "Part of the environment's that arrives.")
 /* clang-format on */
 
@@ -36,6 +38,12 @@ const char *const aov_picture_names[] = {
     OUTPUTS(X)
 #undef X
         NULL};
+
+const unsigned char steps_colors[STEPS_COLORS][3] = {{0x00, 0x00, 0x00},
+                                                     {0x4a, 0x1e, 0x8c},
+                                                     {0xcc, 0x4a, 0x6a},
+                                                     {0xf5, 0xa9, 0x4e},
+                                                     {0xff, 0xff, 0xff}};
 
 const struct aov_row *aov_row(enum aov aov)
 {
@@ -139,6 +147,18 @@ static const struct quality levels[QUALITY_COUNT] = {
 const struct quality *quality_row(enum quality_level level)
 {
     return &levels[level];
+}
+
+/* Every second one is on. */
+const char *const switch_words[] = {"off", "on", "false", "true", NULL};
+
+int switch_find(const char *word)
+{
+    int i = 0;
+    while (switch_words[i] && strcmp(switch_words[i], word) != 0) {
+        i++;
+    }
+    return switch_words[i] ? i % 2 : -1;
 }
 
 int quality_find(const char *name)

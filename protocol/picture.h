@@ -44,6 +44,17 @@ enum { AOVS_TEXT_BYTES = 128 };
 /* The same in the table's order. */
 void aovs_print(const bool aovs[AOV_COUNT], char out[AOVS_TEXT_BYTES]);
 
+/* The picture form of `steps`: evenly from the first of these colours, no step, to the last, which
+ * STEPS_WHITE and more have. sRGB, in equal steps of lightness. */
+enum { STEPS_WHITE = 64, STEPS_COLORS = 5 };
+extern const unsigned char steps_colors[STEPS_COLORS][3];
+
+/* --- switches --- */
+
+/* The words of a switch where it is a text: in a query and on the command line; NULL-terminated. */
+extern const char *const switch_words[];
+int switch_find(const char *word); /* 0 or 1; -1: none */
+
 /* --- quality levels --- */
 
 enum quality_level {

@@ -45,7 +45,7 @@ bool record_read_value(struct record *record, int index, const cJSON *json, cons
                        struct error *err);
 /* The JSON of one value, or NULL where it is not set. Caller frees. */
 cJSON *record_get(const struct record *record, int index);
-/* Reads an object: unknown names are refused, names absent keep their default. `place` is the
+/* Reads an object: unknown names are refused, values of names that are absent stay. `place` is the
  * path of the object. */
 bool record_read(struct record *record, const cJSON *object, const char *place, struct error *err);
 /* One member of such an object, by its name; `place` is the object's. */

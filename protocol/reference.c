@@ -11,6 +11,7 @@
 #include "limits.h"
 #include "memory.h"
 #include "nodes.h"
+#include "picture.h"
 
 struct page {
     char *text;
@@ -130,6 +131,19 @@ static void add_record(struct page *page, const char *level, const struct record
     add_params(page, type);
 }
 
+static void add_outputs(struct page *page)
+{
+    add(page, "## Outputs\nWhat can be asked of a picture; the array forms are numbers as they are."
+              "\n\n| output | numbers | picture | |\n|---|---|---|---|\n");
+    for (int i = 0; i < AOV_COUNT; i++) {
+        const struct aov_row *aov = aov_row(i);
+        add(page, "| `%s` | %d %s | %s | %s |\n", aov->name, aov->channels,
+            aov->whole ? "uint32" : "float32", aov->picture ? "yes" : "no", aov->doc);
+    }
+    add(page, "\nThe picture of `steps` is black where there are none and white from %d on.\n\n",
+        STEPS_WHITE);
+}
+
 static void add_limits(struct page *page)
 {
     size_t count;
@@ -144,9 +158,25 @@ static void add_limits(struct page *page)
 char *reference_markdown(void)
 {
     static const struct {
-        const char *title;
+        const char *title, *text;
         const struct record_type *types;
-    } lists[] = {{"Lights", light_types}, {"Volumes", volume_types}, {"Shaders", shader_types}};
+    } lists[] = {
+        {"Lights",
+         "What a matt surface throws back of a light goes evenly to all sides: facing a light of "
+         "colour times intensity L it is as bright as its own colour times L / pi. Highlights of "
+         "`standard` add up to what is mirrored of L. Surroundings as bright as 1 everywhere make "
+         "a white surface 1. So a light of intensity pi is what other programs call 1.",
+         light_types},
+        {"Volumes", "Up to `volumes` of them, which may overlap: their densities add up.",
+         volume_types},
+        {"Shaders",
+         "Light goes through a surface where `transmission` is above 0, or `opacity` below 1: what "
+         "is not mirrored is bent, dyed by the colour of `standard`, by no colour of the others, "
+         "and dimmed on its way inside by the attenuation. Whatever a row does not say of light "
+         "that goes through, it does nothing to it. The face of a cut has the material of what "
+         "cuts: a solid cuts faces into glass that light does not go through, and glass none that "
+         "it goes through into a solid.",
+         shader_types}};
     static const struct record_type *const records[] = {
         &node_common_type, &transform_type, &camera_type, &environment_type,
         &render_type,      &primitive_type, &shader_type};
@@ -155,7 +185,7 @@ char *reference_markdown(void)
                "tables of this folder.\n\n");
     add_nodes(&page);
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
-        add(&page, "## %s\n", lists[i].title);
+        add(&page, "## %s\n%s\n\n", lists[i].title, lists[i].text);
         for (const struct record_type *type = lists[i].types; type->name; type++) {
             add_record(&page, "###", type);
         }
@@ -163,6 +193,7 @@ char *reference_markdown(void)
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
         add_record(&page, "##", records[i]);
     }
+    add_outputs(&page);
     add_limits(&page);
     return page.text;
 }

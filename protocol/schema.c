@@ -47,8 +47,7 @@ static cJSON *name_schema(void)
 
 static cJSON *number_schema(const struct param *param)
 {
-    bool whole = param->type == PARAM_INT || param->type == PARAM_IVEC3;
-    cJSON *schema = typed(whole ? "integer" : "number");
+    cJSON *schema = typed(param_is_whole(param->type) ? "integer" : "number");
     double min, max;
     param_range(param, &min, &max);
     cJSON_AddNumberToObject(schema, param->above_min ? "exclusiveMinimum" : "minimum", min);
@@ -151,7 +150,9 @@ static cJSON *param_schema(const struct param *param)
     case PARAM_VEC2:
     case PARAM_VEC3:
     case PARAM_VEC4:
+    case PARAM_IVEC2:
     case PARAM_IVEC3:
+    case PARAM_IVEC4:
     case PARAM_COLOR:
         schema = numbers_schema(param);
         break;
@@ -304,7 +305,6 @@ static cJSON *material_schema(void)
 static cJSON *declaration_schema(void)
 {
     static const struct param doc = {.type = PARAM_TEXT}, number = {.type = PARAM_FLOAT};
-    static const char *const others[] = {"float2", "float3", "float4"};
     cJSON *properties, *schema = closed_object("A parameter that is declared.", &properties);
     cJSON *name = typed("string"), *types;
     cJSON_AddStringToObject(name, "pattern", "^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]{0,63}$");
@@ -313,8 +313,8 @@ static cJSON *declaration_schema(void)
     for (int i = 0; definition_types[i]; i++) {
         cJSON_AddItemToArray(types, cJSON_CreateString(definition_types[i]));
     }
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        cJSON_AddItemToArray(types, cJSON_CreateString(others[i]));
+    for (int i = 0; definition_aliases[i].name; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(definition_aliases[i].name));
     }
     cJSON_AddTrueToObject(properties, "default");
     cJSON_AddItemToObject(properties, "range", vector_schema(number_schema(&number), 2));
@@ -478,6 +478,20 @@ static cJSON *described(const char *name, const char *doc)
     return row;
 }
 
+/* How numbers become colours: from 0 to the greatest, evenly. */
+static cJSON *describe_scale(void)
+{
+    cJSON *scale = cJSON_CreateObject(), *colors = cJSON_AddArrayToObject(scale, "colors");
+    for (int i = 0; i < STEPS_COLORS; i++) {
+        const unsigned char *c = steps_colors[i];
+        char text[8];
+        snprintf(text, sizeof text, "#%02x%02x%02x", c[0], c[1], c[2]);
+        cJSON_AddItemToArray(colors, cJSON_CreateString(text));
+    }
+    cJSON_AddNumberToObject(scale, "greatest", STEPS_WHITE);
+    return scale;
+}
+
 static cJSON *describe_outputs(void)
 {
     cJSON *list = cJSON_CreateArray();
@@ -486,6 +500,9 @@ static cJSON *describe_outputs(void)
         cJSON *row = described(aov->name, aov->doc);
         cJSON_AddNumberToObject(row, "channels", aov->channels);
         cJSON_AddBoolToObject(row, "picture", aov->picture);
+        if (i == AOV_STEPS) {
+            cJSON_AddItemToObject(row, "scale", describe_scale());
+        }
         cJSON_AddItemToArray(list, row);
     }
     return list;

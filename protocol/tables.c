@@ -20,21 +20,25 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
 /* clang-format off */
 /* What the lights have in common. */
 #define LIGHT_COLOR \
+    {"visible", PARAM_BOOL, .def = {1}, .doc = "Whether it gives light."}, \
     {"color", PARAM_COLOR, .def = {1, 1, 1}, .step = 0.05, .doc = "Colour of the light."}, \
     {"intensity", PARAM_FLOAT, .def = {1}, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1, \
-     .main = true, .doc = "Scales the colour."}
+     .main = true, \
+     .doc = "Scales the colour. pi makes a white matt surface that faces the light as bright as " \
+            "the colour: what it throws back goes to all sides, 1 / pi of it to each."}
 #define LIGHT_REACH \
     {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {0.1}, .min = 0, .max = LIMIT_COORDINATE, \
      .above_min = true, .step = 0.05, \
-     .doc = "Below this distance the light no longer grows with the inverse square."}, \
+     .doc = "Below this distance the light no longer grows with the inverse square, which is 1 " \
+            "at the distance 1. Shadows do not know it: they have a size."}, \
     {"range", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.5, \
-     .doc = "Beyond this distance there is no light; 0: no limit."}
+     .zero = "unlimited", .doc = "Beyond this distance there is no light; 0: no limit."}
 #define LIGHT_SHADOW \
     {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .group = "shadow", \
      .doc = "Kind of shadow."}, \
     {"size", PARAM_FLOAT, .def = {8}, .min = 0, .max = 1000, .above_min = true, .step = 0.5, \
      .group = "shadow", .when = "shadow=soft", \
-     .doc = "Sharpness of soft shadows: larger is harder."}
+     .doc = "Sharpness of soft shadows, whatever the light's radius: larger is harder."}
 
 const struct record_type node_common_type = {"node", "What every node has.", PARAMS(
     {"name", PARAM_TEXT, .doc = "Shown instead of the id."},
@@ -67,10 +71,10 @@ const struct record_type camera_type = {"camera", "Where the scene is seen from.
      .above_min = true, .step = 0.1, .when = "type=orthographic",
      .doc = "Full height of an orthographic picture."},
     {"aperture", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.01,
-     .group = "lens",
+     .group = "lens", .zero = "off",
      .doc = "Radius of the lens: what is out of focus blurs in stills; 0: all is sharp."},
     {"focus", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
-     .group = "lens", .when = "aperture!=0",
+     .group = "lens", .when = "aperture!=0", .zero = "at the target",
      .doc = "Distance along the view that is in focus; 0: the target's."})};
 
 const struct record_type environment_type = {
@@ -98,12 +102,12 @@ const struct record_type environment_type = {
     {"intensity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.05,
      .doc = "Scales the ambient light that it gives."},
     {"fog", PARAM_FLOAT, .min = 0, .max = 1000, .step = 0.01,
-     .group = "fog",
+     .group = "fog", .zero = "none",
      .doc = "Density of fog: part of the light lost for each unit of length; 0: none."},
     {"fog_color", PARAM_COLOR, .def = {0.7, 0.75, 0.8}, .step = 0.05, .group = "fog",
      .when = "fog!=0", .doc = "Colour of fog."},
     {"fog_height", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
-     .group = "fog", .when = "fog!=0",
+     .group = "fog", .when = "fog!=0", .zero = "everywhere",
      .doc = "Height over which fog thins to 1/e; 0: it is the same everywhere."},
     {"fog_base", PARAM_FLOAT, UNIT_LENGTH, .step = 0.1,
      .group = "fog", .when = "fog_height!=0", .doc = "Height at which fog has its density."},
@@ -129,17 +133,27 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
      .doc = "Whether the background is left out: pictures have an alpha channel."},
     {"shadows", PARAM_BOOL, .def = {1}, .group = "effects", .doc = "Whether lights cast shadows."},
     {"occlusion", PARAM_BOOL, .def = {1}, .group = "effects",
-     .doc = "Whether ambient light is less in corners."},
-    {"occlusion_samples", PARAM_INT, .min = 0, .max = 16, .step = 1,
+     .doc = "Whether ambient light is less in corners: by the mean of max(0, 1 - d / t), where d "
+            "is the distance to the scene at t along the normal, over u from 0 to 1 with "
+            "t = reach u u (after Evans, 2006)."},
+    {"occlusion_reach", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.05,
+     .group = "effects", .when = "occlusion=true", .zero = "auto",
+     .doc = "How far away things may be that darken a corner; 0: 0.06 of the way from the scene's "
+            "camera to its target."},
+    {"occlusion_strength", PARAM_FLOAT, .def = {0.9}, .min = 0, .max = 4, .step = 0.05,
      .group = "effects", .when = "occlusion=true",
-     .doc = "Places along the normal looked at for occlusion; 0: as the level says."},
+     .doc = "Part of the ambient light that is kept off where things are all around."},
+    {"occlusion_samples", PARAM_INT, .min = 0, .max = 16, .step = 1,
+     .group = "effects", .when = "occlusion=true", .zero = "auto",
+     .doc = "Places along the normal looked at for occlusion, which more of them make smoother, "
+            "not darker; 0: as the level says."},
     {"reflections", PARAM_BOOL, .def = {1}, .group = "effects",
      .doc = "Whether mirrors show the scene."},
     {"refractions", PARAM_BOOL, .def = {1}, .group = "effects",
      .doc = "Whether the scene is seen through glass."},
     {"ray_depth", PARAM_INT, .min = 0, .max = 8, .step = 1,
      .group = "effects",
-     .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
+     .zero = "auto", .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
     {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
      .group = "tone", .doc = "Brightness in stops: one more doubles the light."},
     {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
@@ -176,34 +190,42 @@ const struct record_type light_types[] = {
 #define INSIDE(WHEN) \
     {"attenuation_color", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05, \
      .group = "optics", .when = WHEN, \
-     .doc = "What is left of white light inside, after the attenuation distance."}, \
+     .doc = "What is left of white light inside, after the attenuation distance: this dyes what " \
+            "goes through."}, \
     {"attenuation_distance", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, \
      .max = LIMIT_COORDINATE, .above_min = true, .step = 0.1, \
      .group = "optics", .when = WHEN, \
      .doc = "Way inside after which the attenuation colour is left."}
 #define IOR \
     {"ior", PARAM_FLOAT, .def = {1.5}, .min = 1, .max = 4, .step = 0.01, \
-     .group = "optics", .doc = "Index of refraction."}
+     .group = "optics", .means = "ior", .doc = "Index of refraction: bends what goes through."}
 #define EMISSION \
-    {"emission", PARAM_COLOR, .step = 0.05, .doc = "Light that the surface gives by itself."}
+    {"emission", PARAM_COLOR, .step = 0.05, .means = "emission", \
+     .doc = "Light that the surface gives by itself, besides what goes through."}
 /* All of Blinn's and Phong's but the colour. */
 #define GLOSS \
     {"ambient", PARAM_COLOR, .def = {1, 1, 1}, .min = 0, .max = 1, .step = 0.05, \
-     .doc = "Part of the environment's light that is taken up."}, \
+     .doc = "Part of the environment's light that is taken up; nothing to what goes through."}, \
     {"specular", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05, \
-     .doc = "Colour of the highlight."}, \
+     .means = "highlight", \
+     .doc = "Colour of the highlight, which adds up to the rest: 2 / pi of the light where it is " \
+            "brightest; it takes nothing from what goes through."}, \
     {"shininess", PARAM_FLOAT, .def = {32}, .min = 1, .max = 2048, .step = 1, .main = true, \
-     .doc = "Narrowness of the highlight."}, \
+     .means = "gloss", .doc = "Narrowness of the highlight."}, \
     EMISSION, \
     {"reflectivity", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05, \
-     .group = "optics", .doc = "Part of the light that is mirrored, seen head-on."}, \
+     .group = "optics", .means = "mirror", \
+     .doc = "Part of the light that is mirrored, seen head-on; it does not go through."}, \
     IOR, \
     {"opacity", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1, .step = 0.05, \
-     .group = "optics", .doc = "Part of the light that does not go through."}, \
+     .group = "optics", .means = "opacity", \
+     .doc = "Part of the light that does not go through. The rest keeps its colour, but for " \
+            "what the attenuation takes; the surface's own colours count by this part."}, \
     INSIDE("opacity!=1")
 #define DIFFUSE \
     {"diffuse", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05, \
-     .main = true, .doc = "Colour of the surface."}
+     .main = true, .means = "color", \
+     .doc = "Colour of the surface; it does not dye what goes through."}
 
 const struct record_type shader_types[] = {
     {"phong", "Matt and shiny surfaces after Blinn and Phong: highlights by the halfway vector.",
@@ -211,22 +233,29 @@ const struct record_type shader_types[] = {
     {"blinn", "The same with highlights by the reflected vector.", PARAMS(DIFFUSE, GLOSS)},
     {"standard", "Physically based surfaces: metals and everything else, rough to smooth.", PARAMS(
         {"base_color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
-         .main = true, .doc = "Colour of the surface; of a metal's mirror image."},
+         .main = true, .means = "color",
+         .doc = "Colour of the surface; of a metal's mirror image. It dyes light that goes "
+                "through, each time it enters."},
         {"metallic", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
-         .doc = "From 0, no metal, to 1, metal."},
+         .means = "mirror", .doc = "From 0, no metal, to 1, metal, which nothing goes through."},
         {"roughness", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
-         .doc = "From 0, a mirror, to 1, matt."},
+         .means = "roughness",
+         .doc = "From 0, a mirror, to 1, matt; what goes through is not blurred."},
         EMISSION, IOR,
         {"transmission", PARAM_FLOAT, .min = 0, .max = 1, .step = 0.05,
-         .group = "optics", .doc = "Part of the light that enters and goes through, as in glass."},
+         .group = "optics", .means = "transmission",
+         .doc = "Part of the light that enters and goes through, as in glass."},
         INSIDE("transmission!=0"))},
-    {"unlit", "One colour, whatever the light.", PARAMS(
+    {"unlit", "One colour, whatever the light, of which nothing goes through.", PARAMS(
         {"color", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .step = 0.05, .main = true,
-         .doc = "What is seen."})},
-    {"normals", "The normal as a colour, for looking at shapes.", PARAMS({.name = NULL})},
+         .means = "color", .doc = "What is seen."})},
+    {"normals", "The normal as a colour, for looking at shapes; nothing goes through.",
+     PARAMS({.name = NULL})},
     {"checker", "Two colours in cubes, shiny like phong.", PARAMS(
         {"color1", PARAM_COLOR, .def = {0.8, 0.8, 0.8}, .min = 0, .max = 1, .step = 0.05,
-         .main = true, .doc = "Colour of the cubes whose places add up to an even number."},
+         .main = true, .means = "color",
+         .doc = "Colour of the cubes whose places add up to an even number; neither dyes what goes "
+                "through."},
         {"color2", PARAM_COLOR, .def = {0.2, 0.2, 0.2}, .min = 0, .max = 1, .step = 0.05,
          .doc = "Colour of the others."},
         {"scale", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
@@ -276,6 +305,12 @@ const struct record_type volume_types[] = {
         {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.05, .doc = "Its radius."},
         DENSITY)},
+    {"ellipsoid", "Smoke or cloud in a ball with three radii of its own.", PARAMS(
+        {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
+        {"radii", PARAM_VEC3, UNIT_LENGTH, .def = {1.5, 0.75, 1}, .min = 0,
+         .max = LIMIT_COORDINATE, .above_min = true, .step = 0.05,
+         .doc = "Semi-axes along X, Y and Z."},
+        DENSITY)},
     {.name = NULL},
 };
 
@@ -293,7 +328,9 @@ const struct record_type primitive_type = {
 const struct record_type shader_type = {"shader", "A class of materials.", PARAMS(
     {"properties", PARAM_ROWS, .doc = "What its materials set."},
     {"code", PARAM_CODE, .main = true,
-     .doc = "GLSL with a function vec3 shade(FragmentProperties properties): the colour."},
+     .doc = "GLSL with a function vec3 shade(FragmentProperties properties): the colour; or one "
+            "that returns Surface: all of color, metallic, roughness, reflectivity, transmission, "
+            "ior, emission, absorption."},
     {"lighting", PARAM_ENUM, .choices = lighting_kinds,
      .doc = "Whether lights fall on the colour, or it is what is seen."},
     {"doc", PARAM_TEXT, .doc = "What it is."})};

@@ -3,8 +3,8 @@
 #include "rows.h"
 
 /* In the order of renderer/sdf/operations.c. */
-static const char *const kernels[] = {"quadratic",   "cubic", "quartic", "circular",
-                                      "exponential", "root",  "power",   NULL};
+static const char *const kernels[] = {"quadratic", "cubic", "quartic",    "circular", "exponential",
+                                      "root",      "power", "polynomial", NULL};
 
 /* clang-format off */
 static const struct param blend_params[] = {
@@ -13,7 +13,10 @@ static const struct param blend_params[] = {
             "without end: exponential, 1 by a length (greater is harder); root, the square of a "
             "length; power, an exponent of 1 or more."},
     {"kernel", PARAM_ENUM, .choices = kernels,
-     .doc = "Profile of the blend; power changes distances but moves no surface."},
+     .doc = "Profile of the blend; power changes distances but moves no surface. Quadratic, cubic "
+            "and quartic are the polynomials of order 2, 3 and 4."},
+    {"order", PARAM_INT, .def = {3}, .min = 2, .max = 16, .step = 1, .when = "kernel=polynomial",
+     .doc = "Order of the polynomial: the higher, the smoother the blend and the less it fills."},
     {.name = NULL},
 };
 

@@ -44,6 +44,11 @@ static void test_accepts(void **state)
                     "\"epoch\":\"e1\",\"type\":\"hello\"}",
                     MESSAGE_HELLO);
     assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":4096}", MESSAGE_VIEW);
+    assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":1,\"isolate\":[]}",
+                    MESSAGE_VIEW);
+    assert_accepted(
+        "{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":1,\"isolate\":[\"a\",\"b\"]}",
+        MESSAGE_VIEW);
     assert_accepted("{\"type\":\"view\",\"seq\":7,\"width\":640,\"height\":360,\"camera\":"
                     "{\"position\":[0,1,5],\"fov\":30},\"aov\":\"depth\",\"quality\":\"sharp\","
                     "\"visible\":false}",
@@ -91,6 +96,10 @@ static void test_refuses(void **state)
                    ERROR_INVALID, "/camera/fov", "0 is below the minimum 1");
     assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"visible\":1}",
                    ERROR_INVALID, "/visible", "expected true or false");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"isolate\":\"a\"}",
+                   ERROR_SYNTAX, "/isolate", "expected a list of ids");
+    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"isolate\":[\"a\",1]}",
+                   ERROR_INVALID, "/isolate/1", "expected the id of a node");
     assert_refused("{\"type\":\"edit\",\"edit\":0,\"ops\":[]}", ERROR_INVALID, "/edit",
                    "0 is below the minimum 1");
     assert_refused("{\"type\":\"edit\",\"edit\":1,\"ops\":[]}", ERROR_SYNTAX, "",
@@ -131,10 +140,11 @@ static void test_members_have_fallbacks(void **state)
 }
 
 static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
-    'F',  'C',  'F',  '1',  2,    2,    6,    11,   /* version, codec, flags, stages */
+    'F',  'C',  'F',  '1',  3,    2,    6,    11,   /* version, codec, flags, stages */
     4,    3,    2,    1,    8,    7,    6,    5,    /* number, payload bytes */
     0x16, 0x15, 0x14, 0x13, 0x12, 0x11, 0x10, 0x09, /* revision */
     0x24, 0x23, 0x22, 0x21, 0x80, 2,    0x68, 1,    0,  5, 0xd0, 2, /* seq, sides */
+    2,    3,    0,    0,                                            /* round of rounds */
     1,    0,    0,    0,    2,    0,    0,    0,    3,  0, 0,    0, /* stages in their order */
     4,    0,    0,    0,    5,    0,    0,    0,    6,  0, 0,    0, 7,    0,    0,    0,
     8,    0,    0,    0,    9,    0,    0,    0,    10, 0, 0,    0, 0xff, 0xff, 0xff, 0xff,
@@ -151,6 +161,8 @@ static const struct frame_header frame = {
     .height = 360,
     .view_width = 1280,
     .view_height = 720,
+    .round = 2,
+    .rounds = 3,
     .stage_us = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0xffffffff},
 };
 
@@ -179,8 +191,8 @@ static void test_frame_header_bytes(void **state)
 static void test_describes_both_directions(void **state)
 {
     (void)state;
-    static const char *const server[] = {"welcome",  "document", "applied", "changed",
-                                         "rejected", "picked",   "notice",  "bye"};
+    static const char *const server[] = {"welcome", "document",  "applied", "changed", "rejected",
+                                         "picked",  "compiling", "notice",  "bye"};
     cJSON *both = messages_describe();
     const cJSON *client = cJSON_GetObjectItem(both, "client");
     assert_int_equal(cJSON_GetArraySize(client), MESSAGE_COUNT);
@@ -189,8 +201,8 @@ static void test_describes_both_directions(void **state)
                             message_name((enum message_kind)i));
     }
     const cJSON *list = cJSON_GetObjectItem(both, "server");
-    assert_int_equal(cJSON_GetArraySize(list), 8);
-    for (int i = 0; i < 8; i++) {
+    assert_int_equal(cJSON_GetArraySize(list), 9);
+    for (int i = 0; i < 9; i++) {
         const cJSON *row = cJSON_GetArrayItem(list, i), *member;
         assert_string_equal(json_member_text(row, "type", ""), server[i]);
         cJSON_ArrayForEach(member, cJSON_GetObjectItem(row, "members"))

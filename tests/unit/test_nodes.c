@@ -12,6 +12,7 @@
 
 #include "protocol/limits.h"
 #include "protocol/nodes.h"
+#include "protocol/registry/rows.h"
 
 /* Saved in binary forms and hashes: rows may be added, none may change. */
 static const struct {
@@ -27,6 +28,31 @@ static const struct {
     {7, "capsule"},
     {8, "cone"},
     {9, "plane"},
+    {10, "box_frame"},
+    {11, "capped_torus"},
+    {12, "link"},
+    {13, "round_cylinder"},
+    {14, "capped_cone"},
+    {15, "round_cone"},
+    {16, "solid_angle"},
+    {17, "cut_sphere"},
+    {18, "cut_hollow_sphere"},
+    {19, "death_star"},
+    {40, "hex_prism"},
+    {41, "tri_prism"},
+    {42, "octahedron"},
+    {43, "tetrahedron"},
+    {44, "dodecahedron"},
+    {45, "icosahedron"},
+    {46, "pyramid"},
+    {47, "rhombus"},
+    {48, "triangle"},
+    {49, "quad"},
+    {70, "gyroid"},
+    {71, "mandelbulb"},
+    {72, "menger"},
+    {73, "julia"},
+    {74, "terrain"},
     {101, "union"},
     {102, "intersection"},
     {103, "difference"},
@@ -49,11 +75,30 @@ static const struct {
     {212, "revolve"},
     {213, "offset_space"},
     {301, "group"},
+    {302, "material"},
+    {303, "model"},
+    {304, "field"},
+    {401, "circle"},
+    {402, "rectangle"},
+    {403, "round_rectangle"},
+    {404, "triangle2"},
+    {405, "regular_polygon"},
+    {406, "polygon"},
+    {407, "star"},
+    {408, "ring"},
+    {409, "arc"},
+    {410, "vesica"},
+    {411, "cross"},
+    {412, "bezier"},
+    {413, "heart"},
+    {414, "ellipse"},
+    {415, "segment"},
 };
 
 static void test_numbers_are_stable(void **state)
 {
     (void)state;
+    assert_int_equal(sizeof numbers / sizeof numbers[0], node_type_count());
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         const struct node_type *type = node_type_find(numbers[i].name);
         assert_non_null(type);
@@ -62,6 +107,27 @@ static void test_numbers_are_stable(void **state)
     assert_null(node_type_find("sphre"));
     assert_null(node_type_find(""));
     assert_null(node_type_at(node_type_count()));
+}
+
+/* Each table has numbers of its own (rows.h), so that rows added in two places do not meet. */
+static void test_numbers_are_in_the_range_of_their_table(void **state)
+{
+    static const struct {
+        const struct node_type *rows;
+        int first, last;
+    } tables[] = {
+        {node_shapes, 1, 39},        {node_solids, 40, 69},      {node_fractals, 70, 99},
+        {node_operations, 101, 199}, {node_modifiers, 201, 299}, {node_structure, 301, 399},
+        {node_flat, 401, 499},
+    };
+    size_t count = 0;
+    (void)state;
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        for (const struct node_type *type = tables[i].rows; type->record.name; type++, count++) {
+            assert_in_range(type->number, tables[i].first, tables[i].last);
+        }
+    }
+    assert_int_equal(count, node_type_count());
 }
 
 static void test_rows_are_distinct(void **state)
@@ -181,7 +247,9 @@ static void test_limits_have_rows(void **state)
     (void)state;
     size_t count;
     const struct limit *limits = limits_table(&count);
-    assert_true(count > 10);
+#define X(...) +1
+    assert_int_equal(count, 0 LIMITS(X));
+#undef X
     for (size_t i = 0; i < count; i++) {
         assert_true(limits[i].value > 0 && *limits[i].unit && *limits[i].doc);
         for (const char *c = limits[i].name; *c; c++) {
@@ -204,6 +272,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers_are_stable),
+        cmocka_unit_test(test_numbers_are_in_the_range_of_their_table),
         cmocka_unit_test(test_rows_are_distinct),
         cmocka_unit_test(test_rows_are_complete),
         cmocka_unit_test(test_tables_hold_their_defaults),

@@ -157,10 +157,10 @@ static void test_values_are_checked(void **state)
     ASSERT_REFUSED("--data", "is empty");
     assert_false(READ("serve", "--device", "cpu"));
     ASSERT_REFUSED("--device", "'cpu' is none of auto, gpu, software");
-    assert_false(READ("render", "--position", "1,2", "a.json"));
-    ASSERT_REFUSED("--position", "needs three numbers, as 0,1.5,6");
-    assert_false(READ("render", "--position", "1,2,3,4", "a.json"));
-    ASSERT_REFUSED("--position", "needs three numbers, as 0,1.5,6");
+    assert_false(READ("render", "--camera-position", "1,2", "a.json"));
+    ASSERT_REFUSED("--camera-position", "needs three numbers, as 0,1.5,6");
+    assert_false(READ("render", "--camera-position", "1,2,3,4", "a.json"));
+    ASSERT_REFUSED("--camera-position", "needs three numbers, as 0,1.5,6");
     assert_false(READ("render", "--region", "1,2,3", "a.json"));
     ASSERT_REFUSED("--region", "needs x,y,width,height");
     assert_false(READ("render", "--region", "1,2,3.5,4", "a.json"));
@@ -175,10 +175,10 @@ static void test_values_are_checked(void **state)
 static void test_vectors_and_choices_have_numbers(void **state)
 {
     (void)state;
-    assert_true(READ("render", "--position", "-1,2.5,3e1", "--aov=depth", "a.json"));
-    const double *position = option_vector(&options, OPTION_POSITION);
+    assert_true(READ("render", "--camera-position", "-1,2.5,3e1", "--aov=depth", "a.json"));
+    const double *position = option_vector(&options, OPTION_CAMERA_POSITION);
     assert_true(position[0] == -1 && position[1] == 2.5 && position[2] == 30);
-    assert_null(option_vector(&options, OPTION_TARGET));
+    assert_null(option_vector(&options, OPTION_CAMERA_TARGET));
     assert_int_equal(option_int(&options, OPTION_AOV), 1 << AOV_DEPTH);
     assert_true(READ("render", "--aov", "normal,color", "--region", "1,2,30,40", "a.json"));
     assert_int_equal(option_int(&options, OPTION_AOV), 1 << AOV_NORMAL | 1 << AOV_COLOR);

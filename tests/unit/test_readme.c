@@ -66,11 +66,14 @@ static void test_examples_of_the_readme(void **state)
         }
         block = end;
     }
-    assert_true(scenes > 0 && edits > 0);
+    assert_int_equal(scenes, 4);
+    assert_int_equal(edits, 3);
     assert_null(strstr(readme, "\n```json\n")); /* every example says what it is */
     scene_destroy(scene);
     free(readme);
 }
+
+enum { EXAMPLES = 44 };
 
 static void test_example_scenes(void **state)
 {
@@ -93,7 +96,7 @@ static void test_example_scenes(void **state)
         count++;
     }
     closedir(directory);
-    assert_true(count >= 8);
+    assert_int_equal(count, EXAMPLES);
 }
 
 int main(void)

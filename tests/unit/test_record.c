@@ -41,6 +41,8 @@ static const struct param params[] = {
     {"model", PARAM_MODEL, .doc = "M."},
     {"function", PARAM_FUNCTION, .doc = "F."},
     {"rows", PARAM_ROWS, .doc = "R."},
+    {"cell", PARAM_IVEC2, .min = -4, .max = 4, .doc = "C."},
+    {"corner", PARAM_IVEC4, .doc = "C."},
     {.name = NULL},
 };
 static const struct record_type type = {"thing", "A thing.", params};
@@ -104,6 +106,8 @@ static void test_reads_and_prints(void **state)
     assert_reads("{\"count\":-1,\"open\":true}", "{\"count\":-1,\"open\":true}");
     assert_reads("{\"place\":[1,-0,1e6],\"axes\":[true,false,true],\"copies\":[1,-2,0]}",
                  "{\"place\":[1,0,1000000],\"axes\":[true,false,true],\"copies\":[1,-2,0]}");
+    assert_reads("{\"cell\":[-4,4],\"corner\":[1,2,-3,4]}",
+                 "{\"cell\":[-4,4],\"corner\":[1,2,-3,4]}");
     assert_reads("{\"shape\":\"round\",\"tint\":[0,0.5,2]}",
                  "{\"tint\":[0,0.5,2],\"shape\":\"round\"}"); /* in the order of the table */
     assert_reads("{\"title\":\"\",\"material\":\"\"}", "{\"title\":\"\",\"material\":\"\"}");
@@ -209,9 +213,19 @@ static void test_declared_rows(void **state)
              "\"type\":\"int\"},{\"name\":\"b\",\"type\":\"float3\",\"default\":[1,2,-0]}"),
         ROWS("{\"name\":\"_a1\",\"type\":\"int\",\"default\":1,\"range\":[0,4],"
              "\"doc\":\"D.\"},{\"name\":\"b\",\"type\":\"vec3\",\"default\":[1,2,0]}"));
+    assert_reads(ROWS("{\"name\":\"a\",\"type\":\"int2\"},{\"name\":\"b\",\"type\":\"int3\"},"
+                      "{\"name\":\"c\",\"type\":\"int4\",\"range\":[-1,2]}"),
+                 ROWS("{\"name\":\"a\",\"type\":\"ivec2\"},{\"name\":\"b\",\"type\":\"ivec3\"},"
+                      "{\"name\":\"c\",\"type\":\"ivec4\",\"range\":[-1,2]}"));
     static const struct {
         const char *row, *place, *message;
     } bad[] = {
+        {"{\"name\":\"a\",\"type\":\"ivec2\",\"default\":[1,0.5]}", "/default",
+         "0.5 (y) is not a whole number"},
+        {"{\"name\":\"a\",\"type\":\"ivec4\",\"range\":[0,2.5]}", "/range",
+         "2.5 is not a whole number"},
+        {"{\"name\":\"a\",\"type\":\"int4\",\"default\":[1,2,3]}", "/default",
+         "expected four numbers"},
         {"1", "", "expected an object"},
         {"{\"name\":\"a\"}", "/type", "is missing"},
         {"{\"type\":\"float\"}", "/name", "is missing"},

@@ -212,6 +212,77 @@ static void test_conditions(void **state)
             }
         }
     }
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const struct record_type *type = &node_type_at(i)->record;
+        for (const struct param *param = type->params; param->name; param++) {
+            if (param->when) {
+                assert_condition(type, param);
+                found++;
+            }
+        }
+    }
+    assert_true(found > 0);
+}
+
+/* Words for one thing on two scales; the page converts between them. */
+static bool is_converted(const char *word)
+{
+    static const char *const words[] = {"gloss", "roughness", "opacity", "transmission"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strcmp(words[i], word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A word is said once in each shader, and by another one too, else it says nothing. */
+static void assert_meaning(const struct record_type *shader, const struct param *param)
+{
+    int others = 0;
+    for (const struct record_type *type = shader_types; type->name; type++) {
+        for (const struct param *row = type->params; row->name; row++) {
+            if (row != param && row->means && strcmp(row->means, param->means) == 0) {
+                assert_ptr_not_equal(type, shader);
+                others++;
+            }
+        }
+    }
+    assert_true(others > 0 || is_converted(param->means));
+}
+
+static void test_meanings(void **state)
+{
+    (void)state;
+    int found = 0;
+    for (const struct record_type *type = shader_types; type->name; type++) {
+        for (const struct param *param = type->params; param->name; param++) {
+            if (param->means) {
+                assert_meaning(type, param);
+                found++;
+            }
+        }
+    }
+    assert_true(found > 0);
+}
+
+/* A word for 0 stands where 0 can, and the description says what it is. */
+static void test_zeros(void **state)
+{
+    (void)state;
+    const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
+    int found = 0;
+    for (size_t i = 0; i < 3; i++) {
+        for (const struct param *param = records[i]->params; param->name; param++) {
+            if (param->zero) {
+                double low, high;
+                param_range(param, &low, &high);
+                assert_true(low == 0 && !param->above_min && !param->nonzero);
+                assert_non_null(strstr(param->doc, "0: "));
+                found++;
+            }
+        }
+    }
     assert_true(found > 0);
 }
 
@@ -280,6 +351,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_outputs_levels_stages, set_up, tear_down),
         cmocka_unit_test(test_conditions),
+        cmocka_unit_test(test_meanings),
+        cmocka_unit_test(test_zeros),
     };
     return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
 }
