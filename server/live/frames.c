@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hub.h"
+#include "poster.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/nodes.h"
@@ -62,11 +63,17 @@ static void drop_job(struct session *session)
     }
 }
 
+static void finish_view(struct frames_view *view)
+{
+    free(view->camera);
+    free(view->isolate);
+}
+
 void frames_finish(struct session *session)
 {
     drop_job(session);
     for (int i = 0; i < FRAMES_VIEWS; i++) {
-        free(session->frames.views[i].camera);
+        finish_view(&session->frames.views[i]);
     }
 }
 
@@ -90,7 +97,7 @@ const struct frames_view *frames_find_view(const struct frames *frames, uint32_t
     return &frames->views[frames->newest];
 }
 
-/* The camera in its canonical text, so that equal ones compare equal. */
+/* The members given, in their canonical text, so that equal ones compare equal. */
 static bool read_camera(const cJSON *json, char **out_text, struct error *err)
 {
     struct record camera;
@@ -112,6 +119,64 @@ static bool read_camera(const cJSON *json, char **out_text, struct error *err)
     return ok;
 }
 
+/* The document's camera, as it is now, with what the view changes. */
+static cJSON *patched_camera(const struct session *session, const struct frames_view *view)
+{
+    struct record camera;
+    cJSON *patch = json_parse(view->camera, strlen(view->camera), NULL);
+    cJSON *whole = cJSON_CreateObject();
+
+    record_copy(&camera, &session->room->scene->camera);
+    record_read(&camera, patch, "/camera", NULL);
+    record_print(&camera, whole);
+    record_finish(&camera);
+    cJSON_Delete(patch);
+    return whole;
+}
+
+char *frames_camera(const struct session *session, const struct frames_view *view)
+{
+    if (!view->camera) {
+        return NULL;
+    }
+    cJSON *camera = patched_camera(session, view);
+    char *text = json_print(camera, false);
+
+    cJSON_Delete(camera);
+    return text;
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Each id once and in order, so that equal sets compare equal. NULL: none. */
+static char *read_isolate(const cJSON *json)
+{
+    const char *ids[LIMIT_ISOLATED];
+    int count = 0;
+    const cJSON *id;
+
+    cJSON_ArrayForEach(id, json)
+    {
+        ids[count++] = id->valuestring;
+    }
+    if (count == 0) {
+        return NULL;
+    }
+    qsort(ids, (size_t)count, sizeof(*ids), compare_ids);
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < count; i++) {
+        if (i == 0 || strcmp(ids[i], ids[i - 1]) != 0) {
+            cJSON_AddItemToArray(list, cJSON_CreateString(ids[i]));
+        }
+    }
+    char *text = json_print(list, false);
+    cJSON_Delete(list);
+    return text;
+}
+
 static enum frames_quality find_quality(const char *name)
 {
     return strcmp(name, "smooth") == 0  ? QUALITY_SMOOTH
@@ -127,7 +192,8 @@ static bool same_text(const char *a, const char *b)
 static bool same_picture(const struct frames_view *a, const struct frames_view *b)
 {
     return a->width == b->width && a->height == b->height && a->aov == b->aov &&
-           a->quality == b->quality && a->visible == b->visible && same_text(a->camera, b->camera);
+           a->quality == b->quality && a->visible == b->visible &&
+           same_text(a->camera, b->camera) && same_text(a->isolate, b->isolate);
 }
 
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err)
@@ -146,13 +212,14 @@ bool frames_set_view(struct session *session, const cJSON *message, struct error
     if (!read_camera(cJSON_GetObjectItemCaseSensitive(message, "camera"), &view.camera, err)) {
         return false;
     }
+    view.isolate = read_isolate(cJSON_GetObjectItemCaseSensitive(message, "isolate"));
     if (old && same_picture(old, &view)) {
         old->seq = view.seq;
-        free(view.camera);
+        finish_view(&view);
         return true;
     }
     frames->newest = old ? (frames->newest + 1) % FRAMES_VIEWS : 0;
-    free(frames->views[frames->newest].camera);
+    finish_view(&frames->views[frames->newest]);
     frames->views[frames->newest] = view;
     frames->has_view = true;
     frames_changed(session);
@@ -288,11 +355,17 @@ static void send_frame(struct session *session, const struct packet *answer)
         .height = (uint16_t)json_member_number(json, "height", 0),
         .view_width = (uint16_t)frames->job_view_width,
         .view_height = (uint16_t)frames->job_view_height,
+        .round = (uint8_t)json_member_number(json, "round", 1),
+        .rounds = (uint8_t)json_member_number(json, "rounds", 1),
     };
     renders_read_times(json, header.stage_us);
     struct blob *payload = blob_create(answer->payload, answer->payload_length);
     uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
 
+    if (frames->job_level == FRAMES_STILL && header.codec == FRAME_JPEG && newest &&
+        !newest_view(frames)->isolate) {
+        poster_set(session->room, payload);
+    }
     blob_unref(payload);
     if (given_up) {
         int slot = flight_slot(frames, given_up);
@@ -372,8 +445,11 @@ static cJSON *picture_fields(struct session *session, const struct frames_view *
     cJSON_AddNumberToObject(fields, "width", width);
     cJSON_AddNumberToObject(fields, "height", height);
     if (view->camera) {
-        cJSON_AddItemToObject(fields, "camera",
-                              json_parse(view->camera, strlen(view->camera), NULL));
+        cJSON_AddItemToObject(fields, "camera", patched_camera(session, view));
+    }
+    if (view->isolate) {
+        cJSON_AddItemToObject(fields, "isolate",
+                              json_parse(view->isolate, strlen(view->isolate), NULL));
     }
     cJSON_AddStringToObject(fields, "aov", aov_name(view->aov));
     if (rule->level) {
@@ -396,7 +472,6 @@ static void ask(struct session *session, enum frames_level level)
 
     choose_step(frames, view);
     struct render_order order = {
-        .type = "render",
         .room = session->room,
         .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
@@ -413,12 +488,18 @@ static void ask(struct session *session, enum frames_level level)
     frames->job = renders_submit(session->hub, &order, NULL);
 }
 
+bool frames_is_waiting(const struct frames *frames)
+{
+    return frames->has_view && frames->views[frames->newest].visible &&
+           (frames->job || frames->stale || frames->done < FRAMES_LOSSLESS);
+}
+
 int64_t frames_pump(struct session *session, int64_t now_ms)
 {
     struct frames *frames = &session->frames;
     const struct frames_view *view = newest_view(frames);
 
-    if (!view || !view->visible || !session->room || session->room->left_out ||
+    if (!view || !view->visible || !session->room || session->room->left_out.kind != ERROR_NONE ||
         session->close_code || !session->hub->renders.ready || frames->job ||
         frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
         return 0;

@@ -34,10 +34,11 @@ enum {
 struct frames_view {
     uint32_t seq;
     int width, height;
-    char *camera; /* canonical text; NULL: the document's */
+    char *camera; /* canonical text of what it changes in the document's; NULL: nothing */
     int aov;
     enum frames_quality quality;
     bool visible;
+    char *isolate; /* canonical text of a list of ids; NULL: none */
 };
 
 struct frames {
@@ -73,11 +74,15 @@ void frames_finish(struct session *session);
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err);
 /* The view that a pick means, or the newest; NULL: none yet. */
 const struct frames_view *frames_find_view(const struct frames *frames, uint32_t seq);
+/* The document's camera as the view changes it, as JSON; NULL: it is as it is. Caller frees. */
+char *frames_camera(const struct session *session, const struct frames_view *view);
 void frames_acknowledge(struct session *session, uint32_t number);
 /* The document or the view changed. */
 void frames_changed(struct session *session);
 /* The worker can draw a newer revision than before. */
 void frames_shown(struct session *session);
+/* Somebody waits for a picture, or for a better one. */
+bool frames_is_waiting(const struct frames *frames);
 /* Asks for a picture if one is due; returns when to look again, clock_ms or 0. */
 int64_t frames_pump(struct session *session, int64_t now_ms);
 

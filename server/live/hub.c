@@ -7,6 +7,7 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include "poster.h"
 #include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
@@ -239,8 +240,9 @@ static void on_ready(void *data, const cJSON *ready)
     copy_text(info->device, sizeof(info->device), renderer, "device");
     info->software = json_member_bool(renderer, "software", false);
     log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
-    if (hub->worker_was_lost) {
-        for (struct room *room = hub->rooms; room; room = room->next) {
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (room->told_lost) {
+            room->told_lost = false;
             room_tell_all(room, "info", "worker_ready", "", "The render process is back.");
         }
     }
@@ -249,21 +251,54 @@ static void on_ready(void *data, const cJSON *ready)
     hub_unlock(hub);
 }
 
-static bool on_down(void *data, const char *reason, bool hung)
+/* Somebody waits for a picture of it. */
+static bool is_waited_for(const struct room *room)
+{
+    for (const struct session *session = room->sessions; session; session = session->next) {
+        if (frames_is_waiting(&session->frames)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whom it concerns, but not those who are told of their own scene later. */
+static void tell_lost(struct hub *hub, const struct supervisor_end *end)
+{
+    const char *slow = hub->quarantine.slow.scene;
+    const bool too_slow = *hub->quarantine.slow.shape || end->kind == SUPERVISOR_BUSY;
+
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (is_waited_for(room) && strcmp(room->id, slow) != 0) {
+            room->told_lost = true;
+            room_tell_all(room, too_slow ? "info" : "warning", "worker_restarting", "",
+                          too_slow ? "A scene took the render process too long. It is started "
+                                     "again, and pictures go on."
+                                   : "The render process ended and is started again.");
+        }
+    }
+}
+
+static bool on_down(void *data, const struct supervisor_end *end)
 {
     struct hub *hub = data;
 
     hub_lock(hub);
-    hub->worker_was_lost = true;
-    for (struct room *room = hub->rooms; room; room = room->next) {
-        room_tell_all(room, "warning", "worker_restarting", "",
-                      "The render process ended and is started again.");
-    }
-    log_debug("hub", "worker down: %s", reason);
-    bool known = quarantine_worker_down(hub, hung);
-    renders_worker_down(hub);
+    log_debug("hub", "worker down: %s", end->text);
+    tell_lost(hub, end);
+    bool known = quarantine_worker_down(hub, end);
+    renders_worker_down(hub, end);
     hub_unlock(hub);
     return known;
+}
+
+static void on_pace(void *data, double pace)
+{
+    struct hub *hub = data;
+
+    hub_lock(hub);
+    hub->quarantine.pace = pace;
+    hub_unlock(hub);
 }
 
 static void on_hopeless(void *data)
@@ -289,6 +324,7 @@ static void compiled(struct hub *hub, const struct packet *packet, bool broken)
     }
     if (broken) {
         renders_read_error(packet->json, &err);
+        copy_text(room->refused_shape, sizeof(room->refused_shape), packet->json, "shape");
         problem_set(room, &err, revision);
     } else {
         room->shown = revision;
@@ -325,7 +361,8 @@ static void on_packet(void *data, const char *type, const struct packet *packet)
         compiled(hub, packet, true);
     } else if (strcmp(type, "warned") == 0) {
         warned(hub, packet);
-    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "drawing") == 0) {
+    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "drawing") == 0 ||
+               strcmp(type, "slow") == 0) {
         quarantine_named(hub, packet);
     } else {
         renders_answer(hub, packet);
@@ -348,6 +385,7 @@ static void close_idle_rooms(struct hub *hub, int64_t now_ms)
             room_snapshot(room);
             continue;
         }
+        poster_store(room);
         remove_room(hub, room);
         room_destroy(room);
     }
@@ -363,6 +401,7 @@ static int64_t on_tick(void *data, int64_t now_ms)
         for (struct session *session = room->sessions; session; session = session->next) {
             next = clock_earlier(next, frames_pump(session, now_ms));
         }
+        next = clock_earlier(next, compiles_watch(room, now_ms));
     }
     if (now_ms >= hub->next_cleaning) {
         close_idle_rooms(hub, now_ms);
@@ -412,7 +451,8 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->store = store_open(params->data_dir, &hub->metrics, err);
     uploads_add_embedded(&hub->uploads);
     if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err) ||
-        !store_list_assets(hub->store, uploads_add, &hub->uploads, err)) {
+        !store_list_assets(hub->store, uploads_add, &hub->uploads, err) ||
+        !(hub->picker = picker_create(hub, err))) {
         hub_destroy(hub);
         return NULL;
     }
@@ -422,6 +462,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->supervisor = supervisor_create(&(struct supervisor_params){
         .argv = params->worker_argv,
         .silence_ms = params->worker_silence_ms,
+        .busy_ms = params->worker_busy_ms,
         .metrics = &hub->metrics,
         .data = hub,
         .on_ready = on_ready,
@@ -429,6 +470,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
         .on_down = on_down,
         .on_hopeless = on_hopeless,
         .on_tick = on_tick,
+        .on_pace = on_pace,
         .load_file = load_file,
     });
     hub_unlock(hub);
@@ -443,6 +485,7 @@ void hub_drain(struct hub *hub)
         if (room->edits_since_snapshot) {
             room_snapshot(room);
         }
+        poster_store(room);
     }
     renders_fail_all(hub, "the server is shutting down");
     hub_unlock(hub);
@@ -462,6 +505,7 @@ void hub_destroy(struct hub *hub)
         return;
     }
     hub_stop(hub);
+    picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);
     while (hub->rooms) {

@@ -3,7 +3,8 @@
  * pictures being rendered. Sections under the lock are short: nothing in them waits for the disk,
  * a socket or the worker.
  *
- * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | store writer | main (signals).
+ * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | picker | store writer | main
+ * (signals).
  * Order of locks: load_lock, lock, then the private ones of store, supervisor, http and ws. */
 #ifndef SERVER_HUB_H
 #define SERVER_HUB_H
@@ -12,6 +13,8 @@
 #include <stdatomic.h>
 
 #include "catalog.h"
+#include "compiles.h"
+#include "picker.h"
 #include "protocol/scene.h"
 #include "quarantine.h"
 #include "renders.h"
@@ -32,6 +35,7 @@ struct hub {
     struct metrics metrics; /* atomic by itself */
     struct store *store;
     struct supervisor *supervisor;
+    struct picker *picker;
     struct ws *ws; /* set before its thread starts */
     const char *web_dir;
     bool code_refused;            /* no code of users is taken, nor compiled */
@@ -42,10 +46,10 @@ struct hub {
     struct room *rooms;
     struct renders renders;
     struct quarantine quarantine;
+    struct compiles compiles;
     struct pictures pictures;
     struct renderer_info renderer; /* of the newest worker; name "" before the first */
-    bool worker_was_lost;
-    int64_t next_cleaning; /* clock_ms */
+    int64_t next_cleaning;         /* clock_ms */
     atomic_bool draining;
     atomic_bool hopeless; /* no device draws: the program ends */
 };
@@ -55,7 +59,7 @@ struct hub_params {
     const char *data_dir;
     const char *web_dir;
     const char *const *worker_argv;
-    int worker_silence_ms;
+    int worker_silence_ms, worker_busy_ms;
     bool code_refused;
 };
 

@@ -1,18 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "problem.h"
 
+#include <stdbool.h>
 #include <string.h>
 
+#include "hub.h"
 #include "room.h"
 #include "say.h"
 #include "session.h"
 
+static bool is_refused(const struct error *err)
+{
+    return err->kind == ERROR_TOO_SLOW || err->kind == ERROR_CRASHED;
+}
+
 /* Whatever rule is broken, it is the newest state that does not compile. */
 static struct blob *message(const struct error *err)
 {
-    const enum error_kind kind = err->kind == ERROR_QUARANTINED ? err->kind : ERROR_COMPILE;
-
-    return say_fault("error", error_kind_name(kind), err);
+    return say_fault("error", error_kind_name(is_refused(err) ? err->kind : ERROR_COMPILE), err);
 }
 
 static void tell_all(const struct room *room, struct blob *text)
@@ -33,9 +38,9 @@ static void end(struct room *room)
 static bool is_same(const struct error *a, const struct error *b)
 {
     /* Of a quarantine the next worker knows less than was told when it began. */
-    return a->kind == b->kind && (a->kind == ERROR_QUARANTINED ||
-                                  (strcmp(a->place, b->place) == 0 && a->line == b->line &&
-                                   a->column == b->column && strcmp(a->message, b->message) == 0));
+    return a->kind == b->kind &&
+           (is_refused(a) || (strcmp(a->place, b->place) == 0 && a->line == b->line &&
+                              a->column == b->column && strcmp(a->message, b->message) == 0));
 }
 
 void problem_set(struct room *room, const struct error *err, uint64_t revision)
@@ -60,8 +65,72 @@ void problem_cure(struct room *room, uint64_t revision)
     }
 }
 
+static void tell_retry(const struct room *room, const char *place)
+{
+    tell_all(room, say_notice("info", "retrying", place, "It is tried again."));
+}
+
+void problem_leave_out(struct room *room, const struct error *why)
+{
+    room->left_out = *why;
+    tell_all(room, say_fault("error", "scene_left_out", why));
+}
+
+void problem_let_in(struct room *room)
+{
+    if (room->left_out.kind != ERROR_NONE) {
+        tell_retry(room, room->left_out.place);
+    }
+    room->left_out = (struct error){0};
+    room->deaths = 0;
+}
+
+static bool is_meant(const struct error *err, const char *place)
+{
+    return is_refused(err) && (!place || strcmp(err->place, place) == 0);
+}
+
+/* The worker is told at once; if it does not hold the scene, when it is. */
+static bool retry_refused(struct room *room)
+{
+    const struct error old = room->problem;
+
+    if (!quarantine_pardon(room->hub, room->refused_shape)) {
+        return false;
+    }
+    room->problem = (struct error){0};
+    tell_retry(room, old.place);
+    return true;
+}
+
+static void retry_left_out(struct room *room)
+{
+    room->patience = room->patience < LIMIT_RETRY_TIMES ? room->patience * LIMIT_RETRY_FACTOR
+                                                        : LIMIT_RETRY_TIMES;
+    problem_let_in(room);
+    for (struct session *session = room->sessions; session; session = session->next) {
+        frames_changed(session);
+    }
+}
+
+bool problem_retry(struct room *room, const char *place, struct error *err)
+{
+    const bool out = is_meant(&room->left_out, place);
+    const bool refused = is_meant(&room->problem, place) && retry_refused(room);
+
+    if (out) {
+        retry_left_out(room);
+    }
+    return out || refused ||
+           error_set(err, ERROR_NOT_FOUND, "/place", "nothing at \"%s\" waits to be tried again",
+                     place ? place : "");
+}
+
 void problem_tell(struct session *session, const struct room *room)
 {
+    if (room->left_out.kind != ERROR_NONE) {
+        session_say(session, say_fault("error", "scene_left_out", &room->left_out));
+    }
     if (room->problem.kind != ERROR_NONE) {
         session_say(session, message(&room->problem));
     }

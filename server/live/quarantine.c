@@ -12,79 +12,240 @@
 #include "say.h"
 #include "server/log.h"
 
-void quarantine_named(struct hub *hub, const struct packet *packet)
-{
-    struct quarantine *quarantine = &hub->quarantine;
-    const cJSON *json = packet->json;
-    const bool compiling = strcmp(json_member_text(json, "type", ""), "compiling") == 0;
-    struct suspect *suspect = compiling ? &quarantine->compiling : &quarantine->drawing;
+/* --- what is known of shapes --- */
 
-    suspect->revision = (uint64_t)json_member_number(json, "revision", 0);
-    snprintf(suspect->scene, sizeof(suspect->scene), "%s", json_member_text(json, "scene", ""));
-    snprintf(suspect->shape, sizeof(suspect->shape), "%s", json_member_text(json, "shape", ""));
+static struct quarantine_case *find_case(struct quarantine *quarantine, const char *shape)
+{
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
+        if (strcmp(quarantine->cases[i].shape, shape) == 0) {
+            return &quarantine->cases[i];
+        }
+    }
+    return NULL;
 }
 
-void quarantine_worker_ready(struct hub *hub)
+static struct quarantine_case *get_case(struct quarantine *quarantine,
+                                        const struct suspect *suspect)
 {
-    const struct quarantine *quarantine = &hub->quarantine;
-    cJSON *packet = say_begin("refuse");
+    struct quarantine_case *known = find_case(quarantine, suspect->shape);
+
+    if (!known) {
+        known = &quarantine->cases[quarantine->count++ % QUARANTINE_SHAPES];
+        *known = (struct quarantine_case){.times = 1};
+        memcpy(known->shape, suspect->shape, sizeof(known->shape));
+    }
+    memcpy(known->scene, suspect->scene, sizeof(known->scene));
+    return known;
+}
+
+static void give_more_time(struct quarantine_case *known)
+{
+    known->times =
+        known->times < LIMIT_RETRY_TIMES ? known->times * LIMIT_RETRY_FACTOR : LIMIT_RETRY_TIMES;
+}
+
+static cJSON *describe(const struct quarantine_case *known)
+{
+    cJSON *row = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(row, "shape", known->shape);
+    cJSON_AddNumberToObject(row, "times", known->times);
+    if (known->refused != ERROR_NONE) {
+        cJSON_AddStringToObject(row, "code", error_kind_name(known->refused));
+        cJSON_AddNumberToObject(row, "measured", known->measured_ms);
+        cJSON_AddNumberToObject(row, "limit", known->limit_ms);
+    }
+    return row;
+}
+
+static void send_cases(struct hub *hub, const struct quarantine_case *cases, size_t count)
+{
+    cJSON *packet = say_begin("judge");
     cJSON *shapes = cJSON_AddArrayToObject(packet, "shapes");
 
-    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
-        cJSON_AddItemToArray(shapes, cJSON_CreateString(quarantine->shapes[i]));
+    for (size_t i = 0; i < count; i++) {
+        cJSON_AddItemToArray(shapes, describe(&cases[i]));
+    }
+    if (hub->quarantine.pace > 0) {
+        cJSON_AddNumberToObject(packet, "pace", hub->quarantine.pace);
     }
     supervisor_send(hub->supervisor, packet);
     cJSON_Delete(packet);
 }
 
+void quarantine_worker_ready(struct hub *hub)
+{
+    const struct quarantine *quarantine = &hub->quarantine;
+
+    send_cases(hub, quarantine->cases,
+               quarantine->count < QUARANTINE_SHAPES ? quarantine->count : QUARANTINE_SHAPES);
+}
+
+/* --- what the worker says --- */
+
+static struct suspect read_suspect(const cJSON *json)
+{
+    struct suspect suspect = {.revision = (uint64_t)json_member_number(json, "revision", 0)};
+
+    snprintf(suspect.scene, sizeof(suspect.scene), "%s", json_member_text(json, "scene", ""));
+    snprintf(suspect.shape, sizeof(suspect.shape), "%s", json_member_text(json, "shape", ""));
+    return suspect;
+}
+
+/* What was compiled before has come to a good end. */
+static void acquit(struct quarantine *quarantine, const struct suspect *next)
+{
+    struct quarantine_case *before = find_case(quarantine, quarantine->compiling.shape);
+
+    if (before && strcmp(before->shape, next->shape) != 0) {
+        before->tried = false;
+    }
+}
+
+static struct room *find_room(const struct hub *hub, const char *scene)
+{
+    struct room *room = hub->rooms;
+
+    while (room && strcmp(room->id, scene) != 0) {
+        room = room->next;
+    }
+    return room;
+}
+
+void quarantine_named(struct hub *hub, const struct packet *packet)
+{
+    struct quarantine *quarantine = &hub->quarantine;
+    const char *type = json_member_text(packet->json, "type", "");
+    const struct suspect suspect = read_suspect(packet->json);
+
+    if (strcmp(type, "compiling") == 0) {
+        acquit(quarantine, &suspect);
+        quarantine->compiling = suspect;
+    } else if (strcmp(type, "drawing") == 0) {
+        const struct room *room = find_room(hub, suspect.scene);
+
+        quarantine->drawing = suspect;
+        supervisor_set_patience(hub->supervisor, room ? room->patience : 1);
+    } else {
+        quarantine->slow = suspect;
+        quarantine->measured_ms = (int)json_member_number(packet->json, "measured", 0);
+        quarantine->limit_ms = json_member_bool(packet->json, "still", false)
+                                   ? 0
+                                   : (int)json_member_number(packet->json, "limit", 0);
+    }
+}
+
+/* --- its end --- */
+
+static const char *place_of(const struct room *room, const struct scene *good,
+                            char place[ERROR_PLACE_BYTES])
+{
+    if (code_text_in_scene(room->scene)) {
+        return code_text_changed(room->scene, good, place);
+    }
+    snprintf(place, ERROR_PLACE_BYTES, "/nodes/%s", room->scene->root->id);
+    return place;
+}
+
 /* The room falls back to its last good state. */
-static void seclude(struct room *room, uint64_t revision)
+static void seclude(struct room *room, const struct quarantine_case *known, uint64_t revision)
 {
     struct error err = {0};
     char place[ERROR_PLACE_BYTES];
     uint64_t good_revision;
     const struct scene *good = fallback_state(room, &good_revision);
+    const char *what = code_text_in_scene(room->scene) ? "code" : "scene";
+    const char *shown = good ? "The last picture stays." : "It is not shown.";
 
-    error_set(&err, ERROR_QUARANTINED, code_text_changed(room->scene, good, place),
-              "compiling this code ended the render process; until it is edited the scene is %s",
-              good ? "shown as it was before" : "not shown");
+    if (known->refused == ERROR_TOO_SLOW) {
+        error_set_slow(&err, place_of(room, good, place), "", known->measured_ms, known->limit_ms);
+        snprintf(err.message, sizeof(err.message),
+                 "This %s took over %.3g s to compile here (limit %.3g s). %s", what,
+                 known->measured_ms / 1000.0, known->limit_ms / 1000.0, shown);
+    } else {
+        error_set(&err, ERROR_CRASHED, place_of(room, good, place),
+                  "Compiling this %s ended the render process twice. %s", what, shown);
+    }
     problem_set(room, &err, revision);
+    memcpy(room->refused_shape, known->shape, sizeof(room->refused_shape));
 }
 
-static void convict(struct hub *hub, const struct suspect *suspect)
+/* The second time it is refused. */
+static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
 {
     struct quarantine *quarantine = &hub->quarantine;
-    struct room *room = hub->rooms;
+    struct quarantine_case *known = get_case(quarantine, suspect);
+    struct room *room = find_room(hub, suspect->scene);
 
-    while (room && strcmp(room->id, suspect->scene) != 0) {
-        room = room->next;
+    if (!known->tried) {
+        known->tried = true;
+        give_more_time(known);
+        log_warning("quarantine", "scene %s, revision %" PRIu64 ", %s; it is tried again",
+                    suspect->scene, suspect->revision,
+                    slow ? "took too long to compile" : "ended the worker while it was compiled");
+        return;
     }
-    log_error("quarantine",
-              "compiling the code of scene %s, revision %" PRIu64 ", ended the worker",
-              suspect->scene, suspect->revision);
-    memcpy(quarantine->shapes[quarantine->count++ % QUARANTINE_SHAPES], suspect->shape,
-           sizeof(suspect->shape));
+    known->refused = slow ? ERROR_TOO_SLOW : ERROR_CRASHED;
+    known->measured_ms = slow ? quarantine->measured_ms : 0;
+    known->limit_ms = slow ? quarantine->limit_ms : 0;
+    log_error("quarantine", "scene %s, revision %" PRIu64 ", is not compiled again: %s",
+              suspect->scene, suspect->revision, error_kind_name(known->refused));
     if (room) {
-        seclude(room, suspect->revision);
+        seclude(room, known, suspect->revision);
     }
 }
 
-bool quarantine_worker_down(struct hub *hub, bool hung)
+bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct quarantine *quarantine = &hub->quarantine;
     const struct suspect none = {.scene = ""};
+    const bool slow = *quarantine->slow.shape && quarantine->limit_ms > 0;
+    const struct suspect compiled = *quarantine->slow.shape ? quarantine->slow
+                                    : end->kind == SUPERVISOR_BUSY && *quarantine->drawing.scene
+                                        ? none
+                                        : quarantine->compiling;
 
-    quarantine->named = *quarantine->compiling.scene || *quarantine->drawing.scene;
-    /* A crash has one cause, and compilers are the likelier one; silence may come from either. */
-    quarantine->drawn = hung || !*quarantine->compiling.scene ? quarantine->drawing : none;
-    if (*quarantine->compiling.scene) {
-        convict(hub, &quarantine->compiling);
+    quarantine->named = *compiled.scene || *quarantine->drawing.scene;
+    /* A crash has one cause, and compilers are the likelier one; stillness may come from either. */
+    quarantine->drawn =
+        end->kind == SUPERVISOR_STILL || !*compiled.scene ? quarantine->drawing : none;
+    if (*compiled.scene) {
+        judge(hub, &compiled, slow);
     }
-    quarantine->compiling = quarantine->drawing = none;
+    quarantine->compiling = quarantine->drawing = quarantine->slow = none;
     return quarantine->named;
 }
 
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked)
 {
     return hub->quarantine.named ? strcmp(hub->quarantine.drawn.scene, scene) == 0 : asked;
+}
+
+/* --- second tries --- */
+
+bool quarantine_is_tried_again(const struct hub *hub, const struct room *room)
+{
+    const struct quarantine *quarantine = &hub->quarantine;
+
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
+        const struct quarantine_case *known = &quarantine->cases[i];
+
+        if (known->tried && known->refused == ERROR_NONE && strcmp(known->scene, room->id) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool quarantine_pardon(struct hub *hub, const char *shape)
+{
+    struct quarantine_case *known = find_case(&hub->quarantine, shape);
+
+    if (!known || known->refused == ERROR_NONE) {
+        return false;
+    }
+    known->refused = ERROR_NONE;
+    give_more_time(known);
+    send_cases(hub, known, 1);
+    return true;
 }

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* Code of users that ended a worker. The worker names whose code it is about to compile, or to draw
- * with. What was being compiled when it ended is never compiled again, and its scene falls back to
- * its last good state until it is edited; drawing counts against a scene (renders.h). Every
- * function is called under the hub's lock. */
+/* Shapes that ended a worker while they were compiled. The worker names what it will compile or
+ * draw. What was being compiled when it ended gets a second try, with LIMIT_RETRY_FACTOR times
+ * the time; if that ends a worker too, it is never compiled again until somebody asks for a retry,
+ * and its scene falls back to its last good state. Drawing counts against a scene (renders.h).
+ * Every function is called under the hub's lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "protocol/error.h"
 #include "protocol/limits.h"
 #include "renderer/worker.h"
+#include "supervisor.h"
 
 struct hub;
+struct room;
 
 enum { QUARANTINE_SHAPES = 256 }; /* the oldest are forgotten: they may try again */
 
@@ -23,22 +27,39 @@ struct suspect {
     char shape[17];
 };
 
-struct quarantine {
-    struct suspect compiling, drawing;
-    bool named;                         /* the last worker to end had named somebody */
-    struct suspect drawn;               /* what drawing may have ended it */
-    char shapes[QUARANTINE_SHAPES][17]; /* a ring */
-    size_t count;                       /* ever */
+/* What is known of a shape. */
+struct quarantine_case {
+    char shape[17];
+    char scene[LIMIT_ID_BYTES + 16]; /* that it was named with last */
+    int times;                       /* of the usual time, for the next try */
+    bool tried;                      /* it ended a worker; the next time it is refused */
+    enum error_kind refused;         /* ERROR_NONE: it is not */
+    int measured_ms, limit_ms;       /* of ERROR_TOO_SLOW */
 };
 
-/* A packet of type compiling or drawing. */
+struct quarantine {
+    struct suspect compiling, drawing;
+    bool named;                                      /* the last worker to end had named somebody */
+    struct suspect drawn;                            /* what drawing may have ended it */
+    struct suspect slow;                             /* what the worker ended itself for */
+    int measured_ms, limit_ms;                       /* of `slow` */
+    struct quarantine_case cases[QUARANTINE_SHAPES]; /* a ring */
+    size_t count;                                    /* ever */
+    double pace; /* how slow this machine compiles, as the workers measured it; 0: not known */
+};
+
+/* A packet of type compiling, drawing or slow. */
 void quarantine_named(struct hub *hub, const struct packet *packet);
-/* Tells a new worker what not to compile. */
+/* Tells a new worker what earlier ones learned. */
 void quarantine_worker_ready(struct hub *hub);
-/* `hung`: it was silent, rather than ended by itself. True: it had named somebody. */
-bool quarantine_worker_down(struct hub *hub, bool hung);
+/* True: it had named somebody. */
+bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end);
 /* Whether the worker that has just ended may have done so by drawing this. Where it had named
  * nobody, all that it was asked for is suspect: `asked`. */
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);
+/* A shape of the scene waits for its second try. */
+bool quarantine_is_tried_again(const struct hub *hub, const struct room *room);
+/* Lets the shape be compiled once more, with more time than the last. False: it is not refused. */
+bool quarantine_pardon(struct hub *hub, const char *shape);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "hub.h"
+#include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -122,26 +123,28 @@ static void send_scene(struct hub *hub, const struct render *render)
     send_and_delete(hub, packet);
 }
 
-static void send_render(struct hub *hub, struct render *render)
-{
-    char name[LIMIT_ID_BYTES + 16];
-    cJSON *packet = cJSON_Duplicate(render->order.fields, true);
-
-    send_scene(hub, render);
-    scene_name(render, name);
-    cJSON_AddStringToObject(packet, "type", render->order.type);
-    cJSON_AddStringToObject(packet, "scene", name);
-    cJSON_AddNumberToObject(packet, strcmp(render->order.type, "pick") == 0 ? "pick" : "job",
-                            render->id);
-    cJSON_AddNumberToObject(packet, "priority", render->order.priority);
-    render->sent = true;
-    send_and_delete(hub, packet);
-}
-
 /* Has to do with the loss of a worker, perhaps as its cause. */
 static bool is_suspect(const struct render *render)
 {
     return render->order.room ? render->order.room->deaths > 0 : render->deaths > 0;
+}
+
+static void send_render(struct hub *hub, struct render *render)
+{
+    char name[LIMIT_ID_BYTES + 16];
+    cJSON *packet = cJSON_Duplicate(render->order.fields, true);
+    const struct room *room = render->order.room;
+
+    send_scene(hub, render);
+    scene_name(render, name);
+    cJSON_AddStringToObject(packet, "type", "render");
+    cJSON_AddStringToObject(packet, "scene", name);
+    cJSON_AddNumberToObject(packet, "job", render->id);
+    cJSON_AddNumberToObject(packet, "priority", render->order.priority);
+    cJSON_AddBoolToObject(packet, "careful", is_suspect(render));
+    cJSON_AddNumberToObject(packet, "patience", room ? room->patience : 1);
+    render->sent = true;
+    send_and_delete(hub, packet);
 }
 
 /* Sends what may go. A suspect goes alone, so that the next loss has one possible cause. */
@@ -176,10 +179,10 @@ uint32_t renders_submit(struct hub *hub, const struct render_order *order, struc
 {
     struct renders *renders = &hub->renders;
 
-    if (order->room && order->room->left_out) {
-        error_set(err, ERROR_UNAVAILABLE, order->room->id,
-                  "drawing this scene ended the render process %d times; edit it to try again",
-                  RENDER_DEATHS);
+    if (order->room && order->room->left_out.kind != ERROR_NONE) {
+        if (err) {
+            *err = order->room->left_out;
+        }
     } else if (order->room && order->room->problem.kind != ERROR_NONE &&
                order->priority == RENDER_IMAGE &&
                order->room->problem_revision == order->room->revision) {
@@ -325,14 +328,74 @@ void renders_read_error(const cJSON *packet, struct error *out)
                  json_member_text(packet, "place", ""), (int)json_member_number(packet, "line", 0),
                  (int)json_member_number(packet, "column", 0), "%s",
                  json_member_text(packet, "message", ""));
+    out->measured_ms = (int)json_member_number(packet, "measured", 0);
+    out->limit_ms = (int)json_member_number(packet, "limit", 0);
+}
+
+/* --- scenes that are left out --- */
+
+static const char *root_place(const struct room *room, char place[ERROR_PLACE_BYTES])
+{
+    snprintf(place, ERROR_PLACE_BYTES, "/nodes/%s", room->scene->root->id);
+    return place;
+}
+
+static void describe_slow(const struct room *room, int measured_ms, int limit_ms, struct error *out)
+{
+    char place[ERROR_PLACE_BYTES];
+
+    error_set_slow(out, root_place(room, place), "", measured_ms, limit_ms);
+    snprintf(out->message, sizeof(out->message),
+             "Drawing the smallest part of this scene took over %.3g s here (limit %.3g s). It is "
+             "not drawn until it is edited or tried again.",
+             measured_ms / 1000.0, limit_ms / 1000.0);
+}
+
+static void describe_end(const struct room *room, const struct supervisor_end *end,
+                         struct error *out)
+{
+    char place[ERROR_PLACE_BYTES];
+
+    if (end->kind == SUPERVISOR_BUSY) {
+        describe_slow(room, (int)end->measured_ms, (int)end->limit_ms, out);
+    } else {
+        error_set(out, ERROR_CRASHED, root_place(room, place),
+                  "Drawing this scene ended the render process %d times. It is not drawn until it "
+                  "is edited or tried again.",
+                  room->deaths);
+    }
+}
+
+static void leave_out(struct room *room, const struct error *why)
+{
+    log_error("renders", "scene %s is left out: %s", room->id, why->message);
+    problem_leave_out(room, why);
+}
+
+void renders_worker_ready(struct hub *hub)
+{
+    hub->renders.ready = true;
+    dispatch(hub);
+}
+
+/* A picture was begun and cannot be drawn. What viewers see of the scene is left out for that; a
+ * picture that was ordered may have been a larger wish. */
+static void undrawn(const struct render *render, struct error *err)
+{
+    struct room *room = render->order.room;
+
+    if (room && err->kind == ERROR_TOO_SLOW) {
+        describe_slow(room, err->measured_ms, err->limit_ms, err);
+        if (render->order.priority < RENDER_LOSSLESS && room->left_out.kind == ERROR_NONE) {
+            leave_out(room, err);
+        }
+    }
 }
 
 void renders_answer(struct hub *hub, const struct packet *packet)
 {
     const cJSON *json = packet->json;
-    bool picked = cJSON_HasObjectItem(json, "pick");
-    struct render *render =
-        find(&hub->renders, (uint32_t)json_member_number(json, picked ? "pick" : "job", 0));
+    struct render *render = find(&hub->renders, (uint32_t)json_member_number(json, "job", 0));
 
     if (!render || !render->sent) {
         return; /* cancelled meanwhile */
@@ -353,6 +416,9 @@ void renders_answer(struct hub *hub, const struct packet *packet)
 
         renders_read_error(json, &err);
         metric_add(&hub->metrics, METRIC_RENDERS_FAILED, 1);
+        if (json_member_bool(json, "begun", false)) {
+            undrawn(render, &err);
+        }
         finish(hub, render, NULL, &err);
     } else {
         count_times(hub, json);
@@ -366,14 +432,8 @@ void renders_answer(struct hub *hub, const struct packet *packet)
 
 /* --- the worker's fate --- */
 
-void renders_worker_ready(struct hub *hub)
-{
-    hub->renders.ready = true;
-    dispatch(hub);
-}
-
 /* Which scenes may have been the cause: those asked for, and those whose shader was compiling. */
-static void blame(struct hub *hub)
+static void blame(struct hub *hub, const struct supervisor_end *end)
 {
     for (struct room *room = hub->rooms; room; room = room->next) {
         bool asked = room->sent && room->settled < room->revision;
@@ -382,16 +442,14 @@ static void blame(struct hub *hub)
             asked = r->sent && r->order.room == room;
         }
         room->sent = room->shown = room->settled = 0;
-        if (!quarantine_blames(hub, room->id, asked) || room->left_out) {
+        if (!quarantine_blames(hub, room->id, asked) || room->left_out.kind != ERROR_NONE) {
             continue;
         }
         if (++room->deaths >= RENDER_DEATHS) {
-            room->left_out = true;
-            log_error("renders", "scene %s ended the worker %d times and is left out until edited",
-                      room->id, room->deaths);
-            room_tell_all(room, "error", "scene_left_out", "",
-                          "Drawing this scene ended the render process repeatedly. It is not "
-                          "drawn again before it is edited.");
+            struct error why = {0};
+
+            describe_end(room, end, &why);
+            leave_out(room, &why);
         }
     }
 }
@@ -399,15 +457,16 @@ static void blame(struct hub *hub)
 static bool gives_up(const struct render *render)
 {
     return !render->order.again ||
-           (render->order.room ? render->order.room->left_out : render->deaths >= RENDER_DEATHS);
+           (render->order.room ? render->order.room->left_out.kind != ERROR_NONE
+                               : render->deaths >= RENDER_DEATHS);
 }
 
-void renders_worker_down(struct hub *hub)
+void renders_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct error err = {0};
 
     hub->renders.ready = false;
-    blame(hub);
+    blame(hub, end);
     error_set(&err, ERROR_UNAVAILABLE, "", "the render process ended while it drew this");
     for (struct render *render = hub->renders.first, *next; render; render = next) {
         next = render->next;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures and picks asked of the worker and not yet answered. Survives the worker: what was asked
+/* Pictures asked of the worker and not yet answered. Survives the worker: what was asked
  * is asked again of the next one, and a scene that kills workers is left out. Every function is
  * called under the hub's lock. */
 #ifndef SERVER_RENDERS_H
@@ -11,6 +11,7 @@
 
 #include "protocol/error.h"
 #include "renderer/worker.h"
+#include "supervisor.h"
 
 struct hub;
 struct room;
@@ -33,7 +34,6 @@ struct renders {
 };
 
 struct render_order {
-    const char *type;     /* "render" or "pick" */
     struct room *room;    /* the scene; or */
     const char *document; /* the text of one that is used once */
     cJSON *fields;        /* the packet's other members; taken */
@@ -59,8 +59,8 @@ void renders_fail_all(struct hub *hub, const char *why);
 
 /* Events of the supervisor. */
 void renders_worker_ready(struct hub *hub);
-void renders_worker_down(struct hub *hub);
-/* A packet of type frame, progress, failed or picked. */
+void renders_worker_down(struct hub *hub, const struct supervisor_end *end);
+/* A packet of type frame, progress or failed. */
 void renders_answer(struct hub *hub, const struct packet *packet);
 /* What a packet says of times, and of an error. */
 void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES]);

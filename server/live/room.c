@@ -7,6 +7,8 @@
 #include <sys/random.h>
 
 #include "hub.h"
+#include "poster.h"
+#include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -49,6 +51,7 @@ struct room *room_create(struct hub *hub, const char *id, struct scene *scene, u
     room->history = history_create();
     room->revision = room->durable = room->log_from = revision;
     room->idle_since = clock_ms();
+    room->patience = 1;
     room->fallback.code = code_text_in_scene(scene);
     make_epoch(room->epoch);
     return room;
@@ -61,6 +64,8 @@ void room_destroy(struct room *room)
     }
     room_log_clear(room);
     fallback_finish(room);
+    poster_finish(room);
+    picker_finish_room(room);
     while (room->authors) {
         struct room_author *author = room->authors;
 
@@ -112,6 +117,46 @@ static bool replay(struct room *room, const struct store_edit *edit, struct erro
     return ok;
 }
 
+/* What can be undone, rebuilt from what was done. */
+static bool recall(struct room *room, const struct store_edit *past, struct error *err)
+{
+    const struct store_step *step = &past->step;
+    cJSON *ops = json_parse(past->ops, strlen(past->ops), err);
+    cJSON *inverse = json_parse(step->inverse, strlen(step->inverse), err);
+    const bool ok = ops && inverse;
+
+    if (ok) {
+        history_record(room->history, &(struct history_entry){.kind = (enum history_kind)step->kind,
+                                                              .author = past->author,
+                                                              .group = step->group,
+                                                              .label = step->label,
+                                                              .applied = ops,
+                                                              .inverse = inverse,
+                                                              .undo = step->undo,
+                                                              .redo = step->redo});
+    } else {
+        cJSON_Delete(inverse);
+    }
+    cJSON_Delete(ops);
+    return ok;
+}
+
+/* A scene is not lost for what cannot be undone. */
+static void recall_all(struct room *room, const struct store_loaded *loaded)
+{
+    struct error err = {0};
+
+    for (size_t i = 0; i < loaded->past_count; i++) {
+        if (!recall(room, &loaded->past[i], &err)) {
+            log_warning("room", "%s: what was done before cannot be undone: %s", room->id,
+                        err.message);
+            history_destroy(room->history);
+            room->history = history_create();
+            return;
+        }
+    }
+}
+
 struct room *room_load(struct hub *hub, const char *id, const struct store_loaded *loaded,
                        struct error *err)
 {
@@ -121,12 +166,15 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
         return NULL;
     }
     struct room *room = room_create(hub, id, scene, loaded->revision);
-    for (size_t i = 0; i < loaded->edit_count; i++) {
-        if (!replay(room, &loaded->edits[i], err)) {
-            room_destroy(room);
-            return NULL;
-        }
+    bool ok = true;
+    for (size_t i = 0; i < loaded->edit_count && ok; i++) {
+        ok = replay(room, &loaded->edits[i], err);
     }
+    if (!ok) {
+        room_destroy(room);
+        return NULL;
+    }
+    recall_all(room, loaded);
     for (size_t i = 0; i < loaded->author_count; i++) {
         struct room_author *author = add_author(room, loaded->authors[i].author);
 
@@ -193,8 +241,9 @@ static void on_durable(void *data)
     free(commit);
 }
 
+/* Takes `text` and what `step` holds; NULL: none. */
 static void push_write(struct room *room, enum store_kind kind, const struct room_change *change,
-                       char *text)
+                       char *text, const struct store_step *step)
 {
     struct store_write *write = memory_alloc(1, sizeof(*write));
     struct commit *commit = memory_alloc(1, sizeof(*commit));
@@ -210,6 +259,7 @@ static void push_write(struct room *room, enum store_kind kind, const struct roo
     write->revision = room->revision;
     write->edit = change->edit;
     write->text = text;
+    write->step = step ? *step : (struct store_step){0};
     write->name = memory_text(name);
     write->nodes = room->scene->node_count;
     write->on_durable = on_durable;
@@ -230,28 +280,21 @@ static void push_write(struct room *room, enum store_kind kind, const struct roo
 void room_store_new(struct room *room, void (*then)(void *data), void *data)
 {
     push_write(room, STORE_CREATE, &(struct room_change){.author = "", .then = then, .data = data},
-               scene_print(room->scene, false));
+               scene_print(room->scene, false), NULL);
 }
 
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
 {
     room->deleted = true;
     push_write(room, STORE_DELETE, &(struct room_change){.author = "", .then = then, .data = data},
-               NULL);
+               NULL, NULL);
 }
 
 void room_snapshot(struct room *room)
 {
     room->edits_since_snapshot = 0;
     push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""},
-               scene_print(room->scene, false));
-}
-
-/* An edit may have helped. */
-static void draw_again(struct room *room)
-{
-    room->left_out = false;
-    room->deaths = 0;
+               scene_print(room->scene, false), NULL);
 }
 
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
@@ -267,8 +310,10 @@ static void tell_others(struct room *room, const struct room_change *change, con
     blob_unref(message);
 }
 
-/* The scene holds the change already; gives it a revision and tells everybody but the author. */
-static void commit_change(struct room *room, const struct room_change *change, const cJSON *ops)
+/* The scene holds the change already; gives it a revision and tells everybody but the author. Takes
+ * what `step` holds. */
+static void commit_change(struct room *room, const struct room_change *change, const cJSON *ops,
+                          const struct store_step *step)
 {
     char *text = json_print(ops, false);
 
@@ -278,9 +323,9 @@ static void commit_change(struct room *room, const struct room_change *change, c
     }
     room_log_add(room, change, text);
     tell_others(room, change, text);
-    draw_again(room);
+    problem_let_in(room); /* it may have helped */
     room_worker_edit(room, ops);
-    push_write(room, STORE_EDIT, change, text);
+    push_write(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
         room_snapshot(room);
@@ -291,6 +336,27 @@ static bool check_open(const struct room *room, struct error *err)
 {
     return !atomic_load(&room->hub->draining) ||
            error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
+}
+
+/* Takes `inverse`. */
+static struct store_step record_step(struct room *room, const struct room_change *change,
+                                     const cJSON *applied, cJSON *inverse)
+{
+    struct store_step step = {.kind = HISTORY_EDIT,
+                              .group = memory_text(change->group ? change->group : ""),
+                              .label = memory_text(change->label ? change->label : ""),
+                              .inverse = json_print(inverse, false)};
+
+    history_depth(room->history, change->author, &step.undo, &step.redo);
+    history_record(room->history, &(struct history_entry){.kind = HISTORY_EDIT,
+                                                          .author = change->author,
+                                                          .group = step.group,
+                                                          .label = step.label,
+                                                          .applied = applied,
+                                                          .inverse = inverse,
+                                                          .undo = step.undo,
+                                                          .redo = step.redo});
+    return step;
 }
 
 enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
@@ -308,32 +374,40 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }
-    history_record(room->history, change->author, change->group, inverse);
-    commit_change(room, change, applied);
+    const struct store_step step = record_step(room, change, applied, inverse);
+    commit_change(room, change, applied, &step);
     cJSON_Delete(applied);
     *out_revision = room->revision;
     return ROOM_APPLIED;
 }
 
 enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
-                            uint64_t *out_revision, struct error *err)
+                            uint64_t *out_revision, cJSON **out_skipped, struct error *err)
 {
-    cJSON *applied = NULL;
+    struct history_move move = {0};
     enum room_outcome outcome = check_number(room, change, out_revision, err);
 
+    *out_skipped = NULL;
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
     fallback_before_edit(room, NULL);
-    bool ok = check_open(room, err) &&
-              (redo ? history_redo : history_undo)(room->history, room->scene, change->author,
-                                                   &applied, err);
+    bool ok = check_open(room, err) && (redo ? history_redo : history_undo)(
+                                           room->history, room->scene, change->author, &move, err);
+    *out_skipped = move.skipped;
+    move.skipped = NULL;
     if (!ok) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }
-    commit_change(room, change, applied);
-    cJSON_Delete(applied);
+    const struct store_step step = {.kind = redo ? HISTORY_REDO : HISTORY_UNDO,
+                                    .undo = move.undo,
+                                    .redo = move.redo,
+                                    .group = memory_text(""),
+                                    .label = memory_text(move.label),
+                                    .inverse = json_print(move.inverse, false)};
+    commit_change(room, change, move.applied, &step);
+    history_move_finish(&move);
     *out_revision = room->revision;
     return ROOM_APPLIED;
 }
@@ -348,7 +422,7 @@ void room_replace(struct room *room, struct scene *scene, const struct room_chan
     room->history = history_create();
     room->revision++;
     room->edits_since_snapshot = 0;
-    draw_again(room);
+    problem_let_in(room); /* it may have helped */
     room_log_clear(room);
     room->log_cut = true;
     room_worker_replace(room);
@@ -358,7 +432,7 @@ void room_replace(struct room *room, struct scene *scene, const struct room_chan
         frames_changed(session);
     }
     blob_unref(message);
-    push_write(room, STORE_REPLACE, change, scene_print(room->scene, false));
+    push_write(room, STORE_REPLACE, change, scene_print(room->scene, false), NULL);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
 }
 

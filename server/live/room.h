@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "fallback.h"
+#include "picker.h"
 #include "protocol/asset.h"
 #include "protocol/edit.h"
 #include "protocol/limits.h"
@@ -58,17 +59,25 @@ struct room {
     int edits_since_snapshot;
     bool deleted;
     int64_t idle_since; /* clock_ms; 0: in use */
+    struct picker_field picks[PICKER_FIELDS];
 
     /* What the worker has of it. */
     uint64_t sent;  /* newest revision that it was told of; 0: it does not hold the scene */
     uint64_t shown; /* newest revision that it can draw */
     char image[ASSET_ID_CHARACTERS + 1]; /* file of its environment that the worker was sent last */
     uint64_t settled;                    /* newest of which it is known whether it can */
-    int deaths;    /* workers lost while they drew this scene, since its last picture */
-    bool left_out; /* too many: not drawn until it is edited */
+    int64_t compiling_since;             /* clock_ms; 0: nothing is waited for */
+    bool compiling_told;
+    bool told_lost;        /* that the worker is gone */
+    int deaths;            /* workers lost while they drew this scene, since its last picture */
+    int patience;          /* times the usual time that a tile of it may take */
+    struct error left_out; /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct fallback fallback;
+    struct blob *poster; /* the last picture; NULL: none since the room was opened */
+    bool poster_stored;
     struct error problem; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
     uint64_t problem_revision; /* that it is about */
+    char refused_shape[17];    /* of a problem that is too slow, or crashed */
 };
 
 /* Takes `scene`. */
@@ -82,11 +91,11 @@ void room_store_new(struct room *room, void (*then)(void *data), void *data);
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data);
 
 struct room_change {
-    const char *author; /* client id, or "rest" */
-    int64_t edit;       /* 0: none */
-    const char *group;
-    struct session *session;  /* of the author; NULL: none */
-    void (*then)(void *data); /* after the commit, on the store's thread; may be NULL */
+    const char *author;        /* client id, or "rest" */
+    int64_t edit;              /* 0: none */
+    const char *group, *label; /* of the step of undo; may be NULL */
+    struct session *session;   /* of the author; NULL: none */
+    void (*then)(void *data);  /* after the commit, on the store's thread; may be NULL */
     void *data;
 };
 
@@ -95,8 +104,10 @@ enum room_outcome { ROOM_APPLIED, ROOM_KNOWN /* a resend: nothing changed */, RO
 /* Checks, orders, applies, stores and tells one edit. `then` runs only after ROOM_APPLIED. */
 enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
                             uint64_t *out_revision, struct error *err);
+/* `*out_skipped`: operations that were left out because others have set their places since; NULL:
+ * none. Of ROOM_REFUSED too. The caller frees it. */
 enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
-                            uint64_t *out_revision, struct error *err);
+                            uint64_t *out_revision, cJSON **out_skipped, struct error *err);
 /* Puts another document in place; takes `scene`. */
 void room_replace(struct room *room, struct scene *scene, const struct room_change *change);
 

@@ -52,8 +52,9 @@ static void send_scene(struct room *room, const struct scene *scene, uint64_t re
 void room_worker_open(struct room *room)
 {
     uint64_t revision = 0;
-    const struct scene *good =
-        room->problem.kind != ERROR_NONE ? fallback_state(room, &revision) : NULL;
+    const bool doubtful =
+        room->problem.kind != ERROR_NONE || quarantine_is_tried_again(room->hub, room);
+    const struct scene *good = doubtful ? fallback_state(room, &revision) : NULL;
 
     if (room->sent == 0) {
         room->image[0] = '\0';

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the worker is told of a room. A scene whose newest state has a problem is told in its last
- * good state first, so that there is something to show. Every function is called under the hub's
- * lock. */
+/* What the worker is told of a room. A scene whose newest state has a problem, or is tried again,
+ * is told in its last good state first, so that there is something to show. Every function is
+ * called under the hub's lock. */
 #ifndef SERVER_ROOM_WORKER_H
 #define SERVER_ROOM_WORKER_H
 

@@ -63,7 +63,15 @@ struct blob *say_changed(uint64_t revision, const char *author, const char *ops,
     return joined(text, length);
 }
 
-struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo)
+static void add_skipped(cJSON *message, const cJSON *skipped)
+{
+    if (skipped) {
+        cJSON_AddItemToObject(message, "skipped", cJSON_Duplicate(skipped, true));
+    }
+}
+
+struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo,
+                         const cJSON *skipped)
 {
     cJSON *message = say_begin("applied");
 
@@ -72,6 +80,7 @@ struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t u
     cJSON_AddBoolToObject(message, "durable", durable);
     cJSON_AddNumberToObject(message, "undo", (double)undo);
     cJSON_AddNumberToObject(message, "redo", (double)redo);
+    add_skipped(message, skipped);
     return say(message);
 }
 
@@ -84,15 +93,20 @@ static void add_error(cJSON *message, const struct error *err)
         cJSON_AddNumberToObject(message, "line", err->line);
         cJSON_AddNumberToObject(message, "column", err->column);
     }
+    if (err->limit_ms > 0) {
+        cJSON_AddNumberToObject(message, "measured", err->measured_ms);
+        cJSON_AddNumberToObject(message, "limit", err->limit_ms);
+    }
 }
 
-struct blob *say_rejected(int64_t edit, const struct error *err)
+struct blob *say_rejected(int64_t edit, const struct error *err, const cJSON *skipped)
 {
     cJSON *message = say_begin("rejected");
 
     cJSON_AddNumberToObject(message, "edit", (double)edit);
     cJSON_AddStringToObject(message, "code", error_kind_name(err->kind));
     add_error(message, err);
+    add_skipped(message, skipped);
     return say(message);
 }
 

@@ -17,8 +17,10 @@ cJSON *say_begin(const char *type);
 struct blob *say_document(uint64_t revision, const char *document);
 /* `author`'s operations; `edit` 0 is left out. */
 struct blob *say_changed(uint64_t revision, const char *author, const char *ops, int64_t edit);
-struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo);
-struct blob *say_rejected(int64_t edit, const struct error *err);
+/* `skipped`: operations that an undo or redo left out; NULL: none. */
+struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo,
+                         const cJSON *skipped);
+struct blob *say_rejected(int64_t edit, const struct error *err, const cJSON *skipped);
 struct blob *say_notice(const char *level, const char *code, const char *place, const char *text);
 /* A notice of something that is wrong, perhaps in a text. */
 struct blob *say_fault(const char *level, const char *code, const struct error *err);

@@ -7,6 +7,7 @@
 #include <sys/random.h>
 
 #include "hub.h"
+#include "picker.h"
 #include "problem.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -52,22 +53,12 @@ void session_leave_room(struct session *session)
     room->idle_since = clock_ms();
 }
 
-static void cancel_picks(struct session *session)
-{
-    for (int i = 0; i < SESSION_PICKS; i++) {
-        if (session->picks[i].job) {
-            renders_cancel(session->hub, session->picks[i].job);
-            session->picks[i].job = 0;
-        }
-    }
-}
-
 void session_destroy(struct session *session)
 {
     if (!session) {
         return;
     }
-    cancel_picks(session);
+    picker_forget(session);
     frames_finish(session);
     session_leave_room(session);
     outbox_finish(&session->outbox);
@@ -104,7 +95,7 @@ void session_close(struct session *session, int code, const char *reason, int re
     }
     session_say(session, say_bye(reason, retry_ms));
     session->close_code = code;
-    cancel_picks(session);
+    picker_forget(session);
     if (session->frames.job) {
         renders_cancel(session->hub, session->frames.job);
         session->frames.job = 0;
@@ -116,18 +107,19 @@ static void say_error(struct session *session, const struct error *err)
     session_say(session, say_fault("error", error_kind_name(err->kind), err));
 }
 
-static void say_edit_state(struct session *session, int64_t edit, uint64_t revision)
+static void say_edit_state(struct session *session, int64_t edit, uint64_t revision,
+                           const cJSON *skipped)
 {
     size_t undo = 0, redo = 0;
 
     history_depth(session->room->history, session->client, &undo, &redo);
-    session_say(session,
-                say_applied(edit, revision, revision <= session->room->durable, undo, redo));
+    session_say(session, say_applied(edit, revision, revision <= session->room->durable, undo, redo,
+                                     skipped));
 }
 
 void session_tell_durable(struct session *session, int64_t edit, uint64_t revision)
 {
-    say_edit_state(session, edit, revision);
+    say_edit_state(session, edit, revision, NULL);
 }
 
 void session_frame_written(struct session *session, uint32_t frame, size_t bytes)
@@ -147,6 +139,21 @@ static void add_limits(cJSON *welcome)
 
     for (size_t i = 0; i < count; i++) {
         cJSON_AddNumberToObject(limits, table[i].name, (double)table[i].value);
+    }
+}
+
+/* What the newest steps are called, the newest first. */
+static void add_labels(cJSON *welcome, const struct session *session, const char *name, bool redo)
+{
+    cJSON *labels = cJSON_AddArrayToObject(welcome, name);
+
+    for (size_t i = 0; i < SESSION_LABELS; i++) {
+        const char *label = history_label(session->room->history, session->client, redo, i);
+
+        if (!label) {
+            return;
+        }
+        cJSON_AddItemToArray(labels, cJSON_CreateString(label));
     }
 }
 
@@ -170,6 +177,8 @@ static void say_welcome(struct session *session)
     cJSON_AddNumberToObject(welcome, "last_edit", (double)room_last_edit(room, session->client));
     cJSON_AddNumberToObject(welcome, "undo", (double)undo);
     cJSON_AddNumberToObject(welcome, "redo", (double)redo);
+    add_labels(welcome, session, "undo_labels", false);
+    add_labels(welcome, session, "redo_labels", true);
     add_limits(welcome);
     session_say(session, say(welcome));
 }
@@ -232,13 +241,8 @@ static void hello(struct session *session, const char *scene, const cJSON *messa
     enter_room(session, room, json_member_text(message, "client", ""));
     say_welcome(session);
     bring_up_to_date(session, message);
-    if (room->left_out) {
-        error_set(&err, ERROR_UNAVAILABLE, "",
-                  "this scene ended the render process repeatedly; "
-                  "it is not drawn again before it is edited");
-        session_say(session, say_notice("error", "scene_left_out", "", err.message));
-    }
     problem_tell(session, room);
+    compiles_tell(session, room, clock_ms());
     if (!hub_accepts_scene(hub, room->scene, &err)) {
         error_set(&err, ERROR_FORBIDDEN, err.place,
                   "this server runs no code: what has some is not shown as it is meant");
@@ -257,85 +261,36 @@ static void edit(struct session *session, const struct message *message)
         .author = session->client,
         .edit = (int64_t)json_member_number(message->json, "edit", 0),
         .group = json_member_text(message->json, "group", NULL),
+        .label = json_member_text(message->json, "label", NULL),
         .session = session,
     };
     enum room_outcome outcome;
+    cJSON *skipped = NULL;
 
     if (message->kind == MESSAGE_EDIT) {
         outcome =
             room_edit(session->room, &change,
                       cJSON_GetObjectItemCaseSensitive(message->json, "ops"), &revision, &err);
     } else {
-        outcome = room_undo(session->room, &change, message->kind == MESSAGE_REDO, &revision, &err);
+        outcome = room_undo(session->room, &change, message->kind == MESSAGE_REDO, &revision,
+                            &skipped, &err);
         if (outcome == ROOM_APPLIED) {
             session_say(session, room_changed_message(session->room, revision, session->client));
         }
     }
     if (outcome == ROOM_REFUSED) {
-        session_say(session, say_rejected(change.edit, &err));
+        session_say(session, say_rejected(change.edit, &err, skipped));
     } else {
-        say_edit_state(session, change.edit, revision);
+        say_edit_state(session, change.edit, revision, skipped);
     }
-}
-
-static void on_picked(void *data, const struct packet *answer, const struct error *err)
-{
-    static const char *const members[] = {"revision", "node", "position", "normal", "distance"};
-    struct session_pick *pick = data;
-    cJSON *picked;
-
-    pick->job = 0;
-    if (!answer) {
-        say_error(pick->session, err);
-        return;
-    }
-    picked = say_begin("picked");
-    cJSON_AddNumberToObject(picked, "pick", pick->pick);
-    for (size_t i = 0; i < sizeof(members) / sizeof(*members); i++) {
-        cJSON *value = cJSON_GetObjectItemCaseSensitive(answer->json, members[i]);
-
-        cJSON_AddItemToObject(picked, members[i],
-                              value ? cJSON_Duplicate(value, true) : cJSON_CreateNull());
-    }
-    session_say(pick->session, say(picked));
+    cJSON_Delete(skipped);
 }
 
 static void pick(struct session *session, const cJSON *message)
 {
-    const struct frames_view *view =
-        frames_find_view(&session->frames, (uint32_t)json_member_number(message, "seq", 0));
     struct error err = {0};
 
-    if (!view) {
-        error_set(&err, ERROR_INVALID, "/seq", "there was no view yet");
-        say_error(session, &err);
-        return;
-    }
-    struct session_pick *slot = &session->picks[session->next_pick];
-    session->next_pick = (session->next_pick + 1) % SESSION_PICKS;
-    if (slot->job) {
-        renders_cancel(session->hub, slot->job);
-    }
-    cJSON *fields = cJSON_CreateObject();
-    cJSON_AddNumberToObject(fields, "width", view->width);
-    cJSON_AddNumberToObject(fields, "height", view->height);
-    cJSON_AddNumberToObject(fields, "x", json_member_number(message, "x", 0));
-    cJSON_AddNumberToObject(fields, "y", json_member_number(message, "y", 0));
-    if (view->camera) {
-        cJSON_AddItemToObject(fields, "camera",
-                              json_parse(view->camera, strlen(view->camera), NULL));
-    }
-    slot->session = session;
-    slot->pick = json_member_number(message, "pick", 0);
-    struct render_order order = {.type = "pick",
-                                 .room = session->room,
-                                 .fields = fields,
-                                 .priority = RENDER_MOVING,
-                                 .again = true,
-                                 .on_done = on_picked,
-                                 .data = slot};
-    slot->job = renders_submit(session->hub, &order, &err);
-    if (!slot->job) {
+    if (!picker_ask(session, message, &err)) {
         say_error(session, &err);
     }
 }
@@ -345,6 +300,15 @@ static void view(struct session *session, const cJSON *message)
     struct error err = {0};
 
     if (!frames_set_view(session, message, &err)) {
+        say_error(session, &err);
+    }
+}
+
+static void retry(struct session *session, const cJSON *message)
+{
+    struct error err = {0};
+
+    if (!problem_retry(session->room, json_member_text(message, "place", NULL), &err)) {
         say_error(session, &err);
     }
 }
@@ -371,6 +335,9 @@ static void handle(struct session *session, const struct message *message)
     case MESSAGE_PICK:
         pick(session, message->json);
         break;
+    case MESSAGE_RETRY:
+        retry(session, message->json);
+        break;
     case MESSAGE_ACK:
         frames_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
         break;
@@ -390,7 +357,7 @@ static void refuse(struct session *session, const char *text, size_t length,
 
     if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
         metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
-        session_say(session, say_rejected((int64_t)number, err));
+        session_say(session, say_rejected((int64_t)number, err, NULL));
     } else {
         say_error(session, err);
     }

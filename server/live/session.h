@@ -18,13 +18,7 @@ enum {
     CLOSE_TRY_LATER = 1013,
 };
 
-enum { SESSION_PICKS = 8 }; /* questions under way; an older one is given up */
-
-struct session_pick {
-    struct session *session;
-    double pick;
-    uint32_t job; /* 0: free */
-};
+enum { SESSION_LABELS = 100 }; /* steps of undo that are told by name */
 
 struct session {
     struct hub *hub;
@@ -34,9 +28,8 @@ struct session {
     char client[LIMIT_ID_BYTES + 1]; /* "" before hello */
     struct outbox outbox;
     struct frames frames;
-    struct session_pick picks[SESSION_PICKS];
-    int next_pick;
-    int close_code; /* > 0: close when the outbox is empty, or at once when it is full */
+    uint64_t pick_turn; /* of the picker, when it answered last */
+    int close_code;     /* > 0: close when the outbox is empty, or at once when it is full */
     bool close_now;
     /* Something is to be written or closed; any thread. */
     void (*wake)(void *connection);

@@ -24,7 +24,8 @@
 
 enum {
     PING_MS = 250,
-    START_MS = 60000,       /* a worker may take so long to become ready */
+    START_MS = 60000,       /* one that is not ready yet may be still, or at work, for so long */
+    WATCH_AFTER_MS = 500,   /* of silence it is looked at */
     STEADY_MS = 2000,       /* one that lived longer is replaced at once */
     BACKOFF_FIRST_MS = 100, /* else after a pause, doubled each time */
     BACKOFF_MAX_MS = 5000,
@@ -43,6 +44,7 @@ struct supervisor {
     pthread_t thread;
     int wake_fd;
     atomic_bool stopping;
+    atomic_int patience; /* times busy_ms */
 
     pthread_mutex_t lock; /* guards fd, ready, chunks */
     int fd;               /* -1: no worker */
@@ -53,6 +55,7 @@ struct supervisor {
     pid_t pid;
     struct packet_reader reader;
     int64_t started, heard, next_ping, next_start;
+    struct vigil vigil; /* since `heard` */
     int backoff_ms;
     bool ever_ready;
     int64_t counted[4]; /* the last pong's counters */
@@ -190,12 +193,25 @@ static bool spawn(struct supervisor *supervisor, int child_fd)
     return result == 0;
 }
 
+static void sign_of_life(struct supervisor *supervisor)
+{
+    supervisor->heard = clock_ms();
+    vigil_restart(&supervisor->vigil);
+}
+
+void supervisor_set_patience(struct supervisor *supervisor, int times)
+{
+    atomic_store(&supervisor->patience, times);
+}
+
 static void start(struct supervisor *supervisor)
 {
     int pair[2];
 
-    supervisor->started = supervisor->heard = clock_ms();
+    supervisor->started = clock_ms();
     supervisor->next_start = 0;
+    sign_of_life(supervisor);
+    supervisor_set_patience(supervisor, 1);
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) {
         log_error("worker", "no socket: %s", strerror(errno));
         supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
@@ -241,10 +257,10 @@ static void plan_restart(struct supervisor *supervisor)
     supervisor->next_start = now + supervisor->backoff_ms;
 }
 
-/* Kills what is left of the worker and tells why. */
-static void take_down(struct supervisor *supervisor, const char *reason)
+/* Kills what is left of the worker and tells why. `why`: NULL where it ended by itself. */
+static void take_down(struct supervisor *supervisor, const struct supervisor_end *why)
 {
-    char text[160];
+    struct supervisor_end end = why ? *why : (struct supervisor_end){.kind = SUPERVISOR_ENDED};
     int status = 0;
 
     pthread_mutex_lock(&supervisor->lock);
@@ -258,25 +274,23 @@ static void take_down(struct supervisor *supervisor, const char *reason)
     kill(supervisor->pid, SIGKILL);
     waitpid(supervisor->pid, &status, 0);
     supervisor->pid = 0;
-    if (reason) {
-        snprintf(text, sizeof(text), "%s", reason);
-    } else {
-        describe_exit(status, text, sizeof(text));
+    if (!why) {
+        describe_exit(status, end.text, sizeof(end.text));
     }
     metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 0);
     if (atomic_load(&supervisor->stopping)) {
         return;
     }
-    if (!supervisor->ever_ready && !reason && WIFEXITED(status) && WEXITSTATUS(status) != 0) {
-        log_error("worker", "%s before it could draw anything", text);
+    if (!supervisor->ever_ready && !why && WIFEXITED(status) && WEXITSTATUS(status) != 0) {
+        log_error("worker", "%s before it could draw anything", end.text);
         supervisor->next_start = INT64_MAX;
         supervisor->params.on_hopeless(supervisor->params.data);
         return;
     }
     metric_add(supervisor->params.metrics, METRIC_WORKER_RESTARTS, 1);
-    log_warning("worker", "%s; another one is started", text);
+    log_warning("worker", "%s; another one is started", end.text);
     plan_restart(supervisor);
-    if (supervisor->params.on_down(supervisor->params.data, text, reason != NULL)) {
+    if (supervisor->params.on_down(supervisor->params.data, &end)) {
         supervisor->backoff_ms = 0;
         supervisor->next_start = clock_ms();
     }
@@ -303,13 +317,14 @@ static void count_pong(struct supervisor *supervisor, const cJSON *pong)
     }
     metric_set(supervisor->params.metrics, METRIC_RESIDENT_BYTES,
                (int64_t)json_member_number(pong, "resident_bytes", 0));
+    supervisor->params.on_pace(supervisor->params.data, json_member_number(pong, "pace", 0));
 }
 
 static void receive_packet(struct supervisor *supervisor, const struct packet *packet)
 {
     const char *type = json_member_text(packet->json, "type", "");
 
-    supervisor->heard = clock_ms();
+    sign_of_life(supervisor);
     if (strcmp(type, "pong") == 0) {
         count_pong(supervisor, packet->json);
     } else if (strcmp(type, "ready") == 0) {
@@ -334,6 +349,7 @@ static bool receive(struct supervisor *supervisor)
     if (got <= 0) {
         return got < 0 && (errno == EAGAIN || errno == EINTR);
     }
+    sign_of_life(supervisor); /* of a packet that is not whole yet */
     packet_reader_add(&supervisor->reader, bytes, (size_t)got);
     while ((result = packet_reader_next(&supervisor->reader, &packet)) == 1) {
         receive_packet(supervisor, &packet);
@@ -355,21 +371,42 @@ static void ping(struct supervisor *supervisor, int64_t now)
     supervisor->next_ping = now + PING_MS;
 }
 
+/* Whether the silent worker hangs, and how. */
+static bool hangs(struct supervisor *supervisor, int64_t now, struct supervisor_end *out)
+{
+    const struct supervisor_params *params = &supervisor->params;
+    const int64_t busy = (int64_t)params->busy_ms * atomic_load(&supervisor->patience);
+    const int64_t still_limit = supervisor->ready ? params->silence_ms : START_MS;
+    const int64_t busy_limit = supervisor->ready || busy > START_MS ? busy : START_MS;
+    const struct vigil *vigil = &supervisor->vigil;
+    struct vigil_use use;
+
+    if (!vigil_use_of(supervisor->pid, 0, &use)) {
+        return false; /* its end is noticed by the socket */
+    }
+    vigil_look(&supervisor->vigil, now, &use);
+    if (vigil->still_ms > still_limit) {
+        *out = (struct supervisor_end){SUPERVISOR_STILL, vigil->still_ms, still_limit, ""};
+        snprintf(out->text, sizeof(out->text), "silent and still for %lld ms",
+                 (long long)vigil->still_ms);
+    } else if (vigil->spent_ms > busy_limit) {
+        *out = (struct supervisor_end){SUPERVISOR_BUSY, vigil->spent_ms, busy_limit, ""};
+        snprintf(out->text, sizeof(out->text), "silent for %lld ms of the processor",
+                 (long long)vigil->spent_ms);
+    }
+    return out->limit_ms > 0;
+}
+
 static void watch_over(struct supervisor *supervisor, int64_t now)
 {
+    struct supervisor_end end = {0};
+
     if (supervisor->fd < 0) {
         if (supervisor->next_start <= now) {
             start(supervisor);
         }
-        return;
-    }
-    int limit = supervisor->ready ? supervisor->params.silence_ms : START_MS;
-    if (now - supervisor->heard > limit) {
-        char reason[80];
-
-        snprintf(reason, sizeof(reason), "silent for %lld ms",
-                 (long long)(now - supervisor->heard));
-        take_down(supervisor, reason);
+    } else if (now - supervisor->heard > WATCH_AFTER_MS && hangs(supervisor, now, &end)) {
+        take_down(supervisor, &end);
     } else if (supervisor->ready && supervisor->next_ping <= now) {
         ping(supervisor, now);
     }
@@ -424,7 +461,7 @@ static void *run(void *data)
         wait_and_receive(supervisor, wait_ms(supervisor, wish));
     }
     if (supervisor->fd >= 0) {
-        take_down(supervisor, "stopped");
+        take_down(supervisor, &(struct supervisor_end){.text = "stopped"});
     }
     return NULL;
 }
