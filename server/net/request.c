@@ -210,21 +210,24 @@ struct response response_json(int status, cJSON *json)
     return response_text(status, "application/json", text);
 }
 
-/* Line and column are left out where they are 0. */
-static struct response problem(int status, const char *code, const char *place, int line,
-                               int column, const char *detail)
+/* What `err` knows besides code, place and message is left out where it is 0. */
+static struct response problem(int status, const char *code, const struct error *err)
 {
     cJSON *json = cJSON_CreateObject();
 
     cJSON_AddStringToObject(json, "type", "about:blank");
     cJSON_AddStringToObject(json, "title", response_title(status));
     cJSON_AddNumberToObject(json, "status", status);
-    cJSON_AddStringToObject(json, "detail", detail);
+    cJSON_AddStringToObject(json, "detail", err->message);
     cJSON_AddStringToObject(json, "code", code);
-    cJSON_AddStringToObject(json, "place", place);
-    if (line > 0) {
-        cJSON_AddNumberToObject(json, "line", line);
-        cJSON_AddNumberToObject(json, "column", column);
+    cJSON_AddStringToObject(json, "place", err->place);
+    if (err->line > 0) {
+        cJSON_AddNumberToObject(json, "line", err->line);
+        cJSON_AddNumberToObject(json, "column", err->column);
+    }
+    if (err->limit_ms > 0) {
+        cJSON_AddNumberToObject(json, "measured", err->measured_ms);
+        cJSON_AddNumberToObject(json, "limit", err->limit_ms);
     }
     struct response response = response_json(status, json);
     response.type = "application/problem+json";
@@ -239,13 +242,15 @@ static struct response problem(int status, const char *code, const char *place, 
 struct response response_problem(int status, const char *code, const char *place,
                                  const char *detail)
 {
-    return problem(status, code, place, 0, 0, detail);
+    struct error err = {0};
+
+    error_set(&err, ERROR_NONE, place, "%s", detail);
+    return problem(status, code, &err);
 }
 
 struct response response_error(const struct error *err)
 {
-    return problem(error_kind_status(err->kind), error_kind_name(err->kind), err->place, err->line,
-                   err->column, err->message);
+    return problem(error_kind_status(err->kind), error_kind_name(err->kind), err);
 }
 
 void request_reply_error(struct request *request, const struct error *err)

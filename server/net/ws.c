@@ -9,6 +9,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "outbox.h"
@@ -23,6 +24,7 @@ enum {
     PING_SECONDS = 10,
     HANGUP_SECONDS = 25, /* without a pong or anything else */
     PIECES_PER_TURN = 16,
+    CLOSE_SECONDS = 3, /* for the other side to answer a close */
     CLOSE_UNSUPPORTED = 1003,
 };
 
@@ -36,7 +38,9 @@ struct link {
     struct lws *wsi;
     struct session *session; /* between ESTABLISHED and CLOSED */
     atomic_bool dirty;
-    char *text; /* the message being collected */
+    int close_code; /* > 0: to be said next, whatever else waits */
+    bool silent;    /* one side has said its close: nothing is written any more */
+    char *text;     /* the message being collected */
     size_t length, capacity;
 };
 
@@ -177,10 +181,11 @@ static void on_closed(struct link *link)
     hub_unlock(hub);
 }
 
-static int close_with(struct lws *wsi, int code)
+static int close_with(struct link *link, int code)
 {
-    lws_close_reason(wsi, (enum lws_close_status)code, NULL, 0);
-    return -1;
+    link->close_code = code;
+    lws_callback_on_writable(link->wsi);
+    return 0;
 }
 
 static int on_receive(struct link *link, const char *bytes, size_t length)
@@ -188,11 +193,14 @@ static int on_receive(struct link *link, const char *bytes, size_t length)
     struct lws *wsi = link->wsi;
 
     lws_validity_confirmed(wsi);
+    if (link->close_code || link->silent) {
+        return 0;
+    }
     if (lws_frame_is_binary(wsi)) {
-        return close_with(wsi, CLOSE_UNSUPPORTED);
+        return close_with(link, CLOSE_UNSUPPORTED);
     }
     if (link->length + length + lws_remaining_packet_payload(wsi) > LIMIT_MESSAGE_BYTES) {
-        return close_with(wsi, CLOSE_TOO_BIG);
+        return close_with(link, CLOSE_TOO_BIG);
     }
     if (link->length + length > link->capacity) {
         link->capacity = (link->length + length) * 2;
@@ -237,6 +245,30 @@ static enum lws_write_protocol write_mode(const struct outbox_piece *piece)
     return (enum lws_write_protocol)(mode | (piece->last ? 0 : LWS_WRITE_NO_FIN));
 }
 
+/* The library would close the socket at once, and what is unread in it then makes a reset, after
+ * which the other side may never read what it was told. So the close is written here, when nothing
+ * of the library's is under way, and what the other side still says is dropped until it answers. */
+static int write_close(struct link *link, int code)
+{
+    const uint8_t frame[] = {0x88, 2, (uint8_t)(code >> 8), (uint8_t)code}; /* RFC 6455, 5.5.1 */
+
+    link->silent = true;
+    lws_set_timeout(link->wsi, PENDING_TIMEOUT_USER_REASON_BASE, CLOSE_SECONDS);
+    return send(lws_get_socket_fd(link->wsi), frame, sizeof(frame), MSG_DONTWAIT | MSG_NOSIGNAL) ==
+                   sizeof(frame)
+               ? 0
+               : -1;
+}
+
+/* The library answers the first close by itself; an answer ends the connection. */
+static int on_peer_close(struct link *link)
+{
+    const bool answered = link->silent;
+
+    link->silent = true;
+    return answered ? -1 : 0;
+}
+
 /* 1: written, 0: nothing to write, -1: close. */
 static int write_piece(struct link *link)
 {
@@ -254,7 +286,7 @@ static int write_piece(struct link *link)
     }
     hub_unlock(ws->hub);
     if (!more) {
-        return code ? close_with(link->wsi, code) : 0;
+        return code ? write_close(link, code) : 0;
     }
     return lws_write(link->wsi, ws->scratch + LWS_PRE, piece.length, write_mode(&piece)) < 0 ? -1
                                                                                              : 1;
@@ -262,6 +294,12 @@ static int write_piece(struct link *link)
 
 static int on_writeable(struct link *link)
 {
+    if (link->silent) {
+        return 0;
+    }
+    if (link->close_code) {
+        return write_close(link, link->close_code);
+    }
     for (int i = 0; i < PIECES_PER_TURN && link->session; i++) {
         int result = write_piece(link);
 
@@ -332,6 +370,8 @@ static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *use
         return on_receive(link, in, length);
     case LWS_CALLBACK_SERVER_WRITEABLE:
         return on_writeable(link);
+    case LWS_CALLBACK_WS_PEER_INITIATED_CLOSE:
+        return on_peer_close(link);
     case LWS_CALLBACK_TIMER:
         on_timer(link);
         return 0;

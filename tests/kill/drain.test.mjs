@@ -4,14 +4,14 @@ import assert from 'node:assert/strict';
 import net from 'node:net';
 import { after, test } from 'node:test';
 import { ask, counter, makeDirectory, removeDirectory, sleep, startDaemon, until } from '../support/daemon.mjs';
-import { Live } from '../support/live.mjs';
+import { encodeMessage, Live } from '../support/live.mjs';
 
 const data = makeDirectory();
 after(() => removeDirectory(data));
 const DOCUMENT = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 test('SIGTERM in the middle of editing', async (t) => {
-    const daemon = await startDaemon({ data });
+    const daemon = await startDaemon({ data, driver: 'null', tileMs: 5 });
     await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
     const clients = await Promise.all(Array.from({ length: 8 }, () => Live.open(daemon, 's')));
     const stuck = await Live.open(daemon, 's');
@@ -46,14 +46,38 @@ test('SIGTERM in the middle of editing', async (t) => {
     assert.ok(applied > 0);
     stuck.socket.destroy();
     idle.destroy();
-    const again = await startDaemon({ data, ready: false });
+    const again = await startDaemon({ data, ready: false, driver: 'null' });
     assert.equal((await ask(again, 'GET', '/v1/scenes')).scenes[0].revision, 1 + applied);
     assert.equal((await again.stop()).status, 0);
     t.diagnostic(`ended after ${took} ms, ${applied} edits applied and kept`);
 });
 
+// Where a client's bytes are unread when its connection is closed, its kernel hears of a reset, and
+// what it was told may never be read.
+test('SIGTERM while clients never stop talking', async () => {
+    const daemon = await startDaemon({ data, ready: false });
+    const clients = await Promise.all(Array.from({ length: 4 }, () => Live.open(daemon, 's', { ack: false })));
+    const talk = encodeMessage(1, Buffer.from(`{"type":"ack","frame":0${' '.repeat(60000)}}`));
+    const talking = clients.map(async (live) => {
+        while (live.closeCode === null && !live.closed) {
+            while (live.socket.writableLength < 4 * talk.length) {
+                live.socket.write(talk);
+            }
+            await sleep(1);
+        }
+        await until(() => live.closed, 'the end of the connection');
+    });
+    await sleep(100);
+    const { status } = await daemon.kill('SIGTERM');
+    await Promise.all(talking);
+    assert.equal(status, 0, daemon.errors);
+    for (const live of clients) {
+        assert.deepEqual([live.messages.at(-1).type, live.closeCode, live.error], ['bye', 1001, null]);
+    }
+});
+
 test('a second signal ends at once', async () => {
-    const daemon = await startDaemon({ data });
+    const daemon = await startDaemon({ data, driver: 'null', tileMs: 5 });
     daemon.child.kill('SIGTERM');
     daemon.child.kill('SIGTERM');
     const { status, signal } = await daemon.exited;
@@ -61,13 +85,13 @@ test('a second signal ends at once', async () => {
 });
 
 test('a data directory has one daemon', async () => {
-    const daemon = await startDaemon({ data, ready: false });
-    await assert.rejects(startDaemon({ data, ready: false }), /another fieldcast uses this directory/);
+    const daemon = await startDaemon({ data, ready: false, driver: 'null' });
+    await assert.rejects(startDaemon({ data, ready: false, driver: 'null' }), /another fieldcast uses this directory/);
     await daemon.stop();
 });
 
 test('a commit that fails ends the daemon, and nothing is told durable', async () => {
-    const daemon = await startDaemon({ data, ready: false, limits: 'ulimit -f 2000' });
+    const daemon = await startDaemon({ data, ready: false, driver: 'null', limits: 'ulimit -f 2000' });
     const live = await Live.open(daemon, 's');
     for (let i = 0; !live.closed && i < 200000; i += 1) {
         live.set('/name', `${'x'.repeat(150)} ${i}`);
@@ -79,7 +103,7 @@ test('a commit that fails ends the daemon, and nothing is told durable', async (
     assert.equal(status, 74, `${signal} ${daemon.errors.slice(-500)}`);
     assert.match(daemon.errors, /error store: /);
     const durable = live.messages.filter((m) => m.type === 'applied' && m.durable).map((m) => m.edit);
-    const again = await startDaemon({ data, ready: false });
+    const again = await startDaemon({ data, ready: false, driver: 'null' });
     const back = await Live.open(again, 's', { client: live.client });
     assert.ok(back.welcome.last_edit >= Math.max(...durable));
     assert.ok(durable.length > 0);
