@@ -19,10 +19,11 @@
 #include "server/net/ws.h"
 
 enum {
-    DRAIN_SECONDS = 5,
-    WS_DRAIN_MS = 1000,
+    DRAIN_SECONDS = 8,
+    WS_DRAIN_MS = 3000,
     HTTP_DRAIN_MS = 400,
     SILENCE_MS = 5000,
+    BUSY_MS = 60000,
     WORKER_ARGUMENTS = 32,
 };
 
@@ -140,6 +141,7 @@ static bool start(struct server *server, const struct serve_params *params, cons
         .worker_argv = server->worker_argv,
         .code_refused = params->code_refused,
         .worker_silence_ms = params->worker_silence_ms ? params->worker_silence_ms : SILENCE_MS,
+        .worker_busy_ms = params->worker_busy_ms ? params->worker_busy_ms : BUSY_MS,
     };
 
     build_worker_argv(params, server->worker_argv);

@@ -20,7 +20,8 @@ struct serve_params {
     const char *token;                  /* NULL: none; required unless bound to loopback */
     const char *const *allowed_origins; /* besides the server's own: "https://example.org" */
     const char *const *allowed_hosts;   /* besides localhost, when bound to loopback */
-    int worker_silence_ms;              /* a worker silent for longer is killed; 0: 5000 */
+    int worker_silence_ms;              /* of being silent and still: it is replaced; 0: 5000 */
+    int worker_busy_ms;                 /* of the processor, used in silence; 0: 60000 */
     bool code_refused;                  /* no code of users is taken, nor compiled */
     const char *log_level;              /* "error" "warning" "info" "debug"; NULL: "info" */
 };

@@ -16,9 +16,9 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Draw a scene into a file: the same pixels as the server's.",
         .more = "SCENE.json may be `-` for stdin, or `example:NAME` for a scene that is built in."},
     [COMMAND_CHECK] = {"check", .operands = "SCENE.json", .many = true, .run = command_check,
-        .doc = "Check scene documents.",
-        .more = "Prints `file: place: what is wrong` for each that breaks a rule, and fails if one "
-                "does."},
+        .doc = "Check documents, with their code and the limits of drawing.",
+        .more = "Prints `file: place: what is wrong` for each that breaks a rule or cannot be "
+                "drawn, and fails if one does. Needs no GPU."},
     [COMMAND_IMPORT] = {"import", .operands = "DIR", .run = command_import,
         .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
         .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "

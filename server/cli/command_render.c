@@ -46,19 +46,32 @@ static bool choose_format(const struct options *options, struct encode_params *o
     return true;
 }
 
-/* Sets the camera's `name` where the user gave the option. */
-static bool set_camera(struct record *camera, const char *name, const struct options *options,
-                       enum option option, struct error *err)
+static cJSON *option_json(const struct options *options, enum option option)
 {
     const double *value = option_vector(options, option);
-    if (!value) {
+    switch (option_row(option)->type) {
+    case OPTION_CHOICE:
+        return cJSON_CreateString(option_text(options, option));
+    case OPTION_VECTOR:
+        return cJSON_CreateDoubleArray(value, 3);
+    default:
+        return cJSON_CreateNumber(*value);
+    }
+}
+
+/* Sets the member that the option is named after, where the user gave it. */
+static bool set_camera(struct record *camera, const struct options *options, enum option option,
+                       struct error *err)
+{
+    static const char prefix[] = "camera-";
+    const char *name = option_row(option)->name;
+    char place[32];
+    if (!option_vector(options, option)) {
         return true;
     }
-    char place[32];
-    snprintf(place, sizeof place, "--%s", option_row(option)->name);
-    int index = record_type_find(camera->type, name);
-    bool vector = option_row(option)->type == OPTION_VECTOR;
-    cJSON *json = vector ? cJSON_CreateDoubleArray(value, 3) : cJSON_CreateNumber(*value);
+    snprintf(place, sizeof place, "--%s", name);
+    cJSON *json = option_json(options, option);
+    int index = record_type_find(camera->type, name + sizeof prefix - 1);
     bool ok = record_set(camera, index, json, place, err);
     cJSON_Delete(json);
     return ok;
@@ -66,15 +79,23 @@ static bool set_camera(struct record *camera, const char *name, const struct opt
 
 static bool read_camera(struct record *camera, const struct options *options, struct error *err)
 {
-    return set_camera(camera, "position", options, OPTION_POSITION, err) &&
-           set_camera(camera, "target", options, OPTION_TARGET, err) &&
-           set_camera(camera, "fov", options, OPTION_FOV, err);
+    bool ok = true;
+    for (int i = OPTION_CAMERA_TYPE; i <= OPTION_CAMERA_FOCUS; i++) {
+        ok = ok && set_camera(camera, options, (enum option)i, err);
+    }
+    return ok;
 }
 
 /* -1 where the option was not given. */
 static int choice_or_none(const struct options *options, enum option option)
 {
     return option_text(options, option) ? option_int(options, option) : -1;
+}
+
+static int switch_or_none(const struct options *options, enum option option)
+{
+    const char *word = option_text(options, option);
+    return word ? switch_find(word) : -1;
 }
 
 static void read_desc(const struct options *options, const struct record *camera,
@@ -86,7 +107,7 @@ static void read_desc(const struct options *options, const struct record *camera
                              .camera = camera,
                              .level = choice_or_none(options, OPTION_LEVEL),
                              .samples = option_int(options, OPTION_SAMPLES),
-                             .transparent = choice_or_none(options, OPTION_TRANSPARENT),
+                             .transparent = switch_or_none(options, OPTION_TRANSPARENT),
                              .exact = true,
                              .as_floats = format == IMAGE_NPY};
     for (int i = 0; i < AOV_COUNT; i++) {

@@ -68,6 +68,10 @@ static int run(const struct options *options, struct serve_params *params)
                                        option_text(options, OPTION_CACHE),
                                        "--worker-memory",
                                        option_text(options, OPTION_WORKER_MEMORY),
+                                       "--code-time",
+                                       option_text(options, OPTION_CODE_TIME),
+                                       "--tile-time",
+                                       option_text(options, OPTION_TILE_TIME),
                                        NULL};
     params->worker_args = worker_args;
     int status = serve(params);
@@ -98,7 +102,8 @@ int command_serve(const struct options *options)
         .device = (enum device_kind)option_int(options, OPTION_DEVICE),
         .token = token,
         .worker_silence_ms = option_int(options, OPTION_WORKER_SILENCE),
-        .code_refused = option_int(options, OPTION_CODE) == 0,
+        .worker_busy_ms = option_int(options, OPTION_WORKER_BUSY),
+        .code_refused = switch_find(option_text(options, OPTION_CODE)) == 0,
         .log_level = option_text(options, OPTION_LOG_LEVEL),
     };
     int status = run(options, &params);

@@ -15,5 +15,7 @@ int command_worker(const struct options *options)
         .memory_limit_bytes = (size_t)option_int(options, OPTION_WORKER_MEMORY) << 20,
     };
     drawing_params(options, &params.renderer);
+    params.renderer.code_ms = option_int(options, OPTION_CODE_TIME);
+    params.renderer.tile_ms = option_int(options, OPTION_TILE_TIME);
     return worker_run(WORKER_FD, &params);
 }

@@ -46,8 +46,7 @@ static const char *device_choice(size_t index)
 
 static const char *switch_choice(size_t index)
 {
-    static const char *const words[] = {"off", "on"};
-    return word_of(words, 2, index);
+    return word_of(switch_words, 4, index);
 }
 
 static const char *log_level_choice(size_t index)
@@ -55,6 +54,18 @@ static const char *log_level_choice(size_t index)
     static const char *const words[] = {"error", "warning", "info", "debug"};
     return word_of(words, 4, index);
 }
+
+static const char *camera_choice(size_t index)
+{
+    const int type = record_type_find(&camera_type, "type");
+    size_t count = 0;
+    while (camera_type.params[type].choices[count]) {
+        count++;
+    }
+    return word_of(camera_type.params[type].choices, count, index);
+}
+
+#define COORDINATE .min = -LIMIT_COORDINATE, .max = LIMIT_COORDINATE
 
 /* clang-format off */
 static const struct option_row table[OPTION_COUNT] = {
@@ -88,9 +99,22 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_LOG_LEVEL] = {"log-level", 0, "LEVEL", OPTION_CHOICE, .choice = log_level_choice,
         .fallback = "info", .commands = FOR(SERVE), .stored = true,
         .doc = "What is written to stderr."},
+    [OPTION_CODE_TIME] = {"code-time", 0, "MS", OPTION_INT, .fallback = "2000",
+        .min = 100, .max = 600000, .commands = FOR(SERVE) | FOR(WORKER), .stored = true,
+        .doc = "Time of the processors that compiling a scene with GLSL of its own may take, at "
+               "least; it may take more where the same without it does."},
+    [OPTION_TILE_TIME] = {"tile-time", 0, "MS", OPTION_INT, .fallback = "10000",
+        .min = 10, .max = 600000, .commands = FOR(SERVE) | FOR(WORKER), .stored = true,
+        .doc = "Time of the processors that the smallest part of a picture may take; a scene that "
+               "needs more is not drawn."},
     [OPTION_WORKER_SILENCE] = {"worker-silence", 0, "MS", OPTION_INT, .fallback = "5000",
         .min = 100, .max = 600000, .commands = FOR(SERVE), .stored = true,
-        .doc = "A render process silent for this many milliseconds is replaced."},
+        .doc = "A render process that has been silent for this many milliseconds, and neither used "
+               "a processor nor waited for one, is replaced."},
+    [OPTION_WORKER_BUSY] = {"worker-busy", 0, "MS", OPTION_INT, .fallback = "60000",
+        .min = 100, .max = 3600000, .commands = FOR(SERVE), .stored = true,
+        .doc = "One that used so much time of the processors without a sign of life is replaced "
+               "too."},
     [OPTION_WORKER_MEMORY] = {"worker-memory", 0, "MIB", OPTION_INT, .fallback = "0",
         .min = 0, .max = 1048576, .commands = FOR(SERVE) | FOR(WORKER), .stored = true,
         .doc = "Memory that the render process may take besides the driver's; 0 sets no limit."},
@@ -139,15 +163,30 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_QUALITY] = {"quality", 0, "N", OPTION_INT, .fallback = "90", .min = 1, .max = 100,
         .commands = FOR(RENDER),
         .doc = "Quality of a JPEG."},
-    [OPTION_POSITION] = {"position", 0, "X,Y,Z", OPTION_VECTOR, .min = -LIMIT_COORDINATE,
-        .max = LIMIT_COORDINATE, .commands = FOR(RENDER),
-        .doc = "Where the camera stands; by default where the scene says."},
-    [OPTION_TARGET] = {"target", 0, "X,Y,Z", OPTION_VECTOR, .min = -LIMIT_COORDINATE,
-        .max = LIMIT_COORDINATE, .commands = FOR(RENDER),
-        .doc = "What the camera looks at; by default what the scene says."},
-    [OPTION_FOV] = {"fov", 0, "DEGREES", OPTION_NUMBER, .min = 0, .max = 180,
+    [OPTION_CAMERA_TYPE] = {"camera-type", 0, "KIND", OPTION_CHOICE, .choice = camera_choice,
         .commands = FOR(RENDER),
-        .doc = "Vertical angle of view; by default the scene's."},
+        .doc = "Kind of projection; by default the scene's, as all that --camera-... leaves out."},
+    [OPTION_CAMERA_POSITION] = {"camera-position", 0, "X,Y,Z", OPTION_VECTOR, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "Where the camera stands."},
+    [OPTION_CAMERA_TARGET] = {"camera-target", 0, "X,Y,Z", OPTION_VECTOR, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "What the camera looks at."},
+    [OPTION_CAMERA_UP] = {"camera-up", 0, "X,Y,Z", OPTION_VECTOR, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "Direction that is up in the picture."},
+    [OPTION_CAMERA_FOV] = {"camera-fov", 0, "DEGREES", OPTION_NUMBER, .min = 0, .max = 180,
+        .commands = FOR(RENDER),
+        .doc = "Vertical angle of a perspective picture."},
+    [OPTION_CAMERA_HEIGHT] = {"camera-height", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "Height of what an orthographic picture shows."},
+    [OPTION_CAMERA_APERTURE] = {"camera-aperture", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "Radius of the lens."},
+    [OPTION_CAMERA_FOCUS] = {"camera-focus", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
+        .commands = FOR(RENDER),
+        .doc = "Distance that is in focus; 0: the target's."},
     [OPTION_ROUNDS] = {"rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,
         .commands = FOR(BENCH),
         .doc = "How often each thing is measured; the median counts."},

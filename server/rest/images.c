@@ -136,8 +136,7 @@ static void order(struct request *request, const struct wish *wish, cJSON *field
 {
     struct error err = {0};
     struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
-    struct render_order render = {.type = "render",
-                                  .room = room,
+    struct render_order render = {.room = room,
                                   .document = document,
                                   .fields = fields,
                                   .priority = RENDER_IMAGE,
@@ -164,8 +163,7 @@ static void order(struct request *request, const struct wish *wish, cJSON *field
     request_on_gone(request, on_gone, waiting);
 }
 
-static void order_of_room(struct request *request, const struct wish *wish, const char *id,
-                          bool whole_camera)
+static void order_of_room(struct request *request, const struct wish *wish, const char *id)
 {
     struct error err = {0};
     struct room *room = hub_lock_room(request->hub, id, &err);
@@ -175,7 +173,7 @@ static void order_of_room(struct request *request, const struct wish *wish, cons
         request_reply_error(request, &err);
         return;
     }
-    fields = wish_order(wish, room->scene, whole_camera, &err);
+    fields = wish_order(wish, room->scene, &err);
     if (fields) {
         order(request, wish, fields, room, NULL);
     } else {
@@ -186,11 +184,10 @@ static void order_of_room(struct request *request, const struct wish *wish, cons
 
 /* Takes `scene`, which may be NULL with `err` saying why. */
 static void order_of_document(struct request *request, const struct wish *wish, struct scene *scene,
-                              bool whole_camera, struct error *err)
+                              struct error *err)
 {
-    cJSON *fields = scene && hub_accepts_scene(request->hub, scene, err)
-                        ? wish_order(wish, scene, whole_camera, err)
-                        : NULL;
+    cJSON *fields =
+        scene && hub_accepts_scene(request->hub, scene, err) ? wish_order(wish, scene, err) : NULL;
 
     if (!fields) {
         request_reply_error(request, err);
@@ -213,7 +210,7 @@ void images_of_scene(struct request *request)
     struct wish wish;
 
     if (wish_from_query(&wish, request, request->capture[1], &err)) {
-        order_of_room(request, &wish, request->capture[0], false);
+        order_of_room(request, &wish, request->capture[0]);
     } else {
         request_reply_error(request, &err);
     }
@@ -233,8 +230,7 @@ void images_of_example(struct request *request)
     }
     if (wish_from_query(&wish, request, request->capture[1], &err)) {
         order_of_document(request, &wish,
-                          scene_parse((const char *)example->bytes, example->length, &err), false,
-                          &err);
+                          scene_parse((const char *)example->bytes, example->length, &err), &err);
     } else {
         request_reply_error(request, &err);
     }
@@ -257,9 +253,9 @@ void images_render(struct request *request)
         const cJSON *scene = cJSON_GetObjectItemCaseSensitive(json, "scene");
 
         if (cJSON_IsString(scene)) {
-            order_of_room(request, &wish, scene->valuestring, true);
+            order_of_room(request, &wish, scene->valuestring);
         } else if (cJSON_IsObject(scene)) {
-            order_of_document(request, &wish, scene_read(scene, &err), true, &err);
+            order_of_document(request, &wish, scene_read(scene, &err), &err);
         } else {
             error_set(&err, ERROR_INVALID, "/scene", "must be a document or the id of a scene");
             request_reply_error(request, &err);

@@ -132,6 +132,51 @@ void pages_asset(struct request *request)
 
 /* --- examples --- */
 
+/* What an example is there for. Those of no row show one technique. */
+enum { SHOWPIECE, LESSON, TECHNIQUE, EXAMPLE_GROUPS };
+static const char *const example_groups[EXAMPLE_GROUPS] = {"showpiece", "lesson", "technique"};
+
+/* In the order in which they are listed. */
+static const struct {
+    const char *id;
+    int group;
+} example_rows[] = {
+    {"portrait", SHOWPIECE},
+    {"sunset-temple", SHOWPIECE},
+    {"still-life", SHOWPIECE},
+    {"lighthouse", SHOWPIECE},
+    {"foggy-valley", SHOWPIECE},
+    {"chess", SHOWPIECE},
+    {"studio-portrait", SHOWPIECE},
+    {"island", SHOWPIECE},
+    {"planetary-gear", SHOWPIECE},
+    {"robot", SHOWPIECE},
+    {"temple", SHOWPIECE},
+    {"snail", SHOWPIECE},
+    {"duck", SHOWPIECE},
+    {"frog", SHOWPIECE},
+    {"snowman", SHOWPIECE},
+    {"flange", SHOWPIECE},
+    {"first-steps", LESSON},
+    {"lecture-1-shapes", LESSON},
+    {"lecture-2-booleans", LESSON},
+    {"lecture-3-light", LESSON},
+    {"lecture-4-transforms", LESSON},
+    {"lecture-5-camera", LESSON},
+    {"own-code", LESSON},
+};
+enum { EXAMPLE_ROWS = sizeof(example_rows) / sizeof(example_rows[0]) };
+
+static bool is_row(const char *id)
+{
+    for (size_t i = 0; i < EXAMPLE_ROWS; i++) {
+        if (strcmp(example_rows[i].id, id) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* One line about a scene, from what is in it. */
 static void describe(const struct scene *scene, char *out, size_t size)
 {
@@ -141,26 +186,39 @@ static void describe(const struct scene *scene, char *out, size_t size)
              scene->materials.count == 1 ? "" : "s");
 }
 
+static void add_example(cJSON *list, const struct embedded *example, int group)
+{
+    struct scene *scene = scene_parse((const char *)example->bytes, example->length, NULL);
+    char description[120];
+
+    if (!scene) {
+        return; /* a test reads them all */
+    }
+    cJSON *item = cJSON_CreateObject();
+    describe(scene, description, sizeof(description));
+    cJSON_AddStringToObject(item, "id", example->path);
+    cJSON_AddStringToObject(item, "name", record_text(&scene->info, "name"));
+    cJSON_AddStringToObject(item, "description", description);
+    cJSON_AddStringToObject(item, "group", example_groups[group]);
+    cJSON_AddItemToArray(list, item);
+    scene_destroy(scene);
+}
+
 void pages_examples(struct request *request)
 {
     cJSON *json = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(json, "examples");
 
-    for (size_t i = 0; i < examples_count; i++) {
-        struct scene *scene =
-            scene_parse((const char *)examples_table[i].bytes, examples_table[i].length, NULL);
-        char description[120];
-
-        if (!scene) {
-            continue; /* a test reads them all */
+    for (size_t i = 0; i < EXAMPLE_ROWS; i++) {
+        const struct embedded *example = examples_find(example_rows[i].id);
+        if (example) {
+            add_example(list, example, example_rows[i].group);
         }
-        cJSON *item = cJSON_CreateObject();
-        describe(scene, description, sizeof(description));
-        cJSON_AddStringToObject(item, "id", examples_table[i].path);
-        cJSON_AddStringToObject(item, "name", record_text(&scene->info, "name"));
-        cJSON_AddStringToObject(item, "description", description);
-        cJSON_AddItemToArray(list, item);
-        scene_destroy(scene);
+    }
+    for (size_t i = 0; i < examples_count; i++) {
+        if (!is_row(examples_table[i].path)) {
+            add_example(list, &examples_table[i], TECHNIQUE);
+        }
     }
     request_reply_json(request, 200, json);
 }

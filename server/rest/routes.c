@@ -12,6 +12,7 @@ static const struct route table[] = {
     {"PATCH", "/v1/scenes/{}", scenes_edit, BODY_JSON, false},
     {"DELETE", "/v1/scenes/{}", scenes_delete, BODY_NONE, false},
     {"GET", "/v1/scenes/{}/live", scenes_live, BODY_NONE, false},
+    {"GET", "/v1/scenes/{}/poster.jpg", scenes_poster, BODY_NONE, false},
     {"GET", "/v1/scenes/{}/image.{}", images_of_scene, BODY_NONE, false},
     {"GET", "/v1/assets", assets_list, BODY_NONE, false},
     {"POST", "/v1/assets", assets_create, BODY_FILE, false},

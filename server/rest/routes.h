@@ -27,6 +27,7 @@ void scenes_replace(struct request *request);
 void scenes_edit(struct request *request);
 void scenes_delete(struct request *request);
 void scenes_live(struct request *request);
+void scenes_poster(struct request *request);
 void assets_list(struct request *request);
 void assets_create(struct request *request);
 void assets_read(struct request *request);

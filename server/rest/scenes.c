@@ -10,8 +10,10 @@
 #include "protocol/import/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "protocol/messages.h"
 #include "routes.h"
 #include "server/live/hub.h"
+#include "server/live/poster.h"
 #include "server/live/room.h"
 #include "server/net/ws.h"
 
@@ -137,6 +139,32 @@ void scenes_read(struct request *request)
     request_reply(request, &response);
 }
 
+/* The last picture that somebody has seen of it, whatever the camera. */
+void scenes_poster(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct blob *poster = poster_find(hub, request->capture[0]);
+    struct response response = {.status = 204, .body = "", .borrowed = true};
+    struct error err = {0};
+
+    if (!poster && !hub_has_scene(hub, request->capture[0])) {
+        error_set(&err, ERROR_NOT_FOUND, "", "there is no scene %s", request->capture[0]);
+        request_reply_error(request, &err);
+        return;
+    }
+    if (!poster) {
+        request_reply(request, &response);
+        return;
+    }
+    response = (struct response){.status = 200, .type = "image/jpeg"};
+    response.length = poster->length;
+    response.body = memory_alloc(poster->length, 1);
+    memcpy(response.body, poster->bytes, poster->length);
+    blob_unref(poster);
+    response_add(&response, "Cache-Control", "no-cache");
+    request_reply(request, &response);
+}
+
 /* --- change --- */
 
 static bool check_match(const struct request *request, const struct room *room, struct error *err)
@@ -153,8 +181,9 @@ static bool check_match(const struct request *request, const struct room *room, 
     return true;
 }
 
-/* Takes `scene` and `notes`. */
-static void create(struct request *request, const char *id, struct scene *scene, cJSON *notes)
+/* Takes `scene` and `notes`. `poster`: what it looks like; NULL: that is not known. */
+static void create(struct request *request, const char *id, struct scene *scene, cJSON *notes,
+                   struct blob *poster)
 {
     struct error err = {0};
     struct waiting *waiting = wait_for(request, 201, id);
@@ -175,6 +204,10 @@ static void create(struct request *request, const char *id, struct scene *scene,
     /* The commit's answer cannot overtake this: it waits for the lock first. */
     snprintf(waiting->id, sizeof(waiting->id), "%s", room->id);
     waiting->revision = room->revision;
+    if (poster) {
+        poster_set(room, poster);
+        poster_store(room);
+    }
     hub_unlock(request->hub);
 }
 
@@ -221,6 +254,17 @@ static struct scene *scene_from(struct hub *hub, const cJSON *json, struct error
     return NULL;
 }
 
+/* Of what a new scene is made. */
+static struct blob *poster_from(struct hub *hub, const cJSON *json)
+{
+    const char *from = json_member_text(json, "from", "");
+    const struct embedded *card = strncmp(from, "example:", 8) == 0 ? cards_find(from + 8) : NULL;
+
+    return card                              ? blob_create(card->bytes, card->length)
+           : strncmp(from, "scene:", 6) == 0 ? poster_find(hub, from + 6)
+                                             : NULL;
+}
+
 void scenes_create(struct request *request)
 {
     static const char *const queries[] = {"id", NULL};
@@ -228,17 +272,22 @@ void scenes_create(struct request *request)
     const char *id = request_query(request, "id");
     cJSON *json = NULL;
     struct scene *scene = NULL;
+    struct blob *poster = NULL;
 
     if (request_check_query(request, queries, &err)) {
         json = json_parse(request->body ? request->body : "", request->body_length, &err);
         scene = json ? scene_from(request->hub, json, &err) : NULL;
+        poster = scene ? poster_from(request->hub, json) : NULL;
     }
     cJSON_Delete(json);
     if (!scene) {
         request_reply_error(request, &err);
         return;
     }
-    create(request, id ? id : "", scene, NULL);
+    create(request, id ? id : "", scene, NULL, poster);
+    if (poster) {
+        blob_unref(poster);
+    }
 }
 
 /* {"files": {path: text}, "name", "scene"}; `source` points into the JSON. */
@@ -307,7 +356,7 @@ void scenes_import(struct request *request)
         cJSON_Delete(notes);
         notes = NULL;
     }
-    create(request, id ? id : "", scene, notes);
+    create(request, id ? id : "", scene, notes, NULL);
 }
 
 void scenes_replace(struct request *request)
@@ -325,7 +374,7 @@ void scenes_replace(struct request *request)
     }
     struct room *room = hub_lock_room(hub, id, &err);
     if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
-        create(request, id, scene, NULL);
+        create(request, id, scene, NULL, NULL);
         return;
     }
     if (!room || !check_match(request, room, &err)) {

@@ -10,6 +10,9 @@
 
 enum { PLACE_BYTES = 100 };
 
+/* What stands before the members of a camera in a query; so its height is not the picture's. */
+static const char camera_prefix[] = "camera.";
+
 void wish_finish(struct wish *wish)
 {
     cJSON_Delete(wish->picture);
@@ -92,12 +95,15 @@ static bool parse_numbers(const char *text, int count, double *out)
     return true;
 }
 
-static cJSON *parse_bool(const char *text)
+static cJSON *parse_bool(const char *text, const char *place, struct error *err)
 {
-    const bool yes = strcmp(text, "true") == 0 || strcmp(text, "1") == 0;
+    const int yes = switch_find(text);
 
-    return yes || strcmp(text, "false") == 0 || strcmp(text, "0") == 0 ? cJSON_CreateBool(yes)
-                                                                       : cJSON_CreateString(text);
+    if (yes < 0) {
+        error_set(err, ERROR_INVALID, place, "%.40s is none of true, false, on, off", text);
+        return NULL;
+    }
+    return cJSON_CreateBool(yes);
 }
 
 /* The JSON of a value as the row's type wants it. */
@@ -108,7 +114,7 @@ static cJSON *parse_value(const struct param *param, const char *text, const cha
     double numbers[4];
 
     if (param->type == PARAM_BOOL) {
-        return parse_bool(text);
+        return parse_bool(text, place, err);
     }
     if (param->type == PARAM_ENUM || param_is_text(param->type)) {
         return cJSON_CreateString(text);
@@ -124,32 +130,49 @@ static cJSON *parse_value(const struct param *param, const char *text, const cha
     return count == 1 ? cJSON_CreateNumber(numbers[0]) : cJSON_CreateDoubleArray(numbers, count);
 }
 
+static bool query_picture(struct wish *wish, int index, const char *text, const char *place,
+                          struct error *err)
+{
+    cJSON *json = parse_value(&picture_type.params[index], text, place, err);
+    const bool ok = json && set_member(wish, index, json, place, err);
+
+    cJSON_Delete(json);
+    return ok;
+}
+
+/* Checked by the camera that it changes. */
+static bool query_camera(struct wish *wish, int index, const char *text, const char *place,
+                         struct error *err)
+{
+    const struct param *param = &camera_type.params[index];
+    cJSON *json = parse_value(param, text, place, err);
+
+    if (json) {
+        wish->camera = wish->camera ? wish->camera : cJSON_CreateObject();
+        cJSON_AddItemToObject(wish->camera, param->name, json);
+    }
+    return json != NULL;
+}
+
 static bool query_member(struct wish *wish, const char *name, const char *text, struct error *err)
 {
-    const int of_picture = record_type_find(&picture_type, name);
-    const int of_camera = record_type_find(&camera_type, name);
+    const size_t skipped = sizeof(camera_prefix) - 1;
+    const bool of_camera = strncmp(name, camera_prefix, skipped) == 0;
+    const int index = of_camera ? record_type_find(&camera_type, name + skipped)
+                                : record_type_find(&picture_type, name);
     char place[PLACE_BYTES];
-    cJSON *json;
-    bool ok = true;
 
     snprintf(place, sizeof(place), "?%.64s", name);
-    if (of_picture < 0 && of_camera < 0) {
-        return error_set(err, ERROR_INVALID, place, "there is no such parameter");
+    if (index >= 0) {
+        return of_camera ? query_camera(wish, index, text, place, err)
+                         : query_picture(wish, index, text, place, err);
     }
-    json = parse_value(of_picture >= 0 ? &picture_type.params[of_picture]
-                                       : &camera_type.params[of_camera],
-                       text, place, err);
-    if (!json) {
-        return false;
+    if (record_type_find(&camera_type, name) >= 0) {
+        return error_set(err, ERROR_INVALID, place,
+                         "there is no such parameter; did you mean \"%s%.40s\"?", camera_prefix,
+                         name);
     }
-    if (of_picture >= 0) {
-        ok = set_member(wish, of_picture, json, place, err);
-        cJSON_Delete(json);
-    } else {
-        wish->camera = wish->camera ? wish->camera : cJSON_CreateObject();
-        cJSON_AddItemToObject(wish->camera, name, json);
-    }
-    return ok;
+    return error_set(err, ERROR_INVALID, place, "there is no such parameter");
 }
 
 bool wish_from_query(struct wish *wish, const struct request *request, const char *format,
@@ -202,7 +225,7 @@ bool wish_from_json(struct wish *wish, const cJSON *json, struct error *err)
 {
     const cJSON *member;
 
-    *wish = (struct wish){.picture = cJSON_CreateObject()};
+    *wish = (struct wish){.picture = cJSON_CreateObject(), .from_json = true};
     if (!cJSON_IsObject(json)) {
         return error_set(err, ERROR_SYNTAX, "", "the body must be an object");
     }
@@ -230,9 +253,21 @@ void wish_size(const struct wish *wish, int *out_width, int *out_height)
     }
 }
 
+static bool change_camera(const struct wish *wish, const cJSON *member, struct record *camera,
+                          struct error *err)
+{
+    const int index = record_type_find(&camera_type, member->string);
+    char place[PLACE_BYTES];
+
+    snprintf(place, sizeof(place), "%s%.64s", wish->from_json ? "/camera/" : "?camera.",
+             member->string);
+    return index >= 0 ? record_read_value(camera, index, member, place, err)
+                      : record_type_unknown(&camera_type, member->string, place, err);
+}
+
 /* Adds the camera, unless it is the scene's as it is. */
 static bool add_camera(cJSON *order, const struct wish *wish, const struct scene *scene,
-                       bool whole_camera, struct error *err)
+                       struct error *err)
 {
     struct record camera;
     const cJSON *member;
@@ -241,19 +276,10 @@ static bool add_camera(cJSON *order, const struct wish *wish, const struct scene
     if (!wish->camera) {
         return true;
     }
-    if (whole_camera) {
-        record_init(&camera, &camera_type);
-    } else {
-        record_copy(&camera, &scene->camera);
-    }
+    record_copy(&camera, &scene->camera);
     cJSON_ArrayForEach(member, wish->camera)
     {
-        int index = record_type_find(&camera_type, member->string);
-        char place[PLACE_BYTES];
-
-        snprintf(place, sizeof(place), "%s%.64s", whole_camera ? "/camera/" : "?", member->string);
-        ok = ok && (index >= 0 ? record_set(&camera, index, member, place, err)
-                               : error_set(err, ERROR_INVALID, place, "unknown member"));
+        ok = ok && change_camera(wish, member, &camera, err);
     }
     if (ok) {
         record_print(&camera, cJSON_AddObjectToObject(order, "camera"));
@@ -270,8 +296,7 @@ static void set_number(cJSON *object, const char *name, double fallback)
 }
 
 /* What was not asked for is not said: the level and the scene decide then. */
-cJSON *wish_order(const struct wish *wish, const struct scene *scene, bool whole_camera,
-                  struct error *err)
+cJSON *wish_order(const struct wish *wish, const struct scene *scene, struct error *err)
 {
     cJSON *order = cJSON_Duplicate(wish->picture, true);
     char outputs[AOVS_TEXT_BYTES];
@@ -283,7 +308,7 @@ cJSON *wish_order(const struct wish *wish, const struct scene *scene, bool whole
     cJSON_AddStringToObject(order, "aov", outputs);
     cJSON_AddStringToObject(order, "format", image_format_name((enum image_format)wish->format));
     cJSON_AddBoolToObject(order, "exact", true);
-    if (!add_camera(order, wish, scene, whole_camera, err)) {
+    if (!add_camera(order, wish, scene, err)) {
         cJSON_Delete(order);
         return NULL;
     }

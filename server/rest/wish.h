@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What is asked of a picture over HTTP, as a query or as JSON: members of picture_type, a format,
- * and members of a camera. */
+ * and members of a camera, `camera.fov` in a query and {"camera": {"fov"}} in JSON. */
 #ifndef SERVER_WISH_H
 #define SERVER_WISH_H
 
@@ -12,7 +12,8 @@ struct wish {
     cJSON *picture; /* checked members of picture_type */
     bool aovs[AOV_COUNT];
     int format;    /* enum image_format */
-    cJSON *camera; /* members that differ from the scene's camera; NULL: none */
+    cJSON *camera; /* members that change the scene's camera; NULL: none */
+    bool from_json;
 };
 
 /* The caller calls wish_finish also after a failure. */
@@ -23,9 +24,8 @@ void wish_finish(struct wish *wish);
 
 /* Pixels of the answer. */
 void wish_size(const struct wish *wish, int *out_width, int *out_height);
-/* The members of the order to the worker. The camera's members change those of the scene's camera,
- * or with `whole` those of the default one. NULL and `err` where they are wrong. */
-cJSON *wish_order(const struct wish *wish, const struct scene *scene, bool whole,
-                  struct error *err);
+/* The members of the order to the worker, with the scene's camera as changed. NULL and `err` where
+ * those members are wrong. */
+cJSON *wish_order(const struct wish *wish, const struct scene *scene, struct error *err);
 
 #endif
