@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 import { expect, test } from "vitest";
 import type { App } from "../src/model/actions.ts";
-import { addNode } from "../src/model/add.ts";
+import { addNode, whatAdding } from "../src/model/add.ts";
 import { paste } from "../src/model/clipboard.ts";
 import {
     commandById,
     commandForKey,
     overlap,
     runCommand,
+    searchAbsent,
     searchCommands,
 } from "../src/model/commandLookup.ts";
 import { COMMANDS, type Context } from "../src/model/commands.ts";
-import { printDocument } from "../src/model/documentJson.ts";
+import { isApart } from "../src/model/document.ts";
+import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
 import type { KeyPress } from "../src/model/keys.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
+import { newResource } from "../src/model/resources.ts";
 import { createStores } from "../src/model/stores.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 
@@ -110,15 +113,17 @@ test.each<[KeyPress, Context, string | undefined]>([
     [press("?", "s", "Slash"), "anywhere", "help.keys"],
     [press("Escape"), "anywhere", "escape"],
 ])("%o in %s", (key, where, id) => {
-    expect(commandForKey(key, where, false, true)?.id).toBe(id);
+    expect(commandForKey(key, where, "no", true)?.id).toBe(id);
 });
 
 test("a key typed into a field is no command, and single keys can be switched off", () => {
-    expect(commandForKey(press("h", "", "KeyH"), "anywhere", true, true)).toBeNull();
-    expect(commandForKey(press("z", "c", "KeyZ"), "anywhere", true, true)).toBeNull();
-    expect(commandForKey(press("k", "c", "KeyK"), "anywhere", true, true)?.id).toBe("palette.open");
-    expect(commandForKey(press("h", "", "KeyH"), "anywhere", false, false)).toBeNull();
-    expect(commandForKey(press("Delete"), "anywhere", false, false)?.id).toBe("node.delete");
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "text", true)).toBeNull();
+    expect(commandForKey(press("z", "c", "KeyZ"), "anywhere", "text", true)).toBeNull();
+    expect(commandForKey(press("k", "c", "KeyK"), "anywhere", "text", true)?.id).toBe(
+        "palette.open",
+    );
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "no", false)).toBeNull();
+    expect(commandForKey(press("Delete"), "anywhere", "no", false)?.id).toBe("node.delete");
 });
 
 test("delete leaves the neighbour selected; the root stays", () => {
@@ -152,7 +157,10 @@ test("copy, cut and paste go through text", async () => {
     clipboard.text = "hello";
     run("node.paste");
     await new Promise((resolve) => setTimeout(resolve));
-    expect(stores.notices.getState().notices).toHaveLength(1);
+    expect(stores.notices.getState().notices.map(({ code }) => code)).toEqual([
+        "deleted",
+        "clipboard",
+    ]);
 });
 
 test("a pasted node gives up a material that is not here", () => {
@@ -184,20 +192,115 @@ test("wrap and dissolve are each other's way back", () => {
     expect(app).toBeDefined();
 });
 
-test("adding goes behind a shape, into an operation, around a selection", () => {
-    expect(addNode(scene(), SCHEMA, { type: "sphere" }, []).ops).toMatchObject([
-        { into: "/nodes/root", before: null, value: { id: "sphere-1" } },
-    ]);
-    expect(addNode(scene(), SCHEMA, { type: "box" }, ["body"]).ops).toMatchObject([
-        { into: "/nodes/neck", before: "head" },
-    ]);
-    expect(addNode(scene(), SCHEMA, { type: "box" }, ["neck"]).ops).toMatchObject([
-        { into: "/nodes/neck" },
-    ]);
+test("undo and redo act in a field while nothing is typed there", () => {
+    const [z, y] = [press("z", "c", "KeyZ"), press("y", "c", "KeyY")];
+    expect(commandForKey(z, "anywhere", "unchanged", true)?.id).toBe("edit.undo");
+    expect(commandForKey(y, "anywhere", "unchanged", true)?.id).toBe("edit.redo");
+    expect(commandForKey(z, "anywhere", "text", true)).toBeNull();
+    expect(commandForKey(press("h", "", "KeyH"), "anywhere", "unchanged", true)).toBeNull();
+    expect(commandForKey(press("d", "c", "KeyD"), "anywhere", "unchanged", true)).toBeNull();
+});
+
+test("deleting says what is gone, with the step that brings it back", () => {
+    const { run, stores, done } = page(["body"]);
+    run("node.delete");
+    const [notice] = stores.notices.getState().notices;
+    expect(notice).toMatchObject({
+        message: "Body deleted.",
+        acts: [{ kind: "undo", label: done.at(-1) }],
+    });
+    stores.view.setState({ selection: ["hat", "stick"] });
+    run("node.cut");
+    expect(stores.notices.getState().notices.at(-1)?.message).toBe("2 nodes deleted.");
+});
+
+const added = (selection: string[], way: "union" | "cut" | "blend", type = "box") => {
+    const edit = addNode(scene(), SCHEMA, { type }, selection, way);
+    const result = apply(scene(), edit.ops, SCHEMA);
+    if (!result.ok) {
+        throw new Error(result.problem.message);
+    }
+    return (id: string) => result.document.nodes.get(id);
+};
+
+test("what is added combines as chosen, beside what is selected or into it", () => {
+    expect(added([], "cut")("root")?.children).toEqual(["neck", "hat", "stick", "box-1"]);
+    expect(added(["neck"], "blend")("neck")?.children).toEqual(["body", "head", "box-1"]);
+    expect(added(["body"], "blend")("neck")?.children).toEqual(["body", "box-1", "head"]);
+    expect(added(["neck"], "union")("root")?.children).toEqual(["neck", "box-1", "hat", "stick"]);
+    const cut = added(["hat"], "cut");
+    expect(cut("root")?.children).toEqual(["neck", "difference-1", "stick"]);
+    expect(cut("difference-1")?.children).toEqual(["hat", "box-1"]);
+    expect(added(["stick"], "union")("root")?.children).toEqual(["neck", "hat", "stick", "box-1"]);
     expect(addNode(scene(), SCHEMA, { type: "union" }, ["head"]).ops).toMatchObject([
         { op: "insert", into: "/nodes/neck" },
         { op: "move", at: "/nodes/head" },
     ]);
+});
+
+const MUG = readDocument({
+    root: {
+        id: "root",
+        type: "union",
+        children: [
+            {
+                id: "mug",
+                type: "difference",
+                children: [
+                    { id: "outer", type: "sphere" },
+                    { id: "inner", type: "sphere" },
+                ],
+            },
+        ],
+    },
+});
+
+test("nothing is cut that was not to be cut", () => {
+    const after = (selection: string[], way: "union" | "cut") => {
+        const edit = addNode(MUG, SCHEMA, { type: "torus" }, selection, way);
+        const result = apply(MUG, edit.ops, SCHEMA);
+        return (id: string) => (result.ok ? result.document.nodes.get(id)?.children : undefined);
+    };
+    expect(after(["mug"], "union")("mug")).toEqual(["outer", "inner"]);
+    expect(after(["mug"], "union")("root")).toEqual(["mug", "torus-1"]);
+    expect(after(["mug"], "cut")("mug")).toEqual(["outer", "inner", "torus-1"]);
+    /* Beside the first it would cut it; it becomes a part of it instead. */
+    expect(after(["outer"], "union")("mug")).toEqual(["union-1", "inner"]);
+    expect(after(["outer"], "union")("union-1")).toEqual(["outer", "torus-1"]);
+    expect(after(["outer"], "cut")("mug")).toEqual(["outer", "torus-1", "inner"]);
+    expect(after(["inner"], "cut")("mug")).toEqual(["outer", "difference-1"]);
+    const pasted = paste(MUG, SCHEMA, ["mug"], JSON.stringify({ nodes: [{ type: "box" }] }));
+    expect(pasted?.ops).toMatchObject([{ into: "/nodes/root" }]);
+    const own = newResource(MUG, SCHEMA, "primitives", null, ["mug"]);
+    expect(own.ops.at(-1)).toMatchObject({ into: "/nodes/root" });
+    const what = (selection: string[], way: "union" | "cut") =>
+        whatAdding(MUG, SCHEMA, { type: "torus" }, selection, way);
+    expect(what(["mug"], "cut")).toEqual({ words: "Cuts mug.", way: "cut" });
+    expect(what(["mug"], "union")).toEqual({ words: "Beside mug.", way: "union" });
+    expect(what([], "union")).toEqual({ words: "Into root.", way: null });
+});
+
+test("a scene that is one difference says that an addition cuts", () => {
+    const document = readDocument({ root: { id: "all", type: "difference", children: [] } });
+    const what = whatAdding(document, SCHEMA, { type: "box" }, [], "union");
+    expect(what).toEqual({ words: "Cuts all.", way: null });
+});
+
+test("what is new has a name for people, each its own", () => {
+    const edit = addNode(scene(), SCHEMA, { type: "smooth_union" }, []);
+    expect(edit.ops).toMatchObject([{ value: { id: "smooth_union-1", name: "Smooth union" } }]);
+    const { run, stores } = page(["hat"]);
+    run("node.duplicate");
+    run("node.duplicate");
+    const { nodes } = stores.document.getState().document ?? scene();
+    expect(["hat", "hat-1", "hat-2"].map((id) => nodes.get(id)?.common.name)).toEqual([
+        "Hat",
+        "Hat 2",
+        "Hat 3",
+    ]);
+    stores.view.setState({ selection: ["head", "body"] });
+    run("node.wrap.union");
+    expect(stores.document.getState().document?.nodes.get("union-1")?.common.name).toBe("Union");
 });
 
 test("moving before a node that moves along goes before the next that stays", () => {
@@ -206,7 +309,7 @@ test("moving before a node that moves along goes before the next that stays", ()
     expect(edit.ops.at(-1)).toMatchObject({ before: null });
 });
 
-test("hide, hide others, show all", () => {
+test("hide and show all", () => {
     const { run, stores } = page(["head"]);
     const hidden = () =>
         [...(stores.document.getState().document?.nodes.values() ?? [])]
@@ -216,11 +319,42 @@ test("hide, hide others, show all", () => {
     expect(hidden()).toEqual(["head", "hat"]);
     run("node.hide");
     expect(hidden()).toEqual(["hat"]);
-    run("node.hideOthers");
-    expect(hidden().sort()).toEqual(["body", "hat", "stick"]);
     run("node.showAll");
     expect(hidden()).toEqual([]);
     expect(run("node.showAll")).not.toBeNull();
+});
+
+test("to isolate is no edit, and ends by the same key, Escape, or showing all", () => {
+    const { run, stores, done } = page(["head", "hat"]);
+    const isolated = () => stores.view.getState().isolated;
+    for (const end of ["node.isolate", "escape", "node.showAll"]) {
+        stores.view.setState({ selection: ["head", "neck"] });
+        expect(run("node.isolate")).toBeNull();
+        expect(isolated()).toEqual(["neck"]);
+        stores.view.setState({ selection: [] });
+        expect(run(end)).toBeNull();
+        expect(isolated()).toEqual([]);
+    }
+    expect(run("node.isolate")).not.toBeNull();
+    expect(done).toEqual([]);
+    expect(commandForKey(press("H", "s", "KeyH"), "tree", "no", true)?.id).toBe("node.isolate");
+});
+
+test("Escape ends an isolation before it deselects", () => {
+    const { run, stores } = page(["head"]);
+    run("node.isolate");
+    run("escape");
+    expect(stores.view.getState()).toMatchObject({ isolated: [], selection: ["head"] });
+});
+
+test("apart from isolated nodes is what is neither below nor around them", () => {
+    const document = scene();
+    const apart = (isolated: string[]) =>
+        [...document.nodes.keys()].filter((id) => isApart(document, isolated, id));
+    expect(apart([])).toEqual([]);
+    expect(apart(["head"])).toEqual(["body", "hat", "stick"]);
+    expect(apart(["neck"])).toEqual(["hat", "stick"]);
+    expect(apart(["head", "stick"])).toEqual(["body", "hat"]);
 });
 
 test("Escape peels one layer at a time", () => {
@@ -252,6 +386,30 @@ test("the palette finds by any words of the title", () => {
     expect(searchCommands("everything frame")[0]?.id).toBe("camera.home");
     expect(searchCommands("xyzzy")).toEqual([]);
     expect(searchCommands("").some(({ keyOnly }) => keyOnly)).toBe(false);
+});
+
+test("commands are found by other words, and what there is not is told", () => {
+    const first = (query: string) => searchCommands(query)[0]?.id;
+    expect(first("export image")).toBe("scene.picture");
+    expect(first("solo")).toBe("node.isolate");
+    expect(searchCommands("history").map(({ id }) => id)).toContain("edit.undo");
+    for (const word of [
+        "export",
+        "share",
+        "history",
+        "measure",
+        "grid",
+        "graph",
+        "equation",
+        "formula",
+        "move",
+        "gizmo",
+    ]) {
+        const found = searchCommands(word).length + searchAbsent(word).length;
+        expect(found, word).toBeGreaterThan(0);
+    }
+    expect(searchAbsent("mov")[0]?.answer).toContain("Place");
+    expect(searchAbsent("")).toEqual([]);
 });
 
 test("preferences survive, broken ones do not spread", () => {

@@ -75,7 +75,18 @@ export const SCHEMA = readSchema({
                 float("lipschitz"),
             ],
             shader: [{ name: "properties", type: "rows", default: [] }, text("code", "code")],
-            declared_types: ["float", "int", "bool", "vec2", "vec3", "vec4", "color"],
+            declared_types: [
+                "float",
+                "int",
+                "bool",
+                "vec2",
+                "vec3",
+                "vec4",
+                "ivec2",
+                "ivec3",
+                "ivec4",
+                "color",
+            ],
         },
         node: [
             { name: "name", type: "text", default: "" },
@@ -102,7 +113,23 @@ export const SCHEMA = readSchema({
             { type: "sphere", params: [float("radius", length), float("density")] },
         ],
         shaders: [
-            { type: "phong", params: [{ name: "diffuse", type: "color", default: [1, 1, 1] }] },
+            {
+                type: "phong",
+                params: [
+                    { name: "diffuse", type: "color", default: [1, 1, 1], max: 1, means: "color" },
+                    float("shininess", { default: 32, min: 1, max: 2048, means: "gloss" }),
+                    float("opacity", { max: 1, means: "opacity" }),
+                    float("ambient", { max: 1 }),
+                ],
+            },
+            {
+                type: "standard",
+                params: [
+                    { name: "base_color", type: "color", default: [1, 1, 1], means: "color" },
+                    float("roughness", { default: 0.5, max: 1, means: "roughness" }),
+                    float("transmission", { default: 0, max: 1, means: "transmission" }),
+                ],
+            },
             {
                 type: "flat",
                 params: [

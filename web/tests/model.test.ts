@@ -15,6 +15,7 @@ import {
     EMPTY_HISTORY,
     fitHistory,
     forgetStep,
+    nameSteps,
     recordRedo,
     recordStep,
     recordUndo,
@@ -132,6 +133,13 @@ test("one group is one step, and the server's counts win", () => {
     expect(fitted.undo.map(({ label }) => label)).toEqual(["", "", "move head", "delete hat"]);
     expect(fitHistory(fitted, 1, 0).undo.map(({ label }) => label)).toEqual(["delete hat"]);
     expect(forgetStep(history, "a")).toBe(history);
+});
+
+test("steps of the page before get the server's names, newest first", () => {
+    const own = recordStep(fitHistory(EMPTY_HISTORY, 2, 1), { group: "", label: "mine" });
+    const named = nameSteps(own, ["other name", "delete hat", "move head"], ["grow"]);
+    expect(named.undo.map(({ label }) => label)).toEqual(["move head", "delete hat", "mine"]);
+    expect(undoTitle(named)).toBe("Undo mine");
 });
 
 test("selection replaces, adds and toggles; the active node is last", () => {

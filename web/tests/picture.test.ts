@@ -181,9 +181,9 @@ test("a picture is asked for by its address", () => {
         height: "1080",
         aov: "color,normal",
         level: "final",
-        transparent: "1",
-        position: "1,2,3",
-        fov: "40",
+        transparent: "true",
+        "camera.position": "1,2,3",
+        "camera.fov": "40",
     });
 });
 

@@ -1,15 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* Models, distance functions, shaders: what they declare, who names them, and edits about them. */
 import { expect, test } from "vitest";
-import { addNode, spotFor, whatAdding } from "../src/model/add.ts";
+import { addNode, whatAdding } from "../src/model/add.ts";
 import { clip, paste } from "../src/model/clipboard.ts";
 import { declaredParams, whyNotIdentifier, whyNotRows } from "../src/model/declared.ts";
-import { nodeParams, paramAt, resourceParams, type SceneDocument } from "../src/model/document.ts";
+import {
+    findResource,
+    nodeParams,
+    paramAt,
+    resourceParams,
+    type SceneDocument,
+} from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { equalJson, type Json } from "../src/model/json.ts";
+import { newLightValues } from "../src/model/lights.ts";
 import { makeModel, unpackModel } from "../src/model/models.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
+import { placing } from "../src/model/placing.ts";
+import { PRESETS } from "../src/model/presets.ts";
 import {
     addProblem,
     brokenCode,
@@ -28,8 +37,10 @@ import {
     renameResource,
 } from "../src/model/resources.ts";
 import type { DeclaredRow } from "../src/model/schema.ts";
-import { spread } from "../src/model/spread.ts";
+import { changeShader } from "../src/model/shading.ts";
+import { type Change, mixedAt, spread } from "../src/model/spread.ts";
 import { cycleThrough, modelsFor, usersOf, whyNotRemoved } from "../src/model/usage.ts";
+import { checkValue } from "../src/model/values.ts";
 import { SCHEMA, scene } from "./fixture.ts";
 
 function after(document: SceneDocument, ops: readonly Operation[]): SceneDocument {
@@ -79,6 +90,21 @@ test("ranges go upwards, and only numbers have one", () => {
     expect(whyNotRows([{ name: "a", type: "float", range: [1, 0] }])).toContain("range");
     expect(whyNotRows([{ name: "a", type: "color", range: [0, 1] }])).toContain("no range");
     expect(whyNotRows([{ name: "a", type: "int", range: [0, 1] }])).toBeNull();
+    expect(whyNotRows([{ name: "a", type: "int3", range: [0, 1] }])).toBeNull();
+});
+
+test("whole numbers of several parts have fields and checks of their own", () => {
+    const rows: DeclaredRow[] = [
+        { name: "a", type: "int2" },
+        { name: "b", type: "ivec4", range: [1, 4] },
+    ];
+    const [a, b] = declaredParams(rows);
+    expect([a?.type, a?.default]).toEqual(["ivec2", [0, 0]]);
+    expect([b?.type, b?.default]).toEqual(["ivec4", [1, 1, 1, 1]]);
+    expect(a && checkValue(a, [1, 0.5])).toContain("not a whole number");
+    expect(a && checkValue(a, [1, -2])).toBeNull();
+    expect(b && checkValue(b, [1, 2, 3])).toContain("four numbers");
+    expect(b && checkValue(b, [1, 2, 3, 5])).toContain("above the maximum 4");
 });
 
 test("a node has its type's rows and those of the function it names", () => {
@@ -243,10 +269,14 @@ test("a flat shape comes with what makes it a solid, unless there is that above"
         { value: { type: "extrude", children: [{ id: "circle-1", type: "circle" }] } },
     ]);
     expect(edit.select).toEqual(["circle-1"]);
-    expect(whatAdding(document, SCHEMA, { type: "circle" }, [])).toContain("extrude");
+    const what = whatAdding(document, SCHEMA, { type: "circle" }, [], "union");
+    expect(what.words).toContain("extrude");
     const inside = after(document, edit.ops);
     const second = addNode(inside, SCHEMA, { type: "polygon" }, ["circle-1"]);
-    expect(second.ops).toMatchObject([{ into: "/nodes/extrude-1", value: { type: "polygon" } }]);
+    const both = after(inside, second.ops);
+    expect(both.nodes.get("extrude-1")?.children).toEqual(["circle-1", "polygon-1"]);
+    const again = addNode(inside, SCHEMA, { type: "polygon" }, ["extrude-1"]);
+    expect(again.ops).toEqual(second.ops);
 });
 
 test("new nodes go into what is made to hold them", () => {
@@ -254,12 +284,10 @@ test("new nodes go into what is made to hold them", () => {
         { op: "insert", into: "/nodes/root", before: null, value: { id: "ex", type: "extrude" } },
     ]);
     const row = SCHEMA.nodes.find(({ type }) => type === "sphere") ?? null;
-    expect(spotFor(document, SCHEMA, ["ex"], row)).toEqual({ into: "ex", before: null });
-    expect(spotFor(document, SCHEMA, ["stick"], row)).toEqual({ into: "root", before: "ex" });
-    expect(spotFor(document, SCHEMA, ["pawn-root"], row)).toEqual({
-        into: "pawn-root",
-        before: null,
-    });
+    const spotOf = (id: string) => placing(document, SCHEMA, [id], row, "union").spot;
+    expect(spotOf("ex")).toEqual({ into: "ex", before: null });
+    expect(spotOf("stick")).toEqual({ into: "root", before: "ex" });
+    expect(spotOf("pawn-root")).toEqual({ into: "pawn-root", before: null });
     const rod = addNode(document, SCHEMA, { type: "field", named: "rod" }, []);
     expect(rod.ops).toMatchObject([{ value: { params: { primitive: "rod" } } }]);
     const code = addNode(document, SCHEMA, { type: "field" }, []).ops[0];
@@ -353,27 +381,110 @@ test("in the same scene they name what is there; strangers lose their names", ()
     expect(JSON.stringify(pasted)).not.toContain("gone");
 });
 
+/* --- lights and materials --- */
+
+test("a new light stands beside what is selected and lights it", () => {
+    const values = (selection: string[]) => newLightValues(scene(), SCHEMA, "point", selection);
+    const [x = 0, y = 0, z = 0] = values(["head"]).position as number[];
+    const away = Math.hypot(x, y - 1.3, z);
+    expect(away).toBeGreaterThan(2);
+    expect(Number(values(["head"]).intensity)).toBeCloseTo(Math.PI * away ** 2, 0);
+    expect(values([]).position).not.toEqual(values(["head"]).position);
+    expect(newLightValues(scene(), SCHEMA, "directional", ["head"])).toEqual({});
+});
+
+test("a material of a preset has its name, plainly where that is free", () => {
+    const [preset] = PRESETS;
+    const first = newResource(scene(), SCHEMA, "materials", null, [], "union", preset);
+    expect(first.name).toBe(preset?.name);
+    const place = "/nodes/hat/material";
+    const second = newResource(scene(), SCHEMA, "materials", place, [], "union", preset);
+    expect(second.ops.at(-1)).toEqual(set(place, preset?.name ?? ""));
+    expect(new Set(PRESETS.map(({ name }) => name)).size).toBe(PRESETS.length);
+});
+
+/* --- another shader --- */
+
+const SHADED = readDocument({
+    materials: {
+        sea: {
+            shader: "phong",
+            properties: {
+                diffuse: [0.1, 0.2, 0.9],
+                shininess: 126,
+                opacity: 0.25,
+                ambient: 0.5,
+            },
+        },
+    },
+    root: { type: "union" },
+});
+
+test("another shader keeps what means the same, by another name and scale", () => {
+    const { ops, lost } = changeShader(SHADED, SCHEMA, "sea", "standard");
+    expect(lost).toEqual(["ambient"]);
+    const standard = after(SHADED, ops);
+    expect(findResource(standard, "materials", "sea")).toMatchObject({
+        type: "standard",
+        values: { base_color: [0.1, 0.2, 0.9], roughness: 0.353553, transmission: 0.75 },
+    });
+    const back = after(standard, changeShader(standard, SCHEMA, "sea", "phong").ops);
+    const values = findResource(back, "materials", "sea")?.values;
+    expect(values).toMatchObject({ diffuse: [0.1, 0.2, 0.9], opacity: 0.25 });
+    expect(Number(values?.shininess)).toBeCloseTo(126, 2);
+});
+
+test("what another shader knows by the same name stays as it is", () => {
+    const { ops, lost } = changeShader(scene(), SCHEMA, "snow", "flat");
+    expect(ops).toEqual([set("/materials/snow/shader", "flat")]);
+    expect(lost).toEqual([]);
+});
+
 /* --- several nodes at once --- */
 
-test("one change goes to all selected nodes that can take it", () => {
-    const document = scene();
-    const all = (at: string, value: Json, selection: string[]) =>
-        spread(SCHEMA, document, selection, at, value as never);
+const all = (at: string, value: Json, selection: string[], change?: Change) =>
+    spread(SCHEMA, scene(), selection, at, value as never, change);
+
+test("a typed value is the same for all selected nodes that can take it", () => {
     expect(all("/nodes/body/params/radius", 2, ["hat", "head", "body"])).toEqual([
         set("/nodes/body/params/radius", 2),
         set("/nodes/head/params/radius", 2),
     ]);
-    expect(all("/nodes/head/transform/translation", [1, 1.3, 0], ["hat", "head"])).toEqual([
-        set("/nodes/head/transform/translation", [1, 1.3, 0]),
-        set("/nodes/hat/transform/translation", [1, 0, 0]),
-    ]);
-    expect(all("/nodes/head/transform/scale", [2, 2, 2], ["hat", "head"])[1]).toEqual(
-        set("/nodes/hat/transform/scale", [2, 2, 2]),
-    );
     expect(all("/nodes/head/material", null, ["hat", "head"])).toHaveLength(2);
     expect(all("/nodes/stick/params/radius", 20, ["body", "stick"])).toHaveLength(2);
     expect(all("/nodes/body/params/radius", 2, ["head"])).toHaveLength(1);
     expect(all("/camera/fov", 30, ["head"])).toHaveLength(1);
+    /* One component alone. */
+    const x: Change = { axis: 0, by: () => 5 };
+    expect(all("/nodes/hat/transform/translation", [5, 0, 0], ["hat", "head"], x)[1]).toEqual(
+        set("/nodes/head/transform/translation", [5, 1.3, 0]),
+    );
+});
+
+test("a drag changes each from where it is", () => {
+    const more: Change = { axis: null, by: (own) => own + 0.5 };
+    expect(all("/nodes/body/params/radius", 1.5, ["head", "body"], more)).toEqual([
+        set("/nodes/body/params/radius", 1.5),
+        set("/nodes/head/params/radius", 1.1),
+    ]);
+    const least: Change = { axis: null, by: (own) => own - 0.7 };
+    const [, head] = all("/nodes/body/params/radius", 0.3, ["head", "body"], least);
+    expect(head).toMatchObject({ at: "/nodes/head/params/radius" });
+    expect(head?.op === "set" && Number(head.value)).toBeGreaterThan(0);
+    const quarter: Change = { axis: 1, by: (own) => own + Math.PI / 2 };
+    expect(all("/nodes/hat/transform/rotation", [0, 1, 0], ["hat", "head"], quarter)[1]).toEqual(
+        set("/nodes/head/transform/rotation", [0, Math.PI / 2, 0]),
+    );
+});
+
+test("where selected nodes differ is told by component", () => {
+    const mixed = (selection: string[], at: string) => mixedAt(SCHEMA, scene(), selection, at);
+    expect(mixed(["head", "body"], "/nodes/body/params/radius")).toBe("1");
+    expect(mixed(["head", "body"], "/nodes/body/transform/translation")).toBe("010");
+    expect(mixed(["head", "body"], "/nodes/body/transform/scale")).toBe("");
+    expect(mixed(["body"], "/nodes/body/params/radius")).toBe("");
+    expect(mixed(["head", "neck"], "/nodes/neck/material")).toBe("1");
+    expect(mixed(["hat", "body"], "/nodes/body/params/radius")).toBe("");
 });
 
 /* --- problems --- */

@@ -388,3 +388,38 @@ test("an edit before the document is refused", () => {
     const { problem } = edit(createSession("me", SCHEMA), [radius(1)]);
     expect(problem?.code).toBe("unavailable");
 });
+
+test("an undo tells what it left out, and a step that was left out whole is gone", () => {
+    const welcome = {
+        type: "welcome",
+        revision: 1,
+        epoch: 1,
+        last_edit: 0,
+        undo: 2,
+        redo: 0,
+    } as const;
+    const ops: readonly Operation[] = [{ op: "set", at: "/nodes/a/params/radius", value: 1 }];
+    let session = receive(createSession("me", SCHEMA), welcome).session;
+    session = receive(session, { type: "document", revision: 1, document: SCENE }).session;
+    session = askHistory(session, "undo");
+    const refused = receive(session, {
+        type: "rejected",
+        edit: 1,
+        code: "conflict",
+        place: "/nodes/a/params/radius",
+        message: "",
+        skipped: ops,
+    });
+    expect(refused.events).toEqual([{ kind: "skipped", ops }]);
+    expect(refused.session.undo).toBe(1);
+    const asked = askHistory(refused.session, "undo");
+    const answer = {
+        type: "applied",
+        edit: 2,
+        revision: 2,
+        durable: false,
+        undo: 0,
+        redo: 1,
+    } as const;
+    expect(receive(asked, { ...answer, skipped: ops }).events).toEqual([{ kind: "skipped", ops }]);
+});

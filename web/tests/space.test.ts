@@ -16,7 +16,10 @@ import {
     unitsPerPixel,
     viewFrom,
 } from "../src/model/camera.ts";
+import type { SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
+import { moveNodes } from "../src/model/edits.ts";
+import type { Json } from "../src/model/json.ts";
 import {
     anglesOf,
     apply,
@@ -88,6 +91,50 @@ const NESTED = readDocument({
             { id: "c", type: "group", transform: { scale: [1, 2, 1] } },
         ],
     },
+});
+
+const QUARTER = Math.PI / 2;
+
+function turned(rotation: Json, parentRotation: Json): SceneDocument {
+    return readDocument({
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                {
+                    id: "from",
+                    type: "group",
+                    transform: { translation: [1, 0, 0], scale: 2, rotation: parentRotation },
+                    children: [{ id: "x", type: "sphere", transform: { rotation } }],
+                },
+                { id: "to", type: "group", transform: { rotation: parentRotation } },
+            ],
+        },
+    });
+}
+
+const rotationOps = (document: SceneDocument, into: string) =>
+    moveNodes(document, ["x"], { into, before: null }).ops.filter(
+        (op) => op.op === "set" && op.at.endsWith("/rotation"),
+    );
+
+test("angles that nothing turns are not written again", () => {
+    for (const angles of [
+        [QUARTER, 0, 0],
+        [0, QUARTER, 0],
+        [1.5708, 3, -4],
+        [7, QUARTER, 8],
+    ]) {
+        expect(rotationOps(turned(angles, [0, 0, 0]), "to")).toEqual([]);
+        expect(rotationOps(turned(angles, [0.1, 0.2, 0.3]), "to")).toEqual([]);
+    }
+});
+
+test("angles that are turned are whole degrees to the last bit where they are whole", () => {
+    const document = turned([QUARTER, 0, 0], [Math.PI / 6, 0, 0]);
+    expect(rotationOps(document, "root")).toEqual([
+        { op: "set", at: "/nodes/x/transform/rotation", value: [(120 * Math.PI) / 180, 0, 0] },
+    ]);
 });
 
 test("world and own space are inverse, and a new parent keeps the place", () => {

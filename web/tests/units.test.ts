@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 import { expect, test } from "vitest";
+import { numberParam } from "../src/model/schema.ts";
 import {
     fromHex,
     parseInUnit,
@@ -11,8 +12,10 @@ import {
     snap,
     splitStrength,
     tidy,
+    tidyAngle,
     toHex,
 } from "../src/model/units.ts";
+import { displayOf } from "../src/ui/fields/display.ts";
 import { random } from "./fixture.ts";
 
 test.each([
@@ -70,8 +73,38 @@ test("numbers print with at most six digits and read back", () => {
     }
 });
 
+const TURN = displayOf(numberParam("turn", { unit: "angle" }));
+
+test("degrees survive the way to the document and back", () => {
+    for (let degrees = -720; degrees <= 720; degrees += 0.5) {
+        const radians = TURN.parse(String(degrees), 0) ?? Number.NaN;
+        expect(radians).toBe(degrees * (Math.PI / 180));
+        expect(TURN.print(radians)).toBe(`${degrees}°`);
+        expect(tidyAngle(radians)).toBe(radians);
+    }
+    expect(TURN.parse("90", 0)).toBe(Math.PI / 2);
+    expect(TURN.parse("pi/4", 0)).toBe(Math.PI / 4);
+    expect(TURN.parse("0.5rad", 0)).toBe(0.5);
+    expect(TURN.parse("+=0.1", TURN.parse("89.9", 0) ?? 0)).toBe(Math.PI / 2);
+    expect(TURN.arrow(Math.PI / 2, 1, { coarse: false, fine: false })).toBe((91 * Math.PI) / 180);
+    expect(tidyAngle(-1e-17)).toBe(0);
+});
+
+test("0 is a word where it stands for something else", () => {
+    const depth = displayOf(numberParam("depth", { zero: "auto" }));
+    expect([depth.print(0), depth.print(2), depth.full(0)]).toEqual(["auto", "2", "auto"]);
+    expect([depth.parse("auto", 3), depth.parse("0", 3)]).toEqual([0, 0]);
+    expect(displayOf(numberParam("x")).parse("auto", 3)).toBeNull();
+});
+
+test("what a field has no room for is told whole", () => {
+    expect(TURN.full(1.5708)).toBe("90.0002104591°");
+    expect(displayOf(numberParam("x")).full(-1.2345678)).toBe("-1.2345678");
+});
+
 test.each([
     ["1 2 3", [1, 2, 3]],
+    ["0.1 0.6 0.2", [0.1, 0.6, 0.2]],
     ["[1,2,3]", [1, 2, 3]],
     ["(1/2; -1; 0)", [0.5, -1, 0]],
     ["1, 2.5, 3", [1, 2.5, 3]],

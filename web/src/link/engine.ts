@@ -3,7 +3,7 @@
  * Runs in the worker, or in the page where a canvas cannot be handed over. Knows no document: it
  * passes messages on and is told where the page stands. */
 import type { OutgoingEdit } from "../model/session.ts";
-import type { FrameInfo, Statistics } from "../model/stores.ts";
+import type { FrameInfo, FrameState, Statistics } from "../model/stores.ts";
 import { decode, type Frame, FrameAssembler } from "./decode.ts";
 import { Meter } from "./meter.ts";
 import { Presenter, type Surface } from "./present.ts";
@@ -11,6 +11,7 @@ import {
     type ClientMessage,
     type FrameHeader,
     frameState,
+    type RetryMessage,
     readMessage,
     readPacket,
     type ServerMessage,
@@ -34,7 +35,7 @@ export type Order =
     | { readonly kind: "resync" }
     /* What the page holds, to resume there. */
     | { readonly kind: "at"; readonly revision: number; readonly epoch: string | number }
-    | { readonly kind: "send"; readonly message: OutgoingEdit }
+    | { readonly kind: "send"; readonly message: OutgoingEdit | RetryMessage }
     | { readonly kind: "pick"; readonly pick: number; readonly x: number; readonly y: number }
     | { readonly kind: "view"; readonly view: ViewState }
     | { readonly kind: "surface"; readonly surface: Surface | null };
@@ -90,7 +91,23 @@ export function frameInfo(header: FrameHeader): FrameInfo {
         width: header.width,
         height: header.height,
         scale: header.width / Math.max(1, header.viewWidth),
+        round: header.round,
+        rounds: header.rounds,
     };
+}
+
+const QUALITIES: readonly FrameState[] = ["moving", "still", "lossless"];
+
+/* The same picture as the one shown, in lower quality: as while a newer state is compiled. */
+export function isWorse(next: FrameHeader, shown: FrameHeader): boolean {
+    const rank = (header: FrameHeader): number => QUALITIES.indexOf(frameState(header));
+    return (
+        next.revision === shown.revision &&
+        next.input === shown.input &&
+        next.viewWidth === shown.viewWidth &&
+        next.viewHeight === shown.viewHeight &&
+        rank(next) < rank(shown)
+    );
 }
 
 /* Wait before attempt `attempts` + 1: doubling, with jitter so that many pages do not come back
@@ -341,6 +358,16 @@ export class Engine {
             bitmap.close();
             this.#meter.frameDropped();
             this.#acknowledge(number, socket);
+            return;
+        }
+        const shown = this.#waiting?.frame.header ?? this.#shown;
+        if (shown !== null && isWorse(frame.header, shown)) {
+            bitmap.close();
+            this.#acknowledge(number, socket);
+            this.#report({
+                kind: "frame",
+                frame: { ...frameInfo(shown), stale: frame.header.stale },
+            });
             return;
         }
         const scheduled = this.#waiting !== null;

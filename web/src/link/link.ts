@@ -6,22 +6,32 @@ import {
     EMPTY_HISTORY,
     fitHistory,
     forgetStep,
+    nameSteps,
     recordRedo,
     recordStep,
     recordUndo,
 } from "../model/history.ts";
 import type { Operation, Problem } from "../model/operation.ts";
+import { nodeOfPlace } from "../model/places.ts";
 import { dropGone, settleProblems } from "../model/problems.ts";
 import type { Schema, Value } from "../model/schema.ts";
 import * as sessions from "../model/session.ts";
 import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
 import { checkValue } from "../model/values.ts";
+import { randomId } from "./author.ts";
 import type { Report } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
+import { Motion } from "./motion.ts";
 import { Notices } from "./notices.ts";
 import { Picks } from "./picks.ts";
-import { type PickedMessage, type ServerMessage, SUBPROTOCOL, TOKEN_PREFIX } from "./protocol.ts";
+import {
+    type CompilingMessage,
+    type PickedMessage,
+    type ServerMessage,
+    SUBPROTOCOL,
+    TOKEN_PREFIX,
+} from "./protocol.ts";
 import { Viewer } from "./viewer.ts";
 
 export interface EditOptions {
@@ -42,8 +52,8 @@ export interface Gesture {
 }
 
 export interface Link {
-    /* Opens a scene; closes the one before. Needs the schema to know what may be set. */
-    connect(scene: string, schema: Schema): void;
+    /* Opens a scene as an author; closes the one before. Needs the schema to know what may be set. */
+    connect(scene: string, schema: Schema, author: string): void;
     disconnect(): void;
     /* Shows the picture in `element`, filling it; answers the function that takes it away. */
     attach(element: HTMLElement): () => void;
@@ -56,6 +66,8 @@ export interface Link {
     pick(x: number, y: number): Promise<PickedMessage>;
     /* The same, but not while another answer is due, which it would take the place of: null. */
     pickIdle(x: number, y: number): Promise<PickedMessage | null>;
+    /* What was given up at a place, because it was too slow or crashed, is tried again. */
+    tryAgain(place: string): void;
     /* Tries to connect at once instead of waiting for the next attempt. */
     retry(): void;
     destroy(): void;
@@ -69,22 +81,21 @@ export interface LinkOptions {
     readonly name?: string;
 }
 
-function randomId(): string {
-    const bytes = crypto.getRandomValues(new Uint8Array(12));
-    return [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
-}
-
 class SceneLink implements Link {
     readonly #stores: Stores;
     readonly #options: LinkOptions;
     readonly #host: Host;
-    readonly #client = randomId();
+    /* Groups of edits are this page's, not those of the author's page before. */
+    readonly #page = randomId();
     readonly #viewer: Viewer;
     readonly #picks: Picks;
     readonly #notices: Notices;
+    readonly #motion: Motion;
     readonly #retry = (): void => this.retry();
     #session: sessions.Session | null = null;
     #groups = 0;
+    /* Nodes that an undo or redo has brought back, to be selected. */
+    #back: readonly string[] = [];
     #flushDue = false;
 
     constructor(stores: Stores, options: LinkOptions) {
@@ -94,25 +105,26 @@ class SceneLink implements Link {
         this.#viewer = new Viewer(stores, this.#host, () => this.#session !== null);
         this.#picks = new Picks(this.#host);
         this.#notices = new Notices(stores);
+        this.#motion = new Motion(stores);
         window.addEventListener("online", this.#retry);
     }
 
     /* --- connection --- */
 
-    connect(scene: string, schema: Schema): void {
+    connect(scene: string, schema: Schema, author: string): void {
         this.disconnect();
         const base = new URL(this.#options.base || window.location.origin);
         const url = new URL(`/v1/scenes/${encodeURIComponent(scene)}/live`, base);
         url.protocol = base.protocol === "https:" ? "wss:" : "ws:";
         const { token, name = "" } = this.#options;
-        this.#session = sessions.createSession(this.#client, schema);
+        this.#session = sessions.createSession(author, schema);
         this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, scene, schema });
         this.#stores.link.setState({ ...IDLE_LINK, connection: "connecting" });
         this.#host.send({
             kind: "open",
             url: url.href,
             protocols: [SUBPROTOCOL, ...(token === null ? [] : [TOKEN_PREFIX + token])],
-            client: this.#client,
+            client: author,
             name,
         });
         this.#viewer.tell();
@@ -131,6 +143,10 @@ class SceneLink implements Link {
         this.#stores.camera.setState({ own: false });
     }
 
+    tryAgain(place: string): void {
+        this.#host.send({ kind: "send", message: { type: "retry", place } });
+    }
+
     retry(): void {
         this.#host.send({ kind: "retry" });
     }
@@ -138,6 +154,7 @@ class SceneLink implements Link {
     destroy(): void {
         this.disconnect();
         this.#viewer.end();
+        this.#motion.end();
         window.removeEventListener("online", this.#retry);
         this.#host.end();
     }
@@ -169,6 +186,7 @@ class SceneLink implements Link {
             connection: state,
             reason,
             retryAt: retryIn === null ? null : performance.now() + retryIn,
+            ...(state === "live" ? {} : { compiling: null }),
         };
         this.#stores.link.setState(next);
         if (this.#session && (state === "offline" || state === "refused")) {
@@ -208,6 +226,9 @@ class SceneLink implements Link {
             case "picked":
                 this.#picks.answer(message);
                 break;
+            case "compiling":
+                this.#compiling(message);
+                break;
             case "notice":
                 this.#notices.fromServer(message);
                 break;
@@ -215,11 +236,19 @@ class SceneLink implements Link {
                 break;
             case "welcome":
                 this.#stores.link.setState({ renderer: message.renderer });
+                this.#notices.welcome();
                 this.#receive(message);
+                this.#nameSteps(message.undo_labels ?? [], message.redo_labels ?? []);
                 break;
             default:
                 this.#receive(message);
         }
+    }
+
+    #compiling({ over, elapsed_ms, expected_ms }: CompilingMessage): void {
+        const since = performance.now() - elapsed_ms;
+        const compiling = over ? null : { since, expected: expected_ms ?? null };
+        this.#stores.link.setState({ compiling });
     }
 
     #receive(message: sessions.SessionMessage): void {
@@ -239,6 +268,19 @@ class SceneLink implements Link {
             this.#flush();
         }
         this.#publish();
+        if (this.#back.length > 0) {
+            this.#stores.view.setState({ selection: this.#back, subject: { kind: "nodes" } });
+            this.#back = [];
+        }
+    }
+
+    /* Steps of the author's page before. */
+    #nameSteps(undo: readonly string[], redo: readonly string[]): void {
+        if (this.#session?.pending.length === 0) {
+            this.#stores.document.setState(({ history }) => ({
+                history: nameSteps(history, undo, redo),
+            }));
+        }
     }
 
     #event(event: sessions.SessionEvent): void {
@@ -246,8 +288,12 @@ class SceneLink implements Link {
             case "rejected":
                 this.#notices.rejected(event.pending, event.problem);
                 break;
+            case "skipped":
+                this.#notices.skipped(event.ops);
+                break;
             case "done":
                 this.#done(event.pending);
+                this.#back = event.pending.kind === "edit" ? [] : insertedNodes(event.ops ?? []);
                 break;
             case "resync":
                 this.#notices.add("warning", "resync", text("link.resync"));
@@ -294,6 +340,7 @@ class SceneLink implements Link {
         if (group === "") {
             this.#flush();
         } else {
+            this.#motion.touch();
             this.#flushSoon();
         }
         return true;
@@ -301,7 +348,7 @@ class SceneLink implements Link {
 
     gesture(label: string): Gesture {
         this.#groups++;
-        const group = `${this.#client}-${this.#groups}`;
+        const group = `${this.#page}-${this.#groups}`;
         let edited = false;
         let open = true;
         return {
@@ -396,6 +443,7 @@ class SceneLink implements Link {
                 ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)
                 : before.history,
         });
+        this.#notices.dropGone();
         if (session.shown && session.shown.camera !== before.document?.camera) {
             this.#viewer.followCamera();
         }
@@ -426,6 +474,15 @@ const ATTEMPTS_BEFORE_PROBE = 2;
 const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];
 /* Hidden pages get no animation frames. */
 const LATEST_FLUSH_MS = 50;
+
+/* The nodes that operations put into trees. */
+function insertedNodes(ops: readonly Operation[]): string[] {
+    return ops.flatMap((op) =>
+        op.op === "insert" && nodeOfPlace(op.into) !== null && typeof op.value.id === "string"
+            ? [op.value.id]
+            : [],
+    );
+}
 
 /* Values that the schema refuses, before anybody sees them. */
 function checkRanges(session: sessions.Session, ops: readonly Operation[]): Problem | null {

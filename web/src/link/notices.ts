@@ -1,11 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /* What goes wrong in a live scene, as the stores hold it: notices, and problems at their places. */
-import type { Problem } from "../model/operation.ts";
-import { addProblem, COMPILE, COMPILED, endProblem } from "../model/problems.ts";
+import { findResource, type SceneDocument } from "../model/document.ts";
+import type { Operation, Problem } from "../model/operation.ts";
+import { nodeOfPlace, resourceOfPlace } from "../model/places.ts";
+import {
+    addProblem,
+    COMPILE,
+    endProblem,
+    endProblems,
+    isEnd,
+    isGivenUp,
+    isStanding,
+    LEFT_OUT,
+} from "../model/problems.ts";
 import type { PendingEdit } from "../model/session.ts";
-import { addNotice, type Stores } from "../model/stores.ts";
+import { addNotice, endNotices, type NoticeAct, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
 import type { NoticeMessage } from "./protocol.ts";
+
+/* Is the node or resource of a place there? What has none always is. */
+function exists(document: SceneDocument, place: string): boolean {
+    const node = nodeOfPlace(place);
+    const resource = resourceOfPlace(place);
+    return (
+        (node === null || document.nodes.has(node)) &&
+        (resource === null || findResource(document, resource.list, resource.name) !== null)
+    );
+}
 
 export class Notices {
     readonly #stores: Stores;
@@ -26,21 +47,72 @@ export class Notices {
         this.#mark(problem);
     }
 
+    /* An undo or redo left out what somebody else has changed since. */
+    skipped(ops: readonly Operation[]): void {
+        const [first] = ops;
+        const count = ops.length;
+        const message = text(count === 1 ? "undo.skippedOne" : "undo.skipped", { count });
+        addNotice(this.#stores.notices, {
+            level: "warning",
+            code: "overwritten",
+            message,
+            place: first && "at" in first ? first.at : "",
+            acts: [{ kind: "edit", ops, label: text("undo.anywayLabel") }],
+        });
+    }
+
     /* Broken code is marked where it stands, again and again while somebody types. */
     fromServer({ type: _type, ...notice }: NoticeMessage): void {
         const { level, code, message, place = "" } = notice;
-        if (code === COMPILED) {
-            this.#stores.document.setState(({ problems }) => ({
-                problems: endProblem(problems, place),
-            }));
+        if (isEnd(code)) {
+            this.#end(place);
             return;
         }
-        if (level === "error") {
+        if (level === "error" && code !== LEFT_OUT) {
             this.#mark({ ...notice, place });
         }
-        if (code !== COMPILE || place === "") {
+        if (isGivenUp(code)) {
+            const acts = this.#actsFor(place, notice.limit !== undefined);
+            addNotice(this.#stores.notices, { level, code, message, place, acts });
+        } else if (code !== COMPILE || place === "") {
             this.add(level, code, message, place);
+        } else {
+            this.#endNotice(place); /* what is wrong there now is said at the place */
         }
+    }
+
+    /* The server tells again what still stands. */
+    welcome(): void {
+        const { document, notices } = this.#stores;
+        document.setState(({ problems }) => ({ problems: endProblems(problems) }));
+        endNotices(notices, isStanding);
+    }
+
+    /* Nothing is wrong at a place that is gone. */
+    dropGone(): void {
+        const { document } = this.#stores.document.getState();
+        endNotices(
+            this.#stores.notices,
+            ({ code, place }) =>
+                isStanding({ code }) && document !== null && !exists(document, place),
+        );
+    }
+
+    #end(place: string): void {
+        this.#stores.document.setState(({ problems }) => ({
+            problems: endProblem(problems, place),
+        }));
+        this.#endNotice(place);
+    }
+
+    #endNotice(place: string): void {
+        endNotices(this.#stores.notices, (one) => isStanding(one) && one.place === place);
+    }
+
+    #actsFor(place: string, slow: boolean): readonly NoticeAct[] {
+        const step = this.#stores.document.getState().history.undo.at(-1);
+        const retry: NoticeAct = { kind: "retry", place, slow };
+        return step ? [retry, { kind: "undo", label: step.label }] : [retry];
     }
 
     #mark(problem: Problem): void {

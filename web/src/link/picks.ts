@@ -3,7 +3,7 @@
 import type { Host } from "./host.ts";
 import type { PickedMessage } from "./protocol.ts";
 
-const ANSWER_MS = 10_000;
+const ANSWER_MS = 60_000;
 
 interface Waiter {
     readonly take: (message: PickedMessage) => void;

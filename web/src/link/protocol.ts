@@ -29,6 +29,8 @@ export interface ViewMessage {
     readonly aov: string;
     readonly quality: Quality;
     readonly visible: boolean;
+    /* Ids of the nodes that are shown alone; absent: all are. */
+    readonly isolate?: readonly string[];
 }
 
 export interface PickMessage {
@@ -44,7 +46,18 @@ export interface AckMessage {
     readonly frame: number;
 }
 
-export type ClientMessage = HelloMessage | ViewMessage | OutgoingEdit | PickMessage | AckMessage;
+export interface RetryMessage {
+    readonly type: "retry";
+    readonly place?: string;
+}
+
+export type ClientMessage =
+    | HelloMessage
+    | ViewMessage
+    | OutgoingEdit
+    | PickMessage
+    | AckMessage
+    | RetryMessage;
 
 /* --- server to client --- */
 
@@ -65,6 +78,14 @@ export interface PickedMessage {
     readonly distance: number | null;
 }
 
+export interface CompilingMessage {
+    readonly type: "compiling";
+    readonly revision: number;
+    readonly over: boolean;
+    readonly elapsed_ms: number;
+    readonly expected_ms?: number;
+}
+
 export interface NoticeMessage {
     readonly type: "notice";
     readonly level: Level;
@@ -74,6 +95,9 @@ export interface NoticeMessage {
     /* In the text at `place`, from 1. */
     readonly line?: number;
     readonly column?: number;
+    /* Milliseconds of processor time: what was too slow took more, and might take. */
+    readonly measured?: number;
+    readonly limit?: number;
 }
 
 export interface ByeMessage {
@@ -87,6 +111,7 @@ export type ServerMessage =
     | (Extract<SessionMessage, { type: "welcome" }> & WelcomeExtra)
     | Exclude<SessionMessage, { type: "welcome" }>
     | PickedMessage
+    | CompilingMessage
     | NoticeMessage
     | ByeMessage;
 
@@ -97,6 +122,7 @@ const SERVER_TYPES: readonly string[] = [
     "changed",
     "rejected",
     "picked",
+    "compiling",
     "notice",
     "bye",
 ] satisfies readonly ServerMessage["type"][];
@@ -117,7 +143,7 @@ export function readMessage(text: string): ServerMessage | null {
 /* --- frames --- */
 
 /* What stands before the times of the stages, four bytes each. */
-export const FRAME_FIXED_BYTES = 36;
+export const FRAME_FIXED_BYTES = 40;
 export const FRAME_PART_HEADER_BYTES = 8;
 
 export type Codec = "jpeg" | "png";
@@ -144,11 +170,14 @@ export interface FrameHeader {
     readonly height: number;
     readonly viewWidth: number;
     readonly viewHeight: number;
+    /* Of samples: which one it is, from 1, of how many. */
+    readonly round: number;
+    readonly rounds: number;
     /* Microseconds, in the order of the schema's stages. */
     readonly stages: readonly number[];
 }
 
-const FRAME_VERSION = 2;
+const FRAME_VERSION = 3;
 
 function headerBytes(stages: number): number {
     return FRAME_FIXED_BYTES + 4 * stages;
@@ -200,6 +229,8 @@ function readHeader(view: DataView): FrameHeader | null {
         height: view.getUint16(30, true),
         viewWidth: view.getUint16(32, true),
         viewHeight: view.getUint16(34, true),
+        round: view.getUint8(36),
+        rounds: view.getUint8(37),
         stages: Array.from({ length: stages }, (_, i) =>
             view.getUint32(FRAME_FIXED_BYTES + 4 * i, true),
         ),
@@ -254,6 +285,8 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
     [header.width, header.height, header.viewWidth, header.viewHeight].forEach((size, i) => {
         view.setUint16(28 + 2 * i, size, true);
     });
+    view.setUint8(36, header.round);
+    view.setUint8(37, header.rounds);
     header.stages.forEach((time, i) => {
         view.setUint32(FRAME_FIXED_BYTES + 4 * i, time, true);
     });

@@ -18,6 +18,8 @@ export interface ExampleEntry {
     readonly id: string;
     readonly name: string;
     readonly description: string;
+    /* "showpiece", "lesson" or "technique". */
+    readonly group: string;
 }
 
 /* An uploaded picture. */
@@ -93,6 +95,8 @@ export interface Rest {
     uploadAsset(file: Blob): Promise<Asset>;
     /* Addresses for <img> and links. Of several outputs a ZIP comes. */
     imageUrl(id: string, wish: PictureWish): string;
+    /* The last picture that somebody has seen of a scene. */
+    posterUrl(id: string): string;
     assetUrl(id: string): string;
     exampleImageUrl(id: string): string;
     /* A picture of a node type; there may be none. */
@@ -134,10 +138,10 @@ function queryOf({ width, height, outputs, level, transparent, camera }: Picture
         query.set("level", level);
     }
     if (transparent !== undefined) {
-        query.set("transparent", transparent ? "1" : "0");
+        query.set("transparent", String(transparent));
     }
     for (const [name, value] of Object.entries(camera ?? {})) {
-        query.set(name, String(value));
+        query.set(`camera.${name}`, String(value));
     }
     return query.toString();
 }
@@ -232,6 +236,7 @@ export function createRest(base: string, token: string | null): Rest {
                 id: textOf(example.id),
                 name: textOf(example.name),
                 description: textOf(example.description),
+                group: textOf(example.group, "technique"),
             })),
         listAssets: async () => (await list("/v1/assets", "assets")).map(readAsset),
         uploadAsset: async (file) => {
@@ -243,6 +248,7 @@ export function createRest(base: string, token: string | null): Rest {
         readSchema: async () => readSchema(await get("/v1/schema.json")),
         imageUrl: (id, wish) =>
             `${base}/v1/scenes/${segment(id)}/image.${wish.format}?${queryOf(wish)}`,
+        posterUrl: (id) => `${base}/v1/scenes/${segment(id)}/poster.jpg`,
         assetUrl: (id) => `${base}/v1/assets/${segment(id)}`,
         exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
         referenceImageUrl: (type) => `${base}/v1/reference/${segment(type)}.jpg`,

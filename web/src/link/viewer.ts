@@ -2,6 +2,7 @@
 /* What the user looks at, and from where: the picture's element and the camera. Tells the engine
  * what to ask for, whenever that changes. Knows nothing of edits. */
 import { cameraOf, equalCamera, printCamera } from "../model/camera.ts";
+import type { SceneDocument } from "../model/document.ts";
 import type { Value, Values } from "../model/schema.ts";
 import type { Stores } from "../model/stores.ts";
 import type { ViewState } from "./engine.ts";
@@ -32,8 +33,17 @@ export class Viewer {
             }),
             stores.view.subscribe((now, before) => {
                 const { quality } = now.preferences;
-                if (now.aov !== before.aov || quality !== before.preferences.quality) {
+                if (
+                    now.aov !== before.aov ||
+                    now.isolated !== before.isolated ||
+                    quality !== before.preferences.quality
+                ) {
                     this.tell();
+                }
+            }),
+            stores.document.subscribe(({ document: shown }, before) => {
+                if (shown && shown !== before.document) {
+                    this.#dropDeleted(shown);
                 }
             }),
             () => document.removeEventListener("visibilitychange", tell),
@@ -68,20 +78,29 @@ export class Viewer {
         this.tell();
     }
 
+    /* A node that was deleted is isolated no longer. */
+    #dropDeleted(shown: SceneDocument): void {
+        const { isolated } = this.#stores.view.getState();
+        const left = isolated.filter((id) => shown.nodes.has(id));
+        if (left.length < isolated.length) {
+            this.#stores.view.setState({ isolated: left });
+        }
+    }
+
     tell(): void {
         if (!this.#isOpen() || !this.#size) {
             return;
         }
-        const { aov, preferences } = this.#stores.view.getState();
+        const { aov, isolated, preferences } = this.#stores.view.getState();
         const { camera, own } = this.#stores.camera.getState();
-        const { document: shown } = this.#stores.document.getState();
         const view: ViewState = {
             width: this.#size.width,
             height: this.#size.height,
-            ...(own ? { camera: { ...shown?.camera, ...printCamera(camera) } } : {}),
+            ...(own ? { camera: printCamera(camera) } : {}),
             aov,
             quality: preferences.quality,
             visible: document.visibilityState === "visible" && this.#element !== null,
+            ...(isolated.length > 0 ? { isolate: isolated } : {}),
         };
         this.#host.send({ kind: "view", view });
     }

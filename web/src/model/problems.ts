@@ -6,19 +6,32 @@ import type { Operation, Problem } from "./operation.ts";
 import { cleanPlace, isWithin, nodeOfPlace, resourceOfPlace, resourcePlace } from "./places.ts";
 import type { Schema } from "./schema.ts";
 
-/* Notices about code: it does not compile, it hung or crashed what draws, it is well again. */
+/* Notices about code: it does not compile, that took too long or crashed, it is well again, or is
+ * tried again; and a scene that is not drawn. */
 export const COMPILE = "compile";
-const QUARANTINED = "quarantined";
-export const COMPILED = "compiled";
+const TOO_SLOW = "too_slow";
+const CRASHED = "crashed";
+export const LEFT_OUT = "scene_left_out";
+const OVER = ["compiled", "retrying"];
 
 /* By place; at most one each. */
 export type Problems = ReadonlyMap<string, Problem>;
 
 export const NO_PROBLEMS: Problems = new Map();
 
-/* Does it stand until the server says that it is over? */
-function isStanding({ code }: Problem): boolean {
-    return code === COMPILE || code === QUARANTINED;
+/* Does it stand until the server says that it is over? It is told again to whoever comes. */
+export function isStanding({ code }: { readonly code: string }): boolean {
+    return code === COMPILE || isGivenUp(code);
+}
+
+/* Is it not tried again before somebody asks for it? */
+export function isGivenUp(code: string): boolean {
+    return code === TOO_SLOW || code === CRASHED || code === LEFT_OUT;
+}
+
+/* Does it say that what stood at its place has ended? */
+export function isEnd(code: string): boolean {
+    return OVER.includes(code);
 }
 
 export function addProblem(problems: Problems, problem: Problem): Problems {
@@ -31,7 +44,12 @@ function without(problems: Problems, gone: (problem: Problem) => boolean): Probl
     return left.length < problems.size ? new Map(left) : problems;
 }
 
-/* The code at `place` compiles again. */
+/* Before everything that stands is told again. */
+export function endProblems(problems: Problems): Problems {
+    return without(problems, isStanding);
+}
+
+/* What stood at `place` is over. */
 export function endProblem(problems: Problems, place: string): Problems {
     return without(problems, (one) => isStanding(one) && one.place === cleanPlace(place));
 }

@@ -6,6 +6,7 @@ import type { Camera } from "./camera.ts";
 import { DEFAULT_CAMERA } from "./camera.ts";
 import type { SceneDocument } from "./document.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
+import type { Operation } from "./operation.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
 import { COLOR, INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
@@ -69,6 +70,17 @@ export interface FrameInfo {
     readonly height: number;
     /* Picture width over view width, 1 = every device pixel. */
     readonly scale: number;
+    /* Which round of samples it is, from 1, and how many there are. */
+    readonly round: number;
+    readonly rounds: number;
+}
+
+/* The server makes the newest state ready to be drawn. */
+export interface Compiling {
+    /* When it began, by performance.now(). */
+    readonly since: number;
+    /* Milliseconds that scenes of that size took; null: not known. */
+    readonly expected: number | null;
 }
 
 /* Rates over the last second; milliseconds and bytes of the last frames of the newest one's kind,
@@ -98,6 +110,9 @@ export interface LinkState {
     readonly retryAt: number | null;
     readonly renderer: RendererInfo | null;
     readonly frame: FrameInfo;
+    readonly compiling: Compiling | null;
+    /* A hand moves the camera or a value. */
+    readonly moving: boolean;
     readonly statistics: Statistics | null;
 }
 
@@ -109,6 +124,8 @@ export const NO_FRAME: FrameInfo = {
     width: 0,
     height: 0,
     scale: 1,
+    round: 0,
+    rounds: 1,
 };
 
 export const IDLE_LINK: LinkState = {
@@ -117,6 +134,8 @@ export const IDLE_LINK: LinkState = {
     retryAt: null,
     renderer: null,
     frame: NO_FRAME,
+    compiling: null,
+    moving: false,
     statistics: null,
 };
 
@@ -132,7 +151,17 @@ export interface Notice {
     readonly place: string;
     /* How often it came in a row. */
     readonly count: number;
+    /* What may be done about it, each a button. */
+    readonly acts: readonly NoticeAct[];
 }
+
+export type NoticeAct =
+    /* Takes the newest step back, as long as it is the one of that label. */
+    | { readonly kind: "undo"; readonly label: string }
+    /* Does all the same what was left out. */
+    | { readonly kind: "edit"; readonly label: string; readonly ops: readonly Operation[] }
+    /* What was given up there is tried again; `slow`: with more time. */
+    | { readonly kind: "retry"; readonly place: string; readonly slow: boolean };
 
 export interface NoticeState {
     readonly notices: readonly Notice[];
@@ -140,20 +169,34 @@ export interface NoticeState {
 
 const NOTICES_KEPT = 50;
 
-/* Adds a notice; one like the newest only counts up. */
+/* Adds a notice; one like the newest only counts up. Of what is wrong at a place the newest stays. */
 export function addNotice(
     notices: StoreApi<NoticeState>,
-    notice: Pick<Notice, "level" | "code" | "message"> & { readonly place?: string },
+    notice: Pick<Notice, "level" | "code" | "message"> & Partial<Pick<Notice, "place" | "acts">>,
 ): void {
     notices.setState(({ notices: old }) => {
-        const { level, code, message, place = "" } = notice;
+        const { level, code, message, place = "", acts = [] } = notice;
         const last = old.at(-1);
         if (last && last.code === code && last.message === message && last.place === place) {
-            return { notices: [...old.slice(0, -1), { ...last, count: last.count + 1 }] };
+            return { notices: [...old.slice(0, -1), { ...last, acts, count: last.count + 1 }] };
         }
-        const added = { id: (last?.id ?? 0) + 1, level, code, message, place, count: 1 };
-        return { notices: [...old, added].slice(-NOTICES_KEPT) };
+        const others =
+            level === "error" && place !== ""
+                ? old.filter((one) => one.level !== "error" || one.place !== place)
+                : old;
+        const added = { id: (last?.id ?? 0) + 1, level, code, message, place, count: 1, acts };
+        return { notices: [...others, added].slice(-NOTICES_KEPT) };
     });
+}
+
+/* Takes away what is over. */
+export function endNotices(
+    notices: StoreApi<NoticeState>,
+    isOver: (notice: Notice) => boolean,
+): void {
+    if (notices.getState().notices.some(isOver)) {
+        notices.setState(({ notices: old }) => ({ notices: old.filter((one) => !isOver(one)) }));
+    }
 }
 
 export function dismissNotice(notices: StoreApi<NoticeState>, id: number): void {

@@ -3,6 +3,7 @@
  * never part of a document, never sent to others. */
 
 import type { ListName, RecordName } from "./places.ts";
+import { WAY_NAMES, type Way } from "./placing.ts";
 
 export type Theme = "auto" | "light" | "dark";
 export type Quality = "auto" | "smooth" | "sharp";
@@ -35,6 +36,8 @@ export interface Preferences {
     readonly singleKeys: boolean;
     /* Node types last added, newest first. */
     readonly recent: readonly string[];
+    /* How what is added combines with what is selected: as it was last. */
+    readonly way: Way;
 }
 
 export const PREFERENCES: Preferences = {
@@ -45,6 +48,7 @@ export const PREFERENCES: Preferences = {
     hintsDone: [],
     singleKeys: true,
     recent: [],
+    way: "union",
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -59,6 +63,8 @@ export interface View {
     readonly subject: Subject;
     readonly hovered: string | null;
     readonly collapsed: ReadonlySet<string>;
+    /* Ids of nodes that this page shows alone; empty: it shows all. */
+    readonly isolated: readonly string[];
     /* The node whose name is being typed. */
     readonly renaming: string | null;
     readonly popup: Popup;
@@ -80,6 +86,7 @@ export const INITIAL_VIEW: View = {
     subject: { kind: "nodes" },
     hovered: null,
     collapsed: new Set(),
+    isolated: [],
     renaming: null,
     popup: null,
     code: null,
@@ -126,6 +133,9 @@ export function peel(view: View): Partial<View> | null {
     if (view.subject.kind !== "nodes") {
         return { subject: { kind: "nodes" } };
     }
+    if (view.isolated.length > 0) {
+        return { isolated: [] };
+    }
     return view.selection.length > 0 ? { selection: [] } : null;
 }
 
@@ -153,5 +163,6 @@ export function readPreferences(text: string | null): Preferences {
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,
         recent: texts(stored.recent).slice(0, 12),
+        way: one(stored.way, WAY_NAMES, PREFERENCES.way),
     };
 }

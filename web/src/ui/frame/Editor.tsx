@@ -133,7 +133,7 @@ function SceneTabs() {
 
 function InspectorRegion() {
     return (
-        <Region name={t("region.inspector")}>
+        <Region name={t("region.inspector")} className="region values-region">
             <Inspector />
         </Region>
     );

@@ -5,7 +5,7 @@ import { CircleAlert, Info, TriangleAlert, X } from "lucide-react";
 import { memo, useEffect } from "react";
 import { findResource } from "../../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
-import { dismissNotice, type Notice } from "../../model/stores.ts";
+import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.ts";
 import { showPlace } from "../acts.ts";
 import { Button, IconButton } from "../parts/Button.tsx";
 import { useDocument, useEditor, useNotices } from "../state.ts";
@@ -29,10 +29,40 @@ export function Notices() {
     );
 }
 
+function ActButton({ act, id }: { act: NoticeAct; id: number }) {
+    const editor = useEditor();
+    /* What came later is not what the message is about. */
+    const isPast = useDocument(
+        ({ history }) => act.kind === "undo" && history.undo.at(-1)?.label !== act.label,
+    );
+    if (isPast) {
+        return null;
+    }
+    const run = (): void => {
+        if (act.kind === "undo") {
+            editor.undo();
+        } else if (act.kind === "retry") {
+            editor.link.tryAgain(act.place);
+        } else {
+            editor.edit(act.ops, { label: act.label });
+        }
+        dismissNotice(editor.stores.notices, id);
+    };
+    return (
+        <Button look="outline" onClick={run}>
+            {t(
+                act.kind === "retry" && act.slow
+                    ? "notices.act.retrySlow"
+                    : `notices.act.${act.kind}`,
+            )}
+        </Button>
+    );
+}
+
 const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
     const editor = useEditor();
     const { stores } = editor;
-    const { id, level, message, place, count, code } = notice;
+    const { id, level, message, place, count, code, acts } = notice;
     const node = nodeOfPlace(place);
     const resource = resourceOfPlace(place);
     const known = useDocument(
@@ -57,6 +87,13 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
                 {message}
                 {count > 1 && ` (${t("notices.times", { count })})`}
                 {place !== "" && <div className="notice-place">{place}</div>}
+                {acts.length > 0 && (
+                    <div className="notice-acts">
+                        {acts.map((act) => (
+                            <ActButton key={act.kind} act={act} id={id} />
+                        ))}
+                    </div>
+                )}
             </div>
             {known && (
                 <Button onClick={() => showPlace(editor, place, false)}>{t("notices.show")}</Button>

@@ -5,7 +5,7 @@ import { CodePanel } from "../code/index.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
-import { useView } from "../state.ts";
+import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Region } from "./Region.tsx";
 import { Tabs } from "./Tabs.tsx";
@@ -23,10 +23,29 @@ const names = {
 
 const heights = ["76px", "46%", "82%"] as const;
 
+/* Runs when something was selected in the picture: its values are what comes next. */
+function usePicked(touched: { readonly current: string }, run: () => void): void {
+    const { view } = useEditor().stores;
+    const latest = useRef(run);
+    latest.current = run;
+    useEffect(
+        () =>
+            view.subscribe((now, before) => {
+                const changed = now.selection !== before.selection && now.selection.length > 0;
+                if (changed && touched.current === "picture") {
+                    latest.current();
+                }
+            }),
+        [view, touched],
+    );
+}
+
 export function Sheet({ picture }: { picture: ReactNode }) {
     const [tab, setTab] = useState<Tab>("scene");
     const [height, setHeight] = useState(1);
     const from = useRef<number | null>(null);
+    /* What was touched last. */
+    const touched = useRef<"picture" | "sheet">("sheet");
     const code = useView((view) => view.code);
     const tabs: readonly Tab[] = code === null ? always : [...always, "code"];
     /* Code that is opened is shown, and what was there before when it is closed. */
@@ -34,6 +53,10 @@ export function Sheet({ picture }: { picture: ReactNode }) {
         setTab((old) => (code !== null ? "code" : old === "code" ? "inspector" : old));
         setHeight((now) => (code === null ? now : 2));
     }, [code]);
+    usePicked(touched, () => {
+        setTab("inspector");
+        setHeight((now) => Math.max(1, now));
+    });
     const show = (next: Tab): void => {
         setTab(next);
         setHeight((now) => Math.max(1, now));
@@ -46,8 +69,20 @@ export function Sheet({ picture }: { picture: ReactNode }) {
     };
     return (
         <div className="stack" style={{ gridTemplateRows: `1fr ${heights[height]}` }}>
-            {picture}
-            <div className="sheet">
+            <div
+                className="sheet-picture"
+                onPointerDownCapture={() => {
+                    touched.current = "picture";
+                }}
+            >
+                {picture}
+            </div>
+            <div
+                className="sheet"
+                onPointerDownCapture={() => {
+                    touched.current = "sheet";
+                }}
+            >
                 <button
                     type="button"
                     className="sheet-grip"
@@ -76,7 +111,11 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                     aria-label={t(`tab.${tab}`)}
                     className="sheet-body"
                 >
-                    <Region name={t(names[tab])} context={tab === "scene" ? "tree" : "anywhere"}>
+                    <Region
+                        name={t(names[tab])}
+                        className={tab === "inspector" ? "region values-region" : "region"}
+                        context={tab === "scene" ? "tree" : "anywhere"}
+                    >
                         {tab === "scene" && <Scene />}
                         {tab === "inspector" && <Inspector />}
                         {tab === "setup" && <Resources />}

@@ -2,6 +2,7 @@
 /* The line below: what can be done next with what is selected, and whether all is saved. */
 import { useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { TOUCH, useMedia } from "../theme.ts";
 import { keyText } from "./keys.ts";
 import { Region } from "./Region.tsx";
 import { Saved } from "./Saved.tsx";
@@ -30,13 +31,16 @@ const something: readonly Hint[] = [
 ];
 
 export function Status() {
+    const touch = useMedia(TOUCH);
+    const touched = (gesture: TextKey): TextKey =>
+        touch && gesture === "hint.click" ? "hint.tap" : gesture;
     const selected = useView((view) => view.selection.length > 0);
     return (
         <Region as="footer" name={t("region.status")} className="status">
             <div className="status-hints">
                 {(selected ? something : nothing).map(({ key, gesture, what }) => (
                     <span key={what}>
-                        {key ? <kbd>{keyText(key)}</kbd> : gesture && <b>{t(gesture)}</b>}
+                        {key ? <kbd>{keyText(key)}</kbd> : gesture && <b>{t(touched(gesture))}</b>}
                         {t(what)}
                     </span>
                 ))}

@@ -1,18 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* Keys of the page: finds the command for a press where the focus is, and F6 between regions. */
 import { useEffect } from "react";
-import { commandForKey, runCommand } from "../../model/commandLookup.ts";
+import { commandForKey, runCommand, type Typing } from "../../model/commandLookup.ts";
 import type { Context } from "../../model/commands.ts";
 import { addNotice } from "../../model/stores.ts";
+import { text } from "../../model/texts.ts";
 import type { Editor } from "../editor.ts";
+import { forgetKept, keepForPalette } from "../palettes/ahead.ts";
 
 function contextOf(element: Element | null): Context {
     const context = element?.closest<HTMLElement>("[data-context]")?.dataset.context;
     return context === "view" || context === "tree" ? context : "anywhere";
 }
 
-function isTyping(element: Element | null): boolean {
-    return element?.matches("input, textarea, [contenteditable='true']") ?? false;
+/* Fields of the document say in `data-field` whether their text differs from it. */
+function typingIn(element: Element | null): Typing {
+    if (!element?.matches("input, textarea, [contenteditable='true']")) {
+        return "no";
+    }
+    return element.matches("[data-field='unchanged']") ? "unchanged" : "text";
 }
 
 /* Moves the focus to the next region that is on screen. */
@@ -27,6 +33,11 @@ function cycleRegions(backwards: boolean): void {
     (inner ?? next)?.focus();
 }
 
+/* Over the inspector Backspace is for values, which its rows take; it never deletes. */
+function isResetOnly(event: KeyboardEvent): boolean {
+    return event.key === "Backspace" && document.querySelector(".values-region:hover") !== null;
+}
+
 export function useKeys(editor: Editor): void {
     useEffect(() => {
         const down = (event: KeyboardEvent): void => {
@@ -39,28 +50,41 @@ export function useKeys(editor: Editor): void {
                 return;
             }
             const focus = document.activeElement;
-            /* What floats keeps its own keys; only its Escape reaches it. */
-            if (focus?.closest("[role='dialog'], [role='menu'], [role='listbox']")) {
+            /* What floats keeps its own keys, but for what acts in an unchanged field of a popover. */
+            const floats = focus?.closest("[role='dialog'], [role='menu'], [role='listbox']");
+            const typing = typingIn(focus);
+            if (floats && !(floats.matches(".popover") && typing === "unchanged")) {
                 return;
             }
             const { preferences } = editor.stores.view.getState();
-            const command = commandForKey(
-                event,
-                contextOf(focus),
-                isTyping(focus),
-                preferences.singleKeys,
-            );
-            if (command === null) {
+            const command = commandForKey(event, contextOf(focus), typing, preferences.singleKeys);
+            if (command === null || (floats && command.inFields !== "unchanged")) {
                 return;
             }
             event.preventDefault();
-            const reason = runCommand(editor, command);
+            const reason = isResetOnly(event)
+                ? text("why.pointerBackspace")
+                : runCommand(editor, command);
             if (reason !== null && command.id !== "escape") {
                 addNotice(editor.stores.notices, { level: "info", code: "why", message: reason });
             }
         };
+        const early = (event: KeyboardEvent): void => {
+            const { popup } = editor.stores.view.getState();
+            const inside = document.activeElement?.closest("[role='dialog']");
+            if (popup !== null && !inside && keepForPalette(event, popup)) {
+                event.preventDefault();
+                event.stopPropagation();
+            }
+        };
+        const stop = editor.stores.view.subscribe(({ popup }) => popup === null && forgetKept());
+        window.addEventListener("keydown", early, true);
         window.addEventListener("keydown", down);
-        return () => window.removeEventListener("keydown", down);
+        return () => {
+            stop();
+            window.removeEventListener("keydown", early, true);
+            window.removeEventListener("keydown", down);
+        };
     }, [editor]);
 }
 

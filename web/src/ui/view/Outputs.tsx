@@ -17,6 +17,15 @@ export function Outputs() {
     const aov = useView((view) => view.aov);
     const name = outputTitle(aov);
     return (
+        <div className="outputs-place">
+            <Shown aov={aov} name={name} />
+            <Legend aov={aov} />
+        </div>
+    );
+}
+
+function Shown({ aov, name }: { aov: string; name: string }) {
+    return (
         <div className="glass outputs" data-other={aov !== COLOR || undefined}>
             <Menu
                 align="end"
@@ -35,6 +44,31 @@ export function Outputs() {
                 <Choices />
             </Menu>
             {aov !== COLOR && <Back />}
+        </div>
+    );
+}
+
+/* What the colours of an output stand for, where it has a scale. */
+function Legend({ aov }: { aov: string }) {
+    const schema = useDocument((state) => state.schema);
+    const scale = schema.outputs.find(({ name }) => name === aov)?.scale ?? null;
+    if (scale === null) {
+        return null;
+    }
+    const count = scale.greatest;
+    return (
+        <div
+            className="glass outputs-legend"
+            data-testid="legend"
+            role="img"
+            aria-label={t("output.legend", { count })}
+        >
+            <span>0</span>
+            <span
+                className="outputs-ramp"
+                style={{ background: `linear-gradient(to right, ${scale.colors.join(", ")})` }}
+            />
+            <span>{t("output.more", { count })}</span>
         </div>
     );
 }

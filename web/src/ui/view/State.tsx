@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What is honest about the picture on screen: moving, still, lossless, compiling, by which
- * renderer. */
+/* What is honest about the picture on screen: how it stands to the newest state, and by which
+ * renderer it was drawn. */
 import { CircleAlert, Cpu } from "lucide-react";
+import { useEffect, useState } from "react";
+import type { Problem } from "../../model/operation.ts";
+import { type Pill, pillOf } from "../../model/pill.ts";
 import { brokenCode } from "../../model/problems.ts";
+import type { Compiling } from "../../model/stores.ts";
 import { showPlace } from "../acts.ts";
 import { Tip } from "../parts/Tip.tsx";
 import { useDocument, useEditor, useLink } from "../state.ts";
@@ -10,24 +14,67 @@ import { t } from "../texts.ts";
 import "./view.css";
 
 export function StatePill() {
-    const broken = useDocument(({ problems }) => brokenCode(problems).length > 0);
-    const state = useLink(({ frame }) =>
-        frame.stale ? (broken ? "kept" : "compiling") : frame.state,
-    );
-    const percent = useLink(({ frame }) => Math.round(frame.scale * 100));
-    const revision = useLink(({ frame }) => frame.revision);
+    const problem = useDocument(({ problems }) => brokenCode(problems)[0] ?? null);
+    const revision = useDocument((state) => state.revision);
+    const waiting = useDocument((state) => state.waiting);
+    const { connection, frame, moving, compiling } = useLink((state) => state);
+    const pill = pillOf({
+        connection,
+        frame,
+        revision,
+        waiting,
+        moving,
+        compiling: compiling !== null,
+        problem,
+    });
     return (
         <span
             className="glass pill"
             data-testid="state"
-            data-state={state}
-            data-revision={revision}
+            data-state={pill.state}
+            data-revision={frame.revision}
             role="status"
         >
             <span className="pill-dot" />
-            {t(`state.${state}`, { percent })}
+            {pill.state === "compiling" && compiling !== null ? (
+                <CompilingText {...compiling} />
+            ) : (
+                textOf(pill, frame.state === "none", problem)
+            )}
         </span>
     );
+}
+
+function textOf(pill: Pill, empty: boolean, problem: Problem | null): string {
+    const { state, behind, percent, round, rounds } = pill;
+    switch (state) {
+        case "offline":
+            return t(empty ? "state.offlineEmpty" : "state.offline");
+        case "givenUp":
+            return t(problem?.code === "too_slow" ? "state.tooSlow" : "state.crashed");
+        case "behind":
+            return t("state.behind", { count: behind });
+        case "moving":
+            return t("state.moving", { percent });
+        case "refining":
+            return round > 0 ? t("state.round", { round, rounds }) : t("state.refining");
+        default:
+            return t(`state.${state}`);
+    }
+}
+
+/* "compiling 3 s of about 6 s" */
+function CompilingText({ since, expected }: Compiling) {
+    const [now, setNow] = useState(performance.now());
+    useEffect(() => {
+        const timer = setInterval(() => setNow(performance.now()), 500);
+        return () => clearInterval(timer);
+    }, []);
+    const elapsed = Math.max(0, Math.round((now - since) / 1000));
+    const about = expected === null ? 0 : Math.round(expected / 1000);
+    return about >= 1 && elapsed <= 2 * about
+        ? t("state.compilingOf", { elapsed, about })
+        : t("state.compiling", { elapsed });
 }
 
 /* The picture is that of the last code that compiled; a press leads to what does not. */

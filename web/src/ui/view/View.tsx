@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
  * picks; React draws only what lies over it. */
-import { useEffect, useRef, useState } from "react";
+import { useCallback, useEffect, useRef, useState } from "react";
 import { attachInput } from "../../overlay/input.ts";
 import { later } from "../later.tsx";
 import { Button } from "../parts/Button.tsx";
-import { NodeMenu } from "../scene/NodeMenu.tsx";
+import type { MenuPlace } from "../parts/Menu.tsx";
+import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { TOUCH, useMedia } from "../theme.ts";
 import { Crumbs } from "./Crumbs.tsx";
 import { watchHover } from "./hover.ts";
+import { Isolation } from "./Isolation.tsx";
 import { inputActions } from "./input.ts";
 import { Outputs } from "./Outputs.tsx";
+import { Poster } from "./Poster.tsx";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
@@ -22,6 +26,7 @@ export function View() {
     return (
         <div className="view">
             <Picture />
+            <Poster />
             <Empty />
             <Strip />
             <div className="view-top">
@@ -31,6 +36,7 @@ export function View() {
             </div>
             <div className="view-bottom">
                 <Aim />
+                <Isolation />
                 <Hint />
                 <div className="view-pills">
                     <StatePill />
@@ -47,7 +53,7 @@ function Picture() {
     const editor = useEditor();
     const place = useRef<HTMLDivElement>(null);
     const aiming = useView((view) => view.aiming);
-    const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
+    const { menu, open, close } = usePictureMenu();
     useEffect(() => {
         const element = place.current;
         if (element === null) {
@@ -55,7 +61,7 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
-        const stop = attachInput(element, inputActions(editor, element, setMenu));
+        const stop = attachInput(element, inputActions(editor, element, open));
         const rest = watchHover(editor, element);
         return () => {
             rest();
@@ -63,7 +69,7 @@ function Picture() {
             hide();
             editor.setPicture(null);
         };
-    }, [editor]);
+    }, [editor, open]);
     return (
         <>
             <div
@@ -81,17 +87,44 @@ function Picture() {
             <p id="view-help" className="unseen">
                 {t("view.help")}
             </p>
-            <NodeMenu at={menu} onClose={() => setMenu(null)} />
+            <NodeMenu at={menu} target={menu?.target} onClose={close} />
         </>
     );
+}
+
+interface PictureMenu extends MenuPlace {
+    target: Target;
+}
+
+/* The menu at the pointer. What `open` answers says what was found there; after the menu was closed
+ * or opened elsewhere it does nothing. */
+function usePictureMenu() {
+    const [menu, setMenu] = useState<PictureMenu | null>(null);
+    const newest = useRef(0);
+    const open = useCallback((at: MenuPlace) => {
+        newest.current += 1;
+        const mine = newest.current;
+        setMenu({ ...at, target: "asked" });
+        return (settle: () => Target): void => {
+            if (newest.current === mine) {
+                setMenu({ ...at, target: settle() });
+            }
+        };
+    }, []);
+    const close = useCallback(() => {
+        newest.current += 1;
+        setMenu(null);
+    }, []);
+    return { menu, open, close };
 }
 
 /* What the next click does, when it is not to select. */
 function Aim() {
     const aiming = useView((view) => view.aiming);
+    const touch = useMedia(TOUCH);
     return (
         <div role="status" className="view-aim">
-            {aiming && <p className="glass view-hint">{t("view.aim")}</p>}
+            {aiming && <p className="glass view-hint">{t(touch ? "view.aimTouch" : "view.aim")}</p>}
         </div>
     );
 }
@@ -119,12 +152,15 @@ function Hint() {
     const done = useView((view) => view.preferences.hintsDone);
     const pictured = useLink((state) => state.frame.state !== "none");
     const next = !done.includes("drag") ? "drag" : !done.includes("click") ? "click" : null;
+    const touch = useMedia(TOUCH);
     useFollowed(next);
     if (!pictured || next === null) {
         return null;
     }
     return (
-        <p className="glass view-hint">{t(next === "drag" ? "view.hintDrag" : "view.hintClick")}</p>
+        <p className="glass view-hint">
+            {t(next === "drag" ? "view.hintDrag" : touch ? "view.hintTap" : "view.hintClick")}
+        </p>
     );
 }
 

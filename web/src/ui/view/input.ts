@@ -8,6 +8,9 @@ import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import type { InputActions } from "../../overlay/input.ts";
 import type { Editor } from "../editor.ts";
+import type { MenuPlace } from "../parts/Menu.tsx";
+import type { Target } from "../scene/NodeMenu.tsx";
+import { questions } from "./questions.ts";
 
 /* The same place clicked again climbs to the parent. */
 const SAME_PLACE = 4;
@@ -18,21 +21,14 @@ interface Click {
     node: string | null;
 }
 
-export function inputActions(
-    editor: Editor,
-    element: HTMLElement,
-    onMenu: (at: { x: number; y: number }) => void,
-): InputActions {
-    const { stores, link } = editor;
+/* Opens the menu at a point of the window; what it answers is told what was found there. */
+type OpenMenu = (at: MenuPlace) => (settle: () => Target) => void;
+
+export function inputActions(editor: Editor, element: HTMLElement, onMenu: OpenMenu): InputActions {
+    const { stores } = editor;
+    const pick = questions(editor, element);
     let last: Click | null = null;
 
-    const pick = async (x: number, y: number): Promise<string | null> => {
-        try {
-            return (await link.pick(x, y)).node;
-        } catch {
-            return null; /* offline: the picture stays, there is nobody to ask */
-        }
-    };
     const choose = (node: string | null, mode: SelectMode): void =>
         stores.view.setState(({ selection }) => ({
             selection: select(selection, node, mode),
@@ -40,7 +36,7 @@ export function inputActions(
         }));
     const aim = async (x: number, y: number): Promise<void> => {
         stores.view.setState({ aiming: false });
-        const picked = await link.pick(x, y).catch(() => null);
+        const picked = await pick(x, y);
         if (picked?.position) {
             focusOn(editor, vectorOf(picked.position));
         }
@@ -50,7 +46,11 @@ export function inputActions(
             await aim(x, y);
             return;
         }
-        const node = await pick(x, y);
+        const picked = await pick(x, y);
+        if (picked === null) {
+            return;
+        }
+        const { node } = picked;
         const { document } = stores.document.getState();
         const { selection } = stores.view.getState();
         const near = last !== null && Math.hypot(x - last.x, y - last.y) < SAME_PLACE;
@@ -60,21 +60,26 @@ export function inputActions(
         last = { x, y, node };
         choose(parent ? parent.id : node, mode);
     };
+    /* The menu is there at once; what it is about follows. */
+    const menu = async (x: number, y: number): Promise<void> => {
+        const box = element.getBoundingClientRect();
+        const settle = onMenu({ x: box.left + x, y: box.top + y });
+        const picked = await pick(x, y);
+        settle(() => {
+            const node = picked?.node ?? null;
+            if (node !== null && !stores.view.getState().selection.includes(node)) {
+                choose(node, "replace");
+            }
+            return node === null ? "nothing" : "selection";
+        });
+    };
     return {
         camera: () => stores.camera.getState().camera,
         moveCamera: (camera) => moveCamera(editor, () => camera),
         click: (x, y, mode) => void click(x, y, mode),
-        menu: async (x, y) => {
-            const node = await pick(x, y);
-            const { selection } = stores.view.getState();
-            if (node !== null && !selection.includes(node)) {
-                choose(node, "replace");
-            }
-            const box = element.getBoundingClientRect();
-            onMenu({ x: box.left + x, y: box.top + y });
-        },
+        menu: (x, y) => void menu(x, y),
         frame: async (x, y) => {
-            const node = await pick(x, y);
+            const node = (await pick(x, y))?.node ?? null;
             const command = commandById("camera.frame");
             if (node !== null && command) {
                 choose(node, "replace");
