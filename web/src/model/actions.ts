@@ -14,11 +14,11 @@ import {
     viewFrom,
 } from "./camera.ts";
 import { clip, paste } from "./clipboard.ts";
-import { everyNode, type SceneDocument } from "./document.ts";
-import { type Edit, movable, othersOf, reorder, setVisible } from "./edits.ts";
+import { everyNode, type SceneDocument, topmost } from "./document.ts";
+import { type Edit, movable, nameAll, removeNodes, reorder, setVisible } from "./edits.ts";
 import { modelNamed } from "./models.ts";
 import type { Operation } from "./operation.ts";
-import type { Schema } from "./schema.ts";
+import { limitOf, type Schema } from "./schema.ts";
 import { addNotice, type Stores } from "./stores.ts";
 import { text } from "./texts.ts";
 import { dot, subtract, type Vector } from "./transform.ts";
@@ -106,6 +106,10 @@ export const needsLens: Reason = (app) => {
     return needsScene(app) ?? (Number(aperture ?? 0) > 0 ? null : text("why.noLens"));
 };
 
+export function isIsolating(app: App): boolean {
+    return app.stores.view.getState().isolated.length > 0;
+}
+
 export function hiddenNodes(document: SceneDocument): string[] {
     return everyNode(document).filter((id) => document.nodes.get(id)?.common.visible === false);
 }
@@ -119,6 +123,26 @@ export function perform(app: App, edit: Edit): boolean {
     }
     app.stores.view.setState({ selection: edit.select, subject: { kind: "nodes" } });
     return true;
+}
+
+/* Tells what is gone, with a way back beside it. */
+export function tellDeleted(app: Pick<App, "stores">, name: string, label: string): void {
+    const message = text("edit.deleted", { name: name.charAt(0).toUpperCase() + name.slice(1) });
+    addNotice(app.stores.notices, {
+        level: "info",
+        code: "deleted",
+        message,
+        acts: [{ kind: "undo", label }],
+    });
+}
+
+export function deleteNodes(app: App): void {
+    const document = documentOf(app);
+    const ids = document ? movable(document, selectionOf(app)) : [];
+    const edit = document && removeNodes(document, ids);
+    if (document && edit && perform(app, edit)) {
+        tellDeleted(app, nameAll(document, ids), edit.label);
+    }
 }
 
 export function onDocument(
@@ -172,7 +196,12 @@ export function hideNodes(app: App): void {
     onDocument((scene) => setVisible(scene, ids, hidden))(app);
 }
 
+/* Ends the isolation; where nothing is isolated, shows what is hidden. */
 export function showAll(app: App): void {
+    if (isIsolating(app)) {
+        app.stores.view.setState({ isolated: [] });
+        return;
+    }
     const document = documentOf(app);
     const ids = document ? hiddenNodes(document) : [];
     if (document && ids.length > 0) {
@@ -180,11 +209,13 @@ export function showAll(app: App): void {
     }
 }
 
-export function hideOthers(app: App): void {
-    const document = documentOf(app);
-    const others = document ? othersOf(document, selectionOf(app)) : [];
-    if (document && others.length > 0) {
-        app.edit(setVisible(document, others, false).ops, { label: "hide others" });
+/* This page shows the selection alone, or all again. No edit. */
+export function isolate(app: App): void {
+    const { document, schema } = app.stores.document.getState();
+    if (document) {
+        const most = limitOf(schema, "isolated", 256);
+        const chosen = topmost(document, selectionOf(app)).slice(0, most);
+        app.stores.view.setState({ isolated: isIsolating(app) ? [] : chosen });
     }
 }
 

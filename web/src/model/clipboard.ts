@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Nodes as text, with what they name, so that they can be pasted into another scene too. */
-import { spotFor } from "./add.ts";
 import { findResource, type SceneDocument, type SceneNode } from "./document.ts";
 import { printNode, printResource } from "./documentJson.ts";
 import { copyInto, type Edit, freshIds, movable, renamed } from "./edits.ts";
 import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName } from "./places.ts";
+import { placing } from "./placing.ts";
 import { nodeType, type Schema } from "./schema.ts";
 import { listNamedBy } from "./usage.ts";
 
@@ -113,11 +113,11 @@ export function paste(
     });
     const holds = ({ list, name }: Named): boolean =>
         known.has(`/${list}/${name}`) || findResource(document, list, name) !== null;
-    const spot = spotFor(document, schema, selection);
+    const { ops, spot } = placing(document, schema, selection, null, "union");
     const fitting = content.nodes.map((node) => withoutStrangers(schema, node, holds));
-    const copies = copyInto(fitting, () => spot, fresh);
+    const copies = copyInto(document, fitting, () => spot, fresh);
     return {
-        ops: [...inserts, ...copies.ops],
+        ops: [...inserts, ...ops, ...copies.ops],
         select: copies.select,
         label: copies.select.length === 1 ? "paste" : `paste ${fitting.length} nodes`,
     };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Finding commands: by id, by a key press, by words; and running one. */
 import type { App } from "./actions.ts";
-import { COMMANDS, type Command, type Context } from "./commands.ts";
+import { ABSENT, type Absent, COMMANDS, type Command, type Context } from "./commands.ts";
 import { isSingleKey, type KeyPress, nameOfPress } from "./keys.ts";
 import { search } from "./search.ts";
 
@@ -16,19 +16,27 @@ export function overlap(a: Context, b: Context): boolean {
     return a === b || a === "anywhere" || b === "anywhere";
 }
 
-/* The command for a key press with the focus in `where`; null: none. `typing`: the focus is in
- * something that takes text. `singleKeys` false: keys without Ctrl or Alt do nothing. */
+/* What has the focus: nothing that takes text, a field as the document has it, or a text that is
+ * being typed. */
+export type Typing = "no" | "unchanged" | "text";
+
+function allows({ inFields }: Command, typing: Typing): boolean {
+    return typing === "no" || inFields === true || (inFields === typing && typing === "unchanged");
+}
+
+/* The command for a key press with the focus in `where`; null: none. `singleKeys` false: keys
+ * without Ctrl or Alt do nothing. */
 export function commandForKey(
     press: KeyPress,
     where: Context,
-    typing: boolean,
+    typing: Typing,
     singleKeys: boolean,
 ): Command | null {
     const name = nameOfPress(press);
     const command = COMMANDS.find(
         ({ keys, when }) => keys.includes(name) && (when === "anywhere" || when === where),
     );
-    if (!command || (typing && !command.inFields)) {
+    if (!command || !allows(command, typing)) {
         return null;
     }
     return isSingleKey(name) && !singleKeys ? null : command;
@@ -43,12 +51,19 @@ export function runCommand(app: App, command: Command): string | null {
     return reason;
 }
 
+/* Answers for what there is not; none while nothing is asked for. */
+export function searchAbsent(query: string): readonly Absent[] {
+    return query.trim() === ""
+        ? []
+        : search(ABSENT, query, ({ title, words }) => ({ name: title, words }));
+}
+
 /* Commands for the palette, best match first. */
 export function searchCommands(query: string): readonly Command[] {
     const offered = COMMANDS.filter(({ keyOnly }) => !keyOnly);
-    return search(offered, query, ({ title, group, id }) => ({
+    return search(offered, query, ({ title, group, id, words }) => ({
         name: title,
-        words: id.replaceAll(".", " "),
+        words: `${id.replaceAll(".", " ")} ${words}`,
         kind: group,
     }));
 }

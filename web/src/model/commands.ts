@@ -6,13 +6,15 @@ import {
     canReorder,
     climb,
     copyNodes,
+    deleteNodes,
     documentOf,
     dollyBy,
     editModel,
     frameNodes,
     hiddenNodes,
     hideNodes,
-    hideOthers,
+    isIsolating,
+    isolate,
     lookFrom,
     needsInstance,
     needsLens,
@@ -31,7 +33,7 @@ import {
     selectionOf,
     showAll,
 } from "./actions.ts";
-import { dissolve, duplicate, removeNodes, reorder, wrap } from "./edits.ts";
+import { dissolve, duplicate, reorder, wrap } from "./edits.ts";
 import { makeModel, unpackModel } from "./models.ts";
 import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
@@ -44,12 +46,14 @@ export type Context = "anywhere" | "view" | "tree";
 export interface Command {
     readonly id: string;
     readonly title: string;
+    /* Other words that it is looked for by. */
+    readonly words: string;
     readonly group: "scene" | "edit" | "select" | "camera" | "view" | "help";
     /* "Ctrl+Shift+Z"; the first is shown. Ctrl is Cmd on a Mac. */
     readonly keys: readonly string[];
     readonly when: Context;
-    /* Also acts while a text field has the focus. */
-    readonly inFields: boolean;
+    /* Also acts while a text field has the focus; `unchanged`: only while nothing was typed there. */
+    readonly inFields: boolean | "unchanged";
     /* Not in the palette: it makes sense as a key only. */
     readonly keyOnly: boolean;
     /* Why it cannot run now, for the tooltip; null: it can. */
@@ -61,10 +65,71 @@ export interface Command {
 
 const THEMES: readonly Theme[] = ["auto", "light", "dark"];
 
+/* What people look for and there is not: an honest answer each, and the way there is. */
+export interface Absent {
+    readonly words: string;
+    readonly title: string;
+    readonly answer: string;
+}
+
+export const ABSENT: readonly Absent[] = [
+    {
+        words: "share link invite collaborate embed",
+        title: "Share",
+        answer: "The address of this page is the link: whoever opens it edits along.",
+    },
+    {
+        words: "move translate rotate scale turn drag gizmo handle grab",
+        title: "Move, rotate, scale",
+        answer: "Select a node, then drag or type its numbers under Place.",
+    },
+    {
+        words: "export mesh stl obj gltf glb 3mf print",
+        title: "Export a mesh",
+        answer: "There are no meshes: a scene is downloaded as JSON, a picture as PNG, JPEG or NPY.",
+    },
+    {
+        words: "measure ruler distance dimension",
+        title: "Measure",
+        answer: "There is no ruler. The outputs depth and position give numbers for each pixel.",
+    },
+    {
+        words: "grid snap axes ground",
+        title: "Grid and snapping",
+        answer: "There is no grid. Ctrl with a drag of a number goes in steps.",
+    },
+    {
+        words: "graph nodes wires",
+        title: "Node graph",
+        answer: "There is no graph: the tree of the scene is all there is.",
+    },
+    {
+        words: "equation formula implicit function parametric expression math",
+        title: "Equations",
+        answer: "Write a primitive: a distance function in GLSL, with parameters of its own.",
+    },
+    {
+        words: "history versions checkpoint timeline",
+        title: "History",
+        answer: "Ctrl+Z takes your steps back, also after a reload. There is no list of them.",
+    },
+    {
+        words: "animation animate keyframe video play",
+        title: "Animation",
+        answer: "There is none: scenes stand still.",
+    },
+    {
+        words: "texture uv image map",
+        title: "Textures",
+        answer: "There are none on surfaces. Write a shader, or set a picture as the backdrop.",
+    },
+];
+
 type Row = Pick<Command, "id" | "title" | "group" | "run"> & Partial<Command>;
 
 const row = (part: Row): Command => ({
     keys: [],
+    words: "",
     when: "anywhere",
     inFields: false,
     keyOnly: false,
@@ -96,6 +161,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.add",
+        words: "new insert create shape object primitive",
         title: "Add …",
         group: "edit",
         keys: ["Shift+A"],
@@ -103,30 +169,36 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "edit.undo",
+        words: "back history revert",
         title: "Undo",
         group: "edit",
         keys: ["Ctrl+Z"],
+        inFields: "unchanged",
         whyNot: (app) => (app.stores.document.getState().canUndo ? null : text("why.nothingUndo")),
         run: (app) => app.undo(),
     }),
     row({
         id: "edit.redo",
+        words: "forward history again",
         title: "Redo",
         group: "edit",
         keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
+        inFields: "unchanged",
         whyNot: (app) => (app.stores.document.getState().canRedo ? null : text("why.nothingRedo")),
         run: (app) => app.redo(),
     }),
     row({
         id: "node.delete",
+        words: "remove erase",
         title: "Delete",
         group: "edit",
         keys: ["Delete", "Backspace"],
         whyNot: needsMovable(1),
-        run: onDocument(removeNodes),
+        run: deleteNodes,
     }),
     row({
         id: "node.duplicate",
+        words: "copy clone array",
         title: "Duplicate",
         group: "edit",
         keys: ["Ctrl+D"],
@@ -149,7 +221,7 @@ export const COMMANDS: readonly Command[] = [
         whyNot: needsMovable(1),
         run: (app) => {
             copyNodes(app);
-            onDocument(removeNodes)(app);
+            deleteNodes(app);
         },
     }),
     row({
@@ -161,6 +233,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.rename",
+        words: "name label",
         title: "Rename",
         group: "edit",
         keys: ["F2"],
@@ -169,6 +242,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.group",
+        words: "folder parent",
         title: "Wrap in a group",
         group: "edit",
         keys: ["Ctrl+G"],
@@ -177,6 +251,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.dissolve",
+        words: "ungroup flatten",
         title: "Dissolve, keep the children",
         group: "edit",
         keys: ["Ctrl+Shift+G"],
@@ -194,6 +269,7 @@ export const COMMANDS: readonly Command[] = [
         row({
             id: `node.wrap.${type}`,
             title: `Wrap in ${words}`,
+            words: "boolean csg combine merge subtract cut add intersect blend",
             group: "edit",
             keys: [key],
             whyNot: needsMovable(2),
@@ -202,6 +278,7 @@ export const COMMANDS: readonly Command[] = [
     ),
     row({
         id: "node.wrap",
+        words: "modify modifier boolean array mirror twist",
         title: "Wrap in …",
         group: "edit",
         keys: ["W"],
@@ -210,6 +287,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "model.make",
+        words: "component symbol prefab reuse library save",
         title: "Make a model of it",
         group: "edit",
         keys: ["Ctrl+Alt+K"],
@@ -232,6 +310,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.up",
+        words: "order move earlier",
         title: "Move up among its siblings",
         group: "edit",
         keys: ["Alt+Up"],
@@ -240,6 +319,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.down",
+        words: "order move later",
         title: "Move down among its siblings",
         group: "edit",
         keys: ["Alt+Down"],
@@ -248,6 +328,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "node.hide",
+        words: "visibility mute eye",
         title: "Hide or show",
         group: "edit",
         keys: ["H"],
@@ -255,12 +336,13 @@ export const COMMANDS: readonly Command[] = [
         run: hideNodes,
     }),
     row({
-        id: "node.hideOthers",
-        title: "Hide everything else",
+        id: "node.isolate",
+        words: "solo alone hide others",
+        title: "Isolate: show only the selection, or everything again",
         group: "edit",
         keys: ["Shift+H"],
-        whyNot: needsSelection,
-        run: hideOthers,
+        whyNot: (app) => (isIsolating(app) ? null : needsSelection(app)),
+        run: isolate,
     }),
     row({
         id: "node.showAll",
@@ -269,12 +351,15 @@ export const COMMANDS: readonly Command[] = [
         keys: ["Alt+H"],
         whyNot: (app) => {
             const document = documentOf(app);
-            return document && hiddenNodes(document).length > 0 ? null : text("why.allVisible");
+            return isIsolating(app) || (document && hiddenNodes(document).length > 0)
+                ? null
+                : text("why.allVisible");
         },
         run: showAll,
     }),
     row({
         id: "select.all",
+        words: "everything",
         title: "Select all parts",
         group: "select",
         keys: ["Ctrl+A"],
@@ -304,6 +389,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "camera.frame",
+        words: "zoom fit focus look",
         title: "Frame the selection",
         group: "camera",
         keys: ["F"],
@@ -314,6 +400,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "camera.home",
+        words: "zoom fit all reset view",
         title: "Frame everything",
         group: "camera",
         keys: ["Home"],
@@ -328,6 +415,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "camera.save",
+        words: "view store viewpoint",
         title: "Save this camera to the scene",
         group: "camera",
         run: saveCamera,
@@ -398,6 +486,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "view.output",
+        words: "aov buffer pass debug normals depth",
         title: "Next output: colour, depth, normals …",
         group: "view",
         keys: ["Z"],
@@ -416,6 +505,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "view.chrome",
+        words: "fullscreen presentation panels zen",
         title: "Hide or show the panels",
         group: "view",
         keys: ["Ctrl+\\"],
@@ -425,12 +515,14 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "view.statistics",
+        words: "performance fps speed timing",
         title: "Statistics",
         group: "view",
         run: show({ popup: "statistics" }),
     }),
     row({
         id: "view.theme",
+        words: "dark light mode appearance",
         title: "Next theme: as the system, light, dark",
         group: "view",
         whyNot: never,
@@ -448,6 +540,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.open",
+        words: "load file example start home",
         title: "Scenes",
         group: "scene",
         keys: ["Ctrl+O"],
@@ -456,6 +549,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.save",
+        words: "store sync",
         title: "Is it saved?",
         group: "scene",
         keys: ["Ctrl+S"],
@@ -464,12 +558,14 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.download",
+        words: "export share file backup json",
         title: "Download as JSON",
         group: "scene",
         run: (app) => app.download(),
     }),
     row({
         id: "scene.picture",
+        words: "export render image screenshot png jpg save",
         title: "Download a picture …",
         group: "scene",
         keys: ["Ctrl+Shift+S"],
@@ -478,6 +574,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.upload",
+        words: "import load file open json",
         title: "Open a scene file",
         group: "scene",
         whyNot: never,
@@ -485,6 +582,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "help.reference",
+        words: "documentation manual docs types",
         title: "Reference of all types",
         group: "help",
         keys: ["F1"],
@@ -493,6 +591,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "help.keys",
+        words: "shortcuts gestures keyboard cheat sheet",
         title: "Keys and gestures",
         group: "help",
         keys: ["?"],

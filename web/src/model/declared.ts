@@ -12,12 +12,28 @@ import {
 } from "./schema.ts";
 
 /* HLSL's spellings. */
-const OTHER_NAMES: Record<string, ParamType> = { float2: "vec2", float3: "vec3", float4: "vec4" };
+const OTHER_NAMES: Record<string, ParamType> = {
+    float2: "vec2",
+    float3: "vec3",
+    float4: "vec4",
+    int2: "ivec2",
+    int3: "ivec3",
+    int4: "ivec4",
+};
 
 const IDENTIFIER = /^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]*$/;
 
 /* Types that count along a range. */
-const RANGED: readonly ParamType[] = ["float", "int", "vec2", "vec3", "vec4"];
+const RANGED: readonly ParamType[] = [
+    "float",
+    "int",
+    "vec2",
+    "vec3",
+    "vec4",
+    "ivec2",
+    "ivec3",
+    "ivec4",
+];
 
 export function mayHaveRange(type: string): boolean {
     return RANGED.includes(typeOf(type));

@@ -291,6 +291,11 @@ export function freeId(
     }
 }
 
+/* A name as it is, where it is free. */
+export function plainName(document: SceneDocument, list: ListName, name: string): string {
+    return findResource(document, list, name) === null ? name : freeName(document, list, name);
+}
+
 /* The first free name of a list; what no name can hold becomes "-". */
 export function freeName(document: SceneDocument, list: ListName, stem: string): string {
     const plain = stem.replace(/[^A-Za-z0-9_.-]+/g, "-").replace(/^-+|-+$|-\d+$/g, "");
@@ -300,4 +305,15 @@ export function freeName(document: SceneDocument, list: ListName, stem: string):
             return `${base}-${n}`;
         }
     }
+}
+
+/* Whether a page that shows only `isolated` leaves the node out: it is neither one of them, nor
+ * below one, nor around one. In other trees, of models, nothing is. */
+export function isApart(document: SceneDocument, isolated: readonly string[], id: string): boolean {
+    const tree = pathTo(document, id)[0]?.id;
+    const here = isolated.filter((other) => pathTo(document, other)[0]?.id === tree);
+    return (
+        here.length > 0 &&
+        !here.some((other) => isInside(document, id, other) || isInside(document, other, id))
+    );
 }

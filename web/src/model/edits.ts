@@ -5,10 +5,7 @@ import {
     freeId,
     nodeLabel,
     parentOf,
-    pathTo,
-    preorder,
     type SceneDocument,
-    type SceneNode,
     siblingAfter,
     topmost,
 } from "./document.ts";
@@ -16,7 +13,7 @@ import { printNode } from "./documentJson.ts";
 import { isObject, type JsonObject, listOf } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { transformOf, transformUnder } from "./transform.ts";
-import { tidy } from "./units.ts";
+import { tidy, tidyAngle } from "./units.ts";
 
 export interface Edit {
     readonly ops: readonly Operation[];
@@ -54,6 +51,23 @@ export function freshIds(document: SceneDocument): (stem: string) => string {
     };
 }
 
+/* Names nodes as people read them: "Round cylinder", and "Round cylinder 2" where that is taken. */
+export function freshNames(document: SceneDocument): (stem: string) => string {
+    const taken = new Set(
+        [...document.nodes.values()].map((node) => nodeLabel(node).toLowerCase()),
+    );
+    return (stem) => {
+        const words = wordsOf(stem).replace(/ \d+$/, "");
+        const base = `${words.charAt(0).toUpperCase()}${words.slice(1)}`;
+        let name = base;
+        for (let n = 2; taken.has(name.toLowerCase()); n++) {
+            name = `${base} ${n}`;
+        }
+        taken.add(name.toLowerCase());
+        return name;
+    };
+}
+
 /* Puts a new node of `type` around the given ones, at the place of the first. */
 export function wrap(document: SceneDocument, ids: readonly string[], type: string): Edit {
     const inside = movable(document, ids);
@@ -66,7 +80,7 @@ export function wrap(document: SceneDocument, ids: readonly string[], type: stri
         op: "insert",
         into: `/nodes/${first.parent}`,
         before: first.id,
-        value: { id, type },
+        value: { id, type, name: freshNames(document)(type) },
     };
     const parent = first.parent;
     const moves = inside.flatMap((child) => [
@@ -92,7 +106,7 @@ export function keepPlace(document: SceneDocument, id: string, parent: string): 
     const now = transformOf(node);
     const ops: Operation[] = [];
     for (const name of ["translation", "rotation", "scale"] as const) {
-        const value = wanted[name].map(tidy);
+        const value = wanted[name].map(name === "rotation" ? tidyAngle : tidy);
         if (value.some((x, i) => Math.abs(x - (now[name][i] ?? 0)) > 1e-6)) {
             ops.push({ op: "set", at: `/nodes/${id}/transform/${name}`, value });
         }
@@ -129,25 +143,37 @@ export function reorder(document: SceneDocument, id: string, direction: -1 | 1):
     return { ops, label: `reorder ${nodeLabel(node)}`, select: [id] };
 }
 
-/* A node's JSON with new ids throughout. */
-export function renamed(json: JsonObject, fresh: (stem: string) => string): JsonObject {
+/* A node's JSON with new ids throughout, and new names where `name` gives them. */
+export function renamed(
+    json: JsonObject,
+    fresh: (stem: string) => string,
+    name?: (stem: string) => string,
+): JsonObject {
     const stem = typeof json.id === "string" ? json.id : String(json.type);
+    const label = typeof json.name === "string" && json.name !== "" ? json.name : stem;
     const children = listOf(json.children)
         .filter(isObject)
-        .map((child) => renamed(child, fresh));
+        .map((child) => renamed(child, fresh, name));
     const { children: _old, ...own } = json;
-    return { ...own, id: fresh(stem), ...(children.length > 0 ? { children } : {}) };
+    return {
+        ...own,
+        id: fresh(stem),
+        ...(name ? { name: name(label) } : {}),
+        ...(children.length > 0 ? { children } : {}),
+    };
 }
 
-/* Copies with ids of their own. */
+/* Copies with ids and names of their own. */
 export function copyInto(
+    document: SceneDocument,
     nodes: readonly JsonObject[],
     spotOf: (index: number) => Spot,
     fresh: (stem: string) => string,
 ): { ops: Operation[]; select: string[] } {
     const select: string[] = [];
+    const name = freshNames(document);
     const ops = nodes.map((json, index): Operation => {
-        const value = renamed(json, fresh);
+        const value = renamed(json, fresh, name);
         const spot = spotOf(index);
         select.push(String(value.id));
         return { op: "insert", into: `/nodes/${spot.into}`, before: spot.before, value };
@@ -159,6 +185,7 @@ export function copyInto(
 export function duplicate(document: SceneDocument, ids: readonly string[]): Edit {
     const originals = movable(document, ids);
     const copies = copyInto(
+        document,
         originals.map((id) => printNode(document, id)),
         (index) => {
             const id = originals[index] ?? "";
@@ -230,24 +257,4 @@ export function setVisible(
         label: `${visible ? "show" : "hide"} ${nameAll(document, ids)}`,
         select: ids,
     };
-}
-
-/* Nodes to hide so that of their trees only `ids` (with what they hold and hang from) remain
- * visible. */
-export function othersOf(document: SceneDocument, ids: readonly string[]): string[] {
-    const tops = new Set(ids.map((id) => pathTo(document, id)[0]?.id ?? document.root));
-    const keep = new Set<string>();
-    for (const id of ids) {
-        for (const inner of preorder(document, id)) {
-            keep.add(inner);
-        }
-        for (let node: SceneNode | undefined = document.nodes.get(id); node; ) {
-            keep.add(node.id);
-            node = parentOf(document, node);
-        }
-    }
-    return topmost(
-        document,
-        [...tops].flatMap((top) => preorder(document, top)).filter((id) => !keep.has(id)),
-    );
 }

@@ -58,6 +58,21 @@ export function fitHistory(history: History, undo: number, redo: number): Histor
     return { undo: fitSteps(history.undo, undo), redo: fitSteps(history.redo, redo) };
 }
 
+function nameUnnamed(steps: readonly Step[], labels: readonly string[]): readonly Step[] {
+    return steps.map((step, i) =>
+        step.label === "" ? { ...step, label: labels[steps.length - 1 - i] ?? "" } : step,
+    );
+}
+
+/* Gives the server's names, newest first, to steps that this page has not made. */
+export function nameSteps(
+    history: History,
+    undo: readonly string[],
+    redo: readonly string[],
+): History {
+    return { undo: nameUnnamed(history.undo, undo), redo: nameUnnamed(history.redo, redo) };
+}
+
 /* "Undo move head", or "Undo" where the name is not known. */
 export function undoTitle(history: History): string {
     return `Undo ${history.undo.at(-1)?.label ?? ""}`.trim();

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /* Edits about materials, lights, volumes, models, distance functions and shaders: each answers
  * operations, the undo label, what to select, and the resource that it is about. */
-import { spotFor, typeNaming } from "./add.ts";
+import { typeNaming } from "./add.ts";
 import {
     declaredBy,
     findResource,
     freeName,
+    plainName,
     type Resource,
     type SceneDocument,
 } from "./document.ts";
 import { printResource } from "./documentJson.ts";
-import { type Edit, freshIds, renamed } from "./edits.ts";
+import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
 import type { Json, JsonObject } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "./places.ts";
+import { placing, type Way } from "./placing.ts";
+import type { Preset } from "./presets.ts";
 import { type DeclaredRow, nodeType, type Param, type Schema } from "./schema.ts";
 import { NEW_PRIMITIVE, NEW_SHADER } from "./templates.ts";
 import { listNamedBy, usersOf } from "./usage.ts";
@@ -44,6 +47,8 @@ function newParts(
     list: ListName,
     name: string,
     selection: readonly string[],
+    way: Way,
+    preset: Preset | null,
 ): { value: JsonObject; seen: Operation[]; select: readonly string[] } {
     const active = selection.at(-1);
     switch (list) {
@@ -58,11 +63,17 @@ function newParts(
             const row = typeNaming(schema, what);
             const param = row?.params.find(({ type }) => type === what);
             const id = fresh(name);
-            const { into, before } = spotFor(document, schema, selection, row);
-            const node = { id, type: row?.type ?? "", params: { [param?.name ?? ""]: name } };
+            const { ops, spot } = placing(document, schema, selection, row, way);
+            const { into, before } = spot;
+            const node = {
+                id,
+                type: row?.type ?? "",
+                name: freshNames(document)(name),
+                params: { [param?.name ?? ""]: name },
+            };
             const insert: Operation = { op: "insert", into: `/nodes/${into}`, before, value: node };
             return row
-                ? { value, seen: [insert], select: [id] }
+                ? { value, seen: [...ops, insert], select: [id] }
                 : { value, seen: [], select: NO_NODES };
         }
         case "shaders": {
@@ -74,7 +85,8 @@ function newParts(
             return { value: NEW_SHADER, seen, select: selection };
         }
         default: {
-            const value = { shader: schema.shaders[0]?.type ?? "", properties: {} };
+            const plain = { shader: schema.shaders[0]?.type ?? "", properties: {} };
+            const value = preset ? { shader: preset.shader, properties: preset.properties } : plain;
             return { value, seen: [], select: selection };
         }
     }
@@ -88,9 +100,13 @@ export function newResource(
     list: ListName,
     use: string | null,
     selection: readonly string[],
+    way: Way = "union",
+    preset: Preset | null = null,
 ): ResourceEdit {
-    const name = freeName(document, list, LISTS[list].one);
-    const { value, seen, select } = newParts(document, schema, list, name, selection);
+    const name = preset
+        ? plainName(document, list, preset.name)
+        : freeName(document, list, LISTS[list].one);
+    const { value, seen, select } = newParts(document, schema, list, name, selection, way, preset);
     const used: Operation[] = use === null ? seen : [{ op: "set", at: use, value: name }];
     const ops = [insertResource(list, name, value, null), ...used];
     return { ops, label: `add ${name}`, select: use === null ? select : selection, name };

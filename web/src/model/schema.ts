@@ -11,7 +11,9 @@ export type ParamType =
     | "vec3"
     | "vec4"
     | "bvec3"
+    | "ivec2"
     | "ivec3"
+    | "ivec4"
     | "color"
     | "enum"
     | "text"
@@ -76,6 +78,10 @@ export interface Param {
     readonly group: string;
     /* Null: it matters always. */
     readonly when: Condition | null;
+    /* What is shown for 0: "auto"; "": 0 is a number like others. */
+    readonly zero: string;
+    /* What it shares with rows of other shaders; "": nothing. */
+    readonly means: string;
     readonly doc: string;
 }
 
@@ -100,9 +106,16 @@ export interface NamedRow {
     readonly doc: string;
 }
 
+/* How numbers become colours: from 0 to the greatest, evenly. */
+export interface Scale {
+    readonly colors: readonly string[];
+    readonly greatest: number;
+}
+
 export interface Output extends NamedRow {
     /* It has a picture form, not only numbers. */
     readonly picture: boolean;
+    readonly scale: Scale | null;
 }
 
 export interface Limit {
@@ -141,7 +154,9 @@ const COMPONENTS: Record<ParamType, number> = {
     vec3: 3,
     vec4: 4,
     bvec3: 3,
+    ivec2: 2,
     ivec3: 3,
+    ivec4: 4,
     color: 3,
     enum: 1,
     text: 0,
@@ -167,7 +182,9 @@ const ZERO: Record<ParamType, Value> = {
     vec3: [0, 0, 0],
     vec4: [0, 0, 0, 0],
     bvec3: [false, false, false],
+    ivec2: [0, 0],
     ivec3: [0, 0, 0],
+    ivec4: [0, 0, 0, 0],
     color: [0, 0, 0],
     enum: "",
     text: "",
@@ -203,6 +220,8 @@ export function numberParam(name: string, part: Partial<Param> = {}): Param {
         main: false,
         group: "",
         when: null,
+        zero: "",
+        means: "",
         doc: "",
         ...part,
     };
@@ -239,6 +258,8 @@ function readParam(json: JsonObject): Param {
         main: json.main === true,
         group: textOf(json.group),
         when: readCondition(textOf(json.when)),
+        zero: textOf(json.zero),
+        means: textOf(json.means),
         doc: textOf(json.doc),
     };
 }
@@ -257,6 +278,15 @@ function readRow(json: JsonObject): TypeRow {
 
 function readNamed(json: JsonObject): NamedRow {
     return { name: textOf(json.name), doc: textOf(json.doc) };
+}
+
+function readScale(json: Json | undefined): Scale | null {
+    return isObject(json)
+        ? {
+              colors: listOf(json.colors).map((color) => textOf(color)),
+              greatest: numberOf(json.greatest),
+          }
+        : null;
 }
 
 function readWords(json: Json | undefined): string {
@@ -295,7 +325,11 @@ export function readSchema(json: Json): Schema {
         declared: listOf(resources.declared_types).map((type) => textOf(type) as ParamType),
         outputs: listOf(tables.outputs)
             .filter(isObject)
-            .map((json) => ({ ...readNamed(json), picture: json.picture === true })),
+            .map((json) => ({
+                ...readNamed(json),
+                picture: json.picture === true,
+                scale: readScale(json.scale),
+            })),
         levels: listOf(tables.levels).filter(isObject).map(readNamed),
         stages: listOf(tables.stages).filter(isObject).map(readNamed),
         limits: listOf(tables.limits)

@@ -55,6 +55,9 @@ export type SessionMessage =
           readonly last_edit: number;
           readonly undo?: number;
           readonly redo?: number;
+          /* What the newest steps are called, newest first. */
+          readonly undo_labels?: readonly string[];
+          readonly redo_labels?: readonly string[];
       }
     | { readonly type: "document"; readonly revision: number; readonly document: Json }
     | {
@@ -64,6 +67,8 @@ export type SessionMessage =
           readonly durable: boolean;
           readonly undo: number;
           readonly redo: number;
+          /* Of an undo or redo: what it left out, since somebody else has changed it. */
+          readonly skipped?: readonly Operation[];
       }
     | {
           readonly type: "changed";
@@ -80,13 +85,20 @@ export type SessionMessage =
           readonly message: string;
           readonly line?: number;
           readonly column?: number;
+          readonly skipped?: readonly Operation[];
       };
 
 /* What else a message meant. `resync`: the state does not fit the server's; ask for the document
  * by connecting anew without a revision. */
 export type SessionEvent =
     | { readonly kind: "rejected"; readonly pending: PendingEdit | null; readonly problem: Problem }
-    | { readonly kind: "done"; readonly pending: PendingEdit }
+    | { readonly kind: "skipped"; readonly ops: readonly Operation[] }
+    /* `ops`: what an undo or redo did. */
+    | {
+          readonly kind: "done";
+          readonly pending: PendingEdit;
+          readonly ops?: readonly Operation[];
+      }
     | { readonly kind: "changed"; readonly author: string; readonly ops: readonly Operation[] }
     | { readonly kind: "reset" }
     | { readonly kind: "resync" };
@@ -298,7 +310,12 @@ function advance(session: Session, revision: number, ops: readonly Operation[]):
 
 const RESYNC: readonly SessionEvent[] = [{ kind: "resync" }];
 
+function skipped(ops: readonly Operation[] | undefined): readonly SessionEvent[] {
+    return ops && ops.length > 0 ? [{ kind: "skipped", ops }] : [];
+}
+
 function applied(session: Session, message: Extract<SessionMessage, { type: "applied" }>): Outcome {
+    const told = skipped(message.skipped);
     const entry = session.pending.find((pending) => pending.edit === message.edit);
     let next: Session = { ...session, undo: message.undo, redo: message.redo };
     if (message.durable) {
@@ -306,11 +323,11 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
         next = { ...next, settling };
     }
     if (!entry) {
-        return { session: next, events: [] };
+        return { session: next, events: told };
     }
     if (message.revision > session.revision) {
         if (entry.kind !== "edit") {
-            return { session: next, events: [] }; /* its `changed` is still to come */
+            return { session: next, events: told }; /* its `changed` is still to come */
         }
         const advanced = advance(next, message.revision, entry.ops);
         if (!advanced) {
@@ -320,7 +337,7 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
         next = { ...advanced, settling: [...advanced.settling, ...settling] };
     }
     const settled = rebase(dropLanded(without(next, message.edit)));
-    return { session: settled, events: [{ kind: "done", pending: entry }] };
+    return { session: settled, events: [...told, { kind: "done", pending: entry }] };
 }
 
 /* Until the server tells the counts itself. */
@@ -332,7 +349,8 @@ function countHistory(session: Session, kind: PendingEdit["kind"]): Session {
 
 function changed(session: Session, message: Extract<SessionMessage, { type: "changed" }>): Outcome {
     const entry = session.pending.find((pending) => pending.edit === message.edit);
-    const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry }] : [];
+    const { ops } = message;
+    const events: SessionEvent[] = entry ? [{ kind: "done", pending: entry, ops }] : [];
     let next = entry ? without(session, entry.edit) : session;
     if (message.revision > session.revision) {
         const advanced = advance(next, message.revision, message.ops);
@@ -343,6 +361,13 @@ function changed(session: Session, message: Extract<SessionMessage, { type: "cha
         events.push({ kind: "changed", author: message.author, ops: message.ops });
     }
     return { session: rebase(dropLanded(next)), events };
+}
+
+/* All that a step would do was left out: it is gone. */
+function stepGone(session: Session, pending: PendingEdit | null): Session {
+    return pending && pending.kind !== "edit"
+        ? { ...session, [pending.kind]: Math.max(0, session[pending.kind] - 1) }
+        : session;
 }
 
 function rejected(
@@ -359,6 +384,9 @@ function rejected(
         ...(column === undefined ? {} : { column }),
     };
     let next = without(session, message.edit);
+    if (message.skipped) {
+        return { session: rebase(stepGone(next, pending)), events: skipped(message.skipped) };
+    }
     if (pending && pending.kind !== "edit") {
         next = { ...next, [pending.kind]: 0 }; /* there was nothing left */
     }

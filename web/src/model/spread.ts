@@ -1,30 +1,34 @@
 /* SPDX-License-Identifier: MIT */
-/* One change for all selected nodes: places and angles change by as much, scales by the same
- * factor, everything else becomes the same. */
+/* One change for all selected nodes: a drag or a step changes each from where it is, a typed value
+ * is the same for all; and where selected nodes differ. */
 import type { SceneDocument } from "./document.ts";
 import { paramAt } from "./document.ts";
-import type { Json } from "./json.ts";
+import { equalJson, type Json } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import { parsePlace } from "./places.ts";
-import type { Schema, Value } from "./schema.ts";
-import { valueIn } from "./schema.ts";
-import { tidy } from "./units.ts";
-import { checkValue, numbersOf } from "./values.ts";
+import { components, type Param, type Schema, type Value, valueIn } from "./schema.ts";
+import { tidy, tidyAngle } from "./units.ts";
+import { checkValue, clampNumber, numbersOf } from "./values.ts";
 
-/* How a transform's value follows the change of another from `from` to `to`. */
-const FOLLOW: Record<string, (own: number, from: number, to: number) => number> = {
-    translation: (own, from, to) => own + to - from,
-    rotation: (own, from, to) => own + to - from,
-    scale: (own, from, to) => (from === 0 ? to : (own * to) / from),
-};
+/* How a number changes, for others than the one that is changed; and which of several. */
+export interface Change {
+    readonly by: (own: number) => number;
+    /* Null: all components. */
+    readonly axis: number | null;
+}
 
-function follow(name: string, own: Value, from: Value, to: Value): Value {
-    const step = FOLLOW[name];
-    if (step === undefined) {
-        return to;
-    }
-    const [start, end] = [numbersOf(from), numbersOf(to)];
-    return numbersOf(own).map((x, i) => tidy(step(x, start[i] ?? 0, end[i] ?? 0)));
+/* Numbers that change one by one; a colour changes as a whole. */
+function isNumbers({ type }: Param): boolean {
+    return components(type) > 0 && /^(float|int|vec[234]|ivec3)$/.test(type);
+}
+
+function follow(param: Param, own: Value, { by, axis }: Change): Value {
+    const round = param.unit === "angle" ? tidyAngle : tidy;
+    const count = components(param.type);
+    const next = numbersOf(own, count).map((x, i) =>
+        axis === null || axis === i ? round(clampNumber(param, by(x))) : x,
+    );
+    return count === 1 ? (next[0] ?? 0) : next;
 }
 
 /* The place of the same value in another node. */
@@ -32,34 +36,73 @@ function placeIn(at: string, id: string): string {
     return at.replace(/^\/nodes\/[^/]+/, `/nodes/${id}`);
 }
 
-/* `start`: the document before the change, so that a drag adds up to what its end says. */
+/* The same row of another node, or null where it has none such. */
+function sameIn(schema: Schema, document: SceneDocument, at: string, id: string, param: Param) {
+    const found = paramAt(schema, document, placeIn(at, id));
+    return found?.param.type === param.type ? found : null;
+}
+
+/* The selected nodes beside the one that a place is of; none where the place is of no such. */
+function othersAt(at: string, selection: readonly string[]): readonly string[] {
+    const place = parsePlace(at);
+    const active = place !== null && "id" in place && "name" in place ? place.id : null;
+    return active !== null && selection.includes(active)
+        ? selection.filter((id) => id !== active)
+        : [];
+}
+
+/* `start`: the document before the change, so that a drag adds up to what its end says. Without
+ * `change`, all become `value`. */
 export function spread(
     schema: Schema,
     start: SceneDocument,
     selection: readonly string[],
     at: string,
     value: Value | null,
+    change: Change | null = null,
 ): Operation[] {
-    const place = parsePlace(at);
     const one: Operation = { op: "set", at, value: value as Json };
-    const active = place !== null && "id" in place && "name" in place ? place.id : null;
     const found = paramAt(schema, start, at);
-    if (active === null || !found || !selection.includes(active)) {
+    if (!found) {
         return [one];
     }
-    const from = valueIn(found.values, found.param);
-    const others = selection.flatMap((id): Operation[] => {
-        const there = id === active ? null : paramAt(schema, start, placeIn(at, id));
-        if (there?.param.type !== found.param.type) {
+    const others = othersAt(at, selection).flatMap((id): Operation[] => {
+        const there = sameIn(schema, start, at, id, found.param);
+        if (!there) {
             return [];
         }
         const own = valueIn(there.values, there.param);
-        const next =
-            value !== null && place?.kind === "transform"
-                ? follow(there.param.name, own, from, value)
-                : value;
+        const follows = change !== null && value !== null && isNumbers(there.param);
+        const next = follows ? follow(there.param, own, change) : value;
         const fits = next === null || checkValue(there.param, next) === null;
         return fits ? [{ op: "set", at: placeIn(at, id), value: next as Json }] : [];
     });
     return [one, ...others];
+}
+
+/* Where the selected nodes differ from the one that a place is of: a digit for each component, 1
+ * where it is mixed; "" where all are the same. A text, as what is the same draws nothing anew. */
+export function mixedAt(
+    schema: Schema,
+    document: SceneDocument,
+    selection: readonly string[],
+    at: string,
+): string {
+    const found = selection.length < 2 ? null : paramAt(schema, document, at);
+    if (!found) {
+        return "";
+    }
+    const { param } = found;
+    const partsOf = (value: Value): readonly Json[] =>
+        isNumbers(param) ? numbersOf(value, components(param.type)) : [value as Json];
+    const own = partsOf(valueIn(found.values, param));
+    const differs = own.map(() => false);
+    for (const id of othersAt(at, selection)) {
+        const there = sameIn(schema, document, at, id, param);
+        const parts = there ? partsOf(valueIn(there.values, there.param)) : own;
+        parts.forEach((part, i) => {
+            differs[i] ||= !equalJson(part, own[i] ?? null);
+        });
+    }
+    return differs.includes(true) ? differs.map(Number).join("") : "";
 }

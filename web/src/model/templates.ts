@@ -30,6 +30,9 @@ const SHADER_CODE = `// The colour of one point of the surface. It has
 //   properties.world_position, .object_position, .world_normal,
 //   .ray_direction and .ray_distance;
 // the properties declared above are there under their names.
+// To mirror or refract, return a Surface: Surface s = Surface(color);
+// it has .color, .metallic, .roughness, .reflectivity, .transmission,
+// .ior, .emission and .absorption.
 vec3 shade(FragmentProperties properties) {
     float stripes = 0.5 + 0.5 * sin(20.0 * properties.object_position.y);
     return mix(color1, color2, stripes * amount);

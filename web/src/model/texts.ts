@@ -5,6 +5,9 @@ const TEXTS = {
     "edit.refused": "Not done: {message}",
     "edit.rejected": "The server refused “{label}”: {message}",
     "edit.unnamed": "edit",
+    "undo.skipped": "{count} values were changed by somebody else since and were left as they are.",
+    "undo.skippedOne": "Somebody else has changed this since, so it was left as it is.",
+    "undo.anywayLabel": "undo over somebody else’s change",
     "link.lost": "The connection is lost. What you change is kept and sent when it is back.",
     "link.refused": "The server closed the connection: {reason}",
     "link.resync": "This page had fallen out of step and was loaded anew.",
@@ -28,6 +31,9 @@ const TEXTS = {
     "picture.numbersOnly": "The output {name} has no picture, only numbers: choose NPY.",
     "picture.oneInJpeg": "A JPEG holds one output: choose PNG or NPY for several.",
     "picture.opaqueJpeg": "A JPEG cannot be transparent: choose PNG.",
+    "edit.deleted": "{name} deleted.",
+    "why.pointerBackspace":
+        "Backspace resets the value under the pointer. Delete removes the selected nodes.",
     saved: "Everything is saved, revision {revision}.",
     waiting: "{count} edits are waiting to be sent.",
 } as const;

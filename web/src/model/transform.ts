@@ -57,6 +57,13 @@ export function rotation(angles: Vector): Matrix {
     ];
 }
 
+/* Entries of two matrices that are the same rotation differ by less. */
+const SAME = 1e-12;
+
+function isSame(a: Matrix, b: Matrix): boolean {
+    return a.every((row, i) => row.every((x, k) => Math.abs(x - (b[i]?.[k] ?? 0)) < SAME));
+}
+
 const TURN = 2 * Math.PI;
 const nearestTurn = (angle: number, near: number): number =>
     angle + TURN * Math.round((near - angle) / TURN);
@@ -158,11 +165,12 @@ export function transformUnder(
     }
     const own = transformOf(node);
     const ratio = from.scale[0] / to.scale[0];
-    const back = transpose(rotation(to.rotation));
-    const turned = product(back, product(rotation(from.rotation), rotation(own.rotation)));
+    const [before, after] = [rotation(from.rotation), rotation(to.rotation)];
+    const turned = product(transpose(after), product(before, rotation(own.rotation)));
     return {
         translation: fromParent(to, toParent(from, own.translation)),
-        rotation: anglesOf(turned, own.rotation),
+        /* Angles that nothing turned stay as they were written. */
+        rotation: isSame(before, after) ? own.rotation : anglesOf(turned, own.rotation),
         scale: scale(own.scale, ratio),
     };
 }

@@ -143,6 +143,9 @@ export function printNumber(x: number): string {
 /* --- units --- */
 
 const DEGREE = Math.PI / 180;
+/* In degrees: far more than arithmetic adds, far less than anybody types. */
+const ANGLE_NOISE = 1e-9;
+const FULL_DIGITS = 12;
 
 /* An angle stands in radians in the document and is shown in degrees; `degrees` already are. */
 export function isAngle(unit: Unit | null): boolean {
@@ -156,6 +159,18 @@ export function toShown(x: number, unit: Unit | null): number {
 
 export function fromShown(x: number, unit: Unit | null): number {
     return unit === "angle" ? x * DEGREE : x;
+}
+
+/* An angle in radians without the noise of its arithmetic: whole degrees and such to the last bit,
+ * so that they are shown as they were typed. */
+export function tidyAngle(x: number): number {
+    const degrees = x / DEGREE;
+    if (Math.abs(degrees) < ANGLE_NOISE) {
+        return 0;
+    }
+    const near = tidy(degrees);
+    const isNear = Math.abs(near - degrees) <= ANGLE_NOISE * Math.max(1, Math.abs(degrees));
+    return isNear ? near * DEGREE : Number(x.toPrecision(FULL_DIGITS));
 }
 
 /* A typed value in the document's unit. Bare numbers in an angle are degrees; `0.26rad` and what
@@ -181,6 +196,12 @@ export function parseInUnit(text: string, unit: Unit | null, current: number): n
 /* "0.5", "15°": what a field shows. */
 export function printInUnit(x: number, unit: Unit | null): string {
     return isAngle(unit) ? `${printNumber(toShown(x, unit))}°` : printNumber(x);
+}
+
+/* The same with up to 12 digits: what a tip shows where a field has fewer. */
+export function fullInUnit(x: number, unit: Unit | null): string {
+    const digits = Number(toShown(x, unit).toPrecision(FULL_DIGITS));
+    return isAngle(unit) ? `${digits}°` : String(digits);
 }
 
 /* Numbers pasted as "1 2 3", "1, 2, 3" or "[1,2,3]"; null where there are not `count`. */

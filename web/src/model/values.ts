@@ -22,7 +22,7 @@ export function pointsOf(value: Value): [number, number][] {
 }
 
 export function isWhole(type: ParamType): boolean {
-    return type === "int" || type === "ivec3";
+    return type === "int" || type.startsWith("ivec");
 }
 
 function isNumberList(value: unknown, count: number): value is readonly number[] {
@@ -46,7 +46,9 @@ function checkForm(param: Param, value: Value): string | null {
         case "vec2":
         case "vec3":
         case "vec4":
+        case "ivec2":
         case "ivec3":
+        case "ivec4":
         case "color": {
             const count = components(param.type);
             const one = param.uniform && typeof value === "number";

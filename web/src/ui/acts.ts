@@ -2,10 +2,12 @@
 /* What people do with new nodes, resources and code, as one edit each. Acts on selected nodes are
  * commands (model/commands.ts). */
 
-import { perform } from "../model/actions.ts";
+import { perform, tellDeleted } from "../model/actions.ts";
 import { type Addition, addNode as buildNode, typeNaming } from "../model/add.ts";
 import { findResource, type Resource, type SceneDocument } from "../model/document.ts";
+import { newLight } from "../model/lights.ts";
 import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
+import type { Preset } from "../model/presets.ts";
 import {
     duplicateResource,
     newMaterialOf,
@@ -27,7 +29,10 @@ export function addNode(editor: Editor, addition: Addition): void {
     const { stores } = editor;
     const { document, schema } = stores.document.getState();
     const { selection, preferences } = stores.view.getState();
-    if (document && perform(editor, buildNode(document, schema, addition, selection))) {
+    if (
+        document &&
+        perform(editor, buildNode(document, schema, addition, selection, preferences.way))
+    ) {
         const others = preferences.recent.filter((old) => old !== addition.type);
         setPreferences(stores.view, { recent: [addition.type, ...others].slice(0, MOST_RECENT) });
     }
@@ -86,17 +91,23 @@ const showIt =
         editor.show({ kind: "resource", list, name });
 
 /* A new one; `use` is the place that is to name it. */
-export function addResource(editor: Editor, list: ListName, use: string | null): void {
-    const { selection } = editor.stores.view.getState();
+export function addResource(
+    editor: Editor,
+    list: ListName,
+    use: string | null,
+    preset: Preset | null = null,
+): void {
+    const { selection, preferences } = editor.stores.view.getState();
     performOn(
         editor,
-        (document, schema) => newResource(document, schema, list, use, selection),
+        (document, schema) =>
+            newResource(document, schema, list, use, selection, preferences.way, preset),
         ({ name, select }) => {
             const { schema } = editor.stores.document.getState();
             const code = codePlace(schema, list, name);
             if (list === "models" && use === null) {
                 editor.stores.view.setState({ selection: select });
-            } else if (use === null || code !== null) {
+            } else if (use === null || code !== null || list === "materials") {
                 editor.show({ kind: "resource", list, name });
             }
             if (code !== null) {
@@ -108,7 +119,15 @@ export function addResource(editor: Editor, list: ListName, use: string | null):
 
 /* A light or a volume of a type. */
 export function addTyped(editor: Editor, list: ListName, type: string): void {
-    performOn(editor, (document) => newTyped(document, list, type), showIt(editor, list));
+    const { selection } = editor.stores.view.getState();
+    performOn(
+        editor,
+        (document, schema) =>
+            list === "lights"
+                ? newLight(document, schema, type, selection)
+                : newTyped(document, list, type),
+        showIt(editor, list),
+    );
 }
 
 /* Something made of it: an instance of a model, a node of a distance function, a material. */
@@ -153,7 +172,10 @@ export function remove(editor: Editor, list: ListName, name: string): void {
     performOn(
         editor,
         (document, schema) => removeResource(document, schema, list, name),
-        () => editor.show({ kind: "nodes" }),
+        (edit) => {
+            editor.show({ kind: "nodes" });
+            tellDeleted(editor, name, edit.label);
+        },
     );
 }
 

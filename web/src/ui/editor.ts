@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's one set of stores, link and REST, and what commands may ask of the page. */
+import { takeAuthor } from "../link/author.ts";
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
 import type { App } from "../model/actions.ts";
@@ -26,6 +27,7 @@ export function createEditor(): Editor {
     const rest = createRest("", token);
     const stores = createStores(window.localStorage, window.sessionStorage);
     const link = createLink(stores, { base: "", token });
+    const author = takeAuthor(window.localStorage, window.sessionStorage, navigator.locks);
     let picture: HTMLElement | null = null;
     const editor: Editor = {
         stores,
@@ -40,7 +42,7 @@ export function createEditor(): Editor {
         download: () => void saveDocument(editor),
         upload: () =>
             chooseFiles(SCENE_FILES, async (files) => openFiles(editor, await readFiles(files))),
-        open: (scene) => void openScene(editor, scene),
+        open: (scene) => void openScene(editor, scene, author),
         show: (subject) =>
             stores.view.setState(
                 subject.kind === "nodes" ? { subject } : { subject, selection: [] },
@@ -52,7 +54,11 @@ export function createEditor(): Editor {
     return editor;
 }
 
-async function openScene(editor: Editor, scene: string | null): Promise<void> {
+async function openScene(
+    editor: Editor,
+    scene: string | null,
+    author: Promise<string>,
+): Promise<void> {
     const { stores, link, rest } = editor;
     link.disconnect();
     stores.view.setState(({ aov, preferences }) => ({ ...INITIAL_VIEW, aov, preferences }));
@@ -67,5 +73,5 @@ async function openScene(editor: Editor, scene: string | null): Promise<void> {
     if (!outputsShown(schema).some(({ name }) => name === aov)) {
         stores.view.setState({ aov: COLOR });
     }
-    link.connect(scene, schema);
+    link.connect(scene, schema, await author);
 }

@@ -15,7 +15,7 @@ import {
     type Value,
     valueIn,
 } from "../model/schema.ts";
-import { spread } from "../model/spread.ts";
+import { type Change, mixedAt, spread } from "../model/spread.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { FlagField, FlagsField } from "./fields/Flag.tsx";
@@ -27,8 +27,8 @@ import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
 import { later } from "./later.tsx";
 import { paramTitle, shortTitle, words } from "./names.ts";
-import { useDocument, useEditor } from "./state.ts";
-import { t } from "./texts.ts";
+import { useDocument, useEditor, useView } from "./state.ts";
+import { sentence, t } from "./texts.ts";
 import "./inspector/inspector.css";
 
 type Make = (param: Param, props: FieldProps<never>, place: string) => ReactNode;
@@ -54,7 +54,9 @@ const fields: Record<string, Make> = {
     vec2: vector,
     vec3: vector,
     vec4: vector,
+    ivec2: vector,
     ivec3: vector,
+    ivec4: vector,
     bool: (_param, props) => <FlagField {...as<boolean>(props)} />,
     bvec3: (_param, props) => <FlagsField {...as<readonly boolean[]>(props)} />,
     color: (_param, props) => <ColourField {...as<readonly number[]>(props)} />,
@@ -142,6 +144,10 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
         const found = problemIn(state.problems, place);
         return found && sentence(found);
     });
+    const selection = useView((view) => view.selection);
+    const mixed = useDocument(({ schema, document }) =>
+        document ? mixedAt(schema, document, selection, place) : "",
+    );
     const [refused, setRefused] = useState<string | null>(null);
     const { onInput, onCommit, onCancel, onReset } = useGesture(place, param, owner);
     const value = valueIn(values === undefined ? {} : { [param.name]: values }, param);
@@ -170,9 +176,10 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
                         label: title,
                         value: value as never,
                         fallback: param.default as never,
+                        mixed,
                         describedBy: message ? `${id}-error` : undefined,
-                        onInput: onInput as (value: never) => void,
-                        onCommit: onCommit as (value: never) => void,
+                        onInput: onInput as FieldProps<never>["onInput"],
+                        onCommit: onCommit as FieldProps<never>["onCommit"],
                         onCancel,
                         onRefuse: setRefused,
                     },
@@ -198,11 +205,6 @@ const FormRow = memo(function FormRow({ param, place, owner }: RowProps) {
     );
 });
 
-/* With the line, where it is about a text. */
-export function sentence({ line, message }: { line?: number; message: string }): string {
-    return line === undefined ? message : t("code.at", { line, message });
-}
-
 /* One gesture is one undo step; a cancelled one leaves none. */
 function useGesture(place: string, param: Param, owner: string) {
     const { link, stores } = useEditor();
@@ -210,25 +212,25 @@ function useGesture(place: string, param: Param, owner: string) {
     const start = useRef<SceneDocument | null>(null);
     const label = t("edit.set", { owner, name: paramTitle(param) });
     /* All selected nodes that have such a value take part. */
-    const set = (value: Value | null): Operation[] => {
+    const set = (value: Value | null, change: Change | null = null): Operation[] => {
         const { schema, document } = stores.document.getState();
         const before = gesture.current === null ? document : start.current;
         const { selection } = stores.view.getState();
-        return before ? spread(schema, before, selection, place, value) : [];
+        return before ? spread(schema, before, selection, place, value, change) : [];
     };
     return {
-        onInput: (value: Value): void => {
+        onInput: (value: Value, change?: Change): void => {
             if (gesture.current === null) {
                 start.current = stores.document.getState().document;
                 gesture.current = link.gesture(label);
             }
-            gesture.current.edit(set(value));
+            gesture.current.edit(set(value, change));
         },
-        onCommit: (value: Value): void => {
+        onCommit: (value: Value, change?: Change): void => {
             if (gesture.current === null) {
-                link.edit(set(value), { label });
+                link.edit(set(value, change), { label });
             } else {
-                gesture.current.edit(set(value));
+                gesture.current.edit(set(value, change));
                 gesture.current.end();
                 gesture.current = null;
             }

@@ -38,8 +38,11 @@ const texts = {
     "scene.clearFilter": "Clear filter",
     "scene.nothing": "No node matches.",
     "scene.hide": "Hide {name}",
+    "scene.isolated": "Isolated, in this page only",
     "scene.show": "Show {name}",
     "scene.rename": "New name of {name}",
+    "scene.menuAsked": "Looking what is here …",
+    "scene.menuNothing": "Nothing here",
     "scene.menu": "Actions for {name}",
     "scene.tree": "Nodes of the scene",
     "scene.expand": "Unfold {name}",
@@ -85,6 +88,8 @@ const texts = {
     "setup.environment": "Backdrop",
     "setup.render": "Render",
     "resource.more": "Actions for {name}",
+    "resource.off": "Switch {name} off",
+    "resource.on": "Switch {name} on",
     "resource.duplicate": "Duplicate",
     "resource.remove": "Delete",
     "resource.kept": "It stays: {reason}.",
@@ -92,7 +97,10 @@ const texts = {
     "resource.users.one": "1 use",
 
     "inspector.empty": "Click something in the picture, or pick a row of the scene.",
-    "inspector.many": "{count} selected: a change here goes to all that have the value.",
+    "inspector.emptyTouch": "Tap something in the picture, or pick a row of the scene.",
+    "inspector.several": "{count} nodes",
+    "inspector.many":
+        "Typing sets all that have the value; dragging changes each from where it is.",
     "inspector.primitive": "Shape",
     "inspector.shape": "Flat shape",
     "inspector.operation": "Operation",
@@ -117,7 +125,9 @@ const texts = {
     "inspector.backToView": "Look through it",
     "inspector.noParams": "Nothing to set here.",
 
+    "materials.plain": "Plain, to be made",
     "material.inherited": "{name} (inherited)",
+    "material.lost": "{shader} has no {lost}: what was set there is gone.",
     "material.unique": "Make unique",
 
     "reference.none": "default",
@@ -206,7 +216,9 @@ const texts = {
     "type.vec3": "3 numbers",
     "type.vec4": "4 numbers",
     "type.bvec3": "yes or no per axis",
+    "type.ivec2": "2 whole numbers",
     "type.ivec3": "3 whole numbers",
+    "type.ivec4": "4 whole numbers",
     "type.color": "colour",
     "type.enum": "one of",
     "type.text": "text",
@@ -224,6 +236,7 @@ const texts = {
     "name.pattern": "Letters, digits, - _ . only, at most 64.",
     "name.taken": "{name} is in use.",
 
+    "field.mixed": "mixed",
     "field.reset": "Reset {name}",
     "field.notJson": "This is not JSON: {message}",
     "field.notNumber": "This is not a number. Try 0.5, 1/3, pi/4, +=0.1.",
@@ -231,7 +244,6 @@ const texts = {
     "field.hex": "Hex",
     "field.strength": "Strength",
     "field.link": "Same on all axes",
-    "field.unlink": "Each axis on its own",
 
     "edit.set": "{owner} {name}",
     "edit.rename": "rename {name}",
@@ -245,14 +257,28 @@ const texts = {
     "view.emptyAdd": "Add a shape",
     "view.hintDrag": "Drag to look around",
     "view.hintClick": "Click a shape to select it",
+    "view.noAnswer": "The server does not say what is there. The selection stays.",
+    "view.hintTap": "Tap a shape to select it",
+    "view.aimTouch": "Tap what is to be sharp.",
+    "view.isolated": "Isolated: {name}",
+    "view.isolatedMore": "Isolated: {name} and {count} more",
+    "view.showAll": "Show all",
     "view.aim": "Click what is to be sharp. Esc leaves it.",
 
-    "state.none": "waiting for the first frame",
+    "state.waiting": "waiting for the first picture",
     "state.moving": "moving {percent} %",
-    "state.still": "still",
-    "state.lossless": "lossless ✓",
-    "state.compiling": "compiling …",
+    "state.refining": "refining",
+    "state.round": "refining {round} of {rounds}",
+    "state.final": "final ✓",
+    "state.behind": "{count} edits behind",
+    "state.behind.one": "1 edit behind",
+    "state.compiling": "compiling {elapsed} s",
+    "state.compilingOf": "compiling {elapsed} s of about {about} s",
     "state.kept": "last good picture",
+    "state.tooSlow": "given up: too slow",
+    "state.crashed": "given up: it crashed",
+    "state.offline": "offline, old picture",
+    "state.offlineEmpty": "offline",
     "state.brokenLine": "code has an error: line {line}",
     "state.broken": "code has {count} errors",
     "state.broken.one": "code has an error",
@@ -262,6 +288,8 @@ const texts = {
     "output.menu": "Output shown: {name}",
     "output.back": "Back to the colours",
     "output.show": "Show {name}",
+    "output.legend": "Black: 0; white: {count} and more",
+    "output.more": "{count} and more",
     "quality.auto": "Quality: automatic",
     "quality.smooth": "Quality: smooth motion",
     "quality.sharp": "Quality: always sharp",
@@ -300,6 +328,7 @@ const texts = {
     "saved.waiting.one": "1 edit waiting",
 
     "hint.click": "Click",
+    "hint.tap": "Tap",
     "hint.clickDo": "selects",
     "hint.drag": "Drag",
     "hint.dragDo": "looks around",
@@ -315,6 +344,10 @@ const texts = {
 
     "add.title": "Add to the scene",
     "add.search": "What to add? Try donut, blend, copies …",
+    "add.as": "as:",
+    "way.union": "union",
+    "way.cut": "cut",
+    "way.blend": "blend",
     "add.recent": "Recent",
     "add.results": "Matches",
     "wrap.title": "Wrap the selection in",
@@ -334,6 +367,7 @@ const texts = {
     "commands.nodes": "Nodes",
     "commands.resources": "Resources",
     "commands.outputs": "Outputs",
+    "commands.absent": "Not there",
     "commands.scenes": "Scenes",
 
     "keys.title": "Keyboard",
@@ -403,10 +437,18 @@ const texts = {
 
     "notices.title": "Messages",
     "notices.times": "{count} times",
+    "notices.act.undo": "Undo",
+    "notices.act.edit": "Undo anyway",
+    "notices.act.retry": "Try again",
+    "notices.act.retrySlow": "Try again with more time",
     "notices.show": "Show",
 
     "scenes.title": "Your scenes",
     "scenes.examples": "Start from an example",
+    "scenes.search": "Search the examples",
+    "examples.showpiece": "Showpieces",
+    "examples.lesson": "Lessons",
+    "examples.technique": "One thing each",
     "scenes.examplesDoc": "A copy opens; the example stays as it is.",
     "scenes.new": "New scene",
     "scenes.upload": "Upload",
@@ -445,4 +487,9 @@ export function t(key: TextKey, values: Readonly<Record<string, string | number>
         values.count === 1 && one in texts ? texts[one as TextKey] : texts[key];
     /* A word of the schema may be newer than this page. */
     return (pattern ?? key).replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
+}
+
+/* What a problem says; with the line, where it is about a text. */
+export function sentence({ line, message }: { line?: number; message: string }): string {
+    return line === undefined ? message : t("code.at", { line, message });
 }

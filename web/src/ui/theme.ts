@@ -15,6 +15,9 @@ export function useTheme(): void {
 }
 
 /* Whether a media query holds now. */
+/* Is a finger what points here first? */
+export const TOUCH = "(pointer: coarse)";
+
 export function useMedia(query: string): boolean {
     return useSyncExternalStore(
         (onChange) => {

@@ -7,7 +7,7 @@ const words = (text: string): ReadonlySet<string> => new Set(text.split(/\s+/));
 
 const KEYWORDS = words("break const continue do else false for if in inout out return true while");
 const TYPES =
-    /^(void|bool|u?int|float|half|[biu]?vec[234]|mat[234](x[234])?|(bool|u?int|float|half)[1234](x[1234])?|FragmentProperties|Primitive3D)$/;
+    /^(void|bool|u?int|float|half|[biu]?vec[234]|mat[234](x[234])?|(bool|u?int|float|half)[1234](x[1234])?|FragmentProperties|Primitive3D|Surface)$/;
 const FUNCTIONS = words(
     `abs acos acosh all any asin asinh atan atan2 atanh ceil checker clamp cos cosh cross degrees
     determinant distance dot equal exp exp2 faceforward fbm floor fma fmod frac fract greaterThan

@@ -19,7 +19,7 @@ const MOST_STRENGTH = 1000;
 const strengthParam = numberParam("strength", { default: 1, min: 1, max: MOST_STRENGTH });
 
 export default function ColourField(props: FieldProps<readonly number[]>) {
-    const { label, value, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
+    const { label, value, mixed, describedBy, onInput, onCommit, onCancel, onRefuse } = props;
     const { base, strength } = splitStrength(vectorOf(numbersOf(value)));
     const hex = toHex(base);
     const picking = useRef<readonly number[] | null>(null);
@@ -53,9 +53,9 @@ export default function ColourField(props: FieldProps<readonly number[]>) {
                     aria-label={`${label} ${hex}`}
                     aria-describedby={describedBy}
                 >
-                    <span className="colour-chip" style={{ background: hex }} />
-                    <span className="colour-hex">{hex}</span>
-                    {strength > 1 && (
+                    <span className="colour-chip" style={{ background: mixed ? undefined : hex }} />
+                    <span className="colour-hex">{mixed ? t("field.mixed") : hex}</span>
+                    {strength > 1 && !mixed && (
                         <span className="colour-strength">× {printNumber(strength)}</span>
                     )}
                 </button>

@@ -13,7 +13,7 @@ interface Props extends FieldProps<string> {
     choices: readonly string[];
 }
 
-export function EnumField({ label, value, choices, describedBy, onCommit }: Props) {
+export function EnumField({ label, value, mixed, choices, describedBy, onCommit }: Props) {
     const group = useRef<HTMLDivElement>(null);
     const letters = choices.length * Math.max(...choices.map((choice) => choice.length));
     if (choices.length === 1 && value === choices[0]) {
@@ -23,6 +23,7 @@ export function EnumField({ label, value, choices, describedBy, onCommit }: Prop
         return (
             <Select
                 value={value}
+                mixed={mixed === "1"}
                 label={label}
                 describedBy={describedBy}
                 options={choices.map((choice) => ({ value: choice, label: words(choice) }))}
@@ -60,7 +61,7 @@ export function EnumField({ label, value, choices, describedBy, onCommit }: Prop
                     type="button"
                     role="radio"
                     className="segment"
-                    aria-checked={choice === value}
+                    aria-checked={choice === value && !mixed}
                     tabIndex={choice === value ? 0 : -1}
                     onClick={() => onCommit(choice)}
                 >

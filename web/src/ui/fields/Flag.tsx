@@ -3,14 +3,15 @@
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
-export function FlagField({ label, value, describedBy, onCommit }: FieldProps<boolean>) {
+export function FlagField({ label, value, mixed, describedBy, onCommit }: FieldProps<boolean>) {
     return (
+        // biome-ignore lint/a11y/useAriaPropsSupportedByRole: both roles have it
         <button
             type="button"
-            role="switch"
+            role={mixed ? "checkbox" : "switch"}
             className="switch"
             aria-label={label}
-            aria-checked={value}
+            aria-checked={mixed ? "mixed" : value}
             aria-describedby={describedBy}
             onClick={() => onCommit(!value)}
         >
@@ -24,6 +25,7 @@ const axes = ["x", "y", "z"] as const;
 export function FlagsField({
     label,
     value,
+    mixed,
     describedBy,
     onCommit,
 }: FieldProps<readonly boolean[]>) {
@@ -36,7 +38,7 @@ export function FlagsField({
                     type="button"
                     className="segment axis"
                     data-axis={axis}
-                    aria-pressed={value[i] === true}
+                    aria-pressed={mixed ? "mixed" : value[i] === true}
                     aria-label={`${label} ${axis}`}
                     onClick={() => onCommit(value.map((flag, k) => (k === i ? !flag : flag)))}
                 >

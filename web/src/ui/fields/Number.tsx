@@ -3,6 +3,7 @@
  * the unit that people think in; the document keeps its own. */
 import { memo, useRef, useState } from "react";
 import type { Param } from "../../model/schema.ts";
+import type { Change } from "../../model/spread.ts";
 import { checkNumber, clampNumber } from "../../model/values.ts";
 import { t } from "../texts.ts";
 import { displayOf, sliderRange } from "./display.ts";
@@ -16,12 +17,13 @@ export type Axis = "x" | "y" | "z" | "w";
 interface Props extends FieldProps<number> {
     param: Param;
     axis?: Axis;
-    /* Takes a pasted text as a whole vector; false: it was none. */
+    /* Takes a pasted or typed text as a whole vector; false: it was none. */
     onPasteText?: (text: string) => boolean;
 }
 
 export const NumberField = memo(function NumberField(props: Props) {
     const { param, label, value, axis, describedBy } = props;
+    const mixed = props.mixed?.includes("1") ?? false;
     const display = displayOf(param);
     const [draft, setDraft] = useState<string | null>(null);
     const [stop, setStop] = useState<"min" | "max" | null>(null);
@@ -30,11 +32,16 @@ export const NumberField = memo(function NumberField(props: Props) {
     const start = useRef(value);
     const latest = useRef(value);
 
-    const put = (wanted: number, commit: boolean): void => {
+    const clamp = (wanted: number): number => {
         const next = clampNumber(param, wanted);
         setStop(next > wanted + 1e-9 ? "min" : next < wanted - 1e-9 ? "max" : null);
-        latest.current = next;
-        (commit ? props.onCommit : props.onInput)(next);
+        return next;
+    };
+    /* Others go as far as the dragged one, factors by as much. */
+    const dragged = (): Change => {
+        const [from, to] = [start.current, latest.current];
+        const scales = param.uniform && from !== 0;
+        return { axis: null, by: (own) => (scales ? (own * to) / from : own + to - from) };
     };
     const scrub = useScrub({
         onStart: () => {
@@ -42,12 +49,14 @@ export const NumberField = memo(function NumberField(props: Props) {
             latest.current = value;
             setScrubbing(true);
         },
-        onMove: (pixels: number, keys: ScrubKeys) =>
-            put(display.scrub(start.current, pixels, keys), false),
+        onMove: (pixels: number, keys: ScrubKeys) => {
+            latest.current = clamp(display.scrub(start.current, pixels, keys));
+            props.onInput(latest.current, dragged());
+        },
         onEnd: () => {
             setScrubbing(false);
             setStop(null);
-            props.onCommit(latest.current);
+            props.onCommit(latest.current, dragged());
         },
         onCancel: () => {
             setScrubbing(false);
@@ -59,11 +68,19 @@ export const NumberField = memo(function NumberField(props: Props) {
             input.current?.select();
         },
     });
+    const cancel = (): void => {
+        props.onRefuse(null);
+        setDraft(null);
+    };
     const commit = (): void => {
         if (draft === null) {
             return;
         }
         const parsed = display.parse(draft, value);
+        if (parsed === null && props.onPasteText?.(draft)) {
+            cancel();
+            return;
+        }
         const problem = parsed === null ? t("field.notNumber") : checkNumber(param, parsed);
         if (parsed === null || problem !== null) {
             props.onRefuse(problem);
@@ -71,13 +88,12 @@ export const NumberField = memo(function NumberField(props: Props) {
         }
         props.onRefuse(null);
         setDraft(null);
-        if (parsed !== value) {
-            props.onCommit(parsed);
+        if (parsed !== value || mixed) {
+            props.onCommit(parsed, {
+                axis: null,
+                by: (own) => display.parse(draft, own) ?? own,
+            });
         }
-    };
-    const cancel = (): void => {
-        props.onRefuse(null);
-        setDraft(null);
     };
     const key = (event: React.KeyboardEvent<HTMLInputElement>): void => {
         const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -85,8 +101,8 @@ export const NumberField = memo(function NumberField(props: Props) {
             event.preventDefault();
             setDraft(null);
             const keys = { coarse: event.shiftKey, fine: event.altKey };
-            put(display.arrow(value, direction, keys), true);
-            setStop(null);
+            const step = (own: number): number => display.arrow(own, direction, keys);
+            props.onCommit(clampNumber(param, step(value)), { axis: null, by: step });
         } else if (event.key === "Enter") {
             commit();
             input.current?.select();
@@ -96,8 +112,8 @@ export const NumberField = memo(function NumberField(props: Props) {
             input.current?.select();
         }
     };
-    const text = draft ?? display.print(value);
-    const fill = draft === null && axis === undefined ? fraction(param, value) : null;
+    const shown = mixed ? "" : display.print(value);
+    const fill = draft === null && axis === undefined && !mixed ? fraction(param, value) : null;
 
     return (
         <div
@@ -119,18 +135,23 @@ export const NumberField = memo(function NumberField(props: Props) {
             )}
             <input
                 ref={input}
+                data-field={draft === null || draft === shown ? "unchanged" : "typed"}
                 role="spinbutton"
                 inputMode="text"
                 aria-label={label}
                 aria-describedby={describedBy}
                 aria-valuenow={value}
-                aria-valuetext={display.print(value)}
+                aria-valuetext={mixed ? t("field.mixed") : shown}
+                placeholder={mixed ? t("field.mixed") : undefined}
+                onPointerEnter={(event) =>
+                    tellWhole(event.currentTarget, display.full(value), mixed)
+                }
                 aria-valuemin={param.min ?? undefined}
                 aria-valuemax={param.max ?? undefined}
                 aria-invalid={(describedBy && draft !== null) || undefined}
                 spellCheck={false}
                 autoComplete="off"
-                value={text}
+                value={draft ?? shown}
                 onPointerDown={scrub}
                 onFocus={(event) => event.currentTarget.select()}
                 onChange={(event) => setDraft(event.target.value)}
@@ -146,6 +167,12 @@ export const NumberField = memo(function NumberField(props: Props) {
         </div>
     );
 });
+
+/* A tip with the whole value, where the field has no room for it or shows fewer digits. */
+function tellWhole(input: HTMLInputElement, full: string, mixed: boolean): void {
+    const cut = input.scrollWidth > input.clientWidth || input.value !== full;
+    input.title = cut && !mixed ? full : "";
+}
 
 /* How much of its range a value fills; null where it is no slider. */
 function fraction(param: Param, value: number): number | null {

@@ -10,6 +10,7 @@ import { listNamedBy, modelsFor, type NamedList, usersOf } from "../../model/usa
 import { addResource, makeMaterialUnique } from "../acts.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
+import { NewMaterial } from "../scene/NewMaterial.tsx";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
@@ -29,7 +30,15 @@ const nothings: Partial<Record<Param["type"], TextKey>> = {
 /* The option that stands for nothing, or for "the parent's". */
 const NOTHING = "";
 
-export function ReferenceField({ param, label, value, place, describedBy, onCommit }: Props) {
+export function ReferenceField({
+    param,
+    label,
+    value,
+    mixed,
+    place,
+    describedBy,
+    onCommit,
+}: Props) {
     const editor = useEditor();
     const list = listNamedBy(param.type) ?? "materials";
     const { one } = LISTS[list];
@@ -46,6 +55,7 @@ export function ReferenceField({ param, label, value, place, describedBy, onComm
         <div className="named">
             <Select
                 value={value}
+                mixed={mixed === "1"}
                 label={label}
                 describedBy={describedBy}
                 options={options}
@@ -65,11 +75,15 @@ export function ReferenceField({ param, label, value, place, describedBy, onComm
                     onClick={() => makeMaterialUnique(editor, node, value)}
                 />
             )}
-            <Act
-                title={t("reference.new", { what: one })}
-                icon={Plus}
-                onClick={() => addResource(editor, list, place)}
-            />
+            {list === "materials" ? (
+                <NewMaterial title={t("reference.new", { what: one })} use={place} />
+            ) : (
+                <Act
+                    title={t("reference.new", { what: one })}
+                    icon={Plus}
+                    onClick={() => addResource(editor, list, place)}
+                />
+            )}
         </div>
     );
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A line of text, sent when it is left or Enter is pressed; Escape restores. */
 import { useState } from "react";
+import { t } from "../texts.ts";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -9,10 +10,18 @@ interface Props extends FieldProps<string> {
     maxLength?: number;
 }
 
-export function TextField({ label, value, placeholder, maxLength, describedBy, onCommit }: Props) {
+export function TextField({
+    label,
+    value,
+    mixed,
+    placeholder,
+    maxLength,
+    describedBy,
+    onCommit,
+}: Props) {
     const [draft, setDraft] = useState<string | null>(null);
     const commit = (): void => {
-        if (draft !== null && draft !== value) {
+        if (draft !== null && (draft !== value || mixed)) {
             onCommit(draft);
         }
         setDraft(null);
@@ -20,10 +29,11 @@ export function TextField({ label, value, placeholder, maxLength, describedBy, o
     return (
         <input
             className="text-field"
+            data-field={draft === null || draft === value ? "unchanged" : "typed"}
             aria-label={label}
             aria-describedby={describedBy}
-            value={draft ?? value}
-            placeholder={placeholder}
+            value={draft ?? (mixed ? "" : value)}
+            placeholder={mixed ? t("field.mixed") : placeholder}
             maxLength={maxLength}
             spellCheck={false}
             autoComplete="off"

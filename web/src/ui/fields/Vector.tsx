@@ -4,6 +4,7 @@
 import { Link2, Link2Off } from "lucide-react";
 import { useState } from "react";
 import { components, type Param } from "../../model/schema.ts";
+import type { Change } from "../../model/spread.ts";
 import { parseVector } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
 import { IconButton } from "../parts/Button.tsx";
@@ -13,6 +14,8 @@ import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
 const allAxes: readonly Axis[] = ["x", "y", "z", "w"];
+
+type Send = (value: readonly number[], change?: Change) => void;
 
 interface Props extends FieldProps<number | readonly number[]> {
     param: Param;
@@ -27,8 +30,13 @@ export function VectorField({ param, label, value, fallback, ...rest }: Props) {
     const mayLink = param.uniform;
     const [linked, setLinked] = useState(mayLink && even);
     const one = mayLink && linked && even;
-    const put = (send: (value: readonly number[]) => void, axis: number) => (x: number) =>
-        send(one ? axes.map(() => x) : numbers.map((old, i) => (i === axis ? x : old)));
+    const put =
+        (send: Send, axis: number) =>
+        (x: number, change?: Change): void =>
+            send(
+                one ? axes.map(() => x) : numbers.map((old, i) => (i === axis ? x : old)),
+                change && { ...change, axis: one ? null : axis },
+            );
     const paste = (text: string): boolean => {
         const pasted = parseVector(text, count);
         if (pasted !== null) {
@@ -48,6 +56,7 @@ export function VectorField({ param, label, value, fallback, ...rest }: Props) {
                     value={numbers[i] ?? 0}
                     fallback={defaults[i] ?? 0}
                     describedBy={rest.describedBy}
+                    mixed={one ? rest.mixed : rest.mixed?.charAt(i)}
                     onInput={put(rest.onInput, i)}
                     onCommit={put(rest.onCommit, i)}
                     onCancel={rest.onCancel}
@@ -57,7 +66,7 @@ export function VectorField({ param, label, value, fallback, ...rest }: Props) {
             ))}
             {mayLink && (
                 <IconButton
-                    title={one ? t("field.unlink") : t("field.link")}
+                    title={t("field.link")}
                     data-size="s"
                     aria-pressed={one}
                     onClick={() => {

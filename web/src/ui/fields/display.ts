@@ -3,12 +3,14 @@
 import type { Param } from "../../model/schema.ts";
 import {
     fromShown,
+    fullInUnit,
     isAngle,
     parseInUnit,
     printInUnit,
     scrubStep,
     snap,
     tidy,
+    tidyAngle,
     toShown,
 } from "../../model/units.ts";
 import { isWhole } from "../../model/values.ts";
@@ -23,7 +25,6 @@ const WIDEST_SLIDER = 1000;
 /* About the width of a field: a drag along it goes through the whole range. */
 const SLIDER_PIXELS = 180;
 const SNAP_DEGREES = 15;
-const ANGLE_DIGITS = 8;
 
 export interface ArrowKeys {
     coarse: boolean;
@@ -32,6 +33,8 @@ export interface ArrowKeys {
 
 export interface Display {
     print(value: number): string;
+    /* The same with all digits that matter. */
+    full(value: number): string;
     /* Null where the text means nothing. */
     parse(text: string, current: number): number | null;
     /* The value after a drag of so many pixels from `start`. */
@@ -47,13 +50,11 @@ export function sliderRange({ min, max }: Param): { min: number; max: number } |
 }
 
 export function displayOf(param: Param): Display {
-    const { unit } = param;
+    const { unit, zero } = param;
     const whole = isWhole(param.type);
     const range = sliderRange(param);
-    /* Radians need two digits more than the degrees shown, or 90° would come back as 90.0002°. */
-    const round = (value: number): number =>
-        unit === "angle" ? Number(value.toPrecision(ANGLE_DIGITS)) : tidy(value);
-    const stored = (shown: number): number => round(fromShown(shown, unit));
+    const round = (value: number): number => (unit === "angle" ? tidyAngle(value) : tidy(value));
+    const stored = (shown: number): number => round(fromShown(tidy(shown), unit));
     const stepPerPixel = (shown: number): number => {
         if (whole) {
             return 1 / PIXELS_PER_WHOLE;
@@ -70,8 +71,12 @@ export function displayOf(param: Param): Display {
         return isAngle(unit) ? SNAP_DEGREES : 10 * scrubStep(shown);
     };
     return {
-        print: (value) => printInUnit(value, unit),
+        print: (value) => (value === 0 && zero !== "" ? zero : printInUnit(value, unit)),
+        full: (value) => (value === 0 && zero !== "" ? zero : fullInUnit(value, unit)),
         parse: (text, current) => {
+            if (zero !== "" && text.trim().toLowerCase() === zero) {
+                return 0;
+            }
             const value = parseInUnit(text, unit, current);
             return value === null ? null : round(value);
         },

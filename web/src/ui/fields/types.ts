@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: MIT */
+import type { Change } from "../../model/spread.ts";
+
 /* What every field gets. A gesture is any number of `onInput` calls ended by one `onCommit` or one
  * `onCancel`; a typed value is a commit alone. The form turns a gesture into one undo step. */
 export interface FieldProps<T> {
+    /* Where selected nodes differ: a digit for each component, 1 where they do; "" or absent:
+     * nowhere. */
+    mixed?: string;
     label: string;
     value: T;
     fallback: T;
     describedBy?: string;
-    onInput: (value: T) => void;
-    onCommit: (value: T) => void;
+    /* `change`: how the same values of other selected nodes follow; without, they become `value`. */
+    onInput: (value: T, change?: Change) => void;
+    onCommit: (value: T, change?: Change) => void;
     onCancel: () => void;
     /* A typed value that cannot be taken: what to tell, null when all is well again. */
     onRefuse: (message: string | null) => void;

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* What is selected, as forms. */
+import { later } from "../later.tsx";
 import { useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { NodeInspector } from "./Node.tsx";
-import { ResourceInspector } from "./Resource.tsx";
-import { SetupInspector } from "./Setup.tsx";
+import { TOUCH, useMedia } from "../theme.ts";
 import "./inspector.css";
+
+const NodeInspector = later(() => import("./Node.tsx"));
+const ResourceInspector = later(() => import("./Resource.tsx"));
+const SetupInspector = later(() => import("./Setup.tsx"));
 
 export function Inspector() {
     const subject = useView((view) => view.subject);
@@ -25,12 +28,13 @@ export function Inspector() {
 }
 
 export function Nothing() {
+    const touch = useMedia(TOUCH);
     return (
         <>
             <div className="panel-head">
                 <h2 className="panel-title">{t("region.inspector")}</h2>
             </div>
-            <p className="empty-note">{t("inspector.empty")}</p>
+            <p className="empty-note">{t(touch ? "inspector.emptyTouch" : "inspector.empty")}</p>
         </>
     );
 }

@@ -7,11 +7,12 @@ import { rename } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
 import { findParam, nodeType, type Param } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
+import { selectNode } from "../acts.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
 import { CommandButton } from "../frame/Act.tsx";
 import { typeTitle } from "../names.ts";
-import { IconButton } from "../parts/Button.tsx";
+import { Button, IconButton } from "../parts/Button.tsx";
 import { Glyph } from "../parts/Glyph.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -22,7 +23,7 @@ import "./inspector.css";
 
 const ignore = (): void => undefined;
 
-export function NodeInspector({ id }: { id: string }) {
+export default function NodeInspector({ id }: { id: string }) {
     const type = useDocument((state) => state.document?.nodes.get(id)?.type ?? null);
     const label = useDocument((state) => {
         const node = state.document?.nodes.get(id);
@@ -42,10 +43,7 @@ export function NodeInspector({ id }: { id: string }) {
     }
     return (
         <div className="panel-scroll" data-testid="inspector">
-            <Head id={id} type={type} label={label} />
-            {selected > 1 && (
-                <p className="empty-note">{t("inspector.many", { count: selected })}</p>
-            )}
+            {selected > 1 ? <Several /> : <Head id={id} type={type} label={label} />}
             {params.length > 0 && (
                 <Section title={t(`inspector.${group}` as TextKey)}>
                     <div className="section-body">
@@ -103,6 +101,51 @@ function InstanceActs({ id }: { id: string }) {
             <CommandButton id="model.unpack" />
         </div>
     );
+}
+
+const MOST_NAMED = 8;
+
+/* How many nodes are selected, which, and what a change does. Each name is a way to it alone. */
+function Several() {
+    const editor = useEditor();
+    const selection = useView((view) => view.selection);
+    /* A text, so that numbers that change do not draw the list anew. */
+    const text = useDocument(({ document }) =>
+        JSON.stringify(
+            selection.flatMap((id) => {
+                const node = document?.nodes.get(id);
+                return node ? [[id, nodeLabel(node), node.type]] : [];
+            }),
+        ),
+    );
+    const nodes = useMemo(() => JSON.parse(text) as [string, string, string][], [text]);
+    const count = nodes.length;
+    return (
+        <header className="inspector-head">
+            <h2 className="inspector-title">{t("inspector.several", { count })}</h2>
+            <div className="user-list inspector-several">
+                {nodes.slice(0, MOST_NAMED).map(([id, label, type]) => (
+                    <Button
+                        key={id}
+                        look="outline"
+                        icon={<TypeGlyph type={type} />}
+                        onClick={() => selectNode(editor, id)}
+                    >
+                        {label}
+                    </Button>
+                ))}
+                {count > MOST_NAMED && (
+                    <span>{t("inspector.more", { count: count - MOST_NAMED })}</span>
+                )}
+            </div>
+            <p className="inspector-doc">{t("inspector.many")}</p>
+        </header>
+    );
+}
+
+function TypeGlyph({ type }: { type: string }) {
+    const group = useDocument((state) => nodeType(state.schema, type)?.group);
+    return <Glyph type={type} group={group} size={14} />;
 }
 
 function Head({ id, type, label }: { id: string; type: string; label: string }) {

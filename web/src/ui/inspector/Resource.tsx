@@ -2,14 +2,22 @@
 /* The forms of a resource: a material, a light or a volume with its values, a distance function or
  * a shader with what it declares and its code, a model. */
 import { useMemo, useState } from "react";
-import { findResource, resourceParams, typesOf } from "../../model/document.ts";
+import {
+    findResource,
+    nodeLabel,
+    resourceParams,
+    type SceneDocument,
+    typesOf,
+} from "../../model/document.ts";
 import { LISTS, type ListName, resourcePlace, valuesPlace } from "../../model/places.ts";
 import { problemIn } from "../../model/problems.ts";
+import { changeShader } from "../../model/shading.ts";
+import { addNotice } from "../../model/stores.ts";
 import { type User, usersOf } from "../../model/usage.ts";
 import { addInstance, rename, selectNode, whyNotName } from "../acts.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
-import { typeTitle } from "../names.ts";
+import { typeTitle, words } from "../names.ts";
 import { Button } from "../parts/Button.tsx";
 import { type Option, Select } from "../parts/Select.tsx";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
@@ -27,7 +35,7 @@ interface Props {
     name: string;
 }
 
-export function ResourceInspector({ list, name }: Props) {
+export default function ResourceInspector({ list, name }: Props) {
     const type = useDocument(({ document }) =>
         document ? (findResource(document, list, name)?.type ?? null) : null,
     );
@@ -134,7 +142,7 @@ function Acts({ list, name }: Props) {
 
 /* A material's shader may be one of the document's; those come last. */
 function TypeSelect({ list, name, type }: Props & { type: string }) {
-    const { link } = useEditor();
+    const { link, stores } = useEditor();
     const rows = useDocument(({ schema }) => typesOf(schema, list));
     const own = useDocument((state) => (list === "materials" ? state.document?.shaders : null));
     const options = useMemo<Option[]>(
@@ -145,31 +153,52 @@ function TypeSelect({ list, name, type }: Props & { type: string }) {
         [rows, own],
     );
     const place = `${resourcePlace(list, name)}/${LISTS[list].type}`;
+    const label = t("edit.set", { owner: name, name: t("inspector.type") });
+    const change = (value: string): void => {
+        link.edit([{ op: "set", at: place, value }], { label });
+    };
+    const shade = (value: string): void => {
+        const { document, schema } = stores.document.getState();
+        const changed = document && changeShader(document, schema, name, value);
+        if (changed && link.edit(changed.ops, { label }) && changed.lost.length > 0) {
+            const lost = changed.lost.map(words).join(", ");
+            const message = t("material.lost", { shader: typeTitle(value), lost });
+            const acts = [{ kind: "undo", label } as const];
+            addNotice(stores.notices, { level: "info", code: "lost", message, acts });
+        }
+    };
     return (
         <Select
             quiet
             value={type}
             label={t(list === "materials" ? "inspector.shader" : "inspector.type")}
             options={options}
-            onChange={(value) =>
-                link.edit([{ op: "set", at: place, value }], {
-                    label: t("edit.set", { owner: name, name: t("inspector.type") }),
-                })
-            }
+            onChange={list === "materials" ? shade : change}
         />
     );
 }
 
 const MOST_USERS = 8;
 
+interface LabelledUser extends User {
+    label: string;
+}
+
+function labelled(document: SceneDocument, users: readonly User[]): LabelledUser[] {
+    return users.map((user) => {
+        const node = user.kind === "node" ? document.nodes.get(user.name) : undefined;
+        return { ...user, label: node ? nodeLabel(node) : user.name };
+    });
+}
+
 /* Who names it, each a way there. */
 function Users({ list, name }: Props) {
     const editor = useEditor();
     /* A text, so that numbers that change do not draw the list anew. */
     const text = useDocument(({ document, schema }) =>
-        JSON.stringify(document ? usersOf(schema, document, list, name) : []),
+        JSON.stringify(document ? labelled(document, usersOf(schema, document, list, name)) : []),
     );
-    const users = useMemo(() => JSON.parse(text) as User[], [text]);
+    const users = useMemo(() => JSON.parse(text) as LabelledUser[], [text]);
     const count = users.length;
     return (
         <Section title={t("inspector.users")} count={count}>
@@ -190,7 +219,7 @@ function Users({ list, name }: Props) {
                                   })
                         }
                     >
-                        {user.name}
+                        {user.label}
                     </Button>
                 ))}
                 {count > MOST_USERS && (

@@ -9,7 +9,7 @@ import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import "./inspector.css";
 
-export function SetupInspector({ kind }: { kind: "camera" | "environment" | "render" }) {
+export default function SetupInspector({ kind }: { kind: "camera" | "environment" | "render" }) {
     const params = useDocument((state) => state.schema[kind]);
     const setup = setups.find((one) => one.kind === kind) ?? setups[0];
     const title = t(setup?.title ?? "setup.camera");

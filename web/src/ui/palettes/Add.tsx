@@ -4,7 +4,9 @@
 import { useCallback, useMemo } from "react";
 import { whatAdding } from "../../model/add.ts";
 import type { SceneDocument } from "../../model/document.ts";
+import { WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
+import { setPreferences } from "../../model/stores.ts";
 import { addNode } from "../acts.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -58,12 +60,7 @@ export function Add() {
         },
         [schema, document, recent, wrapping, open],
     );
-    const footOf = (offer: Offer): string => {
-        const { document: now } = editor.stores.document.getState();
-        const { selection } = editor.stores.view.getState();
-        const what = now && whatAdding(now, schema, offer, selection);
-        return what === null ? offer.doc : `${what} ${offer.doc}`;
-    };
+    const footOf = (offer: Offer) => <AddFoot offer={offer} />;
     return (
         <Palette
             open={open}
@@ -76,6 +73,40 @@ export function Add() {
             onTake={(offer) => addNode(editor, offer)}
             onClose={() => editor.stores.view.setState({ popup: null })}
         />
+    );
+}
+
+/* Where it goes, and as what: a choice where there is one. */
+function AddFoot({ offer }: { offer: Offer }) {
+    const { stores } = useEditor();
+    const { document, schema } = stores.document.getState();
+    const selection = useView((view) => view.selection);
+    const way = useView((view) => view.preferences.way);
+    const what = document && whatAdding(document, schema, offer, selection, way);
+    return (
+        <>
+            {what?.way && (
+                // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+                <span className="palette-ways" role="group" aria-label={t("add.as")}>
+                    {t("add.as")}
+                    {WAY_NAMES.map((one) => (
+                        <button
+                            key={one}
+                            type="button"
+                            className="segment"
+                            aria-pressed={one === way}
+                            data-way={one}
+                            /* The search keeps the focus, and Enter its meaning. */
+                            onPointerDown={(event) => event.preventDefault()}
+                            onClick={() => setPreferences(stores.view, { way: one })}
+                        >
+                            {t(`way.${one}`)}
+                        </button>
+                    ))}
+                </span>
+            )}
+            <span className="palette-what ellipsis">{what?.words}</span>
+        </>
     );
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The command palette: commands, what can be added, nodes by name, resources, outputs, scenes. */
-import { Box, ChevronRight, Layers2 } from "lucide-react";
+import { Box, ChevronRight, Info, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
-import { runCommand, searchCommands } from "../../model/commandLookup.ts";
+import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
@@ -51,6 +51,17 @@ function commandEntries(editor: Editor, query: string): Entry[] {
     }));
     /* What can be done now comes first. */
     return [...found.filter(({ whyNot }) => !whyNot), ...found.filter(({ whyNot }) => whyNot)];
+}
+
+/* What there is not, and what there is instead; taking one changes nothing. */
+function absentEntries(query: string): Entry[] {
+    return searchAbsent(query).map(({ title, answer }) => ({
+        id: `absent-${title}`,
+        title,
+        note: answer,
+        icon: <Info size={15} aria-hidden="true" />,
+        run: () => undefined,
+    }));
 }
 
 function offerEntries(editor: Editor, schema: Schema, document: SceneDocument, query: string) {
@@ -198,8 +209,9 @@ export function CommandPalette() {
                 title: t("commands.outputs"),
                 items: searched ? outputEntries(editor, schema, query) : [],
             };
+            const absent = { title: t("commands.absent"), items: absentEntries(query) };
             const groups = searched
-                ? [offers, nodes, resources, commands, outputs, others]
+                ? [offers, nodes, resources, commands, outputs, others, absent]
                 : [commands, nodes, others];
             return groups.filter(({ items }) => items.length > 0);
         },

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* What palettes have in common: a dialog with a search field over groups of options, all by keys.
  * A palette says what its options are, how one looks, and what taking it does. */
-import { type ReactNode, useMemo, useRef, useState } from "react";
+import { type ReactNode, useEffect, useMemo, useRef, useState } from "react";
 import { Dialog } from "../parts/Dialog.tsx";
 import { t } from "../texts.ts";
+import { takeKept } from "./ahead.ts";
 import { useListbox } from "./listbox.ts";
 import { Foot, Search } from "./Search.tsx";
 import "./palettes.css";
@@ -75,6 +76,26 @@ function Body<T>(props: BodyProps<T>) {
         }
     };
     const box = useListbox(all.length, query, take);
+    /* What was typed before the field had the focus; Enter then takes the first match. */
+    const [early, setEarly] = useState(false);
+    useEffect(
+        () =>
+            takeKept((key) => {
+                if (key === "Enter") {
+                    setEarly(true);
+                } else {
+                    setQuery((old) => (key === "Backspace" ? old.slice(0, -1) : old + key));
+                }
+            }),
+        [],
+    );
+    const takeFirst = useRef(take);
+    takeFirst.current = take;
+    useEffect(() => {
+        if (early) {
+            takeFirst.current(0);
+        }
+    }, [early]);
     const active = all[box.active];
     let index = -1;
     return (

@@ -49,7 +49,7 @@ export function Foot({ children }: { children?: ReactNode }) {
             <span>
                 <kbd>Esc</kbd> {t("palette.close")}
             </span>
-            <span className="ellipsis">{children}</span>
+            <span className="palette-more">{children}</span>
         </div>
     );
 }

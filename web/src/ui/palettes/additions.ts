@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What can be added to a scene: every node type, and the models and distance functions of the
  * document. Shared by both palettes. */
-import { type Addition, isContainer, typeNaming } from "../../model/add.ts";
+import { type Addition, typeNaming } from "../../model/add.ts";
 import type { SceneDocument } from "../../model/document.ts";
+import { isContainer } from "../../model/placing.ts";
 import type { NodeType, Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
 import { typeTitle } from "../names.ts";

@@ -27,6 +27,13 @@ export function Dialog({ open, title, bare, wide, first, closeLabel, onClose, ch
                     data-bare={bare || undefined}
                     data-wide={wide || undefined}
                     initialFocus={first}
+                    /* A tip inside would take the key for itself. */
+                    onKeyDown={(event) => {
+                        const within = event.currentTarget.contains(event.target as Element);
+                        if (event.key === "Escape" && within) {
+                            onClose();
+                        }
+                    }}
                 >
                     <header className={bare ? "unseen" : "dialog-head"}>
                         <Base.Title>{title}</Base.Title>

@@ -24,8 +24,17 @@ export function Menu({ trigger, align = "start", children }: MenuProps) {
     );
 }
 
+/* Where a menu was asked for, in CSS pixels of the window. */
+export interface MenuPlace {
+    readonly x: number;
+    readonly y: number;
+}
+
+/* A menu stays inside the window: it is shifted rather than cut off. */
+const SHIFT = { side: "shift", align: "shift", fallbackAxisSide: "none" } as const;
+
 interface PointMenuProps {
-    at: { x: number; y: number } | null;
+    at: MenuPlace | null;
     label: string;
     onClose: () => void;
     children: ReactNode;
@@ -36,7 +45,14 @@ export function PointMenu({ at, label, onClose, children }: PointMenuProps) {
     return (
         <Base.Root open={at !== null} onOpenChange={(open) => open || onClose()} modal={false}>
             <Base.Portal>
-                <Base.Positioner className="above-all" anchor={anchor} align="start" sideOffset={2}>
+                <Base.Positioner
+                    className="above-all"
+                    anchor={anchor}
+                    align="start"
+                    sideOffset={2}
+                    collisionPadding={8}
+                    collisionAvoidance={SHIFT}
+                >
                     <Base.Popup className="popup menu" aria-label={label}>
                         {children}
                     </Base.Popup>
@@ -78,6 +94,11 @@ export function MenuItem(props: ItemProps) {
             {keys && <span className="menu-keys">{keys}</span>}
         </Base.Item>
     );
+}
+
+/* What the menu is about. */
+export function MenuTitle({ children }: { children: ReactNode }) {
+    return <p className="menu-title ellipsis">{children}</p>;
 }
 
 /* A remark below an item: why it cannot be chosen. */

@@ -3,6 +3,7 @@
 import { Select as Base } from "@base-ui/react/select";
 import { Check, ChevronsUpDown } from "lucide-react";
 import type { ReactNode } from "react";
+import { t } from "../texts.ts";
 import "./popup.css";
 
 export interface Option {
@@ -18,14 +19,16 @@ interface Props {
     describedBy?: string;
     /* Looks like text until it is touched. */
     quiet?: boolean;
+    /* What it is about differs: no option holds. */
+    mixed?: boolean;
     onChange: (value: string) => void;
 }
 
-export function Select({ value, options, label, describedBy, quiet, onChange }: Props) {
-    const shown = options.find((option) => option.value === value);
+export function Select({ value, options, label, describedBy, quiet, mixed, onChange }: Props) {
+    const shown = mixed ? undefined : options.find((option) => option.value === value);
     return (
         <Base.Root
-            value={value}
+            value={mixed ? null : value}
             items={options as Option[]}
             modal={false}
             onValueChange={(next) => next !== null && onChange(next as string)}
@@ -37,7 +40,9 @@ export function Select({ value, options, label, describedBy, quiet, onChange }: 
                 aria-describedby={describedBy}
             >
                 {shown?.icon}
-                <span className="select-text ellipsis">{shown?.label ?? value}</span>
+                <span className="select-text ellipsis">
+                    {shown?.label ?? (mixed ? t("field.mixed") : value)}
+                </span>
                 <ChevronsUpDown size={13} aria-hidden="true" />
             </Base.Trigger>
             <Base.Portal>

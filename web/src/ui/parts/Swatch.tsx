@@ -20,6 +20,11 @@ export function materialHex(schema: Schema, document: SceneDocument, material: R
     return param ? toHex(vectorOf(numbersOf(valueIn(material.values, param)))) : "#808080";
 }
 
+/* The background of something round in a colour. */
+export function ball(hex: string): string {
+    return `radial-gradient(circle at 35% 30%, color-mix(in srgb, ${hex} 70%, white), ${hex} 60%)`;
+}
+
 interface Props {
     name: string;
     className?: string;
@@ -31,6 +36,5 @@ export function Swatch({ name, className = "swatch" }: Props) {
         const material = document && findResource(document, "materials", name);
         return material ? materialHex(schema, document, material) : "transparent";
     });
-    const light = `radial-gradient(circle at 35% 30%, color-mix(in srgb, ${hex} 70%, white), ${hex} 60%)`;
-    return <span className={className} style={{ background: light }} aria-hidden="true" />;
+    return <span className={className} style={{ background: ball(hex) }} aria-hidden="true" />;
 }

@@ -16,7 +16,12 @@ export const TipProvider = Tooltip.Provider;
 
 export function Tip({ text, keys, note, side = "bottom", children }: Props) {
     return (
-        <Tooltip.Root>
+        <Tooltip.Root
+            /* Escape closes the tip and what it stands in. */
+            onOpenChange={(_open, details) =>
+                details.reason === "escape-key" && details.allowPropagation()
+            }
+        >
             <Tooltip.Trigger render={children} />
             <Tooltip.Portal>
                 <Tooltip.Positioner side={side} sideOffset={6} className="above-all">

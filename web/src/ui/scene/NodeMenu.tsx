@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* What a right click offers for the selected nodes, in the tree and in the picture. */
+/* What a right click offers for the selected nodes, in the tree and in the picture. In the picture
+ * it opens before it is known what was clicked: until then only acts that need no node can run. */
 
-import { nodeLabel } from "../../model/document.ts";
+import { nameAll } from "../../model/edits.ts";
 import { ActItem } from "../frame/Act.tsx";
-import { MenuLine, PointMenu } from "../parts/Menu.tsx";
+import { MenuLine, type MenuPlace, MenuTitle, PointMenu } from "../parts/Menu.tsx";
 import { useDocument, useView } from "../state.ts";
 import { t } from "../texts.ts";
 
+/* What the menu is about: the selected nodes, nothing, or what is still being asked for. */
+export type Target = "selection" | "nothing" | "asked";
+
 interface Props {
-    at: { x: number; y: number } | null;
+    at: MenuPlace | null;
+    target?: Target;
     onClose: () => void;
 }
 
@@ -23,27 +28,35 @@ const parts: readonly (readonly string[])[] = [
         "node.dissolve",
     ],
     ["model.edit", "model.make", "model.unpack"],
-    ["node.up", "node.down", "node.hide", "node.hideOthers", "node.showAll", "camera.frame"],
+    ["node.up", "node.down", "node.hide", "node.isolate", "node.showAll", "camera.frame"],
+    ["node.delete"],
 ];
 
-export function NodeMenu({ at, onClose }: Props) {
-    const active = useView((view) => view.selection.at(-1) ?? "");
-    const name = useDocument((state) => {
-        const node = state.document?.nodes.get(active);
-        return node ? nodeLabel(node) : "";
-    });
+/* What needs no node. */
+const always: readonly (readonly string[])[] = [
+    ["node.add", "node.paste", "select.all"],
+    ["node.showAll", "camera.home"],
+];
+
+const TITLES = { asked: "scene.menuAsked", nothing: "scene.menuNothing" } as const;
+
+export function NodeMenu({ at, target = "selection", onClose }: Props) {
+    const selection = useView((view) => view.selection);
+    const name = useDocument(({ document }) => (document ? nameAll(document, selection) : ""));
+    const title = target === "selection" ? name : t(TITLES[target]);
+    const shown = target === "selection" ? parts : always;
     return (
-        <PointMenu at={at} label={t("scene.menu", { name })} onClose={onClose}>
+        <PointMenu at={at} label={t("scene.menu", { name: title })} onClose={onClose}>
+            {at !== null && <MenuTitle>{title}</MenuTitle>}
             {at !== null &&
-                parts.map((ids) => (
+                shown.map((ids, i) => (
                     <div key={ids[0]}>
+                        {i > 0 && <MenuLine />}
                         {ids.map((id) => (
-                            <ActItem key={id} id={id} onlyIfAble />
+                            <ActItem key={id} id={id} onlyIfAble danger={id === "node.delete"} />
                         ))}
-                        <MenuLine />
                     </div>
                 ))}
-            {at !== null && <ActItem id="node.delete" danger onlyIfAble />}
         </PointMenu>
     );
 }

@@ -1,7 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Below the tree: models, materials, lights, volumes, distance functions, shaders, each list in the
  * same way; and the camera, environment and render settings. */
-import { Camera, CircleAlert, Image, type LucideIcon, Plus, SlidersHorizontal } from "lucide-react";
+import {
+    Camera,
+    CircleAlert,
+    Eye,
+    EyeOff,
+    Image,
+    type LucideIcon,
+    Plus,
+    SlidersHorizontal,
+} from "lucide-react";
 import { type Resource, typesOf } from "../../model/document.ts";
 import {
     LIST_NAMES,
@@ -9,17 +18,19 @@ import {
     type ListName,
     type RecordName,
     resourcePlace,
+    valuesPlace,
 } from "../../model/places.ts";
 import { problemIn } from "../../model/problems.ts";
+import { findParam } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
 import { addResource, addTyped } from "../acts.ts";
-import { sentence } from "../form.tsx";
 import { Section } from "../inspector/Section.tsx";
 import { typeTitle } from "../names.ts";
 import { IconButton } from "../parts/Button.tsx";
 import { Menu, MenuItem } from "../parts/Menu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
-import { type TextKey, t } from "../texts.ts";
+import { sentence, type TextKey, t } from "../texts.ts";
+import { NewMaterial } from "./NewMaterial.tsx";
 import { ResourceIcon, TypeIcon } from "./ResourceIcon.tsx";
 import { ResourceMenu } from "./ResourceMenu.tsx";
 import "../inspector/inspector.css";
@@ -54,6 +65,9 @@ function List({ list }: { list: ListName }) {
 
 function AddButton({ list }: { list: ListName }) {
     const editor = useEditor();
+    if (list === "materials") {
+        return <NewMaterial title={t("materials.add")} use={null} />;
+    }
     return (
         <IconButton
             title={t(`${list}.add`)}
@@ -132,8 +146,47 @@ function ResourceRow({ list, resource }: { list: ListName; resource: Resource })
                     >{`${users}×`}</span>
                 )}
             </button>
+            <ResourceEye list={list} resource={resource} />
             <ResourceMenu title={t("resource.more", { name })} list={list} resource={resource} />
         </li>
+    );
+}
+
+/* Switches a light off and on; for lists whose rows say that this can be. */
+function ResourceEye({ list, resource }: { list: ListName; resource: Resource }) {
+    const { link } = useEditor();
+    const { name, type, values } = resource;
+    const able = useDocument(({ schema }) => {
+        const params = typesOf(schema, list).find((row) => row.type === type)?.params ?? [];
+        return findParam(params, "visible") !== null;
+    });
+    if (!able) {
+        return null;
+    }
+    const visible = values.visible !== false;
+    const title = t(visible ? "resource.off" : "resource.on", { name });
+    return (
+        <button
+            type="button"
+            className="tree-eye"
+            data-off={visible ? undefined : ""}
+            aria-label={title}
+            title={title}
+            onClick={() =>
+                link.edit(
+                    [
+                        {
+                            op: "set",
+                            at: `${valuesPlace(list, name)}/visible`,
+                            value: visible ? false : null,
+                        },
+                    ],
+                    { label: title.toLowerCase() },
+                )
+            }
+        >
+            {visible ? <Eye size={14} /> : <EyeOff size={14} />}
+        </button>
     );
 }
 

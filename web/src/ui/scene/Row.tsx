@@ -1,24 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* One row of the tree. */
 import type { ItemInstance } from "@headless-tree/core";
-import { ChevronRight, CircleAlert, Eye, EyeOff } from "lucide-react";
-import { functionOf, isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
+import { ChevronRight, CircleAlert, Eye, EyeOff, Focus } from "lucide-react";
+import { functionOf, isApart, isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
 import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
-import { sentence } from "../form.tsx";
 import { Glyph } from "../parts/Glyph.tsx";
 import { Swatch } from "../parts/Swatch.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
-import { t } from "../texts.ts";
+import { sentence, t } from "../texts.ts";
 import { TypeIcon } from "./ResourceIcon.tsx";
+import { selectTo, setAnchor, type TreeItem } from "./range.ts";
 import "./scene.css";
-
-/* What the tree keeps of a row; the heading of the models is no node. */
-export interface TreeItem {
-    node: SceneNode | null;
-}
 
 interface Props {
     item: ItemInstance<TreeItem>;
@@ -52,6 +47,10 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
     );
     const hovered = useView((view) => view.hovered === id);
     const renaming = useView((view) => view.renaming === id);
+    const isolated = useView((view) => view.isolated);
+    const apart = useDocument(
+        ({ document }) => document !== null && isApart(document, isolated, id),
+    );
     if (!node) {
         return null;
     }
@@ -78,18 +77,29 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             data-type={node.type}
             data-hidden={isVisible(node) ? undefined : ""}
             data-hovered={hovered || undefined}
+            data-apart={apart || undefined}
+            data-isolated={isolated.includes(id) || undefined}
             data-drop={item.isUnorderedDragTarget() ? "inside" : undefined}
             onClick={(event) => {
                 stores.view.setState({ subject: { kind: "nodes" } });
                 if (event.ctrlKey || event.metaKey) {
                     item.toggleSelect();
+                    setAnchor(item.getTree(), id);
                 } else if (event.shiftKey) {
-                    item.selectUpTo(false);
+                    selectTo(item.getTree(), id);
                 } else {
                     item.getTree().setSelectedItems([id]);
+                    setAnchor(item.getTree(), id);
                 }
                 item.setFocused();
                 item.getElement()?.focus();
+            }}
+            /* The place of a drop stays in sight from row to row. */
+            onDragLeave={(event) => {
+                const to = event.relatedTarget;
+                if (!(to instanceof Element && to.closest("[role='tree']"))) {
+                    props.onDragLeave?.(event);
+                }
             }}
             onDoubleClick={() => model === null && stores.view.setState({ renaming: id })}
             onContextMenu={(event) => {
@@ -121,8 +131,18 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                 </span>
             )}
             {typeof own === "string" && own !== "" && <Swatch name={own} className="tree-swatch" />}
+            {isolated.includes(id) && <IsolatedMark />}
             <EyeButton node={node} name={name} />
         </div>
+    );
+}
+
+function IsolatedMark() {
+    const title = t("scene.isolated");
+    return (
+        <span className="tree-isolated" role="img" title={title} aria-label={title}>
+            <Focus size={14} />
+        </span>
     );
 }
 

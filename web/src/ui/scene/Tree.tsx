@@ -14,9 +14,9 @@ import { AssistiveTreeDescription, useTree } from "@headless-tree/react";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { perform } from "../../model/actions.ts";
-import { isContainer } from "../../model/add.ts";
 import { isInside, nodeLabel, pathTo, type SceneDocument } from "../../model/document.ts";
 import { moveNodes } from "../../model/edits.ts";
+import { isContainer } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { modelsHeldBy } from "../../model/usage.ts";
 import { useEditor, useView } from "../state.ts";
@@ -24,7 +24,8 @@ import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
 import { filterNodes } from "./filter.ts";
 import { NodeMenu } from "./NodeMenu.tsx";
-import { ModelsRow, Row, type TreeItem } from "./Row.tsx";
+import { ModelsRow, Row } from "./Row.tsx";
+import { selectTo, setAnchor, type TreeItem } from "./range.ts";
 import "./scene.css";
 
 /* The tree's own root is not shown; it holds the scene's root node and, where there are models,
@@ -84,10 +85,7 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
             const nodes = next.filter((id) => document.nodes.has(id));
             view.setState({ selection: nodes, subject: { kind: "nodes" } });
         },
-        hotkeys: {
-            focusNextItem: stepKey("ArrowDown", 1),
-            focusPreviousItem: stepKey("ArrowUp", -1),
-        },
+        hotkeys: HOTKEYS,
         canDrag: (items) => items.every((item) => item.getItemData().node?.parent != null),
         canDrop: (items, target) => canDrop(editor, document, items, target),
         onDrop: (items, target) => drop(editor, items, target),
@@ -119,8 +117,10 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
     return (
         <div className="panel-scroll" ref={bounds}>
             <AssistiveTreeDescription tree={tree} className="unseen" />
+            {/* biome-ignore lint/a11y/noStaticElementInteractions: getContainerProps makes it a tree */}
             <div
                 {...tree.getContainerProps(t("scene.tree"))}
+                onFocus={focusBack(tree, selection.at(-1))}
                 className="tree"
                 data-testid="tree"
                 style={{ blockSize: rows.getTotalSize() + 28 }}
@@ -157,25 +157,41 @@ export function Tree({ document, query }: { document: SceneDocument; query: stri
 
 type Item = ItemInstance<TreeItem>;
 
-/* Up and down select what they reach; while a row is carried they move it instead. */
+/* Up and down select what they reach, with Shift up to it; while a row is carried they move it
+ * instead. */
 function stepKey(hotkey: string, by: 1 | -1) {
     return {
         hotkey,
         canRepeat: true,
         preventDefault: true,
         isEnabled: (tree: TreeInstance<TreeItem>) => !tree.getState().dnd,
-        handler: (_event: KeyboardEvent, tree: TreeInstance<TreeItem>) => step(tree, by),
+        handler: (event: KeyboardEvent, tree: TreeInstance<TreeItem>) =>
+            step(tree, by, event.shiftKey),
     };
 }
 
-function step(tree: TreeInstance<TreeItem>, by: 1 | -1): void {
+/* Of the tree's own keys, those that do something else here. */
+const HOTKEYS = {
+    focusNextItem: stepKey("ArrowDown", 1),
+    focusPreviousItem: stepKey("ArrowUp", -1),
+    selectDownwards: stepKey("Shift+ArrowDown", 1),
+    selectUpwards: stepKey("Shift+ArrowUp", -1),
+};
+
+function step(tree: TreeInstance<TreeItem>, by: 1 | -1, range: boolean): void {
     if (by > 0) {
         tree.focusNextItem();
     } else {
         tree.focusPreviousItem();
     }
     tree.updateDomFocus();
-    tree.setSelectedItems([tree.getFocusedItem().getId()]);
+    const id = tree.getFocusedItem().getId();
+    if (range) {
+        selectTo(tree, id);
+    } else {
+        tree.setSelectedItems([id]);
+        setAnchor(tree, id);
+    }
 }
 
 /* The rows that are open; where rows are searched, all that lead to one. */
@@ -251,21 +267,21 @@ function drop(
 /* Unfolds the way to a node that was selected elsewhere, focuses its row and brings it in sight. */
 function useReveal(
     tree: TreeInstance<TreeItem>,
-    document: SceneDocument,
+    scene: SceneDocument,
     id: string | null,
     scroll: (id: string) => void,
 ): void {
     const { view } = useEditor().stores;
     const revealed = useRef<string | null>(null);
     useEffect(() => {
-        if (id === null || id === revealed.current || !document.nodes.has(id)) {
-            revealed.current = id;
+        if (id === null || id === revealed.current || !scene.nodes.has(id)) {
+            revealed.current = id === null ? null : revealed.current;
             return;
         }
         const { collapsed } = view.getState();
-        const above = pathTo(document, id).map((node) => node.id);
+        const above = pathTo(scene, id).map((node) => node.id);
         above.pop();
-        if (document.models.some((model) => isInside(document, id, model.root))) {
+        if (scene.models.some((model) => isInside(scene, id, model.root))) {
             above.push(MODELS);
         }
         if (above.some((one) => collapsed.has(one))) {
@@ -276,5 +292,26 @@ function useReveal(
         revealed.current = id;
         tree.getItemInstance(id)?.setFocused();
         scroll(id);
+        requestAnimationFrame(() => focusRow(tree, id));
     });
+}
+
+/* A focus that comes back to the tree, as from a palette, goes to what is selected. */
+function focusBack(tree: TreeInstance<TreeItem>, active: string | undefined) {
+    return ({ target, currentTarget, relatedTarget }: React.FocusEvent<HTMLElement>): void => {
+        const pressed = target.matches(":active");
+        const other = target.dataset.node !== active && !pressed;
+        if (active !== undefined && other && !currentTarget.contains(relatedTarget)) {
+            focusRow(tree, active);
+        }
+    };
+}
+
+/* Moves the focus along with the selection, unless it is somewhere else, or in a name. */
+function focusRow(tree: TreeInstance<TreeItem>, id: string): void {
+    const active = document.activeElement;
+    const lost = active === null || active === document.body;
+    if (lost || active.matches("[role='treeitem']")) {
+        tree.getItemInstance(id)?.getElement()?.focus({ preventScroll: true });
+    }
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The start page: own scenes, examples, a new scene, files dropped anywhere. */
-import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
+import { CircleHelp, FolderUp, Plus, Search, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
+import { search } from "../../model/search.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
 import { ThemeButton } from "../frame/Bar.tsx";
 import { type ImportProblem, openFiles, readFiles, type TextFile } from "../import.ts";
@@ -11,7 +12,7 @@ import { Button, IconButton } from "../parts/Button.tsx";
 import { Logo } from "../parts/Logo.tsx";
 import { goTo } from "../route.ts";
 import { useEditor } from "../state.ts";
-import { t } from "../texts.ts";
+import { type TextKey, t } from "../texts.ts";
 import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
 import { useDrop } from "./drop.ts";
 import "./scenes.css";
@@ -135,16 +136,6 @@ export default function ScenesPage() {
                     {scenes?.length === 0 && <p>{t("scenes.none")}</p>}
                 </div>
                 <ul className="cards" data-testid="scenes">
-                    <li className="card">
-                        <button
-                            type="button"
-                            className="card-new"
-                            onClick={() => void start(() => editor.rest.createScene(EMPTY_SCENE))}
-                        >
-                            <Plus size={22} aria-hidden="true" />
-                            {t("scenes.new")}
-                        </button>
-                    </li>
                     {shown.map((scene) => (
                         <SceneCard
                             key={scene.id}
@@ -154,21 +145,10 @@ export default function ScenesPage() {
                         />
                     ))}
                 </ul>
-                <div className="scenes-head">
-                    <h2>{t("scenes.examples")}</h2>
-                    <p>{t("scenes.examplesDoc")}</p>
-                </div>
-                <ul className="cards" data-testid="examples">
-                    {examples.map((example) => (
-                        <ExampleCard
-                            key={example.id}
-                            example={example}
-                            onOpen={() =>
-                                void start(() => editor.rest.createFromExample(example.id))
-                            }
-                        />
-                    ))}
-                </ul>
+                <Examples
+                    examples={examples}
+                    onOpen={(id) => void start(() => editor.rest.createFromExample(id))}
+                />
             </main>
             <div className="leaving-list">
                 {leaving.map((scene) => (
@@ -189,6 +169,65 @@ export default function ScenesPage() {
                 onClose={() => setProblem(null)}
             />
             {dropping && <div className="drop-cover">{t("scenes.drop")}</div>}
+        </div>
+    );
+}
+
+const groups = ["showpiece", "lesson", "technique"] as const;
+
+interface ExamplesProps {
+    examples: readonly ExampleEntry[];
+    onOpen: (id: string) => void;
+}
+
+/* In groups, and what of them fits a search. */
+function Examples({ examples, onOpen }: ExamplesProps) {
+    const [query, setQuery] = useState("");
+    const found = search(examples, query, ({ name, id, group, description }) => ({
+        name,
+        words: id.replaceAll("-", " "),
+        kind: t(`examples.${group}` as TextKey),
+        doc: description,
+    }));
+    return (
+        <div data-testid="examples">
+            <div className="scenes-head">
+                <h2>{t("scenes.examples")}</h2>
+                <p>{t("scenes.examplesDoc")}</p>
+                <span className="bar-space" />
+                <label className="tree-filter scenes-search">
+                    <Search size={13} aria-hidden="true" />
+                    <input
+                        type="search"
+                        aria-label={t("scenes.search")}
+                        placeholder={t("scenes.search")}
+                        value={query}
+                        onChange={(event) => setQuery(event.target.value)}
+                    />
+                </label>
+            </div>
+            {groups.map((group) => {
+                const own = found.filter((example) => example.group === group);
+                return (
+                    own.length > 0 && (
+                        <section key={group} aria-label={t(`examples.${group}`)}>
+                            <h3 className="scenes-group">{t(`examples.${group}`)}</h3>
+                            <ul className="cards" data-group={group}>
+                                {own.map((example) => (
+                                    <ExampleCard
+                                        key={example.id}
+                                        example={example}
+                                        onOpen={() => onOpen(example.id)}
+                                    />
+                                ))}
+                            </ul>
+                        </section>
+                    )
+                );
+            })}
+            {examples.length > 0 && found.length === 0 && (
+                <p className="empty-note">{t("palette.nothing", { query })}</p>
+            )}
         </div>
     );
 }
@@ -228,12 +267,7 @@ function Head({ onNew, onFiles, onFolder }: HeadProps) {
                 <IconButton className="wide-only" title={t("scenes.folder")} onClick={onFolder}>
                     <FolderUp size={16} />
                 </IconButton>
-                <Button
-                    className="wide-only"
-                    look="primary"
-                    icon={<Plus size={15} aria-hidden="true" />}
-                    onClick={onNew}
-                >
+                <Button look="primary" icon={<Plus size={15} aria-hidden="true" />} onClick={onNew}>
                     {t("scenes.new")}
                 </Button>
             </div>
