@@ -153,7 +153,7 @@ $(S)/web/node_modules/.package-lock.json: $(S)/web/package-lock.json
 test_sources := $(wildcard $(S)/tests/*/test_*.c)
 test_programs := $(patsubst %.o,%,$(call object,$(test_sources)))
 support := $(call object,$(wildcard $(S)/tests/support/*.c))
-preloaded := $(OUT)/tests/kill/hostile_driver.so
+preloaded := $(patsubst %.o,%.so,$(call object,$(wildcard $(S)/tests/*/*_driver.c $(S)/tests/*/*/*_driver.c)))
 
 programs: $(OUT)/fieldcast $(test_programs) $(preloaded) $(BUILD)/compile_commands.json ## the program and all C tests
 

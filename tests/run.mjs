@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Runs every suite and adds up their TAP. The last line is `N passed, N failed`. Suites that ask a
-// process of their own, and nobody else, run two at a time; others run alone.
+// Runs every suite and adds up their TAP. The last line is `N passed, N failed`. Suites run two at a
+// time, but for those that kill processes, or compare rates: they run alone.
 //
 //   node tests/run.mjs BUILD [WORD]...    BUILD: the folder with the program (build/asan); only
 //                                         suites whose name holds one of the words
 //
 // A suite is a C program BUILD/tests/*/test_*, a script tests/*/{run,*.test}.{mjs,sh}, or the page's
 // own tests (vitest). A suite fails as well when it prints no test, fewer than it planned, crashes, exits with a status
-// that its results do not explain, hangs, or leaves processes behind.
+// that its results do not explain, hangs (support/patience.mjs), or leaves processes behind.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
+import { groupOf, Patience } from './support/patience.mjs';
 import { countTap } from './support/tap.mjs';
 
-const HANG_MS = 20 * 60 * 1000; // no suite takes a tenth of it; this only ends a run that hangs
+const IDLE_SECONDS = Number(process.env.TEST_IDLE_SECONDS ?? 300);
+const BUSY_SECONDS = Number(process.env.TEST_BUSY_SECONDS ?? 1800);
+const PATIENCE = {
+    idleSeconds: IDLE_SECONDS,
+    busySeconds: BUSY_SECONDS,
+    periodMs: 1000 * Math.min(1, IDLE_SECONDS / 4),
+};
+const LEFT_IDLE_SECONDS = 4;
+const LEFT_BUSY_SECONDS = 30;
+const TICKS = 100; // of /proc, in a second
 const LOG_LINES = 200; // shown of a suite that failed
 const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'e2e'];
-const SIDE_BY_SIDE = ['unit', 'lint', 'web', 'property', 'golden'];
+const ALONE = ['api', 'kill'];
 const NOT_SUITES = ['bench', 'support', 'bad'];
 
 const root = path.dirname(path.dirname(new URL(import.meta.url).pathname));
@@ -39,6 +49,9 @@ const environment = {
     XDG_CONFIG_HOME: path.join(build, 'home/config'),
     XDG_DATA_HOME: path.join(build, 'home/data'),
     XDG_CACHE_HOME: path.join(build, 'home/cache'),
+    // One cache for the program and for C tests, which ask the driver without it.
+    FIELDCAST_CACHE: path.join(build, 'home/cache'),
+    MESA_SHADER_CACHE_DIR: path.join(build, 'home/cache'),
 };
 
 const kindOf = (suite) => suite.name.split('/')[0];
@@ -90,8 +103,9 @@ const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 // Processes of the suite get a while to end by themselves (a browser's helpers do), then are killed.
 async function endGroup(pid) {
-    for (let waited = 0; waited < 10000 && groupLives(pid); waited += 100) {
-        await sleep(100);
+    const patience = new Patience(() => groupOf(pid), { idleSeconds: LEFT_IDLE_SECONDS, busySeconds: LEFT_BUSY_SECONDS });
+    while (groupLives(pid) && !patience.isOver()) {
+        await sleep(50);
     }
     if (!groupLives(pid)) {
         return false;
@@ -100,42 +114,80 @@ async function endGroup(pid) {
     return true;
 }
 
+// Pictures are the same without the optimizer of the software driver, which takes a third of the time
+// that compiling takes. Users have it, and so have the golden pictures.
+const optimized = (suite) => suite.name === 'golden/test_golden';
+
 const running = new Set();
+
+/** Ends a suite that hangs, with all that it started. `onHung` is told why. */
+function watch(pid, onHung) {
+    const patience = new Patience(() => groupOf(pid), PATIENCE);
+    const timer = setInterval(() => {
+        const reason = patience.isOver();
+        if (reason) {
+            clearInterval(timer);
+            onHung(`hung, ${reason}, and was killed`, String(patience));
+            for (const one of groupOf(pid)) {
+                kill(one.pid);
+            }
+        }
+    }, PATIENCE.periodMs);
+    return { heard: () => patience.heard(), end: () => clearInterval(timer) };
+}
+
+function kill(pid) {
+    try {
+        process.kill(pid, 'SIGKILL');
+    } catch {
+        // It has ended meanwhile.
+    }
+}
+
+let cpuBefore = 0;
+
+/** Processor time of the children that ended since the last call, with theirs. */
+function takeCpuSeconds() {
+    const fields = fs.readFileSync('/proc/self/stat', 'utf8').split(') ').pop().split(' ').map(Number);
+    const all = (fields[13] + fields[14]) / TICKS;
+    const since = all - cpuBefore;
+    cpuBefore = all;
+    return since;
+}
 
 function execute(suite) {
     return new Promise((resolve) => {
         const [program, ...args] = suite.command;
         const child = spawn(program, args, {
             cwd: suite.cwd ?? root,
-            env: environment,
+            env: { ...environment, ...(!optimized(suite) && { GALLIVM_PERF: 'nopt' }) },
             detached: true, // a process group of its own, so that all of it can be ended
             stdio: ['ignore', 'pipe', 'pipe'],
         });
         const chunks = { out: [], all: [] };
-        let hung = false;
+        let hung = null;
+        child.on('error', (error) => resolve({ out: '', all: String(error), fault: String(error), cpu: 0 }));
+        if (!child.pid) {
+            return;
+        }
         running.add(child.pid);
-        const timer = setTimeout(() => {
-            hung = true;
-            process.kill(-child.pid, 'SIGKILL');
-        }, HANG_MS);
-        child.stdout.on('data', (chunk) => chunks.out.push(chunk) && chunks.all.push(chunk));
-        child.stderr.on('data', (chunk) => chunks.all.push(chunk));
-        child.on('error', (error) => resolve({ out: '', all: String(error), fault: String(error) }));
+        const watched = watch(child.pid, (why, processes) => {
+            hung = why;
+            chunks.all.push(Buffer.from(`${processes}\n`));
+        });
+        child.stdout.on('data', (chunk) => watched.heard() || (chunks.out.push(chunk) && chunks.all.push(chunk)));
+        child.stderr.on('data', (chunk) => watched.heard() || chunks.all.push(chunk));
         child.on('exit', async (status, signal) => {
-            clearTimeout(timer);
+            watched.end();
+            const cpu = takeCpuSeconds();
             const left = !hung && (await endGroup(child.pid));
             running.delete(child.pid);
             resolve({
                 out: Buffer.concat(chunks.out).toString(),
                 all: Buffer.concat(chunks.all).toString(),
                 status,
-                fault: hung
-                    ? 'hung and was killed'
-                    : signal
-                      ? `died of ${signal}`
-                      : left
-                        ? 'left processes behind'
-                        : null,
+                cpu,
+                fault: hung ?? (signal ? `died of ${signal}` : left ? 'left processes behind' : null),
             });
         });
     });
@@ -158,7 +210,8 @@ function judge(outcome) {
 function show(suite, count, outcome, seconds) {
     const mark = count.failed > 0 ? 'FAIL' : 'ok  ';
     const numbers = `${count.passed} passed${count.failed ? `, ${count.failed} failed` : ''}`;
-    console.log(`${mark} ${suite.name.padEnd(28)} ${numbers.padEnd(24)} ${seconds.toFixed(1)} s`);
+    const times = `${seconds.toFixed(1).padStart(6)} s ${outcome.cpu.toFixed(1).padStart(7)} s of CPU`;
+    console.log(`${mark} ${suite.name.padEnd(28)} ${numbers.padEnd(24)} ${times}`);
     for (const skipped of count.skipped) {
         console.log(`       skipped: ${skipped}`);
     }
@@ -185,7 +238,7 @@ for (const signal of ['SIGINT', 'SIGTERM']) {
 
 const logs = path.join(build, 'logs');
 fs.mkdirSync(logs, { recursive: true });
-const total = { passed: 0, failed: 0 };
+const total = { passed: 0, failed: 0, cpu: 0 };
 const failures = [];
 
 async function runOne(suite) {
@@ -196,6 +249,7 @@ async function runOne(suite) {
     show(suite, count, outcome, (Date.now() - start) / 1000);
     total.passed += count.passed;
     total.failed += count.failed;
+    total.cpu += outcome.cpu;
     if (count.failed > 0) {
         failures.push(suite.name);
     }
@@ -208,11 +262,12 @@ async function runAll(suites) {
 }
 
 const suites = findSuites();
-const together = suites.filter((suite) => SIDE_BY_SIDE.includes(kindOf(suite)));
+const together = suites.filter((suite) => !ALONE.includes(kindOf(suite)));
 await Promise.all([runAll(together), runAll(together)]);
-await runAll(suites.filter((suite) => !SIDE_BY_SIDE.includes(kindOf(suite))));
+await runAll(suites.filter((suite) => ALONE.includes(kindOf(suite))));
 if (failures.length > 0) {
     console.log(`\nfailed: ${failures.join(', ')} (logs are in ${logs})`);
 }
+console.log(`${Math.round(total.cpu)} s of CPU`);
 console.log(`${total.passed} passed, ${total.failed} failed`);
 process.exitCode = total.failed > 0 || total.passed === 0 ? 1 : 0;

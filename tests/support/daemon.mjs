@@ -1,27 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Starts and ends `fieldcast serve` for a test, in a directory of its own.
+// Starts and ends `fieldcast serve` for a test, in a directory of its own; waits for what it does.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { descendantsOf, Patience } from './patience.mjs';
 
 const root = path.dirname(path.dirname(path.dirname(new URL(import.meta.url).pathname)));
 export const program = process.env.FIELDCAST ?? path.join(root, 'build/release/fieldcast');
 
 export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Asks until the answer is true; the limit only ends a run that hangs. */
-export async function until(question, what, limitMs = 120000) {
-    const end = Date.now() + limitMs;
-    for (;;) {
+const IDLE_SECONDS = 60;
+const BUSY_SECONDS = 900;
+const ASK_MS = 10;
+const ASK_LATER_MS = 50;
+const LATER_MS = 2000;
+
+let news = 0;
+
+/** Something was received: who waits goes on waiting. */
+export const heard = () => (news += 1);
+
+/** Asks until the answer is true, or the daemon and whatever else this process started hang. */
+export async function until(question, what) {
+    const start = Date.now();
+    let patience = null;
+    for (let known = news; ; ) {
         const answer = await question();
         if (answer) {
             return answer;
         }
-        if (Date.now() > end) {
-            throw new Error(`waited in vain for ${what}`);
+        if (Date.now() - start > LATER_MS) {
+            patience ??= new Patience(() => descendantsOf(process.pid), {
+                idleSeconds: IDLE_SECONDS,
+                busySeconds: BUSY_SECONDS,
+            });
+            if (news !== known) {
+                known = news;
+                patience.heard();
+            }
+            const reason = patience.isOver();
+            if (reason) {
+                throw new Error(`waited in vain for ${what}: ${reason}\n${patience}`);
+            }
         }
-        await sleep(10);
+        await sleep(patience ? ASK_LATER_MS : ASK_MS);
     }
 }
 
@@ -47,26 +71,41 @@ export function cpuSecondsOf(pid) {
     return (Number(fields[11]) + Number(fields[12])) / 100;
 }
 
+const driverFile = (name) => path.join(path.dirname(program), `tests/support/drivers/${name}_driver.so`);
+
+/** What a program needs in its environment to have a driver in front of its own (support/drivers). */
+export const driverEnvironment = (name) => ({
+    LD_PRELOAD: driverFile(name),
+    ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`,
+});
+
 /**
  * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
- * directory is a fresh one, removed by stop(), unless one is given.
+ * directory is a fresh one, removed by stop(), unless one is given. `driver: 'null'` draws nothing
+ * that anybody could look at, at once or with `tileMs` for each tile.
  */
-export async function startDaemon({ data, args = [], ready = true, limits = '' } = {}) {
+export async function startDaemon(options = {}) {
+    const { data, args = [], ready = true, limits = '', driver = null, tileMs = 0 } = options;
     const directory = data ?? makeDirectory();
     const all = ['serve', '--port', '0', '--data', directory, ...args];
+    const env = { ...process.env, ...(driver && driverEnvironment(driver)), NULL_DRIVER_TILE_MS: String(tileMs) };
     // AddressSanitizer would keep freed memory for a while, and with it what tests measure.
-    const env = { ...process.env, ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:quarantine_size_mb=1` };
+    env.ASAN_OPTIONS = `${env.ASAN_OPTIONS ?? ''}:quarantine_size_mb=1`;
     const child = limits
         ? spawn('sh', ['-c', `${limits}; exec "$0" "$@"`, program, ...all], { env })
         : spawn(program, all, { env });
     const daemon = { child, data: directory, errors: '', output: '' };
-    child.stderr.on('data', (bytes) => (daemon.errors += bytes));
-    child.stdout.on('data', (bytes) => (daemon.output += bytes));
+    child.stderr.on('data', (bytes) => heard() && (daemon.errors += bytes));
+    child.stdout.on('data', (bytes) => heard() && (daemon.output += bytes));
     daemon.exited = new Promise((done) =>
         child.on('exit', (status, signal) => done({ status, signal })),
     );
     let gone = false;
     daemon.exited.then(() => (gone = true));
+    child.on('error', (error) => {
+        gone = true;
+        daemon.errors += error;
+    });
     const match = await until(() => {
         if (gone) {
             throw new Error(`the daemon ended:\n${daemon.errors}`);

@@ -3,7 +3,7 @@
 // that can be stopped. For tests only.
 import crypto from 'node:crypto';
 import net from 'node:net';
-import { until } from './daemon.mjs';
+import { heard, until } from './daemon.mjs';
 
 const TEXT = 1;
 const BINARY = 2;
@@ -73,8 +73,10 @@ export function readFrameHeader(bytes) {
         height: bytes.readUInt16LE(30),
         viewWidth: bytes.readUInt16LE(32),
         viewHeight: bytes.readUInt16LE(34),
+        round: bytes[36],
+        rounds: bytes[37],
         version: bytes[4],
-        stagesUs: Array.from({ length: bytes[7] }, (_, stage) => bytes.readUInt32LE(36 + 4 * stage)),
+        stagesUs: Array.from({ length: bytes[7] }, (_, stage) => bytes.readUInt32LE(40 + 4 * stage)),
     };
 }
 
@@ -106,6 +108,7 @@ export class Live {
         this.status = null;
         this.closeCode = null;
         this.closed = false;
+        this.error = null; // of the socket, by its code
         this.edit = 0;
         this.seq = 0;
         this.buffer = Buffer.alloc(0);
@@ -116,7 +119,7 @@ export class Live {
         );
         this.socket.on('data', (bytes) => this.receive(bytes));
         this.socket.on('close', () => (this.closed = true));
-        this.socket.on('error', () => (this.closed = true));
+        this.socket.on('error', ({ code }) => Object.assign(this, { closed: true, error: code }));
     }
 
     /** Connects, says hello, waits for the document or what was missed. */
@@ -135,6 +138,7 @@ export class Live {
     }
 
     receive(bytes) {
+        heard();
         this.buffer = this.buffer.length ? Buffer.concat([this.buffer, bytes]) : bytes;
         if (this.status === null) {
             const end = this.buffer.indexOf('\r\n\r\n');
@@ -176,7 +180,7 @@ export class Live {
         const magic = bytes.subarray(0, 4).toString();
         if (magic === 'FCF1') {
             const header = readFrameHeader(bytes);
-            this.frame = { ...header, at: Date.now(), parts: [bytes.subarray(36 + 4 * header.stagesUs.length)], got: 0 };
+            this.frame = { ...header, at: Date.now(), parts: [bytes.subarray(40 + 4 * header.stagesUs.length)], got: 0 };
         } else if (magic !== 'FCFP' || bytes.readUInt32LE(4) !== this.frame?.number) {
             throw new Error(`a binary message starts with ${magic}`);
         } else {

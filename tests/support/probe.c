@@ -2,6 +2,7 @@
 /* Points in, distances and surfaces out, through a compute shader. */
 #include "probe.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -208,4 +209,26 @@ void probe_run(const struct probe *probe, const struct probe_program *program,
         read_answer(answers + at * ANSWER_VEC4S * 4, program->surface, &out[i]);
     }
     gl->UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+}
+
+bool probe_agrees(const struct field *field, const float point[3],
+                  const struct probe_answer *answer)
+{
+    const double p[3] = {point[0], point[1], point[2]};
+    for (int corner = -1; corner < 8; corner++) {
+        double q[3];
+        for (int j = 0; j < 3; j++) {
+            q[j] = p[j] + (corner < 0 ? 0 : (corner >> j & 1) ? 1e-4 : -1e-4);
+        }
+        struct field_surface want = field_surface(field, q, NULL);
+        bool same = want.number == answer->leaf;
+        for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
+            /* Blends as narrow as 0.15 change by 1/(2k) per unit; the numbers are up to 4. */
+            same = same && fabs(want.material[j] - answer->material[j]) <= 0.01;
+        }
+        if (same) {
+            return true;
+        }
+    }
+    return false;
 }

@@ -44,4 +44,9 @@ void probe_run(const struct probe *probe, const struct probe_program *program,
                struct field *const *fields, size_t count, const float (*points)[3],
                size_t point_count, struct probe_answer *out);
 
+/* The leaf and material may differ only where two leaves are nearly equal: then they are those of
+ * the C evaluator nearby. */
+bool probe_agrees(const struct field *field, const float point[3],
+                  const struct probe_answer *answer);
+
 #endif

@@ -38,7 +38,7 @@ static double random_number(struct random *random, const struct param *param)
         double low = fmax(min, -100), high = fmin(max, 100);
         number = random_chance(random, 0.3) ? odd[random_below(random, sizeof odd / sizeof odd[0])]
                                             : random_between(random, low, high);
-        if (param->type == PARAM_INT || param->type == PARAM_IVEC3) {
+        if (param_is_whole(param->type)) {
             number = floor(number);
         }
     } while (number < min || number > max || (param->above_min && number == min) ||
@@ -82,8 +82,9 @@ static cJSON *random_points(struct random *random, const struct param *param)
 /* A row named after `index`; few names and many types, so that edits change the types of names. */
 static cJSON *random_row(struct random *random, size_t index)
 {
-    static const enum param_type types[] = {PARAM_FLOAT, PARAM_INT,  PARAM_BOOL, PARAM_VEC2,
-                                            PARAM_VEC3,  PARAM_VEC4, PARAM_COLOR};
+    static const enum param_type types[] = {PARAM_FLOAT, PARAM_INT,  PARAM_BOOL,  PARAM_VEC2,
+                                            PARAM_VEC3,  PARAM_VEC4, PARAM_IVEC2, PARAM_IVEC3,
+                                            PARAM_IVEC4, PARAM_COLOR};
     struct param param = {.type = types[random_below(random, sizeof types / sizeof types[0])]};
     char name[24];
     cJSON *row = cJSON_CreateObject();
