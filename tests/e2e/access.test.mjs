@@ -41,7 +41,7 @@ const OWN = {
 let stage;
 let scene;
 before(async () => {
-    stage = await openStage();
+    stage = await openStage({ driver: 'null' });
     scene = await stage.scene();
 });
 after(() => stage.close());

@@ -7,7 +7,6 @@ import {
     closePage,
     documentWhen,
     field,
-    LIMIT,
     openStage,
     picture,
     pictureChanged,
@@ -130,7 +129,6 @@ test('a picture is put around the scene', async () => {
             return near(at(image, 0.5, 0.02), [255, 0, 0]) && near(at(image, 0.5, 0.98), [0, 0, 255]);
         },
         'red above and blue below',
-        LIMIT,
     );
     const preview = page.getByRole('img', { name: 'Preview' });
     await preview.waitFor();
@@ -171,6 +169,7 @@ test('a picture is dropped on its field; one that is none is refused there', asy
 test('forms show what belongs to the kind that is chosen', async () => {
     await open();
     await setup('Backdrop');
+    await page.locator('[data-param=zenith]').waitFor();
     const shown = (name) => page.locator(`[data-param=${name}]`).count();
     assert.deepEqual([await shown('zenith'), await shown('color'), await shown('image')], [1, 0, 0]);
     await page.getByRole('radio', { name: 'solid' }).click();

@@ -3,11 +3,11 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, test } from 'node:test';
+import { OUTPUTS } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
 import {
     closePage,
-    LIMIT,
     openStage,
     picture,
     pictureChanged,
@@ -51,16 +51,17 @@ async function crate() {
 
 const isNormal = ([r, g, b]) => Math.abs(r - 128) < 3 && Math.abs(g - 128) < 3 && b > 252;
 const pill = () => page.getByTestId('outputs');
-const normalsShown = () => until(async () => isNormal(await crate()), 'the normal along Z', LIMIT);
-const normalsGone = () => until(async () => !isNormal(await crate()), 'other colours', LIMIT);
+const normalsShown = () => until(async () => isNormal(await crate()), 'the normal along Z');
+const normalsGone = () => until(async () => !isNormal(await crate()), 'other colours');
 
 test('the menu shows every output that has a picture', async () => {
     await open();
     await pill().click();
     const items = page.getByRole('menuitemradio');
+    await items.first().waitFor();
     const docs = await page.locator('.menu-doc').allTextContents();
     const pictures = schema.outputs.filter((output) => output.picture);
-    assert.ok(pictures.length >= 10);
+    assert.equal(pictures.length, OUTPUTS - 1, 'all but position');
     assert.deepEqual(
         docs,
         pictures.map(({ doc }) => doc),
@@ -83,6 +84,32 @@ test('each output can be shown, and is another picture', async () => {
     }
     await page.keyboard.press('z');
     await pill().getByText('Colour').waitFor();
+});
+
+test('steps have a legend, in the colours of the scale', async () => {
+    await open();
+    const legend = page.getByTestId('legend');
+    assert.equal(await legend.count(), 0);
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').fill('show steps');
+    await page.keyboard.press('Enter');
+    await legend.getByText(/64/).waitFor();
+    const { scale } = schema.outputs.find(({ name }) => name === 'steps');
+    assert.equal(scale.greatest, 64);
+    const ramp = await legend
+        .locator('.outputs-ramp')
+        .evaluate((one) => getComputedStyle(one).backgroundImage);
+    const shown = ramp.match(/rgb\(\d+, \d+, \d+\)/g);
+    const rgb = (hex) => [1, 3, 5].map((i) => Number.parseInt(hex.slice(i, i + 2), 16)).join(', ');
+    assert.deepEqual(
+        shown,
+        scale.colors.map((hex) => `rgb(${rgb(hex)})`),
+    );
+    const box = await legend.boundingBox();
+    const { width } = page.viewportSize();
+    assert.ok(box.x >= 0 && box.x + box.width <= width);
+    await page.keyboard.press('Shift+Z');
+    await legend.waitFor({ state: 'detached' });
 });
 
 test('a tab keeps its output; keys and the palette change it', async () => {

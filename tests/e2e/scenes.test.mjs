@@ -3,13 +3,14 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { EXAMPLES } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
 import { closePage, openStage, readDownload, SCENE, settled } from './stage.mjs';
 
 let stage;
 let page;
 before(async () => {
-    stage = await openStage();
+    stage = await openStage({ driver: 'null' });
 });
 after(() => stage.close());
 afterEach(async () => {
@@ -58,8 +59,24 @@ test('an example opens as a copy and shows a picture', async () => {
 test('every example has a card; those in sight get a picture', async () => {
     page = await stage.page();
     const { examples } = await ask(stage.daemon, 'GET', '/v1/examples');
-    assert.ok(examples.length >= 8);
+    assert.equal(examples.length, EXAMPLES);
     await page.locator('[data-example]').nth(examples.length - 1).waitFor();
+    const groups = await page
+        .locator('[data-group]')
+        .evaluateAll((all) => all.map((one) => one.dataset.group));
+    assert.deepEqual(groups, ['showpiece', 'lesson', 'technique']);
+    assert.equal(examples[0].group, 'showpiece');
+    const search = page.getByLabel('Search the examples');
+    await search.fill('lecture');
+    await page.locator('[data-example=bend]').waitFor({ state: 'detached' });
+    assert.deepEqual(
+        await page
+            .locator('[data-example]')
+            .evaluateAll((all) => all.map((one) => one.dataset.example.split('-')[0])),
+        new Array(5).fill('lecture'),
+    );
+    await search.fill('');
+    await page.locator('[data-example=bend]').waitFor();
     for (const { id, name } of examples) {
         assert.ok((await page.locator(`[data-example="${id}"]`).textContent()).includes(name));
     }
@@ -169,4 +186,5 @@ test('rename, duplicate, delete and take it back', async () => {
     assert.ok((await scenes()).some((scene) => scene.id === id));
     await act(id, 'Desk', 'Delete');
     await until(async () => !(await scenes()).some((scene) => scene.id === id), 'the deletion');
+    forgetRefusals(); // a picture may have been asked for when its scene went
 });

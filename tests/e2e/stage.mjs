@@ -4,13 +4,14 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
+import { descendantsOf, Patience } from '../support/patience.mjs';
 import { decodePng } from '../support/png.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { chromium } = require('playwright-core');
 
-/** Only ends a wait that would never end; every wait is for a condition. */
-export const LIMIT = 180_000;
+/** Every wait is for a condition. It ends in vain when nothing happens: pages are closed then. */
+const PATIENCE = { idleSeconds: Number(process.env.E2E_IDLE_SECONDS ?? 90), busySeconds: 400 };
 
 const FLAGS = [
     '--no-sandbox',
@@ -64,12 +65,30 @@ export const SCENE = {
     },
 };
 
-/** FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. */
-export async function openStage({ data, args: more = [] } = {}) {
+/** Closes all pages when they, the daemon and the test itself have nothing more to say. */
+function watch(browser) {
+    const patience = new Patience(() => descendantsOf(process.pid), PATIENCE);
+    const timer = setInterval(() => {
+        const reason = patience.isOver();
+        if (reason) {
+            console.log(`# waited in vain: ${reason}\n${String(patience).replace(/^/gm, '# ')}`);
+            patience.heard();
+            browser.contexts().forEach((context) => context.close());
+        }
+    }, patience.periodMs);
+    return { heard: () => patience.heard(), end: () => clearInterval(timer) };
+}
+
+/**
+ * FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. `driver`: as
+ * of startDaemon.
+ */
+export async function openStage({ data, driver, args: more = [] } = {}) {
     const web = process.env.FIELDCAST_WEB;
     const args = [...(web ? ['--web', web] : []), ...more];
-    const daemon = await startDaemon({ data, args });
-    const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS });
+    const daemon = await startDaemon({ data, driver, args });
+    const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS, timeout: 0 });
+    const watched = watch(browser);
     let made = 0;
     return {
         daemon,
@@ -82,10 +101,11 @@ export async function openStage({ data, args: more = [] } = {}) {
             await ask(daemon, 'POST', `/v1/scenes?id=${id}`, document);
             return id;
         },
-        page: (options) => openPage(browser, daemon, options),
+        page: (options) => openPage(browser, daemon, watched, options),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
         async close() {
+            watched.end();
             await browser.close();
             await daemon.stop();
         },
@@ -93,7 +113,7 @@ export async function openStage({ data, args: more = [] } = {}) {
 }
 
 /** `scene` null: the start page. What the console says goes into `page.problems`. */
-async function openPage(browser, daemon, options = {}) {
+async function openPage(browser, daemon, watched, options = {}) {
     const { scene = null, width = 1200, height = 800, theme = 'dark', hints = false } = options;
     const context = await browser.newContext({
         viewport: { width, height },
@@ -109,7 +129,9 @@ async function openPage(browser, daemon, options = {}) {
         }
     }, hints);
     const page = await context.newPage();
-    page.setDefaultTimeout(LIMIT);
+    page.setDefaultTimeout(0);
+    page.on('request', watched.heard);
+    page.on('websocket', (socket) => socket.on('framereceived', watched.heard));
     page.problems = [];
     page.on('pageerror', (error) => page.problems.push(String(error)));
     page.on('console', (message) => {
@@ -136,7 +158,7 @@ export const field = (page, name) => page.getByRole('spinbutton', { name, exact:
 
 /** Waits until a field shows `value`. */
 export const valueIs = (locator, value) =>
-    until(async () => (await locator.inputValue()) === value, `the value ${value}`, LIMIT);
+    until(async () => (await locator.inputValue()) === value, `the value ${value}`);
 
 /** Waits until everything is saved and the lossless picture of that revision is shown. */
 export const settled = (page) =>
@@ -145,7 +167,7 @@ export const settled = (page) =>
         const shown = document.querySelector('[data-testid=state]')?.dataset;
         return (
             saved?.state === 'saved' &&
-            shown?.state === 'lossless' &&
+            shown?.state === 'final' &&
             shown.revision === saved.revision
         );
     });
@@ -198,7 +220,6 @@ export async function stillPixels(page) {
             return difference(last, before) === 0 && last;
         },
         'a still picture',
-        LIMIT,
     );
 }
 
@@ -210,7 +231,6 @@ export const pictureChanged = (page, before, what) =>
             return difference(now, before) > 8 && now;
         },
         what,
-        LIMIT,
     );
 
 /** Waits until the server's document satisfies `holds`. */
@@ -221,7 +241,6 @@ export const documentWhen = (stage, id, holds, what) =>
             return holds(document) && document;
         },
         what,
-        LIMIT,
     );
 
 export function nodeIn(document, id, node = document.root) {

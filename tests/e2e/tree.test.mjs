@@ -2,7 +2,20 @@
 // The scene tree, by pointer and by keys: what each act makes of the document on the server.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { closePage, documentWhen, nodeIn, openStage, row, rows } from './stage.mjs';
+import { until } from '../support/daemon.mjs';
+import {
+    closePage,
+    difference,
+    documentWhen,
+    nodeIn,
+    openStage,
+    pictureChanged,
+    pixels,
+    row,
+    rows,
+    settled,
+    stillPixels,
+} from './stage.mjs';
 
 let stage;
 let page;
@@ -173,6 +186,34 @@ describe('by pointer', () => {
         await ordered('root', 'ball', 'pair');
     });
 
+    test('what is isolated is this page’s alone, and no edit', async () => {
+        await open();
+        const other = await stage.page({ scene: id });
+        const before = await stage.document(id);
+        await Promise.all([settled(page), settled(other)]);
+        const [all, seen] = [await stillPixels(page), await stillPixels(other)];
+        await row(page, 'pair').click();
+        await page.keyboard.press('Shift+H');
+        const pill = page.getByTestId('isolated');
+        await pill.getByText('Isolated: pair').waitFor();
+        await row(page, 'crate').and(page.locator('[data-apart]')).waitFor();
+        assert.equal(await row(page, 'ring').and(page.locator('[data-apart]')).count(), 0);
+        await row(page, 'pair').getByRole('img', { name: 'Isolated' }).waitFor();
+        await pictureChanged(page, all, 'the picture of the pair alone');
+        assert.equal(await stage.document(id), before);
+        assert.ok(difference(await stillPixels(other), seen) < 2, 'the other page shows all');
+        await pill.getByRole('button', { name: 'Show all' }).click();
+        await pill.waitFor({ state: 'detached' });
+        const again = async () => difference(await pixels(page), all) < 2;
+        await until(again, 'all of it again');
+        await row(page, 'crate').click();
+        await page.keyboard.press('Shift+H');
+        await pill.getByText('Isolated: crate').waitFor();
+        await page.keyboard.press('Delete');
+        await pill.waitFor({ state: 'detached' });
+        await closePage(other);
+    });
+
     test('double click renames', async () => {
         await open();
         await row(page, 'crate').dblclick();
@@ -198,6 +239,7 @@ describe('materials and lights', () => {
         await open();
         await row(page, 'ball').click();
         await page.getByRole('button', { name: 'New material' }).click();
+        await page.getByRole('menuitem', { name: 'Plain' }).click();
         await when((d) => nodeIn(d, 'ball').material === 'material-1', 'the new material');
         await page.locator('[data-resource=material-1] .resource-pick').click();
         const name = page.getByTestId('inspector').getByLabel('Name', { exact: true });

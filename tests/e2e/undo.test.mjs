@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Undo over reloads of the page, and beside somebody else.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import {
+    closePage,
+    documentWhen,
+    field,
+    nodeIn,
+    openStage,
+    row,
+    valueIs,
+    waitForSaved,
+} from './stage.mjs';
+
+let stage;
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+
+const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
+
+async function setRadius(page, value) {
+    await row(page, 'ball').click();
+    await field(page, 'radius').fill(value);
+    await field(page, 'radius').press('Enter');
+    await waitForSaved(page);
+    await row(page, 'ball').click();
+}
+
+test('what was done before a reload can be undone by its name', async () => {
+    const id = await stage.scene();
+    const page = await stage.page({ scene: id });
+    await setRadius(page, '0.4');
+    const undo = page.getByRole('button', { name: /^Undo/ });
+    await page.getByRole('button', { name: /^Undo .*radius/ }).waitFor();
+    await page.reload();
+    await row(page, 'ball').click();
+    await page.getByRole('button', { name: /^Undo .*radius/ }).waitFor();
+    await undo.click();
+    await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
+    await page.getByRole('button', { name: /^Redo/ }).click();
+    await documentWhen(stage, id, (d) => radiusOf(d) === 0.4, 'the newer radius');
+    await closePage(page);
+});
+
+test('tabs of one browser are different authors', async () => {
+    const id = await stage.scene();
+    const page = await stage.page({ scene: id });
+    await setRadius(page, '0.4');
+    const tab = await page.context().newPage();
+    await tab.goto(page.url());
+    await row(tab, 'ball').click();
+    await valueIs(field(tab, 'radius'), '0.4');
+    assert.ok(await tab.getByRole('button', { name: /^Undo/ }).isDisabled());
+    await page.getByRole('button', { name: /^Undo/ }).click();
+    await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
+    await closePage(page);
+});
+
+test('a newer value of somebody else stays until the author insists', async () => {
+    const id = await stage.scene();
+    const [one, other] = [await stage.page({ scene: id }), await stage.page({ scene: id })];
+    await setRadius(one, '0.4');
+    await setRadius(other, '0.7');
+    await valueIs(field(one, 'radius'), '0.7');
+    await one.getByRole('button', { name: /^Undo/ }).click();
+    const notice = one.locator('.notice[data-code=overwritten]');
+    await notice.waitFor();
+    assert.equal(radiusOf(JSON.parse(await stage.document(id))), 0.7);
+    await notice.getByRole('button', { name: 'Undo anyway' }).click();
+    await documentWhen(stage, id, (d) => radiusOf(d) === 1, 'the old radius');
+    await notice.waitFor({ state: 'detached' });
+    await closePage(one);
+    await closePage(other);
+});
