@@ -17,6 +17,7 @@
 
 #include "renderer/renderer.h"
 #include "server/rest/embedded.h"
+#include "tests/support/progress.h"
 
 #define CARD_MEAN 8.0
 
@@ -105,6 +106,7 @@ static void every_example_has_its_card(void **state)
 
         assert_non_null(card);
         double mean = difference(&examples_table[i], card, 0);
+        progress("%s: %.2f", examples_table[i].path, mean);
         if (mean > CARD_MEAN) {
             fail_msg("the card of %s differs by %.2f on average: make cards draws it anew",
                      examples_table[i].path, mean);
