@@ -61,7 +61,7 @@ const send = (daemon, body, headers = {}) =>
 /** Linear colour of the one pixel that looks along a direction. */
 async function colorAlong(daemon, id, [x, y, z]) {
     const up = Math.abs(y) > 0.9 ? '0,0,1' : '0,1,0';
-    const at = `/v1/scenes/${id}/image.npy?width=1&height=1&position=0,0,0&target=${x},${y},${z}&up=${up}&fov=1`;
+    const at = `/v1/scenes/${id}/image.npy?width=1&height=1&camera.position=0,0,0&camera.target=${x},${y},${z}&camera.up=${up}&camera.fov=1`;
     const answer = await fetch(daemon.url + at);
     const bytes = Buffer.from(await answer.arrayBuffer());
     assert.equal(answer.status, 200, bytes.toString());
@@ -185,7 +185,7 @@ describe('files that scenes name', () => {
         const worker = daemon.worker();
         process.kill(worker, 'SIGKILL');
         await until(() => daemon.worker() && daemon.worker() !== worker, 'another worker');
-        const at = `${daemon.url}/v1/scenes/s/image.npy?width=2&height=1&position=0,0,0&target=1,0,0&fov=1`;
+        const at = `${daemon.url}/v1/scenes/s/image.npy?width=2&height=1&camera.position=0,0,0&camera.target=1,0,0&camera.fov=1`;
         const bytes = Buffer.from(await (await fetch(at)).arrayBuffer());
         assertNear([bytes.readFloatLE(10 + bytes.readUInt16LE(8))], [4], 'red along +X');
     });

@@ -4,6 +4,7 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 
+import { OUTPUTS } from '../support/counts.mjs';
 import { ask, startDaemon } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 import { readNpy } from '../support/npy.mjs';
@@ -56,7 +57,7 @@ after(() => daemon.stop());
 
 describe('outputs', () => {
     test('have the picture and the array that the schema says', async () => {
-        assert.ok(outputs.length >= 11);
+        assert.equal(outputs.length, OUTPUTS);
         for (const { name, channels, picture: shown } of outputs) {
             const array = readNpy(await picture(`&aov=${name}`, 'npy', 'application/x-npy'));
             assert.deepEqual(array.shape, channels > 1 ? [HEIGHT, WIDTH, channels] : [HEIGHT, WIDTH], name);
@@ -121,7 +122,7 @@ describe('outputs', () => {
             const from = live.frames.length;
             live.look({ width: WIDTH, height: HEIGHT, aov: name });
             const frame = await live.nextFrame(({ lossless }) => lossless, from);
-            assert.equal(frame.version, 2);
+            assert.equal(frame.version, 3);
             assert.equal(frame.stagesUs.length, stages.length);
             for (const stage of ['march', 'resolve', 'encode']) {
                 assert.ok(frame.stagesUs[stages.findIndex((one) => one.name === stage)] > 0, stage);
@@ -175,10 +176,10 @@ describe('a level', () => {
 
 describe('a transparent picture', () => {
     test('has straight alpha', async () => {
-        const soft = decodePng(await picture('&transparent=1'));
+        const soft = decodePng(await picture('&transparent=on'));
         assert.ok(soft.pixels.some((value, i) => i % 4 === 3 && value > 0 && value < 255));
-        const clear = decodePng(await picture('&transparent=1&samples=1'));
-        const solid = decodePng(await picture('&transparent=0&samples=1'));
+        const clear = decodePng(await picture('&transparent=on&samples=1'));
+        const solid = decodePng(await picture('&transparent=off&samples=1'));
         assert.deepEqual([clear.channels, solid.channels], [4, 3]);
         const alphas = clear.pixels.filter((_, i) => i % 4 === 3);
         assert.equal(alphas[0], 0);
@@ -208,6 +209,68 @@ describe('a transparent picture', () => {
     });
 });
 
+async function render(body) {
+    const answer = await fetch(`${daemon.url}/v1/render`, {
+        method: 'POST',
+        headers: { 'content-type': 'application/json' },
+        body: JSON.stringify({ width: WIDTH, height: HEIGHT, ...body }),
+    });
+    assert.equal(answer.status, 200, await answer.clone().text());
+    return Buffer.from(await answer.arrayBuffer());
+}
+
+describe('a camera', () => {
+    const ortho = { type: 'orthographic', height: 2.5 };
+
+    test('changes what it names of the one that the scene has, by every road', async () => {
+        const camera = { fov: 20 };
+        const whole = { ...DOCUMENT, camera: { ...DOCUMENT.camera, ...camera } };
+        const wanted = await render({ scene: whole });
+        assert.ok(!wanted.equals(await picture('')), 'the camera shows');
+        assert.ok((await picture('&camera.fov=20')).equals(wanted), 'in a query');
+        assert.ok((await render({ scene: 's', camera })).equals(wanted), 'with the id of a scene');
+        assert.ok((await render({ scene: DOCUMENT, camera })).equals(wanted), 'with a document');
+        const live = await Live.open(daemon, 's');
+        live.look({ width: WIDTH, height: HEIGHT, camera });
+        const { payload } = await live.nextFrame(({ lossless }) => lossless);
+        assert.ok(decodePng(payload).pixels.equals(decodePng(wanted).pixels), 'in a view');
+        await live.close();
+    });
+
+    test('of a view follows the rest of the document', async () => {
+        const live = await Live.open(daemon, 's');
+        live.look({ width: WIDTH, height: HEIGHT, camera: { fov: 20 } });
+        await live.nextFrame(({ lossless }) => lossless);
+        const position = [0.5, 1, 3];
+        const patch = [{ op: 'set', at: '/camera/position', value: position }];
+        const { revision } = await ask(daemon, 'PATCH', '/v1/scenes/s', patch);
+        const frame = await live.nextFrame((one) => one.lossless && one.revision === revision);
+        const camera = { ...DOCUMENT.camera, position, fov: 20 };
+        const wanted = decodePng(await render({ scene: { ...DOCUMENT, camera } }));
+        assert.ok(decodePng(frame.payload).pixels.equals(wanted.pixels));
+        live.say({ type: 'pick', pick: 1, x: WIDTH / 2, y: HEIGHT / 2, seq: live.seq });
+        const picked = await live.next('picked', { pick: 1 });
+        const from = Math.hypot(...picked.position.map((x, i) => x - position[i]));
+        assert.ok(Math.abs(picked.distance - from) < 1e-4, `${picked.distance} is ${from}`);
+        await live.close();
+        await ask(daemon, 'PUT', '/v1/scenes/s', DOCUMENT);
+    });
+
+    test('has a height that is not the picture\'s', async () => {
+        const bytes = await picture('&camera.type=orthographic&camera.height=2.5');
+        assert.deepEqual([decodePng(bytes).width, decodePng(bytes).height], [WIDTH, HEIGHT]);
+        assert.ok(bytes.equals(await render({ scene: 's', camera: ortho })));
+        assert.ok(!bytes.equals(await picture('&camera.type=orthographic&camera.height=5')));
+    });
+});
+
+test('a switch is said by two words', async () => {
+    const [on, off] = [await picture('&transparent=on'), await picture('&transparent=off')];
+    assert.ok((await picture('&transparent=true')).equals(on));
+    assert.ok((await picture('&transparent=false')).equals(off));
+    assert.ok(!on.equals(off));
+});
+
 test('a document sent along is asked the same way', async () => {
     const send = async (more) => {
         const answer = await fetch(`${daemon.url}/v1/render`, {
@@ -225,7 +288,7 @@ test('a document sent along is asked the same way', async () => {
     });
     assert.equal(status, 200);
     const [color] = readZip(bytes);
-    assert.ok(color.bytes.equals(await picture('&level=draft&region=8,8,40,30&transparent=1')));
+    assert.ok(color.bytes.equals(await picture('&level=draft&region=8,8,40,30&transparent=on')));
     const [wrong, problem] = await send({ level: 'best' });
     assert.equal(wrong, 422);
     assert.equal(JSON.parse(problem).place, '/level');

@@ -8,6 +8,7 @@ import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { promisify } from 'node:util';
 
+import { EXAMPLES } from '../support/counts.mjs';
 import { ask, makeDirectory, program, removeDirectory, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 import { decodePng } from '../support/png.mjs';
@@ -38,7 +39,7 @@ describe('every scene is the same picture by every road', () => {
         removeDirectory(directory);
     });
 
-    test('there are examples', () => assert.ok(examples.length >= 8));
+    test('there are examples', () => assert.equal(examples.length, EXAMPLES));
 
     for (const file of files) {
         test(file, async () => {

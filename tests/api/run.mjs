@@ -135,6 +135,7 @@ for (const name of fs.readdirSync(here).filter((file) => file.endsWith('.test'))
         before(async () => {
             fs.writeFileSync(path.join(scratch, 'token'), `${token}\n`);
             daemon = await startDaemon({
+                driver: 'null',
                 args: args.map((arg) => arg.replace('{{token-file}}', path.join(scratch, 'token'))),
             });
         });

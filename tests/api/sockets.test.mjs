@@ -9,7 +9,7 @@ import { handshake, Live } from '../support/live.mjs';
 
 let daemon;
 before(async () => {
-    daemon = await startDaemon();
+    daemon = await startDaemon({ driver: 'null', tileMs: 5 });
     await ask(daemon, 'POST', '/v1/scenes?id=s', { from: 'example:first-steps' });
 });
 after(() => daemon.stop());
@@ -305,7 +305,7 @@ describe('too many', () => {
 });
 
 test('without free descriptors there is still an answer', async () => {
-    const tight = await startDaemon({ limits: 'ulimit -n 64' });
+    const tight = await startDaemon({ driver: 'null', limits: 'ulimit -n 64' });
     try {
         const peers = Array.from({ length: 100 }, () => connect(tight));
         peers.forEach((peer) => peer.socket.write('GET /healthz HTTP/1.1\r\n'));

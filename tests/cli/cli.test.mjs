@@ -8,6 +8,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
+import { EXAMPLES } from '../support/counts.mjs';
 import { decodePng } from '../support/png.mjs';
 import { readZip } from '../support/zip.mjs';
 
@@ -103,11 +104,69 @@ test('check reads stdin', () => {
     assert.match(result.out, /^-: line 1/);
 });
 
+const ball = (n) => ({ type: 'sphere', transform: { translation: [n, 0, 0] } });
+const balls = (count) => ({ id: 'all', type: 'union', children: Array.from({ length: count }, (_, n) => ball(n)) });
+const field = (code) => ({ id: 'own', type: 'field', params: { code } });
+const shaded = (code) => ({
+    shaders: { pale: { code } },
+    materials: { m: { shader: 'pale' } },
+    root: { ...ball(0), material: 'm' },
+});
+/* What reads well as a document, and cannot be drawn. */
+const UNDRAWABLE = [
+    ['code that is none', { root: field('float sdf(vec3 p) { this is no code }') }, /^\/nodes\/own\/params\/code:1:21: there is no type this/],
+    ['a type mismatch', { root: field('float sdf(vec3 p)\n{\n    return p;\n}') }, /^\/nodes\/own\/params\/code:3:\d+: /],
+    ['no function', { root: field('float x = 1.0;') }, /there is no function float sdf/],
+    ['recursion', { root: field('float f(float x) { return f(x); } float sdf(vec3 p) { return f(p.x); }') }, /calls itself/],
+    ['a loop without end', { root: field('float sdf(vec3 p) { float s = 0.0; for (float x = 0.0; x < p.x; x += 0.1) s += x; return s; }') }, /:1:\d+: .*loop/],
+    ['loops that take too long', { root: field('float sdf(vec3 p) { float s = 0.0; for (int i = 0; i < 4000; i++) for (int k = 0; k < 4000; k++) s += p.x; return s; }') }, /above the maximum/],
+    ['a division by 0', { root: field('float sdf(vec3 p) {\n    return length(p) / (p.x - p.x);\n}') }, /^\/nodes\/own\/params\/code:2:\d+: /],
+    [
+        'a primitive',
+        { primitives: { rod: { code: 'float sdf(vec3 p) { return q; }' } }, root: { type: 'field', params: { primitive: 'rod' } } },
+        /^\/primitives\/rod\/code:1:\d+: .*q/,
+    ],
+    ['a shader', shaded('vec3 shade(FragmentProperties p) { return vec2(1.0); }'), /^\/shaders\/pale\/code:1:\d+: /],
+    ['513 shapes', { root: balls(513) }, /^\/nodes\/all: 513 visible shapes are above the maximum 512/],
+    [
+        'instances',
+        {
+            models: { ten: { ...balls(10), id: 'ten' } },
+            root: { id: 'all', type: 'union', children: Array.from({ length: 52 }, () => ({ type: 'model', params: { model: 'ten' } })) },
+        },
+        /^\/nodes\/all: 520 visible shapes are above the maximum 512/,
+    ],
+    ['too many lights', { lights: Array.from({ length: 17 }, () => ({ type: 'point' })), root: ball(0) }, /^\/lights: more lights than the maximum 16/],
+    ['too many volumes', { volumes: Array.from({ length: 9 }, () => ({ type: 'box' })), root: ball(0) }, /^\/volumes: more volumes than the maximum 8/],
+];
+
+test('check tells of what cannot be drawn what render tells of it', () => {
+    for (const [what, document, message] of UNDRAWABLE) {
+        const text = JSON.stringify({ format: 'fieldcast/1', ...document });
+        write('undrawable.json', text);
+        const checked = run(['check', 'undrawable.json']);
+        assert.equal(checked.status, 1, what);
+        const said = checked.out.replace(/^undrawable\.json: /, '');
+        assert.match(said, message, what);
+        const drawn = run(['render', 'undrawable.json', '-o', 'undrawable.png', ...SMALL]);
+        assert.equal(drawn.status, 1, what);
+        assert.equal(drawn.err.replace(/^fieldcast: (undrawable\.json: )?/, ''), said, what);
+    }
+});
+
+test('check passes what can be drawn, and warns of it as render does', () => {
+    const steep = { format: 'fieldcast/1', root: field('float sdf(vec3 p) { return 3.0 * (length(p) - 0.5); }') };
+    const checked = run(['check', write('steep.json', JSON.stringify(steep))]);
+    assert.equal(checked.status, 0);
+    assert.match(checked.err, /^fieldcast: warning: steep\.json: \/nodes\/own\/params\/code: the distance changes by up to /);
+    succeed(['check', '-'], { input: JSON.stringify({ format: 'fieldcast/1', root: balls(512) }) });
+});
+
 test('every example is right', () => {
     const examples = fs
         .readdirSync(path.join(root, 'protocol/examples'))
         .filter((name) => name.endsWith('.json'));
-    assert.ok(examples.length >= 8);
+    assert.equal(examples.length, EXAMPLES);
     succeed(['check', ...examples.map((name) => `example:${path.basename(name, '.json')}`)]);
 });
 
@@ -120,6 +179,49 @@ test('import makes a document of a folder, and it draws', () => {
     assert.equal(succeed(['import', thesis, '-o', '-']).out, fs.readFileSync(path.join(folder, 'cena.json'), 'utf8'));
     succeed(['render', 'cena.json', '-o', 'cena.png', ...SMALL]);
     assert.deepEqual(pngSize(fs.readFileSync(path.join(folder, 'cena.png'))), [32, 24]);
+});
+
+// Red, green and blue in the middle of a picture.
+function middlePixel(name) {
+    const { width, height, channels, pixels } = decodePng(fs.readFileSync(path.join(folder, name)));
+    const at = channels * (Math.floor(height / 2) * width + Math.floor(width / 2));
+    return [...pixels.subarray(at, at + 3)];
+}
+
+// The thesis' blend of (0.5, 0.1, 0.5) and (0.2, 0.7, 0.6), 0.618 of the way, is (0.315, 0.471, 0.562).
+test('an imported shader has its colour in the picture', () => {
+    fs.cpSync(thesis, path.join(folder, 'blend'), { recursive: true });
+    write('blend/models/Ball.json', '{"name": "Ball", "materials": ["blend_material"], "model": {"type": "Primitives/Sphere", "material_id": 0}}');
+    write('blend/scenes/ball.json', '{"name": "ball", "scene": [{"type": "Models/Ball"}]}');
+    succeed(['import', 'blend', '-o', 'ball.json', '--scene', 'ball']);
+    succeed(['render', 'ball.json', '-o', 'ball.png', ...SMALL]);
+    const pixel = middlePixel('ball.png');
+    assert.ok(pixel.every((value, i) => Math.abs(value - [152, 182, 197][i]) <= 1), `${pixel}`);
+});
+
+test('whole numbers of a shader are imported, checked and drawn', () => {
+    fs.mkdirSync(path.join(folder, 'whole'));
+    write('whole/s.json', JSON.stringify({
+        name: 'Pos',
+        properties: ['[int2] _I2', '[int3] _I3'],
+        code: 'int2 _I2;\nint3 _I3;\nfloat3 shade(FragmentProperties p) { return float3(_I2 % 2, _I3.z / 4); }',
+    }));
+    write('whole/m.json', '{"base_shader": "Pos", "properties": [{"name": "_I2", "type": "int2", "value": "(3, 4)"}, {"name": "_I3", "type": "int3", "value": "(0, 0, 7)"}]}');
+    write('whole/scene.json', '{"scene": [{"type": "Operations/Union", "children": [{"type": "Models/ball"}]}]}');
+    write('whole/ball.json', '{"materials": ["m"], "model": {"type": "Primitives/Torus", "data": [0.1, 1], "material_id": 0}}');
+    succeed(['import', 'whole', '-o', 'whole.json']);
+    assert.equal(succeed(['check', 'whole.json']).out, '');
+    succeed(['render', 'whole.json', '-o', 'whole.png', ...SMALL]);
+    assert.deepEqual(middlePixel('whole.png'), [255, 0, 255]);
+});
+
+test('a file name that is no UTF-8 makes a document that check passes', () => {
+    const name = Buffer.concat([Buffer.from(path.join(folder, 'latin/sc')), Buffer.from([0xe9]), Buffer.from('ne.json')]);
+    fs.mkdirSync(path.join(folder, 'latin'));
+    fs.writeFileSync(name, '{"scene": [{"type": "Primitives/Sphere"}]}');
+    succeed(['import', 'latin', '-o', 'latin.json']);
+    assert.equal(JSON.parse(fs.readFileSync(path.join(folder, 'latin.json'), 'utf8')).name, 'sc\ufffdne');
+    succeed(['check', 'latin.json']);
 });
 
 test('import names file, line, column and what was expected', () => {
@@ -179,12 +281,45 @@ test('render shows what it is asked for', () => {
         picture('--aov', 'depth'),
         picture('--aov', 'normal'),
         picture('--aov', 'id'),
-        picture('--position', '0,9,9'),
-        picture('--target', '3,0,0'),
-        picture('--fov', '80'),
+        picture('--camera-position', '0,9,9'),
+        picture('--camera-target', '3,0,0'),
+        picture('--camera-fov', '80'),
     ];
     assert.equal(new Set(pictures).size, pictures.length);
     assert.equal(picture(), pictures[0], 'the same picture twice');
+});
+
+test('the camera of the command line changes the document\'s', () => {
+    const document = { format: 'fieldcast/1', camera: { position: [2, 1, 3] }, root: { type: 'box' } };
+    const options = {
+        type: 'orthographic',
+        /* As far apart as the document's: shadows and edges take their scale from that. */
+        position: [1.5, 2.5, 3.5],
+        target: [0.5, 0.5, 0.5],
+        up: [0.5, 1, 0],
+        height: 2.5,
+        aperture: 0.1,
+        focus: 4,
+    };
+    const draw = (camera, ...args) => {
+        const input = JSON.stringify({ ...document, camera: { ...document.camera, ...camera } });
+        return succeed(['render', '-', '-o', '-', '--format', 'png', ...SMALL, ...args], { input, binary: true }).out;
+    };
+    const given = Object.entries(options).map(([name, value]) => `--camera-${name}=${value}`);
+    assert.ok(draw({}, ...given).equals(draw(options)));
+    assert.ok(draw({}, '--camera-fov', '20').equals(draw({ fov: 20 })));
+    assert.ok(!draw({}).equals(draw({ fov: 20 })));
+    const all = JSON.parse(succeed(['schema']).out)['x-fieldcast'].camera.map(({ name }) => name);
+    assert.deepEqual([...Object.keys(options), 'fov'].sort(), all.sort());
+});
+
+test('switches are the same words as in a query', () => {
+    const draw = (word) =>
+        succeed(['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL, '--transparent', word], { binary: true }).out;
+    assert.ok(draw('true').equals(draw('on')));
+    assert.ok(draw('false').equals(draw('off')));
+    assert.equal(decodePng(draw('true')).channels, 4);
+    assert.equal(decodePng(draw('false')).channels, 3);
 });
 
 test('render puts several outputs into one file', () => {
@@ -248,9 +383,9 @@ test('render refuses what the scene would refuse', () => {
     const result = run(['render', 'example:snowmna', '-o', 'x.png']);
     assert.equal(result.status, 1);
     assert.match(result.err, /example:snowmna: is no example; did you mean "snowman"\?/);
-    const fov = run(['render', 'example:snowman', '-o', 'x.png', '--fov', '0']);
+    const fov = run(['render', 'example:snowman', '-o', 'x.png', '--camera-fov', '0']);
     assert.notEqual(fov.status, 0);
-    assert.match(fov.err, /--fov: /);
+    assert.match(fov.err, /--camera-fov: /);
 });
 
 test('a GPU that is asked for and not there is an error', () => {
@@ -350,7 +485,12 @@ test('serve refuses a token file that is none', () => {
 test('the example config file holds only what is known', () => {
     const text = fs.readFileSync(path.join(root, 'deploy/fieldcast.conf'), 'utf8');
     const settings = text.replace(/^# (?=[a-z-]+ = )/gm, '').replace(/^token-file.*\n/m, '');
-    assert.ok(settings.match(/^[a-z-]+ = /gm).length >= 8);
+    const named = text.match(/^(# )?[a-z-]+(?= = )/gm).map((line) => line.replace('# ', ''));
+    const readme = fs.readFileSync(path.join(root, 'README.md'), 'utf8');
+    const stored = [...readme.matchAll(/^\| `--([a-z-]+).*`FIELDCAST_/gm)]
+        .map(([, name]) => name)
+        .filter((name) => !['web', 'config'].includes(name));
+    assert.deepEqual(named.sort(), stored.sort());
     const file = write('example.conf', settings);
     const env = { HOME: folder };
     succeed(['doctor', '--config', file, '--port', '0'], { env });

@@ -7,7 +7,7 @@
 // chain, and the nodes that are there show the newest hundred.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
-import { ask, makeDirectory, removeDirectory, sleep, startDaemon } from '../support/daemon.mjs';
+import { ask, driverEnvironment, makeDirectory, removeDirectory, sleep, startDaemon } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 import { spawn } from 'node:child_process';
 import { program } from '../support/daemon.mjs';
@@ -88,7 +88,8 @@ async function check(daemon) {
 
 /** Killed while it starts; it may not get as far as to make the file. */
 async function killInStart(random) {
-    const child = spawn(program, ['serve', '--port', '0', '--data', data], { stdio: 'ignore' });
+    const env = { ...process.env, ...driverEnvironment('null') };
+    const child = spawn(program, ['serve', '--port', '0', '--data', data], { env, stdio: 'ignore' });
     const gone = new Promise((done) => child.on('exit', done));
     await sleep(random() * 60);
     child.kill('SIGKILL');
@@ -97,7 +98,7 @@ async function killInStart(random) {
 
 test(`kill -9 ${KILLS} times in the middle of editing`, async (t) => {
     const random = randomNumbers(20240229);
-    const first = await startDaemon({ data, ready: false });
+    const first = await startDaemon({ data, ready: false, driver: 'null' });
     await ask(first, 'POST', '/v1/scenes?id=s', {
         format: 'fieldcast/1',
         root: {
@@ -111,14 +112,14 @@ test(`kill -9 ${KILLS} times in the middle of editing`, async (t) => {
         if (i % 5 === 0) {
             await killInStart(random);
         }
-        const daemon = await startDaemon({ data, ready: false });
+        const daemon = await startDaemon({ data, ready: false, driver: 'null' });
         await check(daemon);
         const editors = CLIENTS.map((client) => edit(daemon, client, random));
         await sleep(20 + random() * 400);
         await daemon.kill();
         await Promise.all(editors);
     }
-    const last = await startDaemon({ data, ready: false });
+    const last = await startDaemon({ data, ready: false, driver: 'null' });
     await check(last);
     assert.equal((await last.stop()).status, 0);
     sum.sent = CLIENTS.reduce((n, client) => n + sent[client], 0);

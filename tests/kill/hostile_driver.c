@@ -1,30 +1,88 @@
 /* SPDX-License-Identifier: MIT */
-/* A driver that hangs, crashes or eats memory over some shaders: loaded into the daemon in front of
- * the real one (LD_PRELOAD), so that the program under test is the one that users run. What it does
- * is chosen by numbers in the shader's text. */
+/* A driver that hangs, crashes, eats memory or takes long over some shaders: loaded into the daemon
+ * in front of the real one (LD_PRELOAD), so that the program under test is the one that users run.
+ * What it does is chosen by numbers in the shader's text. It takes time of the processor, so that a
+ * busy machine changes nothing.
+ *
+ * HANG_ONCE and the like hang in the first so many processes that come so far: they write their
+ * numbers into the file HOSTILE_COUNT. */
 #include <EGL/egl.h>
 #include <GL/glcorearb.h>
 #include <dlfcn.h>
 #include <pthread.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-enum act { NOTHING, HANG, CRASH, EAT, CRASH_LATER };
+enum act {
+    NOTHING,
+    HANG,
+    CRASH,
+    EAT,
+    CRASH_LATER,
+    HANG_ONCE,
+    HANG_TWICE,
+    SLEEP,
+    DRAW_SLOWLY,
+    DRAW_HARDLY
+};
 
 static const struct {
     const char *number;
     enum act act;
-} acts[] = {{"31337.5", HANG}, {"31338.5", CRASH}, {"31339.5", EAT}, {"31340.5", CRASH_LATER}};
+} acts[] = {{"31337.5", HANG},        {"31338.5", CRASH},       {"31339.5", EAT},
+            {"31340.5", CRASH_LATER}, {"31341.5", HANG_ONCE},   {"31342.5", HANG_TWICE},
+            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY}, {"31345.5", DRAW_HARDLY}};
 
-enum { OBJECTS = 4096, EAT_BYTES = 1 << 20 };
+enum { OBJECTS = 4096, EAT_BYTES = 1 << 20, GROUP_MS = 10, HARD_GROUP_MS = 500 };
 
 static PFNGLSHADERSOURCEPROC real_source;
 static PFNGLATTACHSHADERPROC real_attach;
 static PFNGLUSEPROGRAMPROC real_use;
-static pthread_t later[OBJECTS]; /* by shader or program: who may use it */
-static char is_later[OBJECTS];
+static PFNGLDISPATCHCOMPUTEPROC real_dispatch;
+static pthread_t later[OBJECTS];   /* by shader or program: who may use it */
+static char is_later[OBJECTS];     /* enum act */
+static _Thread_local int group_ms; /* of the program in use */
+
+static void hang(void)
+{
+    for (volatile int i = 0;; i++) {
+    }
+}
+
+/* How many processes have been here before this one. */
+static int processes_before(void)
+{
+    const char *path = getenv("HOSTILE_COUNT");
+    FILE *file = path ? fopen(path, "a+") : NULL;
+    int count = 0, pid = 0;
+
+    if (!file) {
+        abort();
+    }
+    rewind(file);
+    while (fscanf(file, "%d", &pid) == 1 && pid != getpid()) {
+        count++;
+    }
+    if (pid != getpid()) {
+        fprintf(file, "%d\n", (int)getpid());
+    }
+    fclose(file);
+    return count;
+}
+
+static void spend(int ms)
+{
+    struct timespec begun, now;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
+    do {
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    } while ((now.tv_sec - begun.tv_sec) * 1000 + (now.tv_nsec - begun.tv_nsec) / 1000000 < ms);
+}
 
 static enum act act_of(GLsizei count, const GLchar *const *strings)
 {
@@ -41,10 +99,25 @@ static enum act act_of(GLsizei count, const GLchar *const *strings)
 static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *strings,
                             const GLint *lengths)
 {
-    switch (act_of(count, strings)) {
+    const enum act act = act_of(count, strings);
+
+    switch (act) {
     case HANG:
-        for (volatile int i = 0;; i++) {
+        hang();
+        break;
+    case HANG_ONCE:
+        if (processes_before() < 1) {
+            hang();
         }
+        break;
+    case HANG_TWICE:
+        if (processes_before() < 2) {
+            hang();
+        }
+        break;
+    case SLEEP:
+        pause();
+        break;
     case CRASH:
         abort();
     case EAT:
@@ -56,13 +129,13 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
             memset(block, 1, EAT_BYTES);
         }
     case CRASH_LATER:
-        is_later[shader % OBJECTS] = 1;
-        later[shader % OBJECTS] = pthread_self();
-        break;
+    case DRAW_SLOWLY:
+    case DRAW_HARDLY:
     case NOTHING:
-        is_later[shader % OBJECTS] = 0;
         break;
     }
+    is_later[shader % OBJECTS] = (char)act;
+    later[shader % OBJECTS] = pthread_self();
     real_source(shader, count, strings, lengths);
 }
 
@@ -76,10 +149,24 @@ static void APIENTRY attach(GLuint program, GLuint shader)
 /* The thread that compiled it may warm it up; drawing is another thread's. */
 static void APIENTRY use(GLuint program)
 {
-    if (is_later[program % OBJECTS] && !pthread_equal(later[program % OBJECTS], pthread_self())) {
+    const bool elsewhere = !pthread_equal(later[program % OBJECTS], pthread_self());
+
+    if (is_later[program % OBJECTS] == CRASH_LATER && elsewhere) {
         abort();
     }
+    group_ms = !elsewhere                                   ? 0
+               : is_later[program % OBJECTS] == DRAW_SLOWLY ? GROUP_MS
+               : is_later[program % OBJECTS] == DRAW_HARDLY ? HARD_GROUP_MS
+                                                            : 0;
     real_use(program);
+}
+
+static void APIENTRY dispatch(GLuint x, GLuint y, GLuint z)
+{
+    if (group_ms > 0) {
+        spend(group_ms * (int)(x * y * z));
+    }
+    real_dispatch(x, y, z);
 }
 
 typedef __eglMustCastToProperFunctionPointerType function;
@@ -102,6 +189,10 @@ __eglMustCastToProperFunctionPointerType EGLAPIENTRY eglGetProcAddress(const cha
     if (strcmp(name, "glUseProgram") == 0) {
         real_use = (PFNGLUSEPROGRAMPROC)real(name);
         return (function)use;
+    }
+    if (strcmp(name, "glDispatchCompute") == 0) {
+        real_dispatch = (PFNGLDISPATCHCOMPUTEPROC)real(name);
+        return (function)dispatch;
     }
     return real(name);
 }

@@ -15,7 +15,7 @@ const DOCUMENT = {
 
 let daemon;
 before(async () => {
-    daemon = await startDaemon({ args: ['--worker-silence', '1500'] });
+    daemon = await startDaemon({ args: ['--worker-silence', '1500'], driver: 'null', tileMs: 5 });
     await ask(daemon, 'POST', '/v1/scenes?id=s', DOCUMENT);
 });
 after(() => daemon.stop());

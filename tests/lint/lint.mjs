@@ -51,7 +51,7 @@ const LAYERS = {
         system: /^(cjson\/cJSON|assert|ctype|errno|float|inttypes|limits|math|search|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\.h$/,
     },
     renderer: { others: [/^protocol\//] },
-    server: { others: [/^protocol\//, /^renderer\/(renderer|worker)\.h$/] },
+    server: { others: [/^protocol\//, /^renderer\/(renderer|worker|pick)\.h$/] },
 };
 
 function checkIncludes(files) {

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Slow is not broken: what uses the processor is left alone however long it takes, what is still is
+// replaced, and code that takes too long to compile gets a second try, then its reason, then another
+// try when somebody asks for it.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import path from 'node:path';
+import { after, test } from 'node:test';
+import { ask, counter, cpuSecondsOf, makeDirectory, program, removeDirectory, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const driver = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
+const CODE = '/primitives/blob/code';
+const ball = (radius) => `float sdf(vec3 p) { return length(p) - ${radius} * blow; }`;
+const GOOD = ball('1.0');
+const HANG = ball('31337.5');
+const CRASH = ball('31338.5');
+const HANG_ONCE = ball('31341.5');
+const HANG_TWICE = ball('31342.5');
+const DRAW_SLOWLY = ball('31344.5'); // 10 ms for each 8 × 8 pixels in each pass
+const DRAW_HARDLY = ball('31345.5'); // 500 ms
+
+const scene = (code) => ({
+    format: 'fieldcast/1',
+    lights: [{ id: 'sun', type: 'directional' }],
+    primitives: { blob: { params: [{ name: 'blow', type: 'float', default: 1 }], code } },
+    root: { id: 'root', type: 'union', children: [{ id: 'b', type: 'field', params: { primitive: 'blob' } }] },
+});
+
+const folder = makeDirectory();
+const daemons = [];
+after(async () => {
+    await Promise.all(daemons.map((daemon) => daemon.stop()));
+    removeDirectory(folder);
+});
+
+/** With the driver in front of the real one. */
+async function start(...args) {
+    process.env.LD_PRELOAD = driver;
+    process.env.HOSTILE_COUNT = path.join(folder, `count-${daemons.length}`);
+    process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
+    const daemon = await startDaemon({ args });
+    delete process.env.LD_PRELOAD;
+    daemons.push(daemon);
+    return daemon;
+}
+
+async function open(daemon, id, code, view) {
+    await ask(daemon, 'POST', `/v1/scenes?id=${id}`, scene(code));
+    const live = await Live.open(daemon, id);
+    live.look(view);
+    return live;
+}
+
+const SMALL = { width: 12, height: 8 };
+
+const restarts = (daemon) => counter(daemon, 'worker_restarts_total');
+const errors = (live) => live.messages.filter((m) => m.type === 'notice' && m.level === 'error');
+
+test('a tile that is long at work is no hung process', async (t) => {
+    const daemon = await start('--worker-silence', '100');
+    const live = await open(daemon, 'slow', DRAW_SLOWLY);
+    const frame = await live.nextFrame();
+    t.diagnostic(`a picture of ${frame.width} × ${frame.height} after ${frame.at - live.messages[0].at} ms`);
+    assert.equal(await restarts(daemon), 0);
+    assert.deepEqual(errors(live), []);
+    await live.close();
+});
+
+test('a scene whose tiles took too long for one process is drawn by the next in the smallest', async () => {
+    const daemon = await start('--worker-busy', '1200');
+    const live = await open(daemon, 'smaller', DRAW_SLOWLY, { width: 128, height: 96 });
+    await live.nextFrame();
+    assert.ok((await restarts(daemon)) >= 1);
+    assert.deepEqual(errors(live), []);
+    await live.close();
+});
+
+test('a process that is stopped is replaced', async () => {
+    const daemon = await start('--worker-silence', '500');
+    const pid = daemon.worker();
+    process.kill(pid, 'SIGSTOP');
+    await until(() => daemon.worker() && daemon.worker() !== pid, 'another worker');
+    assert.match(daemon.errors, /silent and still for/);
+});
+
+test('a process that waits for a processor is not', async () => {
+    const daemon = await start('--worker-silence', '500');
+    const pid = daemon.worker();
+    const loops = Array.from({ length: 8 }, () => spawn('timeout', ['60', 'sh', '-c', 'while :; do :; done']));
+    await ask(daemon, 'POST', '/v1/scenes?id=s', { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } });
+    const live = await Live.open(daemon, 's');
+    for (let i = 0; i < 5; i += 1) {
+        live.look({ width: 320, height: 240, camera: { position: [i, 1, 5] } });
+        await live.nextFrame((frame) => frame.seq === live.seq && frame.lossless);
+    }
+    loops.forEach((loop) => loop.kill());
+    assert.equal(daemon.worker(), pid);
+    await live.close();
+});
+
+test('code that compiles in a second try leaves no word', async () => {
+    const daemon = await start();
+    const live = await open(daemon, 'once', HANG_ONCE);
+    await live.nextFrame((frame) => frame.lossless);
+    assert.equal(await restarts(daemon), 1);
+    assert.deepEqual(live.messages.filter((m) => m.type === 'notice'), []);
+    await live.close();
+});
+
+test('too slow twice is told with measure and limit, and tried again when asked', async () => {
+    const daemon = await start();
+    const live = await open(daemon, 'twice', GOOD);
+    await live.nextFrame((frame) => frame.lossless);
+    live.set(CODE, HANG_TWICE);
+    const notice = await live.next('notice', { level: 'error' });
+    assert.equal(notice.code, 'too_slow');
+    assert.equal(notice.place, CODE);
+    assert.equal(notice.line, undefined);
+    assert.ok(notice.measured > notice.limit && notice.limit >= 10000, `${notice.measured} of ${notice.limit}`);
+    assert.match(notice.message, /^This code took over [\d.]+ s to compile here \(limit [\d.]+ s\)\. The last picture stays\.$/);
+    assert.equal(await restarts(daemon), 2);
+
+    const refused = await fetch(`${daemon.url}/v1/scenes/twice/image.png?width=8&height=8`);
+    const problem = await refused.json();
+    assert.equal(refused.status, 503);
+    assert.equal(problem.code, 'too_slow');
+    assert.equal(problem.measured, notice.measured);
+    assert.equal(problem.limit, notice.limit);
+
+    live.say({ type: 'retry', place: '/nodes/nobody' });
+    assert.equal((await live.next('notice', { code: 'not_found' })).place, '/place');
+    live.look({ width: 80, height: 48 });
+    live.say({ type: 'retry', place: CODE });
+    assert.equal((await live.next('notice', { code: 'retrying' })).place, CODE);
+    await live.nextFrame((frame) => frame.lossless && frame.revision === 2);
+    assert.equal(await restarts(daemon), 2);
+    assert.equal(errors(live).length, 2);
+    await live.close();
+});
+
+test('no measure and no limit are told of a crash, and a retry that fails is told again', async () => {
+    const daemon = await start();
+    const live = await open(daemon, 'crash', CRASH);
+    const notice = await live.next('notice', { level: 'error' });
+    assert.equal(notice.code, 'crashed');
+    assert.equal(notice.place, CODE);
+    assert.deepEqual([notice.line, notice.measured, notice.limit], [undefined, undefined, undefined]);
+    const from = live.messages.length;
+    live.say({ type: 'retry' });
+    assert.equal((await live.next('notice', { code: 'retrying' }, from)).place, CODE);
+    assert.equal((await live.next('notice', { level: 'error' }, from)).code, 'crashed');
+    await live.close();
+});
+
+test('who has nothing to do with it hears no word of a crash', async () => {
+    const daemon = await start();
+    await ask(daemon, 'POST', '/v1/scenes?id=other', { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } });
+    const still = await Live.open(daemon, 'other');
+    const moving = await Live.open(daemon, 'other');
+    still.look();
+    await still.nextFrame((frame) => frame.lossless);
+    const live = await open(daemon, 'hang', HANG);
+    moving.look();
+    await moving.nextFrame();
+    let going = true;
+    const done = (async () => {
+        for (let i = 0; going; i += 1) {
+            moving.look({ camera: { position: [Math.sin(i), 1, 5] } });
+            await sleep(25);
+        }
+    })();
+    await live.next('notice', { code: 'too_slow' });
+    going = false;
+    await done;
+    for (const one of [still, moving]) {
+        const told = one.messages.filter((m) => m.type === 'notice');
+        assert.ok(told.every((m) => m.level === 'info'), JSON.stringify(told));
+        assert.ok(told.every((m) => !/ended|crash/.test(m.message)), JSON.stringify(told));
+    }
+    await Promise.all([still, moving, live].map((one) => one.close()));
+});
+
+test('a scene whose smallest part takes too long is left out with its measure', async () => {
+    const daemon = await start('--tile-time', '1000');
+    const live = await open(daemon, 'heavy', DRAW_HARDLY, SMALL);
+    const notice = await live.next('notice', { code: 'scene_left_out' });
+    assert.ok(notice.measured > 1000 && notice.limit === 1000, `${notice.measured} of ${notice.limit}`);
+    assert.equal(notice.place, '/nodes/root');
+    const refused = await fetch(`${daemon.url}/v1/scenes/heavy/image.png?width=8&height=8`);
+    assert.equal((await refused.json()).code, 'too_slow');
+    assert.equal(await restarts(daemon), 0);
+    const late = await Live.open(daemon, 'heavy');
+    assert.equal((await late.next('notice', { code: 'scene_left_out' })).limit, 1000);
+    await late.close();
+    const spent = cpuSecondsOf(daemon.worker());
+    await sleep(1000);
+    assert.ok(cpuSecondsOf(daemon.worker()) - spent < 0.5, 'it is not drawn again');
+
+    live.say({ type: 'retry', place: '/nodes/root' });
+    await live.next('notice', { code: 'retrying' });
+    await live.nextFrame();
+    await live.close();
+});
+
+test('a scene that keeps two processes at work for too long is left out too', async () => {
+    const daemon = await start('--worker-busy', '1500');
+    const live = await open(daemon, 'busy', DRAW_HARDLY, SMALL);
+    const notice = await live.next('notice', { code: 'scene_left_out' });
+    assert.ok(notice.measured > 1500 && notice.limit === 1500, `${notice.measured} of ${notice.limit}`);
+    // A start may take more than so low a bound too.
+    assert.ok((await restarts(daemon)) >= 2);
+    live.say({ type: 'retry' });
+    await live.nextFrame();
+    await live.close();
+});
