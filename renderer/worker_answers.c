@@ -133,14 +133,22 @@ void worker_send_fault(struct worker *w, const char *type, const char *scene, ui
     worker_send(w, json, NULL, 0);
 }
 
-void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
-                         uint64_t shape)
+void worker_send_compiling(struct worker *w, const char *scene, uint64_t revision, uint64_t shape)
 {
-    cJSON *json = worker_answer(type);
+    cJSON *json = worker_answer("compiling");
 
     cJSON_AddStringToObject(json, "scene", scene);
     cJSON_AddNumberToObject(json, "revision", (double)revision);
     add_shape(json, shape);
+    worker_send(w, json, NULL, 0);
+}
+
+void worker_send_drawing(struct worker *w, const struct task *task)
+{
+    cJSON *json = worker_answer("drawing");
+
+    cJSON_AddStringToObject(json, "scene", task ? task->scene : "");
+    cJSON_AddNumberToObject(json, "job", task ? (double)task->number : 0);
     worker_send(w, json, NULL, 0);
 }
 

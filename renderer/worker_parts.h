@@ -46,8 +46,7 @@ struct worker {
     struct held *scenes;
     struct task *tasks;
     struct turns turns;
-    char told_scene[LIMIT_ID_BYTES + 16]; /* that the front thinks is drawn */
-    uint64_t told_shape;                  /* the same, where there is code of users in it */
+    uint64_t told_job; /* that the front thinks is drawn; 0: none */
     int status;                           /* -1 while running */
 };
 
@@ -73,9 +72,10 @@ void worker_send_progress(struct worker *w, const struct task *task);
 void worker_send_frame(struct worker *w, const struct task *task);
 /* A compiler may never end, and this process will. */
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
-/* `compiling` or `drawing`: whose code is at work from here on; scene "": nobody's. */
-void worker_send_suspect(struct worker *w, const char *type, const char *scene, uint64_t revision,
-                         uint64_t shape);
+/* Whose code is compiled from here on; scene "": nobody's. */
+void worker_send_compiling(struct worker *w, const char *scene, uint64_t revision, uint64_t shape);
+/* What is drawn from here on; NULL: nothing. */
+void worker_send_drawing(struct worker *w, const struct task *task);
 void worker_on_ping(struct worker *w, const cJSON *packet);
 
 /* --- worker_scenes.c --- */

@@ -286,15 +286,13 @@ static void finish_drawing(struct worker *w, struct task *task)
 /* What is drawn from here on, if anything: the front knows it should this be the end. */
 static void tell_drawing(struct worker *w, const struct task *task)
 {
-    const char *scene = task ? task->scene : "";
-    const uint64_t shape = task ? job_shape_with_code(task->job) : 0;
+    const uint64_t job = task ? task->number : 0;
 
-    if (shape == w->told_shape && strcmp(scene, w->told_scene) == 0) {
+    if (job == w->told_job) {
         return;
     }
-    w->told_shape = shape;
-    snprintf(w->told_scene, sizeof w->told_scene, "%s", scene);
-    worker_send_suspect(w, "drawing", scene, task ? task->revision : 0, shape);
+    w->told_job = job;
+    worker_send_drawing(w, task);
     if (task) {
         worker_flush_all(w);
     }

@@ -86,10 +86,10 @@ void worker_on_compile(void *data, uint64_t shape)
         task = task->next;
     }
     if (shape == 0 || (!held && !task)) {
-        worker_send_suspect(w, "compiling", "", 0, 0);
+        worker_send_compiling(w, "", 0, 0);
     } else {
-        worker_send_suspect(w, "compiling", held ? held->name : task->scene,
-                            held ? resident_revision(held->resident) : task->revision, shape);
+        worker_send_compiling(w, held ? held->name : task->scene,
+                              held ? resident_revision(held->resident) : task->revision, shape);
         worker_flush_all(w);
     }
 }

@@ -85,7 +85,8 @@ void quarantine_worker_ready(struct hub *hub)
 
 static struct suspect read_suspect(const cJSON *json)
 {
-    struct suspect suspect = {.revision = (uint64_t)json_member_number(json, "revision", 0)};
+    struct suspect suspect = {.revision = (uint64_t)json_member_number(json, "revision", 0),
+                              .job = (uint32_t)json_member_number(json, "job", 0)};
 
     snprintf(suspect.scene, sizeof(suspect.scene), "%s", json_member_text(json, "scene", ""));
     snprintf(suspect.shape, sizeof(suspect.shape), "%s", json_member_text(json, "shape", ""));

@@ -23,8 +23,9 @@ enum { QUARANTINE_SHAPES = 256 }; /* the oldest are forgotten: they may try agai
 /* "" in `scene`: nobody. */
 struct suspect {
     char scene[LIMIT_ID_BYTES + 16];
-    uint64_t revision;
+    uint64_t revision; /* of what is compiled */
     char shape[17];
+    uint32_t job; /* of what is drawn */
 };
 
 /* What is known of a shape. */

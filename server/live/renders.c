@@ -123,10 +123,34 @@ static void send_scene(struct hub *hub, const struct render *render)
     send_and_delete(hub, packet);
 }
 
-/* Has to do with the loss of a worker, perhaps as its cause. */
+static struct render_demand demand_of(const struct render *render)
+{
+    const int width = (int)json_member_number(render->order.fields, "width", 0);
+    const int height = (int)json_member_number(render->order.fields, "height", 0);
+
+    return (struct render_demand){render->order.priority, (int64_t)width * height};
+}
+
+/* Asks for as much as the picture that a worker was lost with. */
+static bool is_fatal(const struct render *render)
+{
+    const struct render_demand demand = demand_of(render);
+    const struct render_demand *fatal = &render->order.room->fatal;
+
+    return demand.priority >= fatal->priority && demand.pixels >= fatal->pixels;
+}
+
+/* May end the next worker too. */
 static bool is_suspect(const struct render *render)
 {
-    return render->order.room ? render->order.room->deaths > 0 : render->deaths > 0;
+    return render->order.room ? render->order.room->deaths > 0 && is_fatal(render)
+                              : render->deaths > 0;
+}
+
+/* Has to do with the loss of a worker: drawn in the smallest tiles. */
+static bool is_careful(const struct render *render)
+{
+    return render->deaths > 0 || (render->order.room && render->order.room->deaths > 0);
 }
 
 static void send_render(struct hub *hub, struct render *render)
@@ -141,7 +165,7 @@ static void send_render(struct hub *hub, struct render *render)
     cJSON_AddStringToObject(packet, "scene", name);
     cJSON_AddNumberToObject(packet, "job", render->id);
     cJSON_AddNumberToObject(packet, "priority", render->order.priority);
-    cJSON_AddBoolToObject(packet, "careful", is_suspect(render));
+    cJSON_AddBoolToObject(packet, "careful", is_careful(render));
     cJSON_AddNumberToObject(packet, "patience", room ? room->patience : 1);
     render->sent = true;
     send_and_delete(hub, packet);
@@ -422,7 +446,7 @@ void renders_answer(struct hub *hub, const struct packet *packet)
         finish(hub, render, NULL, &err);
     } else {
         count_times(hub, json);
-        if (render->order.room) {
+        if (render->order.room && is_fatal(render)) {
             render->order.room->deaths = 0;
         }
         finish(hub, render, packet, NULL);
@@ -445,6 +469,9 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
         if (!quarantine_blames(hub, room->id, asked) || room->left_out.kind != ERROR_NONE) {
             continue;
         }
+        const struct render *drawn = find(&hub->renders, hub->quarantine.drawn.job);
+
+        room->fatal = drawn ? demand_of(drawn) : (struct render_demand){0};
         if (++room->deaths >= RENDER_DEATHS) {
             struct error why = {0};
 

@@ -26,6 +26,12 @@ enum {
     RENDER_DEATHS = 2,           /* workers that one scene may take with it */
 };
 
+/* How much a picture asks for. */
+struct render_demand {
+    int priority;
+    int64_t pixels;
+};
+
 struct renders {
     struct render *first, **end; /* in order of asking */
     uint32_t last_id;
