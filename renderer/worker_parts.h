@@ -47,7 +47,7 @@ struct worker {
     struct task *tasks;
     struct turns turns;
     uint64_t told_job; /* that the front thinks is drawn; 0: none */
-    int status;                           /* -1 while running */
+    int status;        /* -1 while running */
 };
 
 enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front starts another */
