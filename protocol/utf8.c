@@ -2,27 +2,27 @@
 /* UTF-8 by the table of RFC 3629, section 4. */
 #include "utf8.h"
 
+/* Bytes of the sequence that begins with `first`, 0: none does; the range of its second byte. */
+static size_t begin(unsigned char first, unsigned char *low, unsigned char *high)
+{
+    /* No overlong forms, no surrogates, nothing above U+10FFFF. */
+    *low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+    *high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+    if (first < 0x80) {
+        return 1;
+    }
+    if (first < 0xc2 || first > 0xf4) {
+        return 0;
+    }
+    return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+}
+
 size_t utf8_sequence(const char *text, size_t left)
 {
     const unsigned char *s = (const unsigned char *)text;
-    unsigned char low = 0x80, high = 0xbf; /* of the second byte */
-    size_t count;
-    if (s[0] < 0x80) {
-        return 1;
-    }
-    if (s[0] >= 0xc2 && s[0] <= 0xdf) {
-        count = 2;
-    } else if (s[0] >= 0xe0 && s[0] <= 0xef) {
-        count = 3;
-        low = s[0] == 0xe0 ? 0xa0 : low;   /* no overlong forms */
-        high = s[0] == 0xed ? 0x9f : high; /* no surrogates */
-    } else if (s[0] >= 0xf0 && s[0] <= 0xf4) {
-        count = 4;
-        low = s[0] == 0xf0 ? 0x90 : low;
-        high = s[0] == 0xf4 ? 0x8f : high; /* nothing above U+10FFFF */
-    } else {
-        return 0;
-    }
+    unsigned char low, high;
+    const size_t count = begin(s[0], &low, &high);
+
     for (size_t i = 1; i < count; i++) {
         if (i >= left || s[i] < low || s[i] > high) {
             return 0;
@@ -31,6 +31,29 @@ size_t utf8_sequence(const char *text, size_t left)
         high = 0xbf;
     }
     return count;
+}
+
+bool utf8_feed(struct utf8_stream *stream, const char *bytes, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char c = (unsigned char)bytes[i];
+
+        if (stream->left == 0) {
+            const size_t count = begin(c, &stream->low, &stream->high);
+
+            if (count == 0) {
+                return false;
+            }
+            stream->left = (unsigned char)(count - 1);
+        } else if (c < stream->low || c > stream->high) {
+            return false;
+        } else {
+            stream->left--;
+            stream->low = 0x80;
+            stream->high = 0xbf;
+        }
+    }
+    return true;
 }
 
 size_t utf8_put(char out[4], unsigned long code)

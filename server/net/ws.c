@@ -14,6 +14,7 @@
 
 #include "outbox.h"
 #include "protocol/memory.h"
+#include "protocol/utf8.h"
 #include "server/clock.h"
 #include "server/live/hub.h"
 #include "server/live/session.h"
@@ -26,6 +27,7 @@ enum {
     PIECES_PER_TURN = 16,
     CLOSE_SECONDS = 3, /* for the other side to answer a close */
     CLOSE_UNSUPPORTED = 1003,
+    CLOSE_NOT_TEXT = 1007,
 };
 
 /* One connection. Made by ws_adopt, then the service thread's. */
@@ -42,6 +44,7 @@ struct link {
     bool silent;    /* one side has said its close: nothing is written any more */
     char *text;     /* the message being collected */
     size_t length, capacity;
+    struct utf8_stream utf8; /* of that message */
 };
 
 struct ws {
@@ -188,6 +191,32 @@ static int close_with(struct link *link, int code)
     return 0;
 }
 
+static void keep_bytes(struct link *link, const char *bytes, size_t length)
+{
+    if (length == 0) {
+        return; /* an empty message may have no memory yet */
+    }
+    if (link->length + length > link->capacity) {
+        link->capacity = (link->length + length) * 2;
+        link->text = memory_resize(link->text, link->capacity, 1);
+    }
+    memcpy(link->text + link->length, bytes, length);
+    link->length += length;
+}
+
+static void hand_on(struct link *link)
+{
+    if (link->session) {
+        session_receive(link->session, link->scene, link->text ? link->text : "", link->length);
+    }
+    link->length = 0;
+    if (link->capacity > 65536) { /* one large message shall not cost for ever */
+        free(link->text);
+        link->text = NULL;
+        link->capacity = 0;
+    }
+}
+
 static int on_receive(struct link *link, const char *bytes, size_t length)
 {
     struct lws *wsi = link->wsi;
@@ -202,23 +231,13 @@ static int on_receive(struct link *link, const char *bytes, size_t length)
     if (link->length + length + lws_remaining_packet_payload(wsi) > LIMIT_MESSAGE_BYTES) {
         return close_with(link, CLOSE_TOO_BIG);
     }
-    if (link->length + length > link->capacity) {
-        link->capacity = (link->length + length) * 2;
-        link->text = memory_resize(link->text, link->capacity, 1);
+    bool more = lws_remaining_packet_payload(wsi) || !lws_is_final_fragment(wsi);
+    if (!utf8_feed(&link->utf8, bytes, length) || (!more && link->utf8.left > 0)) {
+        return close_with(link, CLOSE_NOT_TEXT);
     }
-    memcpy(link->text + link->length, bytes, length);
-    link->length += length;
-    if (lws_remaining_packet_payload(wsi) || !lws_is_final_fragment(wsi)) {
-        return 0;
-    }
-    if (link->session) {
-        session_receive(link->session, link->scene, link->text, link->length);
-    }
-    link->length = 0;
-    if (link->capacity > 65536) { /* one large message shall not cost for ever */
-        free(link->text);
-        link->text = NULL;
-        link->capacity = 0;
+    keep_bytes(link, bytes, length);
+    if (!more) {
+        hand_on(link);
     }
     return 0;
 }

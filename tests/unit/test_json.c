@@ -145,6 +145,37 @@ static void test_refuses_what_is_not_utf8(void **state)
     }
 }
 
+/* What the whole says, its pieces say too: all pairs of bytes behind and in front of others. */
+static void test_utf8_in_pieces(void **state)
+{
+    static const char *const around[][2] = {
+        {"", ""}, {"a", "b"}, {"\xc3\xa9", "\x80"}, {"\xe0", "\xbf"}, {"\xf4", "\x80\x80"}};
+    size_t texts = 0;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof around / sizeof around[0] * 65536; i++) {
+        const char *const *const ends = around[i / 65536];
+        const size_t before = strlen(ends[0]), length = before + 2 + strlen(ends[1]);
+        char text[8] = "";
+        struct utf8_stream stream = {0};
+        size_t whole = 0, count = 1;
+        bool fed = true;
+
+        snprintf(text, sizeof text, "%s??%s", ends[0], ends[1]);
+        text[before] = (char)(i & 255);
+        text[before + 1] = (char)(i >> 8 & 255);
+        while (whole < length && (count = utf8_sequence(text + whole, length - whole)) > 0) {
+            whole += count;
+        }
+        for (size_t at = 0; at < length && fed; at++) {
+            fed = utf8_feed(&stream, text + at, 1);
+        }
+        assert_int_equal(fed && stream.left == 0, whole == length);
+        texts += whole == length;
+    }
+    assert_true(texts > 4 * 128 * 128 / 2);
+}
+
 static void test_refuses_duplicate_members(void **state)
 {
     (void)state;
@@ -389,6 +420,7 @@ int main(void)
         cmocka_unit_test(test_refuses_odd_numbers),
         cmocka_unit_test(test_refuses_odd_strings),
         cmocka_unit_test(test_refuses_what_is_not_utf8),
+        cmocka_unit_test(test_utf8_in_pieces),
         cmocka_unit_test(test_refuses_duplicate_members),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_numbers_are_short),
