@@ -381,7 +381,7 @@ static void balls(const double p[3], double out[3])
     out[2] = sqrt(p[0] * p[0] + (p[1] - 0.5) * (p[1] - 0.5) + p[2] * p[2]) - 0.6;
 }
 
-static char *operation_text(const struct node_type *type, const double n[2], const char *more)
+static char *operation_text(const struct node_type *type, const double n[3], const char *more)
 {
     const struct param *params = type->record.params;
     char *text, numbers[96] = "";
