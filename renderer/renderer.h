@@ -162,9 +162,11 @@ enum job_state {
 struct job *job_create(struct resident *resident, const struct job_desc *desc, struct error *err);
 /* Draws a sample of each pixel of one tile and returns soon. */
 enum job_state job_step(struct job *job);
-/* A tile has samples and wants more: until it has them only this job may be stepped, or it must be
- * destroyed, because all jobs' samples lie in the same textures. */
+/* A tile has samples and wants more: until it has them no other job that is sampled may be stepped,
+ * or this one must be destroyed, because their samples lie in the same textures. */
 bool job_is_within_tile(const struct job *job);
+/* It has begun, and its pixels have several samples each. */
+bool job_is_sampled(const struct job *job);
 /* False while a step would only wait for the compiler. */
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);

@@ -57,10 +57,11 @@ enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
 struct draw {
     const struct gl *gl;
     bool software;
-    struct targets targets;
+    struct targets targets[DRAW_SETS];
     struct common common;
     struct pass resolve[FORM_COUNT]; /* linked when first needed */
-    uint64_t compilations, rays;
+    uint64_t compilations;
+    uint64_t rays[DRAW_SETS];
 };
 
 static uint64_t now_us(void)
@@ -88,9 +89,11 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_side, stru
 
     draw->gl = gl;
     draw->software = software;
-    if (!targets_init(&draw->targets, gl, side, err)) {
-        free(draw);
-        return NULL;
+    for (int i = 0; i < DRAW_SETS; i++) {
+        if (!targets_init(&draw->targets[i], gl, side, err)) {
+            draw_destroy(draw);
+            return NULL;
+        }
     }
     if (!common_init(&draw->common, gl, err)) {
         draw_destroy(draw);
@@ -110,7 +113,9 @@ void draw_destroy(struct draw *draw)
         pass_finish(&draw->resolve[i], draw->gl);
     }
     common_finish(&draw->common, draw->gl);
-    targets_finish(&draw->targets, draw->gl);
+    for (int i = 0; i < DRAW_SETS; i++) {
+        targets_finish(&draw->targets[i], draw->gl);
+    }
     free(draw);
 }
 
@@ -125,7 +130,7 @@ static int margin_of(const struct draw_plan *plan)
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
 {
     const bool full = plan->antialiasing == ANTIALIASING_FULL;
-    int side = draw->targets.side;
+    int side = draw->targets[0].side;
 
     for (int samples = full ? plan->samples : 1; samples > 4 && side > TILE_LEAST; samples /= 4) {
         side /= 2;
@@ -148,7 +153,12 @@ uint64_t draw_compilations(const struct draw *draw)
 
 uint64_t draw_rays(const struct draw *draw)
 {
-    return draw->rays;
+    uint64_t together = 0;
+
+    for (int i = 0; i < DRAW_SETS; i++) {
+        together += draw->rays[i];
+    }
+    return together;
 }
 
 /* "#define STEPS_WHITE 64.0" and the colours, as GLSL. */
@@ -191,7 +201,7 @@ static void make_slot(const struct draw *draw, struct draw_slot *slot,
                       const struct draw_form *const wanted[AOV_COUNT])
 {
     const struct gl *gl = draw->gl;
-    const GLsizeiptr pixels = (GLsizeiptr)draw->targets.side * draw->targets.side;
+    const GLsizeiptr pixels = (GLsizeiptr)draw->targets[0].side * draw->targets[0].side;
 
     for (int i = 0; i < AOV_COUNT; i++) {
         if (wanted[i]) {
@@ -299,6 +309,11 @@ struct picture_rounds draw_rounds(const struct draw_picture *picture)
 
 /* --- a tile --- */
 
+bool draw_is_sampled(const struct draw_picture *picture)
+{
+    return picture->plan.samples > 1 && picture->forms[AOV_COLOR];
+}
+
 /* The tile's pixels and how many samples they have: from the targets, or back into them. */
 static void keep(const struct wave *wave, const struct draw_picture *picture, bool back)
 {
@@ -329,9 +344,9 @@ static void resolve(struct draw *draw, const struct wave *wave, const struct dra
 
     place.turn[2] = margin_of(wave->plan);
     place.turn[3] = wave->plan->antialiasing == ANTIALIASING_EDGES;
-    targets_bind_common(&draw->targets, gl, &draw->targets.eye, &draw->targets.eye);
+    targets_bind_common(wave->targets, gl, &wave->targets->eye, &wave->targets->eye);
     gl->Viewport(0, 0, slot->tile.width, slot->tile.height);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, draw->targets.out_buffers[form->kind]);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, wave->targets->out_buffers[form->kind]);
     pass_draw(&draw->resolve[form - forms], gl, &place);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[form->aov]);
     gl->ReadPixels(0, 0, slot->tile.width, slot->tile.height, form->read_format, form->read_type,
@@ -392,6 +407,11 @@ static bool draw_from_camera(struct wave *wave, struct program *program, struct 
     return true;
 }
 
+static enum draw_set set_of(const struct draw_picture *picture)
+{
+    return draw_is_sampled(picture) ? DRAW_SET_SAMPLED : DRAW_SET_ONCE;
+}
+
 static void bind_scene(const struct draw *draw, const struct draw_picture *picture,
                        const struct draw_scene *scene)
 {
@@ -403,7 +423,7 @@ static void bind_scene(const struct draw *draw, const struct draw_picture *pictu
                 {UNIT_MIRRORED, scene->environment->mirrored},
                 {UNIT_IRRADIANCE, scene->environment->irradiance}};
 
-    targets_bind(&draw->targets, gl);
+    targets_bind(&draw->targets[set_of(picture)], gl);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
     numbers_bind(scene->numbers, gl);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -421,7 +441,7 @@ static struct wave make_wave(const struct draw *draw, struct draw_picture *pictu
     return (struct wave){
         .gl = draw->gl,
         .software = draw->software,
-        .targets = &draw->targets,
+        .targets = &draw->targets[set_of(picture)],
         .common = &draw->common,
         .program = scene->program,
         .plan = &picture->plan,
@@ -469,7 +489,7 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct dra
     } else if (!draw_from_camera(&wave, scene->program, err)) {
         return false;
     }
-    if (plan->samples > 1 && picture->forms[AOV_COLOR]) {
+    if (draw_is_sampled(picture)) {
         wave.slot->samples = 1;
     } else {
         finish_tile(draw, &wave, picture);
@@ -526,13 +546,13 @@ static void fetch_times(const struct draw *draw, struct draw_slot *slot)
 }
 
 /* The counter in the stack's head runs through all tiles, and over. */
-static void count_rays(struct draw *draw)
+static void count_rays(struct draw *draw, enum draw_set set)
 {
     uint32_t count = 0;
 
-    draw->gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, draw->targets.stack);
+    draw->gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, draw->targets[set].stack);
     draw->gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof count, &count);
-    draw->rays += count - (uint32_t)draw->rays;
+    draw->rays[set] += count - (uint32_t)draw->rays[set];
 }
 
 bool draw_wait(struct draw *draw, struct draw_picture *picture, int index, struct error *err)
@@ -545,7 +565,7 @@ bool draw_wait(struct draw *draw, struct draw_picture *picture, int index, struc
     }
     fetch_times(draw, slot);
     if (picture->plan.rays > 0) {
-        count_rays(draw);
+        count_rays(draw, set_of(picture));
     }
     slot->stage_us[FRAME_READ] += now_us() - start;
     return true;

@@ -14,6 +14,10 @@
 
 enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
 
+/* Where the samples of a tile lie. Pictures of one sample have a set of their own, so that they may
+ * come between two samples of another's tile. */
+enum draw_set { DRAW_SET_ONCE, DRAW_SET_SAMPLED, DRAW_SETS };
+
 struct draw; /* targets and passes of one context */
 
 /* An output, and how its pixels come back. */
@@ -88,6 +92,8 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
                 struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
+/* Its pixels have several samples each. */
+bool draw_is_sampled(const struct draw_picture *picture);
 /* Before the first tile: the picture is drawn in rounds of ever more samples, each a whole picture.
  * All outputs but color keep to one round. */
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region);
@@ -95,8 +101,8 @@ void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile
 bool draw_next_round(struct draw_picture *picture);
 struct picture_rounds draw_rounds(const struct draw_picture *picture);
 /* The first sample of each pixel, or those that the last round left. Where `samples` of the slot is
- * not 0 then, the tile is not finished: draw_tile_more draws one more, and nothing else may be
- * drawn until it is 0. */
+ * not 0 then, the tile is not finished: draw_tile_more draws one more, and no other picture that is
+ * sampled may be drawn until it is 0. */
 bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                struct tile tile, int slot, struct error *err);
 bool draw_tile_more(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,

@@ -9,8 +9,7 @@
 
 enum {
     ROUNDS_PIXELS_MAX = 1 << 22,
-    PACE_WRONG_US =
-        8 * PACE_LONG_US, /* so slow a tile is begun anew, with its row, in smaller ones */
+    PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
 };
 
 /* --- drawing --- */
@@ -122,6 +121,11 @@ static const struct draw_slot *last_slot(const struct job *job)
 bool job_is_within_tile(const struct job *job)
 {
     return job->started > 0 && last_slot(job)->samples > 0;
+}
+
+bool job_is_sampled(const struct job *job)
+{
+    return job->begun && draw_is_sampled(&job->picture);
 }
 
 /* --- how long it takes --- */

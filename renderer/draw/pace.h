@@ -8,9 +8,9 @@
 #include "protocol/picture.h"
 
 enum {
-    PACE_LONG_US = 200000, /* a sample of a tile that takes longer halves the side of later ones */
-    PACE_SHORT_US = 40000, /* where all of a row take less it is doubled */
-    PACE_FIRST = 3,        /* doublings of the smallest side, where nothing is known */
+    PACE_LONG_US = 20000, /* a sample of a tile that takes longer halves the side of later ones */
+    PACE_SHORT_US = 4000, /* where all of a row take less it is doubled */
+    PACE_FIRST = 3,       /* doublings of the smallest side, where nothing is known */
     PACE_MOST = 6,
 };
 
