@@ -34,7 +34,7 @@ static bool fill(struct error *err, enum error_kind kind, const char *place, con
     }
     memcpy(err->message, text, sizeof text);
     err->line = err->column = 0;
-    err->measured_ms = err->limit_ms = 0;
+    err->measured_ms = err->limit_ms = err->retry_ms = 0;
     return false;
 }
 

@@ -21,6 +21,7 @@
     X(TOO_SLOW, "too_slow", 503)         /* it took more time than it may: not before a retry */   \
     X(CRASHED, "crashed", 503)           /* it ended the render process: not before a retry */     \
     X(UNAVAILABLE, "unavailable", 503)   /* not now: worker restarting, queue full, draining */    \
+    X(SHARE, "share", 429)               /* more than this client's share: after retry_ms */       \
     X(INTERNAL, "internal", 500)         /* our fault */
 
 enum error_kind {
@@ -39,6 +40,7 @@ struct error {
     char message[320];
     int line, column;          /* in the text at `place`, from 1; 0: not in a text */
     int measured_ms, limit_ms; /* ERROR_TOO_SLOW: time of the processors; else 0 */
+    int retry_ms;              /* when to ask again; 0: not known */
 };
 
 /* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well.

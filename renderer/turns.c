@@ -9,13 +9,12 @@
 
 struct turn {
     struct turn *next;
-    char *scene;
+    char *account;
     int pictures;
-    uint64_t us;    /* drawing time, weighed by how urgent it was */
-    uint64_t steps; /* ever */
-    uint64_t round; /* in which it could go on last */
-    int priority;   /* of the offer below */
-    void *offer;    /* of this round */
+    uint64_t us;              /* drawing time, weighed by how urgent it was */
+    uint64_t steps;           /* ever */
+    uint64_t round;           /* in which it could go on last */
+    struct turns_offer offer; /* the best of this round; no picture: none */
 };
 
 /* What a microsecond costs, by priority. */
@@ -28,17 +27,16 @@ static int clamped(int priority)
 
 /* --- accounts --- */
 
-struct turn *turns_join(struct turns *turns, const char *scene)
+struct turn *turns_join(struct turns *turns, const char *account)
 {
-    const char *name = *scene == '~' ? "~" : scene;
     struct turn **at = &turns->first;
 
-    while (*at && strcmp((*at)->scene, name) != 0) {
+    while (*at && strcmp((*at)->account, account) != 0) {
         at = &(*at)->next;
     }
     if (!*at) {
         *at = memory_alloc(1, sizeof **at);
-        (*at)->scene = memory_text(name);
+        (*at)->account = memory_text(account);
     }
     (*at)->pictures++;
     return *at;
@@ -68,7 +66,7 @@ static void remove_old(struct turns *turns)
         }
         *at = turn->next;
         turns->last = turns->last == turn ? NULL : turns->last;
-        free(turn->scene);
+        free(turn->account);
         free(turn);
     }
 }
@@ -85,27 +83,32 @@ void turns_begin(struct turns *turns)
 {
     turns->round++;
     for (struct turn *turn = turns->first; turn; turn = turn->next) {
-        turn->offer = NULL;
+        turn->offer.picture = NULL;
     }
 }
 
-void turns_offer(struct turns *turns, struct turn *turn, int priority, void *picture)
+static bool is_better(const struct turns_offer *a, const struct turns_offer *b)
+{
+    return a->priority != b->priority ? a->priority < b->priority : a->pixels < b->pixels;
+}
+
+void turns_offer(struct turns *turns, struct turn *turn, const struct turns_offer *offer)
 {
     const bool oldest = turn->steps % TURNS_OLDEST_EVERY == TURNS_OLDEST_EVERY - 1;
+    const struct turns_offer wanted = {clamped(offer->priority), offer->pixels, offer->picture};
 
     if (turn->round + 1 < turns->round && turn->us < turns->now_us) {
         turn->us = turns->now_us;
     }
     turn->round = turns->round;
-    if (!turn->offer || (!oldest && clamped(priority) < turn->priority)) {
-        turn->offer = picture;
-        turn->priority = clamped(priority);
+    if (!turn->offer.picture || (!oldest && is_better(&wanted, &turn->offer))) {
+        turn->offer = wanted;
     }
 }
 
 static uint64_t due(const struct turn *turn)
 {
-    return turn->us + (uint64_t)turn->priority * TURNS_AHEAD_US;
+    return turn->us + (uint64_t)turn->offer.priority * TURNS_AHEAD_US;
 }
 
 static bool is_before(const struct turns *turns, const struct turn *a, const struct turn *b)
@@ -119,7 +122,7 @@ void *turns_choose(struct turns *turns)
     uint64_t least = UINT64_MAX;
 
     for (const struct turn *turn = turns->first; turn; turn = turn->next) {
-        if (!turn->offer) {
+        if (!turn->offer.picture) {
             continue;
         }
         least = turn->us < least ? turn->us : least;
@@ -128,7 +131,7 @@ void *turns_choose(struct turns *turns)
     if (best && least > turns->now_us) {
         turns->now_us = least;
     }
-    return best ? best->offer : NULL;
+    return best ? best->offer.picture : NULL;
 }
 
 void turns_charge(struct turns *turns, struct turn *turn, int priority, uint64_t us)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Whose picture goes on next: each scene has an account of drawing time, and the one that had least
- * goes first, so that no scene waits for another's pictures. Start-time fair queueing (Goyal, Vin,
- * Cheng 1996) by steps of a few milliseconds; a scene that had nothing to draw for a while begins
- * where the others are, without credit.
+/* Whose picture goes on next: each client has an account of drawing time, and the one that had
+ * least goes first, so that no client waits for another's pictures. Start-time fair queueing (Goyal,
+ * Vin, Cheng 1996) by steps of a few milliseconds; who had nothing to draw for a while begins where
+ * the others are, without credit.
  *
  * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, and
- * what is not costs its scene more: for the long run urgent pictures of one scene get the larger
- * share, and never all. Within a scene the most urgent goes first, then the oldest; now and then
- * the oldest in any case. Pure; not thread-safe. */
+ * what is not costs its account more: for the long run urgent pictures get the larger share, and
+ * never all. Within an account the most urgent goes first, then the smallest, then the oldest; now
+ * and then the oldest in any case. Pure; not thread-safe. */
 #ifndef RENDERER_TURNS_H
 #define RENDERER_TURNS_H
 
@@ -16,10 +16,10 @@
 enum {
     TURNS_PRIORITIES = 4,
     TURNS_AHEAD_US = 100000,
-    TURNS_OLDEST_EVERY = 8, /* steps of a scene */
+    TURNS_OLDEST_EVERY = 8, /* steps of an account */
 };
 
-struct turn; /* a scene's account */
+struct turn; /* an account */
 
 struct turns {
     struct turn *first;
@@ -28,18 +28,22 @@ struct turns {
     uint64_t round;
 };
 
-/* A picture of the scene waits from now on, until turns_leave. Scenes that are used once (their
- * names begin with ~) have one account together. */
-struct turn *turns_join(struct turns *turns, const char *scene);
+/* A picture of the account waits from now on, until turns_leave. */
+struct turn *turns_join(struct turns *turns, const char *account);
 void turns_leave(struct turns *turns, struct turn *turn);
 
 /* A choice: turns_begin, then turns_offer for each picture that can go on, in order of arrival,
  * then turns_choose. */
 void turns_begin(struct turns *turns);
-void turns_offer(struct turns *turns, struct turn *turn, int priority, void *picture);
+struct turns_offer {
+    int priority;
+    uint64_t pixels; /* of the picture */
+    void *picture;   /* that goes on if this is chosen */
+};
+void turns_offer(struct turns *turns, struct turn *turn, const struct turns_offer *offer);
 /* The picture of one of the offers; NULL: there was none. */
 void *turns_choose(struct turns *turns);
-/* A picture of the scene had a step that took so long. */
+/* A picture of the account had a step that took so long. */
 void turns_charge(struct turns *turns, struct turn *turn, int priority, uint64_t us);
 
 #endif

@@ -21,7 +21,7 @@ struct task {
     uint64_t number; /* the front's */
     char *scene;
     int priority;
-    struct turn *turn; /* its scene's */
+    struct turn *turn; /* its account's */
     struct job *job;   /* NULL once it is drawn, or given up */
     struct encode_params encode;
     struct encoding *encoding;

@@ -189,7 +189,7 @@ void worker_on_render(struct worker *w, const cJSON *packet)
 
     task->number = (uint64_t)json_member_number(packet, "job", 0);
     task->scene = memory_text(json_member_text(packet, "scene", ""));
-    task->turn = turns_join(&w->turns, task->scene);
+    task->turn = turns_join(&w->turns, json_member_text(packet, "account", task->scene));
     task->priority = (int)json_member_number(packet, "priority", 0);
     task->received_us = task->told_us = now_us();
     if (!begin_task(w, packet, task, &err)) {
@@ -226,20 +226,42 @@ void worker_on_cancel(struct worker *w, const cJSON *packet)
     }
 }
 
-/* One that is in the middle of a tile; else that of the scene whose turn it is. Those waiting for a
- * compiler or the encoder let others pass. */
+static bool is_drawing(const struct task *task)
+{
+    return task->job && !task->between;
+}
+
+/* In the middle of a tile; NULL: none. */
+static struct task *find_within_tile(const struct worker *w)
+{
+    struct task *task = w->tasks;
+
+    while (task && !(is_drawing(task) && job_is_within_tile(task->job))) {
+        task = task->next;
+    }
+    return task;
+}
+
+/* Waits for neither a compiler nor the encoder. */
+static bool can_go_on(const struct worker *w, const struct task *task)
+{
+    return job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding);
+}
+
+/* That of the account whose turn it is. Who would need the textures that another's tile is in lets
+ * that go on in its own turn, so the tile is as urgent as whatever waits for it. */
 struct task *worker_choose_task(struct worker *w)
 {
+    struct task *within = find_within_tile(w);
+
     turns_begin(&w->turns);
     for (struct task *task = w->tasks; task; task = task->next) {
-        if (!task->job || task->between) {
-            continue;
-        }
-        if (job_is_within_tile(task->job)) {
-            return task;
-        }
-        if (job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding)) {
-            turns_offer(&w->turns, task->turn, task->priority, task);
+        if (is_drawing(task) && (task == within || can_go_on(w, task))) {
+            const struct turns_offer offer = {task->priority,
+                                              (uint64_t)task->width * (uint64_t)task->height,
+                                              within && job_is_sampled(task->job) ? within : task};
+
+            turns_offer(&w->turns, task->turn, &offer);
         }
     }
     return turns_choose(&w->turns);

@@ -25,6 +25,10 @@
     X(RENDERS, "renders_total", "counter", "Pictures asked of the worker")                         \
     X(RENDERS_FAILED, "renders_failed_total", "counter", "Pictures that the worker refused")       \
     X(RENDER_QUEUE, "render_queue", "gauge", "Pictures asked and not yet there")                   \
+    X(IMAGES_OVER_SHARE, "images_over_share_total", "counter",                                     \
+      "Pictures refused because their client had its share of the queue")                          \
+    X(IMAGES_OVER_QUEUE, "images_over_queue_total", "counter",                                     \
+      "Pictures refused because the queue was full")                                               \
     X(PICTURES_REUSED, "pictures_reused_total", "counter", "Pictures answered from memory")        \
     X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
     X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \

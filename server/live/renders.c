@@ -23,6 +23,8 @@ struct render {
     uint32_t id;
     struct render_order order;
     char *document; /* a copy of order.document */
+    char *account;  /* a copy of order.account */
+    int64_t asked;  /* clock_ms */
     int deaths;     /* workers lost while this was asked and belongs to no room */
     bool sent;
     int64_t deadline;
@@ -38,6 +40,7 @@ static void render_destroy(struct render *render)
 {
     cJSON_Delete(render->order.fields);
     free(render->document);
+    free(render->account);
     free(render);
 }
 
@@ -163,6 +166,7 @@ static void send_render(struct hub *hub, struct render *render)
     scene_name(render, name);
     cJSON_AddStringToObject(packet, "type", "render");
     cJSON_AddStringToObject(packet, "scene", name);
+    cJSON_AddStringToObject(packet, "account", render->account);
     cJSON_AddNumberToObject(packet, "job", render->id);
     cJSON_AddNumberToObject(packet, "priority", render->order.priority);
     cJSON_AddBoolToObject(packet, "careful", is_careful(render));
@@ -199,39 +203,86 @@ static void dispatch(struct hub *hub)
     }
 }
 
-uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err)
-{
-    struct renders *renders = &hub->renders;
+/* --- who may ask --- */
 
+static int images_of(const struct renders *renders, const char *account)
+{
+    int count = 0;
+
+    for (const struct render *render = renders->first; render; render = render->next) {
+        count += render->order.priority == RENDER_IMAGE && strcmp(render->account, account) == 0;
+    }
+    return count;
+}
+
+/* `waiting` pictures above `limit`: how long until one of them is there, as far as known. */
+static bool refuse_image(const struct renders *renders, enum error_kind kind, int waiting,
+                         int limit, struct error *err)
+{
+    const int64_t each_ms = renders->image_ms > 0 ? renders->image_ms : 1000;
+
+    error_set(err, kind, "", "%d pictures%s wait already; the limit is %d", waiting,
+              kind == ERROR_SHARE ? " of this client" : "", limit);
+    err->retry_ms = (int)(each_ms < RENDER_DEADLINE_MS ? each_ms : RENDER_DEADLINE_MS);
+    return false;
+}
+
+static bool admits_image(struct hub *hub, const struct render_order *order, struct error *err)
+{
+    const struct renders *renders = &hub->renders;
+    const struct room *room = order->room;
+    const int own = images_of(renders, order->account);
+
+    if (room && room->problem.kind != ERROR_NONE && room->problem_revision == room->revision) {
+        *err = room->problem; /* an older state would be the wrong picture */
+        return false;
+    }
+    if (own >= LIMIT_IMAGE_SHARE) {
+        metric_add(&hub->metrics, METRIC_IMAGES_OVER_SHARE, 1);
+        return refuse_image(renders, ERROR_SHARE, own, LIMIT_IMAGE_SHARE, err);
+    }
+    if (renders->images >= LIMIT_IMAGE_QUEUE) {
+        metric_add(&hub->metrics, METRIC_IMAGES_OVER_QUEUE, 1);
+        return refuse_image(renders, ERROR_UNAVAILABLE, renders->images, LIMIT_IMAGE_QUEUE, err);
+    }
+    return true;
+}
+
+static bool admits(struct hub *hub, const struct render_order *order, struct error *err)
+{
     if (order->room && order->room->left_out.kind != ERROR_NONE) {
         if (err) {
             *err = order->room->left_out;
         }
-    } else if (order->room && order->room->problem.kind != ERROR_NONE &&
-               order->priority == RENDER_IMAGE &&
-               order->room->problem_revision == order->room->revision) {
-        *err = order->room->problem; /* an older state would be the wrong picture */
-    } else if (order->priority == RENDER_IMAGE && renders->images >= LIMIT_IMAGE_QUEUE) {
-        error_set(err, ERROR_UNAVAILABLE, "", "%d pictures wait already; the limit is %d",
-                  renders->images, LIMIT_IMAGE_QUEUE);
-    } else {
-        struct render *render = memory_alloc(1, sizeof(*render));
-
-        renders->last_id = renders->last_id % 0x7fffffff + 1;
-        render->id = renders->last_id;
-        render->order = *order;
-        render->document = order->document ? memory_text(order->document) : NULL;
-        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
-        *renders->end = render;
-        renders->end = &render->next;
-        renders->images += order->priority == RENDER_IMAGE;
-        metric_add(&hub->metrics, METRIC_RENDERS, 1);
-        metric_add(&hub->metrics, METRIC_RENDER_QUEUE, 1);
-        dispatch(hub);
-        return render->id;
+        return false;
     }
-    cJSON_Delete(order->fields);
-    return 0;
+    return order->priority != RENDER_IMAGE || admits_image(hub, order, err);
+}
+
+uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err)
+{
+    struct renders *renders = &hub->renders;
+
+    if (!admits(hub, order, err)) {
+        cJSON_Delete(order->fields);
+        return 0;
+    }
+    struct render *render = memory_alloc(1, sizeof(*render));
+
+    renders->last_id = renders->last_id % 0x7fffffff + 1;
+    render->id = renders->last_id;
+    render->order = *order;
+    render->document = order->document ? memory_text(order->document) : NULL;
+    render->account = memory_text(order->account);
+    render->asked = clock_ms();
+    render->deadline = render->asked + RENDER_DEADLINE_MS;
+    *renders->end = render;
+    renders->end = &render->next;
+    renders->images += order->priority == RENDER_IMAGE;
+    metric_add(&hub->metrics, METRIC_RENDERS, 1);
+    metric_add(&hub->metrics, METRIC_RENDER_QUEUE, 1);
+    dispatch(hub);
+    return render->id;
 }
 
 /* --- ends of an order --- */
@@ -314,6 +365,19 @@ bool renders_has_room(const struct renders *renders, const struct room *room)
         render = render->next;
     }
     return render != NULL;
+}
+
+/* Several are drawn by turns: what counts is how soon one follows another. */
+static void learn_image(struct renders *renders, const struct render *render)
+{
+    const int64_t now = clock_ms();
+    const int64_t since = renders->image_done > render->asked ? renders->image_done : render->asked;
+
+    if (render->order.priority == RENDER_IMAGE) {
+        renders->image_ms =
+            renders->image_ms > 0 ? (3 * renders->image_ms + now - since) / 4 : now - since;
+        renders->image_done = now;
+    }
 }
 
 void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES])
@@ -446,6 +510,7 @@ void renders_answer(struct hub *hub, const struct packet *packet)
         finish(hub, render, NULL, &err);
     } else {
         count_times(hub, json);
+        learn_image(&hub->renders, render);
         if (render->order.room && is_fatal(render)) {
             render->order.room->deaths = 0;
         }

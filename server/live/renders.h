@@ -35,8 +35,10 @@ struct render_demand {
 struct renders {
     struct render *first, **end; /* in order of asking */
     uint32_t last_id;
-    int images; /* with priority RENDER_IMAGE */
-    bool ready; /* a worker is there */
+    int images;         /* with priority RENDER_IMAGE */
+    int64_t image_done; /* clock_ms when the last of these was there */
+    int64_t image_ms;   /* running mean of what one of these takes; 0: none yet */
+    bool ready;         /* a worker is there */
 };
 
 struct render_order {
@@ -44,6 +46,8 @@ struct render_order {
     const char *document; /* the text of one that is used once */
     cJSON *fields;        /* the packet's other members; taken */
     int priority;
+    /* Whose time it takes; copied. Of a live connection its id, of a request the client's address. */
+    const char *account;
     bool again; /* ask the next worker when this one dies */
     /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */
     void (*on_done)(void *data, const struct packet *answer, const struct error *err);
@@ -54,7 +58,8 @@ struct render_order {
 
 void renders_init(struct renders *renders);
 void renders_finish(struct renders *renders);
-/* Id of the order; 0 and `err` when too many wait or the scene is left out. */
+/* Id of the order; 0 and `err` when too many wait, in all or of one account, or the scene is left
+ * out. */
 uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err);
 void renders_cancel(struct hub *hub, uint32_t id);
 /* Answers every order of the room with ERROR_NOT_FOUND. */

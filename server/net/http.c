@@ -3,6 +3,7 @@
  * far as libmicrohttpd shows them. A request that waits for a commit or a picture is suspended. */
 #include "http.h"
 
+#include <arpa/inet.h>
 #include <microhttpd.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -191,6 +192,21 @@ static const char *find_header(const struct request *request, const char *name)
                                        MHD_HEADER_KIND, name);
 }
 
+/* "": not known. */
+static void read_address(struct MHD_Connection *connection, char out[INET6_ADDRSTRLEN])
+{
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    const struct sockaddr *address = info ? info->client_addr : NULL;
+
+    if (address && address->sa_family == AF_INET) {
+        inet_ntop(AF_INET, &((const struct sockaddr_in *)address)->sin_addr, out, INET6_ADDRSTRLEN);
+    } else if (address && address->sa_family == AF_INET6) {
+        inet_ntop(AF_INET6, &((const struct sockaddr_in6 *)address)->sin6_addr, out,
+                  INET6_ADDRSTRLEN);
+    }
+}
+
 static void *on_target(void *data, const char *target, struct MHD_Connection *connection)
 {
     struct http *http = data;
@@ -201,6 +217,7 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
     exchange->target = target ? memory_text(target) : NULL;
     exchange->request.hub = http->hub;
     exchange->request.header = find_header;
+    read_address(connection, exchange->request.client);
     exchange->started_us = clock_us();
     return exchange;
 }

@@ -186,6 +186,7 @@ const char *response_title(int status)
                   {415, "Unsupported Media Type"},
                   {422, "Unprocessable Content"},
                   {426, "Upgrade Required"},
+                  {429, "Too Many Requests"},
                   {500, "Internal Server Error"},
                   {503, "Service Unavailable"}};
 
@@ -231,8 +232,9 @@ static struct response problem(int status, const char *code, const struct error 
     }
     struct response response = response_json(status, json);
     response.type = "application/problem+json";
-    if (status == 503) {
-        response_add(&response, "Retry-After", "1");
+    if (status == 503 || status == 429) {
+        response_add(&response, "Retry-After", "%d",
+                     err->retry_ms > 0 ? (err->retry_ms + 999) / 1000 : 1);
     } else if (status == 401) {
         response_add(&response, "WWW-Authenticate", "Bearer realm=\"fieldcast\"");
     }

@@ -4,6 +4,7 @@
 #define SERVER_REQUEST_H
 
 #include <cjson/cJSON.h>
+#include <netinet/in.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -21,6 +22,7 @@ struct request_pair {
 struct request {
     struct hub *hub;
     const char *method;
+    char client[INET6_ADDRSTRLEN];              /* the address that it came from */
     char *path;                                 /* percent-decoded, starts with '/' */
     struct request_pair query[REQUEST_QUERIES]; /* percent-decoded */
     size_t query_count;

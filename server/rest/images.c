@@ -140,6 +140,7 @@ static void order(struct request *request, const struct wish *wish, cJSON *field
                                   .document = document,
                                   .fields = fields,
                                   .priority = RENDER_IMAGE,
+                                  .account = request->client,
                                   .again = true,
                                   .on_done = on_picture,
                                   .data = waiting};
