@@ -15,8 +15,13 @@
 #include "session.h"
 
 /* Side lengths of moving pictures, relative to the view. */
-static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25};
-enum { SCALE_COUNT = sizeof(scales) / sizeof(*scales), FIRST_STEP = 2 };
+static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125, 0.09375, 0.0625};
+enum {
+    SCALE_COUNT = sizeof(scales) / sizeof(*scales),
+    USUAL_STEPS = 5,      /* scales for all views; the others are for large ones */
+    FIRST_PIXELS = 57600, /* of a moving picture at most, where nothing is known of the scene */
+    LEAST_PIXELS = 10000, /* of a moving picture with one of the other scales */
+};
 
 struct quality_rule {
     double target_ms; /* what a moving picture may take */
@@ -52,7 +57,6 @@ static const struct level_rule level_rules[] = {
 void frames_init(struct frames *frames)
 {
     memset(frames, 0, sizeof(*frames));
-    frames->step = FIRST_STEP;
 }
 
 static void drop_job(struct session *session)
@@ -277,58 +281,100 @@ static bool has_credit(const struct frames *frames, int64_t now_ms)
     return free_slot;
 }
 
+/* While a frame waits to be written, only a moving picture in its place is worth its time: more than
+ * the line takes would be drawn at the cost of others. */
+static bool line_is_free(const struct session *session, enum frames_level level)
+{
+    bool precious;
+
+    return !outbox_has_frame(&session->outbox, &precious) || (level == FRAMES_MOVING && !precious);
+}
+
 /* --- how large a moving picture is --- */
 
-static double predicted_ms(const struct frames *frames, const struct frames_view *view, int step)
+/* What is known of the scene, by this session or by others; 0: nothing. */
+static double ns_per_pixel(const struct session *session)
 {
-    return frames->ns_per_pixel * view->width * view->height * scales[step] * scales[step] * 1e-6;
+    const double own = session->frames.ns_per_pixel;
+
+    return own > 0 ? own : session->room->ns_per_pixel;
 }
 
-static void choose_step(struct frames *frames, const struct frames_view *view)
+static double pixels_of(const struct frames_view *view, int step)
 {
-    const struct quality_rule *rule = &quality_rules[view->quality];
-
-    if (frames->ns_per_pixel > 0) {
-        int step = 0;
-
-        /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
-        while (step < rule->last_step && predicted_ms(frames, view, step) >
-                                             rule->target_ms * (step < frames->step ? 0.8 : 1.1)) {
-            step++;
-        }
-        frames->step = step;
-    }
-    if (frames->step > rule->last_step) {
-        frames->step = rule->last_step;
-    }
+    return (double)view->width * view->height * scales[step] * scales[step];
 }
 
-/* The step of the picture between moving and still ones; the current one: none is worth while. */
-static int larger_step(const struct frames *frames, const struct frames_view *view)
+static double predicted_ms(const struct session *session, const struct frames_view *view, int step)
+{
+    return ns_per_pixel(session) * pixels_of(view, step) * 1e-6;
+}
+
+static int last_step(const struct frames_view *view)
+{
+    int step = quality_rules[view->quality].last_step;
+
+    while (step >= USUAL_STEPS && pixels_of(view, step) < LEAST_PIXELS) {
+        step--;
+    }
+    return step;
+}
+
+static bool is_too_large(const struct session *session, const struct frames_view *view, int step)
+{
+    const double target_ms = quality_rules[view->quality].target_ms;
+
+    if (ns_per_pixel(session) == 0) {
+        return pixels_of(view, step) > FIRST_PIXELS;
+    }
+    /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
+    return predicted_ms(session, view, step) >
+           target_ms * (step < session->frames.step ? 0.8 : 1.1);
+}
+
+static void choose_step(struct session *session, const struct frames_view *view)
 {
     int step = 0;
 
-    while (step < frames->step && predicted_ms(frames, view, step) > FRAMES_LARGER_MS) {
+    while (step < last_step(view) && is_too_large(session, view, step)) {
         step++;
     }
-    return step ? step : frames->step; /* 0: the still picture itself comes as soon */
+    session->frames.step = step;
 }
 
-static double scale_of(const struct frames *frames, const struct frames_view *view,
+/* The step of the picture between moving and still ones; the current one: none is worth while. */
+static int larger_step(const struct session *session, const struct frames_view *view)
+{
+    const int moving = session->frames.step;
+    int step = 0;
+
+    while (step < moving && predicted_ms(session, view, step) > FRAMES_LARGER_MS) {
+        step++;
+    }
+    return step ? step : moving; /* 0: the still picture itself comes as soon */
+}
+
+static double scale_of(const struct session *session, const struct frames_view *view,
                        enum frames_level level)
 {
     return level >= FRAMES_STILL    ? 1
-           : level == FRAMES_MOVING ? scales[frames->step]
-                                    : scales[larger_step(frames, view)];
+           : level == FRAMES_MOVING ? scales[session->frames.step]
+                                    : scales[larger_step(session, view)];
 }
 
-static void learn(struct frames *frames)
+static double mixed(double known, double took)
 {
+    return known > 0 ? known + 0.3 * (took - known) : took;
+}
+
+/* Waiting for others' pictures counts: who shares the machine gets smaller pictures, not fewer. */
+static void learn(struct session *session)
+{
+    struct frames *frames = &session->frames;
     double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
 
-    frames->ns_per_pixel = frames->ns_per_pixel > 0
-                               ? frames->ns_per_pixel + 0.3 * (took - frames->ns_per_pixel)
-                               : took;
+    frames->ns_per_pixel = mixed(frames->ns_per_pixel, took);
+    session->room->ns_per_pixel = mixed(session->room->ns_per_pixel, took);
 }
 
 /* --- asking and receiving --- */
@@ -399,7 +445,7 @@ static void on_picture(void *data, const struct packet *answer, const struct err
         return;
     }
     if (frames->job_level == FRAMES_MOVING) {
-        learn(frames);
+        learn(session);
     }
     send_frame(session, answer);
     if (frames->stale && session->room->shown > frames->revision) {
@@ -412,7 +458,8 @@ static void on_round(void *data, const struct packet *answer)
 {
     struct session *session = data;
 
-    if (has_credit(&session->frames, clock_ms())) {
+    if (has_credit(&session->frames, clock_ms()) &&
+        line_is_free(session, session->frames.job_level)) {
         send_frame(session, answer);
     }
 }
@@ -437,7 +484,7 @@ static cJSON *picture_fields(struct session *session, const struct frames_view *
 {
     const struct level_rule *rule = &level_rules[level];
     struct frames *frames = &session->frames;
-    double scale = scale_of(frames, view, level);
+    double scale = scale_of(session, view, level);
     int width = (int)fmax(1, lround(view->width * scale));
     int height = (int)fmax(1, lround(view->height * scale));
     cJSON *fields = cJSON_CreateObject();
@@ -470,11 +517,12 @@ static void ask(struct session *session, enum frames_level level)
     struct frames *frames = &session->frames;
     const struct frames_view *view = newest_view(frames);
 
-    choose_step(frames, view);
+    choose_step(session, view);
     struct render_order order = {
         .room = session->room,
         .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
+        .account = session->id,
         .on_done = on_picture,
         .on_more = on_round,
         .data = session,
@@ -505,8 +553,11 @@ int64_t frames_pump(struct session *session, int64_t now_ms)
         return 0;
     }
     enum frames_level level = frames->done + 1;
-    if (level == FRAMES_LARGER && larger_step(frames, view) == frames->step) {
+    if (level == FRAMES_LARGER && larger_step(session, view) == frames->step) {
         level = FRAMES_STILL;
+    }
+    if (!line_is_free(session, level)) {
+        return 0; /* session_frame_written wakes */
     }
     int64_t due = frames->changed_at + level_rules[level].after_ms;
     if (now_ms < due) {

@@ -73,6 +73,7 @@ struct room {
     int deaths;     /* workers lost while they drew this scene */
     struct render_demand
         fatal;             /* of the last that was lost so: a picture of as much ends `deaths` */
+    double ns_per_pixel;   /* of moving pictures, by all who look: frames.h; 0: none yet */
     int patience;          /* times the usual time that a tile of it may take */
     struct error left_out; /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct fallback fallback;

@@ -127,6 +127,7 @@ void session_frame_written(struct session *session, uint32_t frame, size_t bytes
     (void)frame;
     metric_add(&session->hub->metrics, METRIC_FRAMES_SENT, 1);
     metric_add(&session->hub->metrics, METRIC_FRAME_BYTES, (int64_t)bytes);
+    supervisor_wake(session->hub->supervisor);
 }
 
 /* --- hello --- */

@@ -106,6 +106,12 @@ bool outbox_is_empty(const struct outbox *outbox)
     return !outbox->first && !outbox->current.payload;
 }
 
+bool outbox_has_frame(const struct outbox *outbox, bool *out_precious)
+{
+    *out_precious = outbox->current.payload && outbox->current.precious;
+    return outbox->current.payload;
+}
+
 static void next_text(struct outbox *outbox, uint8_t *out, struct outbox_piece *piece)
 {
     const struct blob *text = outbox->first->text;

@@ -62,6 +62,8 @@ bool outbox_text(struct outbox *outbox, struct blob *text);
 uint32_t outbox_frame(struct outbox *outbox, const struct frame_header *header,
                       struct blob *payload);
 bool outbox_is_empty(const struct outbox *outbox);
+/* A frame waits to be written. `*out_precious`: it would not be given up for a newer one. */
+bool outbox_has_frame(const struct outbox *outbox, bool *out_precious);
 /* Copies the next piece to `out`, which holds OUTBOX_PART_BYTES + FRAME_HEADER_BYTES. False: there
  * is nothing. */
 bool outbox_next(struct outbox *outbox, uint8_t *out, struct outbox_piece *piece);

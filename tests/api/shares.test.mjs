@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Nobody waits for another's pictures: drawing time is shared by client. Counted in tiles, each of
+// which takes as long as every other, so that no clock decides.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+
+const TILE_MS = 10;
+const LARGE = { width: 4096, height: 4096 };
+const PICTURES = 40;
+const BETWEEN = 8; // tiles of others between a question and its answer: a question takes as long as a few
+const SHARE = 16; // pictures of one client in the queue
+const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
+
+let daemon;
+before(async () => {
+    daemon = await startDaemon({ driver: 'null', tileMs: TILE_MS });
+    await ask(daemon, 'POST', '/v1/scenes?id=one', ball);
+    await ask(daemon, 'POST', '/v1/scenes?id=two', ball);
+});
+after(() => daemon.stop());
+
+const tiles = () => counter(daemon, 'tiles_total');
+const image = (scene, side, more = '') => `${daemon.url}/v1/scenes/${scene}/image.png?width=${side}&height=${side}${more}`;
+
+/** Another place to look from: every view is a new picture. */
+const from = (i) => ({ camera: { position: [Math.sin(i), 1, 5] } });
+
+/** Asks for large views for ever, until `stop`. */
+async function greedy(scene) {
+    const live = await Live.open(daemon, scene);
+    let going = true;
+    const done = (async () => {
+        for (let i = 1; going; i += 1) {
+            const seq = live.look({ ...LARGE, ...from(i) });
+            await live.nextFrame((frame) => frame.seq >= seq || !going);
+        }
+    })();
+    return {
+        live,
+        async stop() {
+            going = false;
+            await done;
+            await live.close();
+        },
+    };
+}
+
+/** Tiles drawn for all while a small viewer gets so many pictures, each asked when the last is there. */
+async function tilesOfPictures(scene, count) {
+    const live = await Live.open(daemon, scene);
+    live.look({ ...from(0) });
+    await live.nextFrame();
+    const start = await tiles();
+    for (let i = 1; i <= count; i += 1) {
+        const seq = live.look({ ...from(i) });
+        await live.nextFrame((frame) => frame.seq === seq);
+    }
+    await live.close();
+    return (await tiles()) - start;
+}
+
+for (const [scene, who] of [
+    ['two', 'of another scene'],
+    ['one', 'of the same scene'],
+]) {
+    test(`one who asks for large views for ever does not slow a viewer ${who}`, async (t) => {
+        const guest = await greedy('one');
+        await guest.live.nextFrame();
+        const drawn = await tilesOfPictures(scene, PICTURES);
+        t.diagnostic(`${drawn} tiles while ${PICTURES} pictures of one tile were asked for`);
+        assert.ok(drawn <= PICTURES * (1 + BETWEEN), `${drawn} tiles for ${PICTURES} pictures`);
+        await guest.stop();
+    });
+}
+
+test('a small picture does not wait for large ones of the same client', async (t) => {
+    const gone = new AbortController();
+    const large = Array.from({ length: SHARE - 1 }, (_, i) =>
+        fetch(image('one', 16384, `&camera.fov=${20 + i}`), { signal: gone.signal }).catch(() => null),
+    );
+    await until(async () => (await counter(daemon, 'render_queue')) === SHARE - 1, 'all to wait');
+    const start = await tiles();
+    const answer = await fetch(image('two', 64));
+    assert.equal(answer.status, 200);
+    const drawn = (await tiles()) - start;
+    t.diagnostic(`${drawn} tiles until it was there`);
+    assert.ok(drawn <= 1 + 2 * BETWEEN + SHARE, `${drawn} tiles`);
+    gone.abort();
+    await Promise.all(large);
+    await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+});
+
+test('a client has a quarter of the queue, and is told when to ask again', async () => {
+    const gone = new AbortController();
+    const large = Array.from({ length: SHARE }, (_, i) =>
+        fetch(image('one', 16384, `&camera.fov=${20 + i}`), { signal: gone.signal }).catch(() => null),
+    );
+    await until(async () => (await counter(daemon, 'render_queue')) === SHARE, 'all to wait');
+    const refused = await fetch(image('two', 64, '&camera.fov=11'));
+    assert.equal(refused.status, 429);
+    assert.match(refused.headers.get('retry-after'), /^[1-9]\d*$/);
+    const problem = await refused.json();
+    assert.equal(problem.code, 'share');
+    assert.match(problem.detail, new RegExp(`^${SHARE} pictures of this client wait already; the limit is ${SHARE}$`));
+    assert.equal(await counter(daemon, 'images_over_share_total'), 1);
+    gone.abort();
+    await Promise.all(large);
+    await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+});
+
+test('nothing more is drawn for one whose line takes no more', async () => {
+    const live = await Live.open(daemon, 'one', { ack: false });
+    live.stopReading();
+    for (let i = 0; i < 200; i += 1) {
+        live.look({ ...LARGE, ...from(i) });
+    }
+    await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+    const start = await tiles();
+    live.look({ ...LARGE, ...from(-1) });
+    assert.ok((await tilesOfPictures('two', 5)) <= 5 * (1 + BETWEEN));
+    assert.ok((await tiles()) - start <= 7 * (1 + BETWEEN));
+    live.goOnReading();
+    await live.close();
+});
