@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Whose picture goes on next: each client has an account of drawing time, and the one that had
- * least goes first, so that no client waits for another's pictures. Start-time fair queueing (Goyal,
- * Vin, Cheng 1996) by steps of a few milliseconds; who had nothing to draw for a while begins where
+ * least goes first, so that no client waits for another's pictures. Start-time fair queueing (Goyal
+ * et al. 1996) by steps of a few milliseconds; who had nothing to draw for a while begins where
  * the others are, without credit.
  *
  * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, and

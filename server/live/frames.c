@@ -281,8 +281,8 @@ static bool has_credit(const struct frames *frames, int64_t now_ms)
     return free_slot;
 }
 
-/* While a frame waits to be written, only a moving picture in its place is worth its time: more than
- * the line takes would be drawn at the cost of others. */
+/* While a frame waits to be written, only a moving picture in its place is worth its time: a
+ * better one would be drawn at the cost of others and wait. */
 static bool line_is_free(const struct session *session, enum frames_level level)
 {
     bool precious;

@@ -46,7 +46,7 @@ struct render_order {
     const char *document; /* the text of one that is used once */
     cJSON *fields;        /* the packet's other members; taken */
     int priority;
-    /* Whose time it takes; copied. Of a live connection its id, of a request the client's address. */
+    /* Whose time it takes: the id of a live connection, or the address of a client; copied. */
     const char *account;
     bool again; /* ask the next worker when this one dies */
     /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */

@@ -69,13 +69,12 @@ struct room {
     uint64_t settled;                    /* newest of which it is known whether it can */
     int64_t compiling_since;             /* clock_ms; 0: nothing is waited for */
     bool compiling_told;
-    bool told_lost; /* that the worker is gone */
-    int deaths;     /* workers lost while they drew this scene */
-    struct render_demand
-        fatal;             /* of the last that was lost so: a picture of as much ends `deaths` */
-    double ns_per_pixel;   /* of moving pictures, by all who look: frames.h; 0: none yet */
-    int patience;          /* times the usual time that a tile of it may take */
-    struct error left_out; /* why it is not drawn until it is edited; ERROR_NONE: it is */
+    bool told_lost;             /* that the worker is gone */
+    int deaths;                 /* workers lost while they drew this scene, */
+    struct render_demand fatal; /* the last with a picture of so much: another one ends `deaths` */
+    double ns_per_pixel;        /* of moving pictures, by all who look: frames.h; 0: none yet */
+    int patience;               /* times the usual time that a tile of it may take */
+    struct error left_out;      /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct fallback fallback;
     struct blob *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;
