@@ -115,8 +115,10 @@ async function endGroup(pid) {
 }
 
 // Pictures are the same without the optimizer of the software driver, which takes a third of the time
-// that compiling takes. Users have it, and so have the golden pictures.
-const optimized = (suite) => suite.name === 'golden/test_golden';
+// that compiling takes. Users have it, and so have the golden pictures; and the suites that draw the
+// same scenes, which so find their programs in the cache.
+const OPTIMIZED = ['golden/test_golden', 'property/test_oracle', 'property/test_seen'];
+const optimized = (suite) => OPTIMIZED.includes(suite.name);
 
 const running = new Set();
 
