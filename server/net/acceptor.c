@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "protocol/memory.h"
+#include "safety.h"
 #include "server/clock.h"
 #include "server/log.h"
 
@@ -42,6 +43,7 @@ struct client {
 
 struct client_list {
     struct client *first, *last;
+    int count;
 };
 
 struct acceptor {
@@ -51,7 +53,6 @@ struct acceptor {
     pthread_t thread;
     bool running;
     struct client_list lists[STATE_COUNT];
-    int client_count;
     char bytes[LIMIT_HEAD_BYTES + 1];
     struct head head;
 };
@@ -63,6 +64,7 @@ static void list_remove(struct client_list *list, struct client *client)
 {
     *(client->before ? &client->before->after : &list->first) = client->after;
     *(client->after ? &client->after->before : &list->last) = client->before;
+    list->count--;
 }
 
 static void list_append(struct client_list *list, struct client *client)
@@ -71,6 +73,7 @@ static void list_append(struct client_list *list, struct client *client)
     client->after = NULL;
     *(list->last ? &list->last->after : &list->first) = client;
     list->last = client;
+    list->count++;
 }
 
 /* Forgets the client; its descriptor stays open. */
@@ -80,7 +83,6 @@ static int release(struct acceptor *acceptor, struct client *client)
 
     epoll_ctl(acceptor->epoll, EPOLL_CTL_DEL, fd, NULL);
     list_remove(&acceptor->lists[client->state], client);
-    acceptor->client_count--;
     free(client);
     return fd;
 }
@@ -103,6 +105,9 @@ static const char *status_title(int status)
 
 static void send_refusal(int fd, int status, const char *message)
 {
+#define LINE(name, value) name ": " value "\r\n"
+    static const char safety[] = SAFETY_HEADERS(LINE);
+#undef LINE
     char body[512], reply[1024];
 
     int body_length =
@@ -112,8 +117,8 @@ static void send_refusal(int fd, int status, const char *message)
                  status_title(status), status, message, status == 503 ? "unavailable" : "syntax");
     int length = snprintf(reply, sizeof(reply),
                           "HTTP/1.1 %d %s\r\nContent-Type: application/problem+json\r\n"
-                          "Content-Length: %d\r\n%sConnection: close\r\n\r\n%s",
-                          status, status_title(status), body_length,
+                          "Content-Length: %d\r\n%s%sConnection: close\r\n\r\n%s",
+                          status, status_title(status), body_length, safety,
                           status == 503 ? "Retry-After: 1\r\n" : "", body);
     if (send(fd, reply, (size_t)length, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
         log_debug("acceptor", "a refusal could not be sent: %s", strerror(errno));
@@ -255,11 +260,8 @@ static void admit(struct acceptor *acceptor, int fd, const struct sockaddr_stora
     client->address_length = length;
     client->deadline = clock_ms() + HEAD_MS;
     list_append(&acceptor->lists[WAITING], client);
-    acceptor->client_count++;
     if (epoll_ctl(acceptor->epoll, EPOLL_CTL_ADD, fd, &event) != 0) {
         refuse(acceptor, client, 503, "no event can be waited for");
-    } else if (acceptor->client_count > UNDECIDED_MAX) {
-        refuse(acceptor, client, 503, "too many connections wait for their request");
     }
 }
 
@@ -291,6 +293,19 @@ static void expire(struct acceptor *acceptor)
     }
     while ((client = acceptor->lists[LINGERING].first) && client->deadline <= now) {
         close(release(acceptor, client));
+    }
+}
+
+/* Who is there to be served says what it wants within milliseconds; so those go that have waited
+ * longest, never who has just come. Behind the events of a turn, which name clients. */
+static void make_room(struct acceptor *acceptor)
+{
+    while (acceptor->lists[WAITING].count > UNDECIDED_MAX) {
+        refuse(acceptor, acceptor->lists[WAITING].first, 503,
+               "too many connections wait for their request");
+    }
+    while (acceptor->lists[LINGERING].count > UNDECIDED_MAX) {
+        close(release(acceptor, acceptor->lists[LINGERING].first));
     }
 }
 
@@ -340,6 +355,7 @@ static void *run(void *data)
             handle(acceptor, &events[i]);
         }
         expire(acceptor);
+        make_room(acceptor);
     }
 }
 

@@ -23,14 +23,14 @@ static bool is_listed(const char *const *list, const char *text, size_t length)
     return false;
 }
 
-/* Length of "host" in "host:port" or "[v6]:port". */
+/* Length of "host" in "host:port" or "[v6]:port"; of all where it is neither. */
 static size_t host_length(const char *authority)
 {
-    if (*authority == '[') {
-        const char *end = strchr(authority, ']');
-        return end ? (size_t)(end + 1 - authority) : strlen(authority);
-    }
-    return strcspn(authority, ":");
+    const char *bracket = *authority == '[' ? strchr(authority, ']') : NULL;
+    const char *end = bracket ? bracket + 1 : authority + strcspn(authority, ":");
+    bool is_port = *end == ':' && strspn(end + 1, "0123456789") == strlen(end + 1);
+
+    return is_port ? (size_t)(end - authority) : strlen(authority);
 }
 
 static bool is_dotted_loopback(const char *host, size_t length)
@@ -62,6 +62,13 @@ static bool origin_allowed(const struct access *access, const char *origin, cons
         return true;
     }
     return authority && host && strcasecmp(authority + 3, host) == 0;
+}
+
+/* Pictures and scripts that a page of another site embeds are asked for without an Origin. */
+static bool site_allowed(const struct access_request *request)
+{
+    return !request->site || request->origin || request->to_page ||
+           (strcmp(request->site, "cross-site") != 0 && strcmp(request->site, "same-site") != 0);
 }
 
 /* Takes as long for every text of one length. */
@@ -116,6 +123,12 @@ int access_check(const struct access *access, const struct access_request *reque
         error_set(err, ERROR_FORBIDDEN, "Origin",
                   "pages of other sites may not speak with this server; allow them with "
                   "--allow-origin");
+        return 403;
+    }
+    if (!site_allowed(request)) {
+        error_set(err, ERROR_FORBIDDEN, "Sec-Fetch-Site",
+                  "pages of other sites may not embed what this server has; those that "
+                  "--allow-origin names may fetch it");
         return 403;
     }
     if (access->token && !open && !token_given(access, request)) {

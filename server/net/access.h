@@ -18,6 +18,8 @@ struct access {
 struct access_request {
     const char *host, *origin, *authorization;
     const char *protocols; /* subprotocols offered by a WebSocket handshake */
+    const char *site;      /* Sec-Fetch-Site: whose page made a browser ask */
+    bool to_page;          /* somebody follows a link to the page */
 };
 
 /* 0, or the HTTP status of the refusal (401, 403) with `err` filled. `open`: a resource that needs

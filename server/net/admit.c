@@ -16,41 +16,51 @@
 
 /* --- framing --- */
 
+enum { SINGLE_HOST, SINGLE_LENGTH, SINGLE_CODING, SINGLE_COUNT };
+static const char *const single[SINGLE_COUNT] = {"Host", "Content-Length", "Transfer-Encoding"};
+
 struct field_check {
     struct head_fault fault;
-    const char *first[3]; /* of Host, Content-Length, Transfer-Encoding */
+    bool seen[SINGLE_COUNT];
     bool ok;
 };
 
 static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const char *name,
                                    size_t name_length, const char *value, size_t value_length)
 {
-    static const char *const single[3] = {"Host", "Content-Length", "Transfer-Encoding"};
     struct field_check *check = data;
 
     (void)kind;
     check->ok =
         head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
-    for (int i = 0; i < 3 && check->ok; i++) {
+    for (int i = 0; i < SINGLE_COUNT && check->ok; i++) {
         if (strcasecmp(name, single[i]) != 0) {
             continue;
         }
-        if (check->first[i]) {
+        if (check->seen[i]) {
             check->fault = (struct head_fault){400, "a header that may come once comes twice"};
             check->ok = false;
         }
-        check->first[i] = value ? value : "";
+        check->seen[i] = true;
     }
     return check->ok ? MHD_YES : MHD_NO;
 }
 
-bool admit_framing(struct MHD_Connection *connection, const char *version, struct response *out)
+bool admit_framing(const struct request *request, struct MHD_Connection *connection,
+                   const char *version, struct response *out)
 {
     struct field_check check = {.ok = true};
+    const char *values[SINGLE_COUNT] = {NULL};
 
     MHD_get_connection_values_n(connection, MHD_HEADER_KIND, check_field, &check);
-    if (check.ok && head_framing_check(check.first[0], check.first[1], check.first[2],
-                                       strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
+    for (int i = 0; i < SINGLE_COUNT; i++) {
+        const char *value = check.seen[i] ? request_header(request, single[i]) : NULL;
+
+        values[i] = check.seen[i] && !value ? "" : value;
+    }
+    if (check.ok &&
+        head_framing_check(values[SINGLE_HOST], values[SINGLE_LENGTH], values[SINGLE_CODING],
+                           strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
         return true;
     }
     *out = response_problem(check.fault.status, "syntax", "", check.fault.message);
@@ -115,13 +125,23 @@ static bool check_body(const struct request *request, const struct route *route,
 
 /* --- who and what --- */
 
-static bool check_access(const struct request *request, bool open, struct response *out)
+static bool is_navigation(const struct request *request)
+{
+    const char *mode = request_header(request, "Sec-Fetch-Mode");
+    const char *dest = request_header(request, "Sec-Fetch-Dest");
+
+    return mode && strcmp(mode, "navigate") == 0 && dest && strcmp(dest, "document") == 0;
+}
+
+static bool check_access(const struct request *request, bool open, bool page, struct response *out)
 {
     struct access_request values = {
         .host = request_header(request, "Host"),
         .origin = request_header(request, "Origin"),
         .authorization = request_header(request, "Authorization"),
         .protocols = request_header(request, "Sec-WebSocket-Protocol"),
+        .site = request_header(request, "Sec-Fetch-Site"),
+        .to_page = page && is_navigation(request),
     };
     struct error err = {0};
     int status = access_check(&request->hub->access, &values, open, &err);
@@ -161,7 +181,8 @@ bool admit_request(struct request *request, const char *target, const struct rou
                         request_header(request, "Origin") &&
                         request_header(request, "Access-Control-Request-Method");
     struct response refusal;
-    if (!check_access(request, is_preflight || (route && route->open), &refusal)) {
+    if (!check_access(request, is_preflight || (route && route->access != GUARDED),
+                      route && route->access == PAGE, &refusal)) {
         if (!route) {
             free(out->body);
         }
@@ -176,7 +197,7 @@ bool admit_request(struct request *request, const char *target, const struct rou
     if (!route) {
         return false;
     }
-    if (atomic_load(&request->hub->draining) && !route->open) {
+    if (atomic_load(&request->hub->draining) && route->access == GUARDED) {
         *out = response_problem(503, "unavailable", "", "the server is shutting down");
         return false;
     }

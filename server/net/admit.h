@@ -12,7 +12,8 @@ struct MHD_Connection;
 struct route;
 
 /* Both: false, and `*out` is the answer. */
-bool admit_framing(struct MHD_Connection *connection, const char *version, struct response *out);
+bool admit_framing(const struct request *request, struct MHD_Connection *connection,
+                   const char *version, struct response *out);
 /* `target` may be NULL, which is refused. `*out_route` is set for refused requests too, NULL where
  * there is none: how much of a body is read away depends on it. */
 bool admit_request(struct request *request, const char *target, const struct route **out_route,

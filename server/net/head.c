@@ -115,6 +115,19 @@ static bool read_request_line(const char *line, size_t length, struct head *head
     return read_version(last + 1, length - (size_t)(last + 1 - line), head, fault);
 }
 
+static bool is_name(const char *name, size_t length, const char *wanted)
+{
+    return strlen(wanted) == length && strncasecmp(name, wanted, length) == 0;
+}
+
+/* White space behind a value is no part of it; but libmicrohttpd takes it for one, and where bodies
+ * end must not depend on that. */
+static bool is_framing(const char *name, size_t length)
+{
+    return is_name(name, length, rules[HEAD_CONTENT_LENGTH].name) ||
+           is_name(name, length, rules[HEAD_TRANSFER_ENCODING].name);
+}
+
 bool head_field_check(const char *name, size_t name_length, const char *value, size_t value_length,
                       struct head_fault *fault)
 {
@@ -128,6 +141,9 @@ bool head_field_check(const char *name, size_t name_length, const char *value, s
             return refuse(fault, 400, "a header value holds a control character");
         }
     }
+    if (value_length && strchr(" \t", value[value_length - 1]) && is_framing(name, name_length)) {
+        return refuse(fault, 400, "white space follows a length or a transfer coding");
+    }
     return true;
 }
 
@@ -135,8 +151,7 @@ static bool store_field(struct head *head, const char *name, size_t name_length,
                         size_t value_length, struct head_fault *fault)
 {
     for (int i = 0; i < HEAD_FIELD_COUNT; i++) {
-        if (strlen(rules[i].name) != name_length ||
-            strncasecmp(rules[i].name, name, name_length) != 0) {
+        if (!is_name(name, name_length, rules[i].name)) {
             continue;
         }
         size_t before = head->field[i] ? strlen(head->field[i]) + 2 : 0;
@@ -174,12 +189,14 @@ static bool read_field(const char *line, size_t length, struct head *head, struc
     while (value < end && (*value == ' ' || *value == '\t')) {
         value++;
     }
+    size_t name_length = (size_t)(colon - line);
+    if (!head_field_check(line, name_length, value, (size_t)(end - value), fault)) {
+        return false;
+    }
     while (end > value && (end[-1] == ' ' || end[-1] == '\t')) {
         end--;
     }
-    size_t name_length = (size_t)(colon - line), value_length = (size_t)(end - value);
-    return head_field_check(line, name_length, value, value_length, fault) &&
-           store_field(head, line, name_length, value, value_length, fault);
+    return store_field(head, line, name_length, value, (size_t)(end - value), fault);
 }
 
 /* uri-host [":" port] without user information (RFC 9110, 7.2). */

@@ -45,7 +45,8 @@ struct head_fault {
 long head_end(const char *bytes, size_t length, size_t seen);
 /* Reads `length` bytes that head_end delimited. */
 bool head_read(const char *bytes, size_t length, struct head *out, struct head_fault *fault);
-/* The same rule for one field of a request that somebody else parsed: duplicates excepted. */
+/* The same rule for one field of a request that somebody else parsed: duplicates excepted. `value`
+ * is what stands behind the colon, with the white space behind it. */
 bool head_field_check(const char *name, size_t name_length, const char *value, size_t value_length,
                       struct head_fault *fault);
 /* Rules between fields: one length at most, a transfer coding that is known, a Host. */

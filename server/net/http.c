@@ -15,18 +15,25 @@
 #include "admit.h"
 #include "protocol/memory.h"
 #include "request.h"
+#include "safety.h"
 #include "server/clock.h"
 #include "server/live/hub.h"
 #include "server/log.h"
 #include "server/rest/routes.h"
 
-enum { BODY_PATIENCE = 4 }; /* times the limit that are read before the connection is cut */
+enum { BODY_PATIENCE = 3 }; /* times the limit that are read before the connection is cut */
 
 enum exchange_state {
     READING,
     HANDLING,  /* the handler runs */
     SUSPENDED, /* it will reply later */
     REPLIED,
+};
+
+/* A header's value without the white space behind it. */
+struct trimmed {
+    struct trimmed *next;
+    char text[];
 };
 
 /* One request and its reply. Lives from the request line to libmicrohttpd's completed callback. */
@@ -45,6 +52,7 @@ struct exchange {
     void (*gone)(void *data);
     void *gone_data;
     int64_t started_us;
+    struct trimmed *trimmed;
 };
 
 struct http {
@@ -98,10 +106,12 @@ static struct MHD_Response *build_response(const struct exchange *exchange,
     if (!cache) {
         MHD_add_response_header(out, "Cache-Control", "no-cache");
     }
-    MHD_add_response_header(out, "X-Content-Type-Options", "nosniff");
-    MHD_add_response_header(out, "Referrer-Policy", "no-referrer");
+#define ADD(name, value) MHD_add_response_header(out, name, value);
+    SAFETY_HEADERS(ADD)
+#undef ADD
     if (response->type && strncmp(response->type, "text/html", 9) == 0) {
         MHD_add_response_header(out, "Content-Security-Policy", content_policy);
+        MHD_add_response_header(out, "Cross-Origin-Opener-Policy", "same-origin");
     }
     if (response->status != 403) {
         add_cors(out, exchange);
@@ -186,10 +196,24 @@ void http_check_gone(struct http *http)
 
 /* --- libmicrohttpd's callbacks --- */
 
+/* White space around a value is no part of it (RFC 9110, 5.5). The library cuts it off in front. */
 static const char *find_header(const struct request *request, const char *name)
 {
-    return MHD_lookup_connection_value(((const struct exchange *)request)->connection,
-                                       MHD_HEADER_KIND, name);
+    struct exchange *exchange = (struct exchange *)request;
+    const char *value = MHD_lookup_connection_value(exchange->connection, MHD_HEADER_KIND, name);
+    size_t length = value ? strlen(value) : 0;
+
+    while (length && (value[length - 1] == ' ' || value[length - 1] == '\t')) {
+        length--;
+    }
+    if (!value || !value[length]) {
+        return value;
+    }
+    struct trimmed *trimmed = memory_alloc(1, sizeof(*trimmed) + length + 1);
+    memcpy(trimmed->text, value, length);
+    trimmed->next = exchange->trimmed;
+    exchange->trimmed = trimmed;
+    return trimmed->text;
 }
 
 /* "": not known. */
@@ -310,7 +334,7 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
 {
     struct response response = {0};
 
-    if (!admit_framing(exchange->connection, version, &response)) {
+    if (!admit_framing(&exchange->request, exchange->connection, version, &response)) {
         return answer_now(exchange, &response);
     }
     if (admit_request(&exchange->request, exchange->target, &exchange->route, &response)) {
@@ -369,6 +393,12 @@ static void on_completed(void *data, struct MHD_Connection *connection, void **c
         MHD_destroy_response(exchange->response);
     }
     request_finish(&exchange->request);
+    while (exchange->trimmed) {
+        struct trimmed *next = exchange->trimmed->next;
+
+        free(exchange->trimmed);
+        exchange->trimmed = next;
+    }
     free(exchange->target);
     free(exchange);
     *connection_data = NULL;

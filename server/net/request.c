@@ -74,6 +74,11 @@ bool request_parse_target(struct request *request, const char *target, struct er
         target = "/";
         path_length = 1;
     }
+    /* Who guards paths in front of us would take such a segment for one. */
+    const char *slash = strcasestr(target, "%2f");
+    if (slash && slash < target + path_length) {
+        return error_set(err, ERROR_SYNTAX, "", "a path may not hold %%2F");
+    }
     request->path = decode(target, path_length, false);
     if (!request->path) {
         return error_set(err, ERROR_SYNTAX, "", "a percent escape in the path is malformed");

@@ -7,12 +7,18 @@
 
 enum route_body { BODY_NONE, BODY_JSON, BODY_FILE };
 
+enum route_access {
+    GUARDED, /* by the token, if there is one */
+    OPEN,    /* to everybody */
+    PAGE,    /* open, and pages of other sites may lead here */
+};
+
 struct route {
     const char *method;  /* GET serves HEAD too */
     const char *pattern; /* "{}" matches an id, or what is left of one path segment */
     void (*handle)(struct request *request); /* replies now or later */
     enum route_body body;
-    bool open; /* needs no token */
+    enum route_access access;
 };
 
 /* The route of a request, whose captures are filled in. NULL: none, and `*out` says 404 or 405. */

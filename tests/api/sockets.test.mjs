@@ -106,6 +106,14 @@ describe('heads', () => {
             [413],
         ));
 
+    for (const [where, before] of [['first', ''], ['second', get()]]) {
+        test(`white space around values is no part of them, in the ${where} request`, async () => {
+            const body = '{"from":"example:first-steps"}';
+            const post = `POST /v1/scenes HTTP/1.1\r\nHost:\t localhost \t\r\nX: \t a b \t\r\nContent-Type:application/json\t\r\nContent-Length:\t${body.length}\r\n\r\n${body}`;
+            assert.equal((await statuses(before + post, before ? 2 : 1)).at(-1), 201);
+        });
+    }
+
     test('half-closed behind a whole request is served', async () => {
         const peer = connect();
         peer.socket.end(get('Connection: close\r\n'));
@@ -131,6 +139,9 @@ const malformed = {
     'length and chunked': [400, get('Content-Length: 3\r\nTransfer-Encoding: chunked\r\n') + '0\r\n\r\n'],
     'length with a sign': [400, get('Content-Length: +3\r\n') + 'abc'],
     'length as a list': [400, get('Content-Length: 3, 3\r\n') + 'abc'],
+    'a blank behind the length': [400, get('Content-Length: 3 \r\n') + 'abc'],
+    'a tab behind the length': [400, get('Content-Length:\t3\t\r\n') + 'abc'],
+    'a tab behind the coding': [400, get('Transfer-Encoding: chunked\t\r\n')],
     'length in hexadecimal': [400, get('Content-Length: 0x3\r\n') + 'abc'],
     'an empty length': [400, get('Content-Length:\r\n')],
     'an endless length': [400, get(`Content-Length: ${'9'.repeat(30)}\r\n`)],
@@ -170,6 +181,8 @@ describe('malformed', () => {
             assert.deepEqual(peer.statuses(), [status]);
             assert.match(peer.text, /application\/problem\+json/);
             assert.match(peer.text, /\r\nConnection: close\r\n/i);
+            assert.match(peer.text, /\r\nX-Content-Type-Options: nosniff\r\n/i);
+            assert.match(peer.text, /\r\nCross-Origin-Resource-Policy: same-origin\r\n/i);
             peer.close();
         });
     }
@@ -265,6 +278,21 @@ describe('slow clients', () => {
         assert.ok(cpuSecondsOf(daemon.pid) - cpu < 0.5 * seconds, 'waiting costs processor time');
     });
 
+    test('a body without an end is cut', async () => {
+        const peer = connect();
+        peer.socket.write('POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n');
+        const chunk = Buffer.concat([Buffer.from('100000\r\n'), Buffer.alloc(1 << 20, 'x'), Buffer.from('\r\n')]);
+        let sent = 0;
+        for (; !peer.ended && sent < 200; sent += 1) {
+            await new Promise((done) => {
+                peer.socket.write(chunk, done);
+                peer.socket.once('close', done);
+            });
+        }
+        await peer.end();
+        assert.ok(sent >= 32 && sent < 60, `cut after ${sent} MiB, of 16 allowed`);
+    });
+
     test('a client that leaves before its picture is there frees the renderer', async () => {
         const peer = connect();
         const at = '/v1/scenes/s/image.png?width=4096&height=4096&samples=4';
@@ -285,6 +313,18 @@ describe('too many', () => {
         assert.ok(counts[200] > 256 && counts[200] <= 512 && counts[503] === 560 - counts[200], JSON.stringify(counts));
         peers.forEach((peer) => peer.close());
         await until(async () => (await statuses(get()))[0] === 200, 'room');
+    });
+
+    test('heads that never end: who comes later is served', async () => {
+        const peers = Array.from({ length: 900 }, () => connect());
+        peers.forEach((peer) => peer.socket.write('GET /healthz HTTP/1.1\r\n'));
+        await until(() => peers.some((peer) => peer.statuses().length), 'the first to be refused');
+        assert.deepEqual(peers.find((peer) => peer.statuses().length).statuses(), [503]);
+        for (let i = 0; i < 12; i += 1) {
+            assert.deepEqual(await statuses(get()), [200]);
+        }
+        assert.ok(peers.filter((peer) => !peer.statuses().length).length >= 500, 'most still wait');
+        peers.forEach((peer) => peer.close());
     });
 
     test('live connections: the next is answered 503', async () => {

@@ -85,7 +85,8 @@ static void joins_lists_within_bounds(void **state)
 static int verdict(const struct access *access, const char *host, const char *origin,
                    const char *authorization, const char *protocols)
 {
-    struct access_request request = {host, origin, authorization, protocols};
+    struct access_request request = {
+        .host = host, .origin = origin, .authorization = authorization, .protocols = protocols};
 
     return access_check(access, &request, false, NULL);
 }
@@ -101,6 +102,11 @@ static void keeps_strangers_out(void **state)
     assert_int_equal(verdict(&open, "127.0.0.2", NULL, NULL, NULL), 0);
     assert_int_equal(verdict(&open, "127.evil.example", NULL, NULL, NULL), 403);
     assert_int_equal(verdict(&open, "evil.example", NULL, NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "[::1]", NULL, NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "[::1]:80", NULL, NULL, NULL), 0);
+    assert_int_equal(verdict(&open, "[::1].evil.example", NULL, NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "[::1", NULL, NULL, NULL), 403);
+    assert_int_equal(verdict(&open, "localhost:80.evil.example", NULL, NULL, NULL), 403);
     assert_int_equal(verdict(&open, "localhost", "http://localhost", NULL, NULL), 0);
     assert_int_equal(verdict(&open, "localhost", "http://localhost:1", NULL, NULL), 403);
     assert_int_equal(verdict(&open, "localhost", "https://friend.example", NULL, NULL), 0);
