@@ -20,9 +20,6 @@ const struct composition compositions[] = {
      "{\"type\":\"field\",\"params\":{\"lipschitz\":18,\"size\":[2,2,2],\"code\":\"float sdf(vec3 "
      "p){float q=dot(p,p)+0.32;return q*q-1.44*dot(p.xz,p.xz);}\"}," TURNED "}",
      .alone = true},
-    {.name = "torus of that quartic",
-     CAMERA,
-     "{\"type\":\"torus\",\"params\":{\"radius\":0.6,\"tube\":0.2}," TURNED "}"},
     {.name = "sheet of a gyroid",
      CAMERA,
      "{\"type\":\"gyroid\",\"params\":{\"period\":0.7,\"thickness\":0.004,\"size\":[1,1,1]}," TURNED
@@ -184,5 +181,9 @@ const struct composition compositions[] = {
     {.name = "exponential union", CAMERA, BLEND("smooth_union", "exponential", 24)},
     {.name = "root intersection", CAMERA, BLEND("smooth_intersection", "root", 0.01)},
     {.name = "power union", CAMERA, BLEND("smooth_union", "power", 8)},
+    {.name = "torus of that quartic",
+     CAMERA,
+     "{\"type\":\"torus\",\"params\":{\"radius\":0.6,\"tube\":0.2}," TURNED "}",
+     .alone = true},
 };
 const size_t composition_count = sizeof compositions / sizeof compositions[0];
