@@ -26,6 +26,11 @@
     X(ASSET_SIDE, "asset_side", 8192, "pixels", "width or height of an uploaded picture")          \
     X(ASSET_PIXELS, "asset_pixels", 33554432, "pixels",                                            \
       "width times height of an uploaded picture")                                                 \
+    X(PANORAMA_WIDTH, "panorama_width", 4096, "pixels",                                            \
+      "width of an environment's picture; larger files are averaged to it")                        \
+    X(PANORAMA_BYTES, "panorama_bytes", 268435456, "bytes",                                        \
+      "pictures of environments kept ready that no scene uses now")                                \
+    X(READ_MS, "read_ms", 5000, "milliseconds", "reading the picture of an environment")           \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \

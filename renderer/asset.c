@@ -9,13 +9,26 @@
 
 enum { UNUSED_KEPT = 4 }; /* a file is given before the scene that names it */
 
+struct asset *asset_ref(struct asset *asset)
+{
+    asset->references++;
+    return asset;
+}
+
+void asset_unref(struct asset *asset)
+{
+    if (--asset->references == 0) {
+        free(asset->bytes);
+        free(asset);
+    }
+}
+
 static void drop(struct asset **at)
 {
     struct asset *gone = *at;
 
     *at = gone->next;
-    free(gone->bytes);
-    free(gone);
+    asset_unref(gone);
 }
 
 static struct asset **find(struct asset **at, const char *id)
@@ -34,6 +47,7 @@ static struct asset *create(const char *id, const void *bytes, size_t length)
     asset->bytes = memory_alloc(length, 1);
     memcpy(asset->bytes, bytes, length);
     asset->length = length;
+    asset->references = 1;
     return asset;
 }
 

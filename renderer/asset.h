@@ -15,6 +15,7 @@ struct asset {
     uint8_t *bytes;
     size_t length;
     struct error problem; /* why it is no picture; ERROR_NONE: none is known */
+    int references;       /* of the list, and of who reads it */
     struct asset *next;
 };
 
@@ -25,5 +26,7 @@ bool assets_add(struct asset **assets, const char *id, const void *bytes, size_t
 /* NULL: none of that name. */
 struct asset *assets_find(struct asset *assets, const char *id);
 void assets_finish(struct asset **assets);
+struct asset *asset_ref(struct asset *asset);
+void asset_unref(struct asset *asset);
 
 #endif

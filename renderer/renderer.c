@@ -57,6 +57,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!renderer->environments) {
         goto fail;
     }
+    renderer->pictures = pictures_create();
     renderer->programs =
         program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms, err);
     if (!renderer->programs) {
@@ -78,6 +79,7 @@ void renderer_destroy(struct renderer *renderer)
     }
     program_cache_destroy(renderer->programs);
     environments_destroy(renderer->environments);
+    pictures_destroy(renderer->pictures);
     assets_finish(&renderer->assets);
     draw_destroy(renderer->draw);
     egl_finish(&renderer->egl);
@@ -105,19 +107,28 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     return counters;
 }
 
-struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape)
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
+                                               const char *image)
 {
     for (size_t i = 0; i < renderer->verdict_count; i++) {
-        if (renderer->verdicts[i].shape == shape) {
-            return &renderer->verdicts[i];
+        struct renderer_verdict *verdict = &renderer->verdicts[i];
+
+        if (verdict->shape == shape && strcmp(verdict->image, image) == 0) {
+            return verdict;
         }
     }
     return NULL;
 }
 
+static bool is_named_by(const struct resident *resident, const char *id)
+{
+    return strcmp(record_text(&resident->scene->environment, "image"), id) == 0;
+}
+
 void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict)
 {
-    struct renderer_verdict *known = renderer_find_verdict(renderer, verdict->shape);
+    struct renderer_verdict *known =
+        renderer_find_verdict(renderer, verdict->shape, verdict->image);
 
     if (!known) {
         renderer->verdicts = memory_resize(renderer->verdicts, renderer->verdict_count + 1,
@@ -126,7 +137,8 @@ void renderer_judge(struct renderer *renderer, const struct renderer_verdict *ve
     }
     *known = *verdict;
     for (struct resident *resident = renderer->residents; resident; resident = resident->next) {
-        if (resident->refused_shape == verdict->shape) {
+        if (*verdict->image ? is_named_by(resident, verdict->image)
+                            : resident->refused_shape == verdict->shape) {
             resident_renew(resident);
         }
     }
@@ -140,11 +152,6 @@ double renderer_pace(const struct renderer *renderer)
 void renderer_set_pace(struct renderer *renderer, double pace)
 {
     program_cache_set_pace(renderer->programs, pace);
-}
-
-static bool is_named_by(const struct resident *resident, const char *id)
-{
-    return strcmp(record_text(&resident->scene->environment, "image"), id) == 0;
 }
 
 static bool is_named(void *data, const char *id)
@@ -169,15 +176,29 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
     }
 }
 
+bool renderer_is_reading(const struct renderer *renderer)
+{
+    struct picture *reading;
+
+    return pictures_next(renderer->pictures, &reading) || reading;
+}
+
 bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out)
 {
     struct program_stuck stuck;
 
-    if (!program_cache_stuck(renderer->programs, &stuck)) {
-        return false;
+    struct pictures_stuck picture;
+
+    if (program_cache_stuck(renderer->programs, &stuck)) {
+        *out = (struct renderer_stuck){stuck.shape, "", stuck.still, stuck.measured_ms,
+                                       stuck.limit_ms};
+        return true;
     }
-    *out = (struct renderer_stuck){stuck.shape, stuck.still, stuck.measured_ms, stuck.limit_ms};
-    return true;
+    if (pictures_stuck(renderer->pictures, &picture)) {
+        *out = (struct renderer_stuck){0, picture.id, false, picture.measured_ms, picture.limit_ms};
+        return true;
+    }
+    return false;
 }
 
 /* Rows below those that are there. */

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "protocol/asset.h"
 #include "protocol/limits.h"
 #include "protocol/picture.h"
 #include "protocol/scene.h"
@@ -33,6 +34,8 @@ struct renderer_params {
     /* Called before a program with code of users is compiled, which waits until this returns, with
      * its shape, and with 0 when that is over. May be NULL. */
     void (*on_compile)(void *data, uint64_t shape);
+    /* The same before the picture of an environment is read: its id, and "" when that is over. */
+    void (*on_read)(void *data, const char *image);
     void *on_compile_data;
 };
 
@@ -65,17 +68,21 @@ struct renderer_counters {
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
-/* A shape whose compiler may never end, as gl/program.h has it. */
+/* A shape whose compiler may never end, as gl/program.h has it; or a picture that is read. */
 struct renderer_stuck {
     uint64_t shape;
+    const char *image; /* "": it is the shape */
     bool still;
     int measured_ms, limit_ms;
 };
+/* The picture of an environment is being read: renderer_poll wants to be called. */
+bool renderer_is_reading(const struct renderer *renderer);
 bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out);
-/* What earlier processes learned of compiling a shape. */
+/* What earlier processes learned of compiling a shape, or of reading a picture. */
 struct renderer_verdict {
-    uint64_t shape;
-    enum error_kind refused;   /* never compiled, for this reason; ERROR_NONE: it may be tried */
+    uint64_t shape;                      /* 0: of a picture */
+    char image[ASSET_ID_CHARACTERS + 1]; /* "": of a shape */
+    enum error_kind refused;   /* never done again, for this reason; ERROR_NONE: it may be tried */
     int measured_ms, limit_ms; /* of ERROR_TOO_SLOW */
     int times;                 /* of the usual time that it may take; 0: once */
 };

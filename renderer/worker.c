@@ -24,7 +24,7 @@ enum {
     COMPILE_POLL_MS = 4,
 };
 
-/* Whether somebody waits for the compiler. */
+/* Whether somebody waits for the compiler, or a picture is read. */
 static bool is_compiling(const struct worker *w)
 {
     for (const struct held *held = w->scenes; held; held = held->next) {
@@ -38,7 +38,7 @@ static bool is_compiling(const struct worker *w)
             return true;
         }
     }
-    return false;
+    return renderer_is_reading(w->renderer);
 }
 
 static void on_stop(struct worker *w, const cJSON *packet)
@@ -53,10 +53,13 @@ static void on_packet(struct worker *w, const struct packet *whole)
         const char *type;
         void (*handle)(struct worker *w, const cJSON *packet);
     } rows[] = {
-        {"scene", worker_on_scene},   {"edit", worker_on_edit},
-        {"drop", worker_on_drop},     {"render", worker_on_render},
-        {"cancel", worker_on_cancel}, {"judge", worker_on_judge},
-        {"ping", worker_on_ping},     {"stop", on_stop},
+        {"scene", worker_on_scene},
+        {"edit", worker_on_edit},
+        {"drop", worker_on_drop},
+        {"render", worker_on_render},
+        {"cancel", worker_on_cancel},
+        {"judge", worker_on_judge},
+        {"stop", on_stop},
     };
     const cJSON *packet = whole->json;
     const char *type = json_member_text(packet, "type", "");
@@ -104,6 +107,20 @@ static void receive(struct worker *w)
     }
 }
 
+/* False: the sockets are no good. */
+static bool wait(struct worker *w, struct pollfd fds[2], int timeout_ms)
+{
+    bool ok;
+
+    pulse_tell(w->pulse, &(struct pulse_news){renderer_counters(w->renderer),
+                                              renderer_pace(w->renderer), timeout_ms < 0});
+    ok = poll(fds, 2, timeout_ms) >= 0 || errno == EINTR;
+    if (timeout_ms < 0) {
+        pulse_wake(w->pulse);
+    }
+    return ok;
+}
+
 static void run(struct worker *w)
 {
     struct renderer_stuck stuck;
@@ -117,7 +134,7 @@ static void run(struct worker *w)
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;
         }
-        if (poll(fds, 2, task ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1) < 0 && errno != EINTR) {
+        if (!wait(w, fds, task ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1)) {
             w->status = 1;
             return;
         }
@@ -163,6 +180,7 @@ static void finish(struct worker *w)
     while (w->scenes) {
         worker_drop_scene(&w->scenes);
     }
+    pulse_destroy(w->pulse);
     encoder_destroy(w->encoder);
     while (w->tasks) {
         worker_drop_task(w, &w->tasks);
@@ -185,6 +203,7 @@ int worker_run(int fd, const struct worker_params *params)
     signal(SIGINT, SIG_IGN); /* a Ctrl-C at the terminal is for the front */
     w.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     renderer.on_compile = worker_on_compile;
+    renderer.on_read = worker_on_read;
     renderer.on_compile_data = &w;
     w.renderer = renderer_create(&renderer, &err);
     w.encoder = w.renderer ? encoder_create(w.wake_fd, &err) : NULL;
@@ -196,6 +215,7 @@ int worker_run(int fd, const struct worker_params *params)
         return 1;
     }
     limit_memory(&w, params->memory_limit_bytes);
+    w.pulse = pulse_create(params->pulse_fd);
     worker_send_ready(&w);
     run(&w);
     worker_flush(&w);

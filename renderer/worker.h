@@ -11,9 +11,9 @@
  *   scene  {scene, revision, document}                  ready    {renderer{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, ERROR}
- *   judge  {shapes: [{shape, code?, measured?, limit?,  warned   {scene, revision, ERROR}
- *           times}], pace?}                             slow     {scene, revision, shape, still,
- *                                                                 measured, limit}
+ *   judge  {shapes: [{shape | asset, code?, measured?,  warned   {scene, revision, ERROR}
+ *           limit?, times}], pace?}                     slow     {scene, revision, shape | asset,
+ *                                                                 still, measured, limit}
  *   render {job, scene, priority, width, height,        frame    {job, revision, newest, more,
  *           camera?, region? [x, y, width, height],               round, rounds, width, height,
  *           aov, level?, samples, transparent?,                   mime, STAGE_us...} + payload
@@ -21,26 +21,31 @@
  *           zipped, exact, in_rounds, careful,          failed   {job, ERROR, begun?}
  *           patience, isolate? [node, ...]}
  *   cancel {job}
- *   ping   {ping}                                       pong     {ping, compilations, cache_hits,
- *   stop   {}                                                     tiles, pictures, resident_bytes,
- *                                                                 pace}
- *                                                       compiling, drawing {scene, revision, shape}
+ *   stop   {}                                           compiling, drawing {scene, revision,
+ *                                                                 shape}
+ *                                                       reading  {scene, revision, asset}
+ *
+ * A second socketpair carries ping {ping} and pong {ping, steps, idle, compilations, cache_hits,
+ * tiles, pictures, resident_bytes, pace}. A thread that does not draw answers there (pulse.h). What
+ * it says of the drawing thread is what counts: one that neither goes on (`steps`) nor has nothing
+ * to do (`idle`) hangs, however fast the pongs come.
+ *
  * ERROR is code, place, message, line and column where there are any, measured and limit of what
  * was too slow, and the shape of what is refused. STAGE is each of the
  * stages of protocol/picture.h. Several outputs (aov: names with commas) come as one ZIP.
  *
- * Before code of users is compiled, or any scene drawn, the worker names it, and an empty one
- * afterwards; it waits until the front has that. So it is known whose code ended it. A compiler
- * that may never end (limits.h) ends the worker, which says so first (`slow`). The front tells the
- * next worker what to make of such a shape (`judge`): it may take so many times the usual time, or
- * it is refused (`code`). `pace`: how slow this machine compiles, as measured so far.
+ * Before code of users is compiled, the picture of an environment read, or any scene drawn, the
+ * worker names it, and an empty one afterwards; it waits until the front has that. So it is known
+ * whose code or file ended it. A compiler that may never end (limits.h) ends the worker, which says
+ * so first (`slow`), as does reading that takes too long. The front tells the next worker what to
+ * make of such a shape or file (`judge`): it may take so many times the usual time, or it is refused
+ * (`code`). `pace`: how slow this machine compiles, as measured so far.
  *
  * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
  * `newest` is false where the picture is older than the scene because its shader still compiles.
  * Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
- * priority number goes first, so a viewer's frame interrupts a long picture between two tiles. The
- * worker answers pings between tiles too: silence means a hang. */
+ * priority number goes first, so a viewer's frame interrupts a long picture between two tiles. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H
 
@@ -50,10 +55,11 @@
 #include "renderer.h"
 #include "vigil.h"
 
-enum { WORKER_FD = 3 }; /* where the front leaves the socket for the child */
+enum { WORKER_FD = 3, WORKER_PULSE_FD = 4 }; /* where the front leaves its child's sockets */
 
 struct worker_params {
     struct renderer_params renderer;
+    int pulse_fd;              /* for pings; -1: there are none */
     size_t memory_limit_bytes; /* RLIMIT_AS above what the driver needs; 0: none */
 };
 

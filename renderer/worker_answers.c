@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "protocol/memory.h"
 #include "protocol/messages.h"
@@ -143,6 +142,16 @@ void worker_send_compiling(struct worker *w, const char *scene, uint64_t revisio
     worker_send(w, json, NULL, 0);
 }
 
+void worker_send_reading(struct worker *w, const struct held *held, const char *image)
+{
+    cJSON *json = worker_answer("reading");
+
+    cJSON_AddStringToObject(json, "scene", held ? held->name : "");
+    cJSON_AddNumberToObject(json, "revision", held ? (double)resident_revision(held->resident) : 0);
+    cJSON_AddStringToObject(json, "asset", image);
+    worker_send(w, json, NULL, 0);
+}
+
 void worker_send_drawing(struct worker *w, const struct task *task)
 {
     cJSON *json = worker_answer("drawing");
@@ -154,12 +163,17 @@ void worker_send_drawing(struct worker *w, const struct task *task)
 
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck)
 {
-    const struct held *held = worker_find_shape(w, stuck->shape);
+    const struct held *held =
+        *stuck->image ? worker_find_image(w, stuck->image) : worker_find_shape(w, stuck->shape);
     cJSON *json = worker_answer("slow");
 
     cJSON_AddStringToObject(json, "scene", held ? held->name : "");
     cJSON_AddNumberToObject(json, "revision", held ? (double)resident_revision(held->resident) : 0);
-    add_shape(json, stuck->shape);
+    if (*stuck->image) {
+        cJSON_AddStringToObject(json, "asset", stuck->image);
+    } else {
+        add_shape(json, stuck->shape);
+    }
     cJSON_AddBoolToObject(json, "still", stuck->still);
     cJSON_AddNumberToObject(json, "measured", stuck->measured_ms);
     cJSON_AddNumberToObject(json, "limit", stuck->limit_ms);
@@ -176,35 +190,6 @@ void worker_send_ready(struct worker *w)
     cJSON_AddStringToObject(renderer, "version", info->version);
     cJSON_AddStringToObject(renderer, "device", info->device);
     cJSON_AddBoolToObject(renderer, "software", info->software);
-    worker_send(w, json, NULL, 0);
-}
-
-static uint64_t resident_bytes(void)
-{
-    unsigned long pages = 0;
-    FILE *statm = fopen("/proc/self/statm", "r");
-
-    if (statm) {
-        if (fscanf(statm, "%*u %lu", &pages) != 1) {
-            pages = 0;
-        }
-        fclose(statm);
-    }
-    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
-}
-
-void worker_on_ping(struct worker *w, const cJSON *ping)
-{
-    const struct renderer_counters counters = renderer_counters(w->renderer);
-    cJSON *json = worker_answer("pong");
-
-    cJSON_AddNumberToObject(json, "ping", json_member_number(ping, "ping", 0));
-    cJSON_AddNumberToObject(json, "compilations", (double)counters.compilations);
-    cJSON_AddNumberToObject(json, "cache_hits", (double)counters.cache_hits);
-    cJSON_AddNumberToObject(json, "tiles", (double)counters.tiles);
-    cJSON_AddNumberToObject(json, "pictures", (double)counters.pictures);
-    cJSON_AddNumberToObject(json, "resident_bytes", (double)resident_bytes());
-    cJSON_AddNumberToObject(json, "pace", renderer_pace(w->renderer));
     worker_send(w, json, NULL, 0);
 }
 

@@ -4,6 +4,7 @@
 #define RENDERER_WORKER_PARTS_H
 
 #include "encoder.h"
+#include "pulse.h"
 #include "turns.h"
 #include "worker.h"
 
@@ -40,6 +41,7 @@ struct worker {
     int fd, wake_fd;
     struct renderer *renderer;
     struct encoder *encoder;
+    struct pulse *pulse;
     struct packet_reader in;
     uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
     size_t out_sent, out_length, out_capacity;
@@ -74,9 +76,10 @@ void worker_send_frame(struct worker *w, const struct task *task);
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
 /* Whose code is compiled from here on; scene "": nobody's. */
 void worker_send_compiling(struct worker *w, const char *scene, uint64_t revision, uint64_t shape);
+/* Whose picture is read from here on; `image` "": nobody's. */
+void worker_send_reading(struct worker *w, const struct held *held, const char *image);
 /* What is drawn from here on; NULL: nothing. */
 void worker_send_drawing(struct worker *w, const struct task *task);
-void worker_on_ping(struct worker *w, const cJSON *packet);
 
 /* --- worker_scenes.c --- */
 
@@ -84,10 +87,14 @@ struct held **worker_find_scene(struct worker *w, const char *name);
 void worker_drop_scene(struct held **at);
 /* One that needs this shape; NULL: none. */
 const struct held *worker_find_shape(const struct worker *w, uint64_t shape);
+/* One whose environment is this file. */
+const struct held *worker_find_image(const struct worker *w, const char *image);
 /* Tells the front what has become drawable, or never will. */
 void worker_announce(struct worker *w);
 /* renderer_params.on_compile; `data` is the worker. */
 void worker_on_compile(void *data, uint64_t shape);
+/* The same of renderer_params.on_read. */
+void worker_on_read(void *data, const char *image);
 void worker_on_scene(struct worker *w, const cJSON *packet);
 void worker_on_edit(struct worker *w, const cJSON *packet);
 void worker_on_drop(struct worker *w, const cJSON *packet);

@@ -27,6 +27,17 @@ const struct held *worker_find_shape(const struct worker *w, uint64_t shape)
     return held;
 }
 
+const struct held *worker_find_image(const struct worker *w, const char *image)
+{
+    const struct held *held = w->scenes;
+
+    while (held &&
+           strcmp(record_text(&resident_scene(held->resident)->environment, "image"), image) != 0) {
+        held = held->next;
+    }
+    return held;
+}
+
 void worker_drop_scene(struct held **at)
 {
     struct held *gone = *at;
@@ -90,6 +101,16 @@ void worker_on_compile(void *data, uint64_t shape)
     } else {
         worker_send_compiling(w, held ? held->name : task->scene,
                               held ? resident_revision(held->resident) : task->revision, shape);
+        worker_flush_all(w);
+    }
+}
+
+void worker_on_read(void *data, const char *image)
+{
+    struct worker *w = data;
+
+    worker_send_reading(w, *image ? worker_find_image(w, image) : NULL, image);
+    if (*image) {
         worker_flush_all(w);
     }
 }
@@ -158,13 +179,14 @@ void worker_on_judge(struct worker *w, const cJSON *packet)
     }
     cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(packet, "shapes"))
     {
-        const struct renderer_verdict verdict = {
+        struct renderer_verdict verdict = {
             .shape = strtoull(json_member_text(row, "shape", ""), NULL, 16),
             .refused = read_kind(json_member_text(row, "code", "")),
             .measured_ms = (int)json_member_number(row, "measured", 0),
             .limit_ms = (int)json_member_number(row, "limit", 0),
             .times = (int)json_member_number(row, "times", 1),
         };
+        snprintf(verdict.image, sizeof verdict.image, "%s", json_member_text(row, "asset", ""));
         renderer_judge(w->renderer, &verdict);
     }
 }

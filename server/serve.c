@@ -225,15 +225,15 @@ static void block_signals(sigset_t *set)
     sigdelset(set, SIGALRM);
 }
 
-/* posix_spawn puts the socket at WORKER_FD; nothing of ours may be there. */
+/* posix_spawn puts sockets at WORKER_FD and WORKER_PULSE_FD; nothing of ours may be there. */
 static void reserve_descriptors(void)
 {
     int fd;
 
     do {
         fd = open("/dev/null", O_RDWR | O_CLOEXEC);
-    } while (fd >= 0 && fd <= WORKER_FD);
-    if (fd > WORKER_FD) {
+    } while (fd >= 0 && fd <= WORKER_PULSE_FD);
+    if (fd > WORKER_PULSE_FD) {
         close(fd);
     }
 }

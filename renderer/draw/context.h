@@ -6,6 +6,7 @@
 
 #include "draw.h"
 #include "pace.h"
+#include "pictures.h"
 #include "renderer/gl/egl.h"
 #include "snapshot.h"
 
@@ -18,12 +19,15 @@ struct renderer {
     struct draw *draw;
     struct environments *environments;
     struct asset *assets; /* a list */
+    struct pictures *pictures;
+    struct snapshot *waiting; /* for a picture; a list */
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;
     struct renderer_verdict *verdicts;
     size_t verdict_count;
     bool told_compile; /* on_compile was called with a shape, and not yet with 0 */
+    bool told_read;    /* the same of on_read */
 };
 
 enum { ISOLATIONS_KEPT = 8 }; /* of a scene; the least recently used go beyond this */
@@ -51,8 +55,9 @@ struct resident {
     struct isolated_view isolated[ISOLATIONS_KEPT];
 };
 
-/* NULL: nothing is known of the shape. */
-struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape);
+/* Of a shape, or with an id of a file; NULL: nothing is known of it. */
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
+                                               const char *image);
 
 /* A snapshot of the scene as it is now becomes the newest. */
 void resident_renew(struct resident *resident);

@@ -2,22 +2,18 @@
 /* The list of environments, and the pictures that each is made of. */
 #include "environment.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "protocol/memory.h"
 #include "renderer/gl/pass.h"
-#include "renderer/image/decode.h"
 
 enum {
     PLAIN_WIDTH = 128, /* of what is drawn where there is no picture; twice the height */
     MIRROR_WIDTH = 128,
     MIRROR_LEVELS = 4, /* of glsl/sky.glsl */
     MATT_WIDTH = 32,
-    KEPT_BYTES = 64 << 20, /* of environments that nobody uses */
-    TEXEL_BYTES = 8,
 };
 
 enum maker { MAKE_PLAIN, MAKE_MIRROR, MAKE_MATT, MAKER_COUNT };
@@ -52,13 +48,13 @@ static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
     return state;
 }
 
-static uint64_t key_of(const struct frame_block *block, const struct asset *image)
+static uint64_t key_of(const struct frame_block *block, const char *image)
 {
     const int32_t sun = block->effects[2] & EFFECT_SUN;
     uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->modes[1], sizeof block->modes[1]);
 
     if (block->modes[1] == SKY_IMAGE) {
-        return image ? mix(state, image->id, sizeof image->id) : state; /* none has that one */
+        return mix(state, image, strlen(image));
     }
     state = mix(state, block->zenith, 12);
     if (block->modes[1] == SKY_SOLID) {
@@ -80,10 +76,18 @@ static int levels_of(int width, int height)
     return levels;
 }
 
-/* Longitudes meet, latitudes end. */
-static GLuint create_picture(const struct gl *gl, int width, int height, int levels)
+/* Longitudes meet, latitudes end. Counts its bytes with those of its levels. */
+static GLuint create_picture(const struct gl *gl, int width, int height, int levels,
+                             size_t *out_bytes)
 {
     GLuint texture;
+
+    for (int level = 0; level < levels; level++) {
+        const size_t across = width >> level ? (size_t)(width >> level) : 1;
+        const size_t down = height >> level ? (size_t)(height >> level) : 1;
+
+        *out_bytes += DECODED_TEXEL_BYTES * across * down;
+    }
 
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
@@ -112,8 +116,7 @@ static void make(const struct environments *environments, enum maker maker, GLui
 static void make_plain(const struct environments *environments, struct environment *out)
 {
     out->panorama = create_picture(environments->gl, PLAIN_WIDTH, PLAIN_WIDTH / 2,
-                                   levels_of(PLAIN_WIDTH, PLAIN_WIDTH / 2));
-    out->bytes += (size_t)TEXEL_BYTES * PLAIN_WIDTH * PLAIN_WIDTH / 2;
+                                   levels_of(PLAIN_WIDTH, PLAIN_WIDTH / 2), &out->bytes);
     make(environments, MAKE_PLAIN, out->panorama, 0, PLAIN_WIDTH);
 }
 
@@ -121,18 +124,12 @@ static void upload(const struct environments *environments, const struct decoded
                    struct environment *out)
 {
     const struct gl *gl = environments->gl;
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    const float most = 65504; /* of a half */
 
-    for (size_t i = 0; i < 3 * pixels; i++) {
-        image->rgb[i] = fminf(image->rgb[i], most);
-    }
-    out->panorama =
-        create_picture(gl, image->width, image->height, levels_of(image->width, image->height));
-    out->bytes += TEXEL_BYTES * pixels;
+    out->panorama = create_picture(gl, image->width, image->height,
+                                   levels_of(image->width, image->height), &out->bytes);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width, image->height, GL_RGB, GL_FLOAT,
-                      image->rgb);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width, image->height, GL_RGBA, GL_HALF_FLOAT,
+                      image->rgba);
 }
 
 /* What is made of `panorama`. */
@@ -140,8 +137,8 @@ static void make_light(const struct environments *environments, struct environme
 {
     const struct gl *gl = environments->gl;
 
-    out->mirrored = create_picture(gl, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS);
-    out->irradiance = create_picture(gl, MATT_WIDTH, MATT_WIDTH / 2, 1);
+    out->mirrored = create_picture(gl, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS, &out->bytes);
+    out->irradiance = create_picture(gl, MATT_WIDTH, MATT_WIDTH / 2, 1, &out->bytes);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_PANORAMA);
     gl->BindTexture(GL_TEXTURE_2D, out->panorama);
     gl->GenerateMipmap(GL_TEXTURE_2D);
@@ -162,6 +159,7 @@ static void destroy(const struct environments *environments, struct environment 
     free(environment);
 }
 
+/* NULL stands there where there is none. */
 static struct environment **find(struct environments *environments, uint64_t key)
 {
     struct environment **at = &environments->first;
@@ -180,7 +178,7 @@ static void clean(struct environments *environments)
         struct environment *environment = *at;
 
         bytes += environment->references == 0 ? environment->bytes : 0;
-        if (environment->references == 0 && bytes > KEPT_BYTES) {
+        if (environment->references == 0 && bytes > LIMIT_PANORAMA_BYTES) {
             *at = environment->next;
             destroy(environments, environment);
         } else {
@@ -214,30 +212,12 @@ static struct environment *create(struct environments *environments,
     return environment;
 }
 
-/* Without its picture. */
-static void make_solid(struct frame_block *block)
+void environment_leave_out(struct frame_block *block)
 {
     const float unturned[4] = {1, 0, 1, 0};
 
     block->modes[1] = SKY_SOLID;
     memcpy(block->panorama, unturned, sizeof unturned);
-}
-
-/* A file that is no picture is not read again. */
-static bool load(struct asset *image, struct decoded *out, struct error *out_problem)
-{
-    static const char place[] = "/environment/image";
-    struct error err = {0};
-
-    if (!image) {
-        return error_set(out_problem, ERROR_NOT_FOUND, place, "no such file is known here");
-    }
-    if (image->problem.kind == ERROR_NONE &&
-        !image_decode(image->bytes, image->length, out, &err)) {
-        error_set(&image->problem, err.kind, place, "%s", err.message);
-    }
-    *out_problem = image->problem;
-    return image->problem.kind == ERROR_NONE;
 }
 
 static uint64_t now_us(void)
@@ -248,30 +228,29 @@ static uint64_t now_us(void)
     return (uint64_t)now.tv_sec * 1000000 + (uint64_t)now.tv_nsec / 1000;
 }
 
-struct environment *environments_get(struct environments *environments, struct frame_block *block,
-                                     struct asset *image, struct error *out_problem,
-                                     uint32_t *out_us, struct error *err)
+bool environments_have(struct environments *environments, const struct frame_block *block,
+                       const char *image)
 {
-    const uint64_t begun = now_us();
-    struct environment **at = find(environments, key_of(block, image)), *environment;
-    struct decoded decoded = {0};
+    return *find(environments, key_of(block, image)) != NULL;
+}
 
-    *out_problem = (struct error){0};
-    if (!*at && block->modes[1] == SKY_IMAGE && !load(image, &decoded, out_problem)) {
-        make_solid(block);
-        at = find(environments, key_of(block, NULL));
-    }
-    environment = *at;
+struct environment *environments_get(struct environments *environments,
+                                     const struct frame_block *block, const char *image,
+                                     const struct decoded *decoded, uint32_t *out_us,
+                                     struct error *err)
+{
+    const uint64_t begun = now_us(), key = key_of(block, image);
+    struct environment **at = find(environments, key), *environment = *at;
+
     *out_us = 0;
     if (environment) {
         *at = environment->next;
     } else {
-        environment = create(environments, block, decoded.rgb ? &decoded : NULL, err);
-        decoded_finish(&decoded);
+        environment = create(environments, block, decoded, err);
         if (!environment) {
             return NULL;
         }
-        environment->key = key_of(block, image);
+        environment->key = key;
         *out_us = (uint32_t)(now_us() - begun);
     }
     environment->references++;

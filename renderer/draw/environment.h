@@ -2,17 +2,18 @@
 /* The light of what is around a scene, made ready for the passes: the picture itself where there is
  * one, what a surface of each roughness mirrors, and what falls on a matt one (glsl/sky.glsl).
  *
- * Belongs to the drawing thread. Counted; the same surroundings are made ready once, and the last
- * few are kept. What is made: radiance without the sun's disc, before `intensity`, and before the
- * turn and brightness of a picture, so that none of these makes it anew. */
+ * Belongs to the drawing thread. Counted; the same surroundings are made ready once, and those used
+ * last are kept within LIMIT_PANORAMA_BYTES. What is made: radiance without the sun's disc, before
+ * `intensity`, and before the turn and brightness of a picture, so that none of these makes it
+ * anew. */
 #ifndef RENDERER_ENVIRONMENT_H
 #define RENDERER_ENVIRONMENT_H
 
 #include <stdint.h>
 
 #include "frame.h"
-#include "renderer/asset.h"
 #include "renderer/gl/gl.h"
+#include "renderer/image/decode.h"
 
 struct environment {
     GLuint panorama; /* the picture, or the gradient as one; rgba16f as the others, with mipmaps */
@@ -30,14 +31,20 @@ struct environments; /* those of a renderer */
 struct environments *environments_create(const struct gl *gl, struct error *err);
 void environments_destroy(struct environments *environments); /* NULL: nothing */
 
+/* The same without its picture: one colour. */
+void environment_leave_out(struct frame_block *block);
+/* Whether it was made already: then nobody has to read its picture. `image`: the id of the file of
+ * a block with SKY_IMAGE; else it means nothing. */
+bool environments_have(struct environments *environments, const struct frame_block *block,
+                       const char *image);
 /* What is around a scene with this frame block; a new reference, NULL and `err` where GL fails.
- * `image`: the file of a block with SKY_IMAGE; NULL where it is not known. Where it cannot be shown
- * the block becomes SKY_SOLID and `*out_problem` says why, else that is ERROR_NONE: a warning at
- * /environment/image. `*out_us`: the time it took, 0 where it was ready. Changes bindings of
- * textures, images, buffers and the program. */
-struct environment *environments_get(struct environments *environments, struct frame_block *block,
-                                     struct asset *image, struct error *out_problem,
-                                     uint32_t *out_us, struct error *err);
+ * `decoded`: its picture, where it has one that environments_have does not know. `*out_us`: the
+ * time it took, 0 where it was ready. Changes bindings of textures, images, buffers and the
+ * program. */
+struct environment *environments_get(struct environments *environments,
+                                     const struct frame_block *block, const char *image,
+                                     const struct decoded *decoded, uint32_t *out_us,
+                                     struct error *err);
 void environment_unref(struct environments *environments, struct environment *environment);
 
 #endif

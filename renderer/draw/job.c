@@ -42,18 +42,18 @@ static void begin_row(struct job *job, int y, int doublings)
     job->row = (struct row){.y = y, .doublings = doublings, .side = side};
 }
 
-/* When its program is there, the picture's own buffers. */
+/* When its program and environment are there, the picture's own buffers. */
 static enum job_state begin(struct job *job)
 {
     const struct snapshot *snapshot = job->snapshot;
     struct frame_block block = snapshot->frame;
     struct draw_plan plan;
 
-    switch (program_state(snapshot->program)) {
+    switch (snapshot_state(snapshot)) {
     case PROGRAM_PENDING:
         return JOB_WAITING;
     case PROGRAM_FAILED:
-        job->error = *program_error(snapshot->program);
+        job->error = *snapshot_error(snapshot);
         return fail(job);
     case PROGRAM_READY:
         break;
@@ -148,7 +148,8 @@ static struct watch look_at_clocks(const struct job *job)
 {
     return (struct watch){clock_in_us(CLOCK_MONOTONIC),
                           clock_in_us(CLOCK_PROCESS_CPUTIME_ID) -
-                              program_cache_cpu_us(job->renderer->programs)};
+                              program_cache_cpu_us(job->renderer->programs) -
+                              pictures_cpu_us(job->renderer->pictures)};
 }
 
 /* False: even the smallest tile takes too long. */
@@ -306,7 +307,7 @@ static enum job_state after_rows(struct job *job)
 
 bool job_step_possible(const struct job *job)
 {
-    return job->state != JOB_WAITING || program_state(job->snapshot->program) != PROGRAM_PENDING;
+    return job->state != JOB_WAITING || snapshot_state(job->snapshot) != PROGRAM_PENDING;
 }
 
 /* A tile is started before the one before it is waited for, across rows too. */

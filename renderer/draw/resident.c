@@ -8,6 +8,8 @@
 #include "protocol/edit.h"
 #include "protocol/memory.h"
 
+enum { READ_POLL_MS = 5 };
+
 /* Takes over what has become drawable; true when that is something newer. */
 static bool advance(struct resident *resident)
 {
@@ -17,11 +19,11 @@ static bool advance(struct resident *resident)
     if (!newest || newest == resident->drawable) {
         return false;
     }
-    switch (program_state(newest->program)) {
+    switch (snapshot_state(newest)) {
     case PROGRAM_PENDING:
         return false;
     case PROGRAM_FAILED:
-        resident->error = *program_error(newest->program);
+        resident->error = *snapshot_error(newest);
         return false;
     case PROGRAM_READY:
         snapshot_unref(renderer, resident->drawable);
@@ -39,7 +41,7 @@ static const struct field *drawn_field(const struct resident *resident)
     if (resident->drawable) {
         return resident->drawable->field;
     }
-    return newest && program_state(newest->program) != PROGRAM_FAILED ? newest->field : NULL;
+    return newest && snapshot_state(newest) != PROGRAM_FAILED ? newest->field : NULL;
 }
 
 void resident_renew(struct resident *resident)
@@ -159,13 +161,27 @@ const struct error *resident_warning(const struct resident *resident)
     return resident->newest ? &resident->newest->warning : &none;
 }
 
+/* A picture that ended a process is tried again alone, so that it is known what ends this one. */
+static bool is_tried_again(const struct renderer *renderer, const struct picture *picture)
+{
+    const struct renderer_verdict *verdict =
+        picture ? renderer_find_verdict(renderer, 0, picture_id(picture)) : NULL;
+
+    return verdict && verdict->times > 1;
+}
+
 /* Lets the next program with code of users be compiled, once it is told. */
 static void allow_next(struct renderer *renderer)
 {
     const struct renderer_params *params = &renderer->params;
+    struct picture *reading;
     bool busy;
     struct program *next = program_cache_next(renderer->programs, &busy);
 
+    pictures_next(renderer->pictures, &reading);
+    if (is_tried_again(renderer, reading)) {
+        return;
+    }
     if (params->on_compile && (next || (renderer->told_compile && !busy))) {
         params->on_compile(params->on_compile_data, next ? program_shape(next) : 0);
         renderer->told_compile = next != NULL;
@@ -175,15 +191,56 @@ static void allow_next(struct renderer *renderer)
     }
 }
 
-bool renderer_poll(struct renderer *renderer, int wait_ms)
+static int read_limit_ms(const struct renderer *renderer, const struct picture *picture)
+{
+    const struct renderer_verdict *verdict =
+        renderer_find_verdict(renderer, 0, picture_id(picture));
+
+    return LIMIT_READ_MS * (verdict && verdict->times > 0 ? verdict->times : 1);
+}
+
+/* The same with the next picture. */
+static void read_next(struct renderer *renderer)
+{
+    const struct renderer_params *params = &renderer->params;
+    struct picture *reading, *next = pictures_next(renderer->pictures, &reading);
+
+    if (is_tried_again(renderer, next) && renderer->told_compile) {
+        return;
+    }
+    if (params->on_read && (next || (renderer->told_read && !reading))) {
+        params->on_read(params->on_compile_data, next ? picture_id(next) : "");
+        renderer->told_read = next != NULL;
+    }
+    if (next) {
+        pictures_allow(renderer->pictures, next, read_limit_ms(renderer, next));
+    }
+}
+
+static bool advance_all(struct renderer *renderer)
 {
     bool news = false;
 
+    for (struct resident *r = renderer->residents; r; r = r->next) {
+        news = advance(r) || news;
+    }
+    return news;
+}
+
+bool renderer_poll(struct renderer *renderer, int wait_ms)
+{
+    const int turn_ms = renderer->waiting && wait_ms > READ_POLL_MS ? READ_POLL_MS : wait_ms;
+    bool news = false;
+
     allow_next(renderer);
-    if (program_cache_wait(renderer->programs, wait_ms)) {
-        for (struct resident *r = renderer->residents; r; r = r->next) {
-            news = advance(r) || news;
-        }
+    read_next(renderer);
+    if (pictures_collect(renderer->pictures, 0)) {
+        snapshots_settle(renderer);
+        read_next(renderer);
+        news = advance_all(renderer);
+    }
+    if (program_cache_wait(renderer->programs, news ? 0 : turn_ms)) {
+        news = advance_all(renderer) || news;
         allow_next(renderer);
     }
     return news;

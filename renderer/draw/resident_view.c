@@ -72,7 +72,7 @@ static struct snapshot *make_snapshot(struct resident *resident, const struct jo
 static void advance(struct renderer *renderer, struct isolated_view *view)
 {
     if (view->newest && view->newest != view->drawable &&
-        program_state(view->newest->program) == PROGRAM_READY) {
+        snapshot_state(view->newest) == PROGRAM_READY) {
         snapshot_unref(renderer, view->drawable);
         view->drawable = snapshot_ref(view->newest);
     }

@@ -48,7 +48,7 @@ static struct program *get_program(struct renderer *renderer, const struct field
     const bool volumes = scene->volumes.count > 0;
     const size_t capacity = number_capacity(field);
     const uint64_t key = field->shape_hash ^ ((capacity + volumes) * UINT64_C(0x9e3779b97f4a7c15));
-    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key);
+    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key, "");
     struct program *program;
     char *map, *surface;
 
@@ -149,21 +149,93 @@ static bool has_fewer_steps(const struct snapshot *snapshot)
                      &snapshot->extent);
 }
 
-/* What does not depend on the program. */
+/* Why a picture that a scene names is not read; false: it may be. */
+static bool is_unreadable(const struct renderer *renderer, const char *id, struct error *out)
+{
+    static const char place[] = "/environment/image";
+    const struct asset *image = assets_find(renderer->assets, id);
+    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, 0, id);
+
+    if (verdict && verdict->refused == ERROR_TOO_SLOW) {
+        error_set_slow(out, place, "reading this picture takes", verdict->measured_ms,
+                       verdict->limit_ms);
+    } else if (verdict && verdict->refused != ERROR_NONE) {
+        error_set(out, verdict->refused, place, "reading this picture ended the render process");
+    } else if (!image) {
+        error_set(out, ERROR_NOT_FOUND, place, "no such file is known here");
+    } else {
+        *out = image->problem;
+    }
+    return out->kind != ERROR_NONE;
+}
+
+/* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. */
+static bool surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
+                     const struct decoded *decoded, const struct error *problem, struct error *err)
+{
+    if (problem->kind != ERROR_NONE) {
+        environment_leave_out(&snapshot->frame);
+    }
+    if (snapshot->warning.kind == ERROR_NONE) {
+        snapshot->warning = *problem;
+    }
+    snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
+                                             decoded, &snapshot->environment_us, err);
+    return snapshot->environment != NULL;
+}
+
+/* What does not depend on the program. A picture is waited for. */
 static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
                         const struct scene *scene, struct error *err)
 {
+    const char *image = record_text(&scene->environment, "image");
     struct error problem = {0};
-    struct asset *image = assets_find(renderer->assets, record_text(&scene->environment, "image"));
 
     frame_set_scene(&snapshot->frame, scene, &snapshot->extent);
-    snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
-                                             &problem, &snapshot->environment_us, err);
-    if (snapshot->warning.kind == ERROR_NONE) {
-        snapshot->warning = problem;
-    }
     snapshot->fewer_steps = has_fewer_steps(snapshot);
-    return snapshot->environment != NULL;
+    if (snapshot->frame.modes[1] != SKY_IMAGE ||
+        environments_have(renderer->environments, &snapshot->frame, image) ||
+        is_unreadable(renderer, image, &problem)) {
+        return surround(renderer, snapshot, image, NULL, &problem, err);
+    }
+    snapshot->picture = pictures_want(renderer->pictures, assets_find(renderer->assets, image));
+    snapshot->next = renderer->waiting;
+    renderer->waiting = snapshot;
+    return true;
+}
+
+/* It waits for its picture no longer. */
+static void leave_waiting(struct renderer *renderer, struct snapshot *snapshot)
+{
+    struct snapshot **at = &renderer->waiting;
+
+    if (!snapshot->picture) {
+        return;
+    }
+    while (*at != snapshot) {
+        at = &(*at)->next;
+    }
+    *at = snapshot->next;
+    picture_unref(renderer->pictures, snapshot->picture);
+    snapshot->picture = NULL;
+}
+
+void snapshots_settle(struct renderer *renderer)
+{
+    for (struct snapshot *snapshot = renderer->waiting, *next; snapshot; snapshot = next) {
+        struct picture *picture = snapshot->picture;
+
+        next = snapshot->next;
+        if (!picture_is_done(picture)) {
+            continue;
+        }
+        if (surround(renderer, snapshot, picture_id(picture), picture_pixels(picture),
+                     picture_problem(picture), &snapshot->error) &&
+            snapshot->environment_us > 0) {
+            snapshot->environment_us += picture_us(picture);
+        }
+        leave_waiting(renderer, snapshot);
+    }
 }
 
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
@@ -204,6 +276,20 @@ uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
     return program_has_user_code(snapshot->program) ? program_shape(snapshot->program) : 0;
 }
 
+enum program_state snapshot_state(const struct snapshot *snapshot)
+{
+    const enum program_state state = program_state(snapshot->program);
+
+    return snapshot->error.kind != ERROR_NONE            ? PROGRAM_FAILED
+           : snapshot->picture && state == PROGRAM_READY ? PROGRAM_PENDING
+                                                         : state;
+}
+
+const struct error *snapshot_error(const struct snapshot *snapshot)
+{
+    return snapshot->error.kind != ERROR_NONE ? &snapshot->error : program_error(snapshot->program);
+}
+
 struct snapshot *snapshot_ref(struct snapshot *snapshot)
 {
     snapshot->references++;
@@ -215,6 +301,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     if (!snapshot || --snapshot->references > 0) {
         return;
     }
+    leave_waiting(renderer, snapshot);
     numbers_finish(&snapshot->numbers, &renderer->gl);
     program_unref(renderer->programs, snapshot->program);
     field_unref(snapshot->field);

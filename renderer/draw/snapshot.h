@@ -16,11 +16,15 @@ struct snapshot {
     struct record render;     /* the document's */
     struct frame_block frame; /* without camera and level */
     struct frame_extent extent;
-    struct environment *environment;
-    uint32_t environment_us; /* time that it took */
-    bool fewer_steps;        /* than the scene asks for: the driver's bound on loops */
+    struct environment *environment; /* NULL while `picture` is read */
+    struct picture *picture;         /* that the environment is made of; NULL once it is */
+    uint32_t environment_us;         /* time that it took */
+    bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct numbers numbers;
-    struct error warning; /* of users' code, when the program was new; ERROR_NONE: nothing */
+    struct error warning;  /* of users' code, when the program was new, or of the environment's
+                             picture; ERROR_NONE: nothing */
+    struct error error;    /* why it cannot be drawn although its program can; ERROR_NONE: it can */
+    struct snapshot *next; /* among those of the renderer that wait for a picture */
 };
 
 struct renderer;
@@ -31,6 +35,11 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
                                  uint64_t revision, const struct field_wish *wish,
                                  uint64_t *out_refused, struct error *err);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
+/* Of its program, and of the picture that its environment is made of. */
+enum program_state snapshot_state(const struct snapshot *snapshot);
+const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
+/* Makes the environments of those whose pictures were read. */
+void snapshots_settle(struct renderer *renderer);
 /* The shape of its program where there is code of users in it; else 0. */
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */

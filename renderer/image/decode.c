@@ -4,33 +4,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "protocol/memory.h"
+#include "shrink.h"
 
 bool image_decode(const uint8_t *bytes, size_t length, struct decoded *out, struct error *err)
 {
     struct asset_info info;
-    struct decoded decoded;
+    struct shrink shrink;
     bool ok;
 
     if (!asset_inspect(bytes, length, &info, err)) {
         return false;
     }
-    decoded =
-        (struct decoded){info.width, info.height,
-                         memory_alloc((size_t)info.width * (size_t)info.height, 3 * sizeof(float))};
+    shrink_init(&shrink, info.width, info.height);
     ok = strcmp(info.type, "image/png") == 0
-             ? png_decode(bytes, length, &decoded, err)
-             : hdr_decode(bytes + info.head, length - info.head, &decoded, err);
-    if (!ok) {
-        decoded_finish(&decoded);
-        return false;
+             ? png_decode(bytes, length, &shrink, err)
+             : hdr_decode(bytes + info.head, length - info.head, &shrink, err);
+    if (ok) {
+        *out = shrink_take(&shrink);
     }
-    *out = decoded;
-    return true;
+    shrink_finish(&shrink);
+    return ok;
 }
 
 void decoded_finish(struct decoded *decoded)
 {
-    free(decoded->rgb);
+    free(decoded->rgba);
     *decoded = (struct decoded){0};
 }

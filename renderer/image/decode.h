@@ -1,22 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures out of files that strangers made: PNG and Radiance HDR. Every byte is checked, and a
- * file that is not as it should be is refused. */
+ * file that is not as it should be is refused. It is read row by row; a picture larger than a
+ * panorama needs is averaged while it is read, so that the whole of it is never in memory. */
 #ifndef RENDERER_DECODE_H
 #define RENDERER_DECODE_H
 
 #include "protocol/asset.h"
+#include "protocol/limits.h"
+
+enum {
+    DECODED_WIDTH = LIMIT_PANORAMA_WIDTH, /* at most; longitudes */
+    DECODED_HEIGHT = DECODED_WIDTH / 2,   /* latitudes */
+    DECODED_TEXEL_BYTES = 8,
+};
 
 struct decoded {
     int width, height;
-    float *rgb; /* linear, three each, row 0 on top; finite, 0 and above; owned */
+    uint16_t *rgba; /* halves of linear light, row 0 on top; finite, 0 and above; the fourth is 1;
+                       owned */
 };
 
-/* Transparency is left out of account. */
+/* Transparency is left out of account. Any thread. */
 bool image_decode(const uint8_t *bytes, size_t length, struct decoded *out, struct error *err);
 void decoded_finish(struct decoded *decoded);
 
-/* The formats: fill `out`, whose pixels are allocated. hdr_decode gets what is behind the head. */
-bool png_decode(const uint8_t *bytes, size_t length, const struct decoded *out, struct error *err);
-bool hdr_decode(const uint8_t *bytes, size_t length, const struct decoded *out, struct error *err);
+/* The formats. hdr_decode gets what is behind the head. */
+struct shrink;
+bool png_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct error *err);
+bool hdr_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct error *err);
 
 #endif

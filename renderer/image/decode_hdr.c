@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "decode.h"
 #include "protocol/memory.h"
+#include "shrink.h"
 
 enum { RUNS_LEAST = 8, RUNS_MOST = 32767 }; /* widths of rows with runs of each component */
 
@@ -108,17 +108,21 @@ static void to_linear(const uint8_t *pixels, int width, float *out)
     }
 }
 
-bool hdr_decode(const uint8_t *bytes, size_t length, const struct decoded *out, struct error *err)
+bool hdr_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct error *err)
 {
+    const int width = out->from_width, height = out->from_height;
     struct reader r = {bytes, length, 0};
-    uint8_t *pixels = memory_alloc((size_t)out->width, 4);
+    uint8_t *pixels = memory_alloc((size_t)width, 4);
+    float *rgb = memory_alloc((size_t)width, 3 * sizeof(float));
     int y = 0;
 
-    while (y < out->height && read_row(&r, pixels, out->width)) {
-        to_linear(pixels, out->width, out->rgb + (size_t)3 * (size_t)out->width * (size_t)y++);
+    for (; y < height && read_row(&r, pixels, width); y++) {
+        to_linear(pixels, width, rgb);
+        shrink_add(out, y, 0, 1, width, rgb);
     }
     free(pixels);
-    return y == out->height ||
+    free(rgb);
+    return y == height ||
            error_set(err, ERROR_INVALID, "", "row %d of %d of the Radiance file is %s", y + 1,
-                     out->height, r.at == r.length ? "cut off" : "damaged");
+                     height, r.at == r.length ? "cut off" : "damaged");
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* PNG by libpng: whatever it holds becomes 16 bits of red, green and blue, taken as sRGB. */
+/* PNG by libpng: whatever it holds becomes 8 or 16 bits of red, green and blue, taken as sRGB. */
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "decode.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
+#include "shrink.h"
 
 enum { CHUNK_BYTES = 8 << 20 }; /* of text and profiles */
 
@@ -16,6 +16,14 @@ struct source {
     const uint8_t *bytes;
     size_t left;
     struct error *err;
+};
+
+/* What a row goes through. */
+struct rows {
+    struct shrink *out;
+    uint8_t *values; /* as libpng leaves them */
+    float *rgb;
+    float *table; /* linear light of 16 bits */
 };
 
 static void on_error(png_structp png, png_const_charp message)
@@ -44,17 +52,61 @@ static void on_read(png_structp png, png_bytep out, size_t count)
     source->left -= count;
 }
 
+/* Three values for each pixel. Interlaced ones come as the pictures that they are stored as. */
 static void set_form(png_structp png)
 {
-    png_set_expand_16(png); /* palettes and few bits too */
+    png_set_expand(png); /* palettes and few bits too */
     png_set_strip_alpha(png);
     png_set_gray_to_rgb(png);
     png_set_swap(png); /* PNG is big-endian */
-    png_set_interlace_handling(png);
+}
+
+static void to_linear(const struct rows *rows, bool wide, int count)
+{
+    for (int i = 0; i < 3 * count; i++) {
+        uint16_t value = (uint16_t)(rows->values[i] * 257);
+
+        if (wide) {
+            memcpy(&value, rows->values + 2 * i, 2);
+        }
+        rows->rgb[i] = rows->table[value];
+    }
+}
+
+static void read_plain(png_structp png, png_infop info, const struct rows *rows)
+{
+    const bool wide = png_get_bit_depth(png, info) == 16;
+    const int width = rows->out->from_width;
+
+    for (int y = 0; y < rows->out->from_height; y++) {
+        png_read_row(png, rows->values, NULL);
+        to_linear(rows, wide, width);
+        shrink_add(rows->out, y, 0, 1, width, rows->rgb);
+    }
+}
+
+static void read_interlaced(png_structp png, png_infop info, const struct rows *rows)
+{
+    const bool wide = png_get_bit_depth(png, info) == 16;
+    const png_uint_32 width = (png_uint_32)rows->out->from_width;
+    const png_uint_32 height = (png_uint_32)rows->out->from_height;
+
+    shrink_in_any_order(rows->out);
+    for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; pass++) {
+        const int columns = (int)PNG_PASS_COLS(width, pass);
+        const int lines = columns > 0 ? (int)PNG_PASS_ROWS(height, pass) : 0;
+
+        for (int i = 0; i < lines; i++) {
+            png_read_row(png, rows->values, NULL);
+            to_linear(rows, wide, columns);
+            shrink_add(rows->out, (int)PNG_ROW_FROM_PASS_ROW(i, pass), PNG_PASS_START_COL(pass),
+                       1 << PNG_PASS_COL_SHIFT(pass), columns, rows->rgb);
+        }
+    }
 }
 
 /* In its own frame: what it changes before a longjmp is not looked at afterwards. */
-static bool read_pixels(png_structp png, png_infop info, png_bytepp rows)
+static bool read_pixels(png_structp png, png_infop info, const struct rows *rows)
 {
     if (setjmp(png_jmpbuf(png))) {
         return false;
@@ -64,7 +116,11 @@ static bool read_pixels(png_structp png, png_infop info, png_bytepp rows)
     png_read_info(png, info);
     set_form(png);
     png_read_update_info(png, info);
-    png_read_image(png, rows);
+    if (png_get_interlace_type(png, info) == PNG_INTERLACE_NONE) {
+        read_plain(png, info, rows);
+    } else {
+        read_interlaced(png, info, rows);
+    }
     png_read_end(png, NULL);
     return true;
 }
@@ -74,42 +130,24 @@ static double linear(double s)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
-/* The 16-bit values stand in the last half of the floats, so that they are read before they are
- * written over. */
-static void to_linear(float *rgb, const uint8_t *values, size_t count)
-{
-    float *table = memory_alloc(65536, sizeof *table);
-
-    for (int i = 0; i < 65536; i++) {
-        table[i] = (float)linear(i / 65535.0);
-    }
-    for (size_t i = 0; i < count; i++) {
-        uint16_t value;
-        memcpy(&value, values + 2 * i, 2);
-        rgb[i] = table[value];
-    }
-    free(table);
-}
-
-bool png_decode(const uint8_t *bytes, size_t length, const struct decoded *out, struct error *err)
+bool png_decode(const uint8_t *bytes, size_t length, struct shrink *out, struct error *err)
 {
     struct source source = {bytes, length, err};
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
     png_infop info = png_create_info_struct(png);
-    const size_t row = (size_t)3 * (size_t)out->width, count = row * (size_t)out->height;
-    uint8_t *values = (uint8_t *)out->rgb + 2 * count;
-    png_bytepp rows = memory_alloc((size_t)out->height, sizeof *rows);
+    const size_t count = (size_t)3 * (size_t)out->from_width;
+    const struct rows rows = {out, memory_alloc(count, 2), memory_alloc(count, sizeof(float)),
+                              memory_alloc(65536, sizeof(float))};
     bool ok;
 
-    for (int y = 0; y < out->height; y++) {
-        rows[y] = values + 2 * row * (size_t)y;
+    for (int i = 0; i < 65536; i++) {
+        rows.table[i] = (float)linear(i / 65535.0);
     }
     png_set_read_fn(png, &source, on_read);
-    ok = read_pixels(png, info, rows);
+    ok = read_pixels(png, info, &rows);
     png_destroy_read_struct(&png, &info, NULL);
-    free(rows);
-    if (ok) {
-        to_linear(out->rgb, values, count);
-    }
+    free(rows.values);
+    free(rows.rgb);
+    free(rows.table);
     return ok;
 }

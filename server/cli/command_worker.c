@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast worker: the render process, started by `serve` with its socket at WORKER_FD. */
+/* fieldcast worker: the render process, started by `serve` with its sockets at WORKER_FD and
+ * WORKER_PULSE_FD. */
 #include <signal.h>
 
 #include "command.h"
@@ -12,6 +13,7 @@ int command_worker(const struct options *options)
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     struct worker_params params = {
+        .pulse_fd = WORKER_PULSE_FD,
         .memory_limit_bytes = (size_t)option_int(options, OPTION_WORKER_MEMORY) << 20,
     };
     drawing_params(options, &params.renderer);

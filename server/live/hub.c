@@ -344,7 +344,13 @@ static void warned(struct hub *hub, const struct packet *packet)
     const char *place = json_member_text(packet->json, "place", "");
     const bool asset = strcmp(place, "/environment/image") == 0;
 
-    if (room) {
+    struct error err = {0};
+
+    renders_read_error(packet->json, &err);
+    if (room && problem_is_refusal(&err)) {
+        quarantine_keeps_image(room, &err,
+                               (uint64_t)json_member_number(packet->json, "revision", 0));
+    } else if (room) {
         room_tell_all(room, "warning", asset ? "asset" : "lipschitz", place,
                       json_member_text(packet->json, "message", ""));
     }
@@ -361,8 +367,8 @@ static void on_packet(void *data, const char *type, const struct packet *packet)
         compiled(hub, packet, true);
     } else if (strcmp(type, "warned") == 0) {
         warned(hub, packet);
-    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "drawing") == 0 ||
-               strcmp(type, "slow") == 0) {
+    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "reading") == 0 ||
+               strcmp(type, "drawing") == 0 || strcmp(type, "slow") == 0) {
         quarantine_named(hub, packet);
     } else {
         renders_answer(hub, packet);

@@ -9,7 +9,7 @@
 #include "say.h"
 #include "session.h"
 
-static bool is_refused(const struct error *err)
+bool problem_is_refusal(const struct error *err)
 {
     return err->kind == ERROR_TOO_SLOW || err->kind == ERROR_CRASHED;
 }
@@ -17,7 +17,8 @@ static bool is_refused(const struct error *err)
 /* Whatever rule is broken, it is the newest state that does not compile. */
 static struct blob *message(const struct error *err)
 {
-    return say_fault("error", error_kind_name(is_refused(err) ? err->kind : ERROR_COMPILE), err);
+    return say_fault("error", error_kind_name(problem_is_refusal(err) ? err->kind : ERROR_COMPILE),
+                     err);
 }
 
 static void tell_all(const struct room *room, struct blob *text)
@@ -38,9 +39,9 @@ static void end(struct room *room)
 static bool is_same(const struct error *a, const struct error *b)
 {
     /* Of a quarantine the next worker knows less than was told when it began. */
-    return a->kind == b->kind &&
-           (is_refused(a) || (strcmp(a->place, b->place) == 0 && a->line == b->line &&
-                              a->column == b->column && strcmp(a->message, b->message) == 0));
+    return a->kind == b->kind && (problem_is_refusal(a) ||
+                                  (strcmp(a->place, b->place) == 0 && a->line == b->line &&
+                                   a->column == b->column && strcmp(a->message, b->message) == 0));
 }
 
 void problem_set(struct room *room, const struct error *err, uint64_t revision)
@@ -58,9 +59,17 @@ void problem_set(struct room *room, const struct error *err, uint64_t revision)
     tell_all(room, message(err));
 }
 
+/* A picture that is refused keeps nothing from being drawn, and is refused still. */
+static bool is_of_image(const struct room *room)
+{
+    return problem_is_refusal(&room->problem) &&
+           strcmp(record_text(&room->scene->environment, "image"), room->refused_shape) == 0;
+}
+
 void problem_cure(struct room *room, uint64_t revision)
 {
-    if (room->problem.kind != ERROR_NONE && revision > room->problem_revision) {
+    if (room->problem.kind != ERROR_NONE && revision > room->problem_revision &&
+        !is_of_image(room)) {
         end(room);
     }
 }
@@ -87,7 +96,7 @@ void problem_let_in(struct room *room)
 
 static bool is_meant(const struct error *err, const char *place)
 {
-    return is_refused(err) && (!place || strcmp(err->place, place) == 0);
+    return problem_is_refusal(err) && (!place || strcmp(err->place, place) == 0);
 }
 
 /* The worker is told at once; if it does not hold the scene, when it is. */

@@ -12,6 +12,8 @@
 struct room;
 struct session;
 
+/* Of what is refused, until it is tried again. */
+bool problem_is_refusal(const struct error *err);
 /* Tells it, unless it is what was told before. */
 void problem_set(struct room *room, const struct error *err, uint64_t revision);
 /* The scene can be drawn as of this revision: tells that the problem of an older one is over. */

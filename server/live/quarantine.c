@@ -14,6 +14,12 @@
 
 /* --- what is known of shapes --- */
 
+/* And not what is compiled. */
+static bool is_image(const char *shape)
+{
+    return strlen(shape) == ASSET_ID_CHARACTERS;
+}
+
 static struct quarantine_case *find_case(struct quarantine *quarantine, const char *shape)
 {
     for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
@@ -48,7 +54,7 @@ static cJSON *describe(const struct quarantine_case *known)
 {
     cJSON *row = cJSON_CreateObject();
 
-    cJSON_AddStringToObject(row, "shape", known->shape);
+    cJSON_AddStringToObject(row, is_image(known->shape) ? "asset" : "shape", known->shape);
     cJSON_AddNumberToObject(row, "times", known->times);
     if (known->refused != ERROR_NONE) {
         cJSON_AddStringToObject(row, "code", error_kind_name(known->refused));
@@ -89,18 +95,21 @@ static struct suspect read_suspect(const cJSON *json)
                               .job = (uint32_t)json_member_number(json, "job", 0)};
 
     snprintf(suspect.scene, sizeof(suspect.scene), "%s", json_member_text(json, "scene", ""));
-    snprintf(suspect.shape, sizeof(suspect.shape), "%s", json_member_text(json, "shape", ""));
+    snprintf(suspect.shape, sizeof(suspect.shape), "%s",
+             json_member_text(json, "shape", json_member_text(json, "asset", "")));
     return suspect;
 }
 
-/* What was compiled before has come to a good end. */
-static void acquit(struct quarantine *quarantine, const struct suspect *next)
+/* What was compiled or read before has come to a good end. */
+static void go_on(struct quarantine *quarantine, struct suspect *suspect,
+                  const struct suspect *next)
 {
-    struct quarantine_case *before = find_case(quarantine, quarantine->compiling.shape);
+    struct quarantine_case *before = find_case(quarantine, suspect->shape);
 
     if (before && strcmp(before->shape, next->shape) != 0) {
         before->tried = false;
     }
+    *suspect = *next;
 }
 
 static struct room *find_room(const struct hub *hub, const char *scene)
@@ -120,8 +129,9 @@ void quarantine_named(struct hub *hub, const struct packet *packet)
     const struct suspect suspect = read_suspect(packet->json);
 
     if (strcmp(type, "compiling") == 0) {
-        acquit(quarantine, &suspect);
-        quarantine->compiling = suspect;
+        go_on(quarantine, &quarantine->compiling, &suspect);
+    } else if (strcmp(type, "reading") == 0) {
+        go_on(quarantine, &quarantine->reading, &suspect);
     } else if (strcmp(type, "drawing") == 0) {
         const struct room *room = find_room(hub, suspect.scene);
 
@@ -148,6 +158,43 @@ static const char *place_of(const struct room *room, const struct scene *good,
     return place;
 }
 
+static void tell(struct room *room, const struct error *err, const char *shape, uint64_t revision)
+{
+    problem_set(room, err, revision);
+    snprintf(room->refused_shape, sizeof(room->refused_shape), "%s", shape);
+}
+
+/* `what`: "code" or the like. `shown`: what is seen instead. */
+static void describe_refusal(const struct quarantine_case *known, const char *place,
+                             const char *what, const char *shown, struct error *out)
+{
+    const bool image = is_image(known->shape);
+
+    if (known->refused == ERROR_TOO_SLOW) {
+        error_set_slow(out, place, "", known->measured_ms, known->limit_ms);
+        snprintf(out->message, sizeof(out->message),
+                 "This %s took over %.3g s to %s here (limit %.3g s). %s", what,
+                 known->measured_ms / 1000.0, image ? "read" : "compile", known->limit_ms / 1000.0,
+                 shown);
+    } else {
+        error_set(out, known->refused, place, "%s this %s ended the render process twice. %s",
+                  image ? "Reading" : "Compiling", what, shown);
+    }
+}
+
+/* All scenes that name it. */
+static void seclude_image(const struct hub *hub, const struct quarantine_case *known)
+{
+    struct error err = {0};
+
+    describe_refusal(known, "/environment/image", "picture", "The sky is drawn without it.", &err);
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (strcmp(record_text(&room->scene->environment, "image"), known->shape) == 0) {
+            tell(room, &err, known->shape, room->revision);
+        }
+    }
+}
+
 /* The room falls back to its last good state. */
 static void seclude(struct room *room, const struct quarantine_case *known, uint64_t revision)
 {
@@ -155,20 +202,16 @@ static void seclude(struct room *room, const struct quarantine_case *known, uint
     char place[ERROR_PLACE_BYTES];
     uint64_t good_revision;
     const struct scene *good = fallback_state(room, &good_revision);
-    const char *what = code_text_in_scene(room->scene) ? "code" : "scene";
-    const char *shown = good ? "The last picture stays." : "It is not shown.";
 
-    if (known->refused == ERROR_TOO_SLOW) {
-        error_set_slow(&err, place_of(room, good, place), "", known->measured_ms, known->limit_ms);
-        snprintf(err.message, sizeof(err.message),
-                 "This %s took over %.3g s to compile here (limit %.3g s). %s", what,
-                 known->measured_ms / 1000.0, known->limit_ms / 1000.0, shown);
-    } else {
-        error_set(&err, ERROR_CRASHED, place_of(room, good, place),
-                  "Compiling this %s ended the render process twice. %s", what, shown);
-    }
-    problem_set(room, &err, revision);
-    memcpy(room->refused_shape, known->shape, sizeof(room->refused_shape));
+    describe_refusal(known, place_of(room, good, place),
+                     code_text_in_scene(room->scene) ? "code" : "scene",
+                     good ? "The last picture stays." : "It is not shown.", &err);
+    tell(room, &err, known->shape, revision);
+}
+
+void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t revision)
+{
+    tell(room, err, record_text(&room->scene->environment, "image"), revision);
 }
 
 /* The second time it is refused. */
@@ -177,21 +220,26 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
     struct quarantine *quarantine = &hub->quarantine;
     struct quarantine_case *known = get_case(quarantine, suspect);
     struct room *room = find_room(hub, suspect->scene);
+    const bool image = is_image(suspect->shape);
 
     if (!known->tried) {
         known->tried = true;
         give_more_time(known);
         log_warning("quarantine", "scene %s, revision %" PRIu64 ", %s; it is tried again",
                     suspect->scene, suspect->revision,
-                    slow ? "took too long to compile" : "ended the worker while it was compiled");
+                    slow    ? "took too long"
+                    : image ? "ended the worker while its picture was read"
+                            : "ended the worker while it was compiled");
         return;
     }
     known->refused = slow ? ERROR_TOO_SLOW : ERROR_CRASHED;
     known->measured_ms = slow ? quarantine->measured_ms : 0;
     known->limit_ms = slow ? quarantine->limit_ms : 0;
-    log_error("quarantine", "scene %s, revision %" PRIu64 ", is not compiled again: %s",
-              suspect->scene, suspect->revision, error_kind_name(known->refused));
-    if (room) {
+    log_error("quarantine", "scene %s, revision %" PRIu64 ", is not %s again: %s", suspect->scene,
+              suspect->revision, image ? "read" : "compiled", error_kind_name(known->refused));
+    if (image) {
+        seclude_image(hub, known);
+    } else if (room) {
         seclude(room, known, suspect->revision);
     }
 }
@@ -206,14 +254,20 @@ bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
                                         ? none
                                         : quarantine->compiling;
 
-    quarantine->named = *compiled.scene || *quarantine->drawing.scene;
+    const struct suspect read = slow || end->kind == SUPERVISOR_BUSY ? none : quarantine->reading;
+
+    quarantine->named = *compiled.shape || *read.shape || *quarantine->drawing.scene;
     /* A crash has one cause, and compilers are the likelier one; stillness may come from either. */
-    quarantine->drawn =
-        end->kind == SUPERVISOR_STILL || !*compiled.scene ? quarantine->drawing : none;
-    if (*compiled.scene) {
+    quarantine->drawn = end->kind == SUPERVISOR_STILL || (!*compiled.shape && !*read.shape)
+                            ? quarantine->drawing
+                            : none;
+    if (*compiled.shape) {
         judge(hub, &compiled, slow);
     }
-    quarantine->compiling = quarantine->drawing = quarantine->slow = none;
+    if (*read.shape) {
+        judge(hub, &read, false);
+    }
+    quarantine->compiling = quarantine->reading = quarantine->drawing = quarantine->slow = none;
     return quarantine->named;
 }
 

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Shapes that ended a worker while they were compiled. The worker names what it will compile or
- * draw. What was being compiled when it ended gets a second try, with LIMIT_RETRY_FACTOR times
- * the time; if that ends a worker too, it is never compiled again until somebody asks for a retry,
- * and its scene falls back to its last good state. Drawing counts against a scene (renders.h).
- * Every function is called under the hub's lock. */
+/* Shapes that ended a worker while they were compiled, and files while their picture was read: what
+ * is called a shape here may be the id of a file, which is longer. The worker names what it will
+ * compile, read or draw. What was being compiled or read when it ended gets a second try, with
+ * LIMIT_RETRY_FACTOR times the time; if that ends a worker too, it is left alone until somebody
+ * asks for a retry: a scene falls back to its last good state, or to a sky without its picture.
+ * Drawing counts against a scene (renders.h). Every function is called under the hub's lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "protocol/asset.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
 #include "renderer/worker.h"
@@ -18,19 +20,22 @@
 struct hub;
 struct room;
 
-enum { QUARANTINE_SHAPES = 256 }; /* the oldest are forgotten: they may try again */
+enum {
+    QUARANTINE_SHAPES = 256, /* the oldest are forgotten: they may try again */
+    QUARANTINE_SHAPE_BYTES = ASSET_ID_CHARACTERS + 1,
+};
 
 /* "" in `scene`: nobody. */
 struct suspect {
     char scene[LIMIT_ID_BYTES + 16];
     uint64_t revision; /* of what is compiled */
-    char shape[17];
+    char shape[QUARANTINE_SHAPE_BYTES];
     uint32_t job; /* of what is drawn */
 };
 
 /* What is known of a shape. */
 struct quarantine_case {
-    char shape[17];
+    char shape[QUARANTINE_SHAPE_BYTES];
     char scene[LIMIT_ID_BYTES + 16]; /* that it was named with last */
     int times;                       /* of the usual time, for the next try */
     bool tried;                      /* it ended a worker; the next time it is refused */
@@ -39,7 +44,7 @@ struct quarantine_case {
 };
 
 struct quarantine {
-    struct suspect compiling, drawing;
+    struct suspect compiling, reading, drawing;
     bool named;                                      /* the last worker to end had named somebody */
     struct suspect drawn;                            /* what drawing may have ended it */
     struct suspect slow;                             /* what the worker ended itself for */
@@ -49,7 +54,7 @@ struct quarantine {
     double pace; /* how slow this machine compiles, as the workers measured it; 0: not known */
 };
 
-/* A packet of type compiling, drawing or slow. */
+/* A packet of type compiling, reading, drawing or slow. */
 void quarantine_named(struct hub *hub, const struct packet *packet);
 /* Tells a new worker what earlier ones learned. */
 void quarantine_worker_ready(struct hub *hub);
@@ -62,5 +67,7 @@ bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);
 bool quarantine_is_tried_again(const struct hub *hub, const struct room *room);
 /* Lets the shape be compiled once more, with more time than the last. False: it is not refused. */
 bool quarantine_pardon(struct hub *hub, const char *shape);
+/* The picture that the room's scene names was refused before; tells so. `err`: the worker's. */
+void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t revision);
 
 #endif

@@ -12,6 +12,7 @@
 #include "protocol/edit.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
+#include "quarantine.h"
 #include "renders.h"
 #include "server/net/outbox.h"
 
@@ -79,8 +80,8 @@ struct room {
     struct blob *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;
     struct error problem; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
-    uint64_t problem_revision; /* that it is about */
-    char refused_shape[17];    /* of a problem that is too slow, or crashed */
+    uint64_t problem_revision;                  /* that it is about */
+    char refused_shape[QUARANTINE_SHAPE_BYTES]; /* of a problem that is too slow, or crashed */
 };
 
 /* Takes `scene`. */

@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "heartbeat.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "server/clock.h"
@@ -54,6 +55,7 @@ struct supervisor {
     /* The thread's own. */
     pid_t pid;
     struct packet_reader reader;
+    struct heartbeat heartbeat;
     int64_t started, heard, next_ping, next_start;
     struct vigil vigil; /* since `heard` */
     int backoff_ms;
@@ -168,7 +170,7 @@ void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, co
 
 /* --- the process --- */
 
-static bool spawn(struct supervisor *supervisor, int child_fd)
+static bool spawn(struct supervisor *supervisor, int child_fd, int pulse_fd)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -178,6 +180,7 @@ static bool spawn(struct supervisor *supervisor, int child_fd)
     sigfillset(&all);
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, child_fd, WORKER_FD);
+    posix_spawn_file_actions_adddup2(&actions, pulse_fd, WORKER_PULSE_FD);
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
@@ -204,27 +207,42 @@ void supervisor_set_patience(struct supervisor *supervisor, int times)
     atomic_store(&supervisor->patience, times);
 }
 
+static bool open_pair(int pair[2])
+{
+    const bool ok = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0;
+
+    if (!ok) {
+        log_error("worker", "no socket: %s", strerror(errno));
+    }
+    return ok;
+}
+
+static void close_open(int fd)
+{
+    if (fd >= 0) {
+        close(fd);
+    }
+}
+
 static void start(struct supervisor *supervisor)
 {
-    int pair[2];
+    int pair[2] = {-1, -1}, pulse[2] = {-1, -1};
 
     supervisor->started = clock_ms();
     supervisor->next_start = 0;
     sign_of_life(supervisor);
     supervisor_set_patience(supervisor, 1);
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) {
-        log_error("worker", "no socket: %s", strerror(errno));
-        supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
-        return;
-    }
-    bool ok = spawn(supervisor, pair[1]);
-    close(pair[1]);
+    bool ok = open_pair(pair) && open_pair(pulse) && spawn(supervisor, pair[1], pulse[1]);
+    close_open(pair[1]);
+    close_open(pulse[1]);
     if (!ok) {
-        close(pair[0]);
+        close_open(pair[0]);
+        close_open(pulse[0]);
         supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
         return;
     }
     memset(supervisor->counted, 0, sizeof(supervisor->counted));
+    heartbeat_init(&supervisor->heartbeat, pulse[0]);
     pthread_mutex_lock(&supervisor->lock);
     supervisor->fd = pair[0];
     pthread_mutex_unlock(&supervisor->lock);
@@ -271,6 +289,7 @@ static void take_down(struct supervisor *supervisor, const struct supervisor_end
     pthread_mutex_unlock(&supervisor->lock);
     packet_reader_finish(&supervisor->reader);
     memset(&supervisor->reader, 0, sizeof(supervisor->reader));
+    heartbeat_finish(&supervisor->heartbeat);
     kill(supervisor->pid, SIGKILL);
     waitpid(supervisor->pid, &status, 0);
     supervisor->pid = 0;
@@ -320,14 +339,27 @@ static void count_pong(struct supervisor *supervisor, const cJSON *pong)
     supervisor->params.on_pace(supervisor->params.data, json_member_number(pong, "pace", 0));
 }
 
+static void receive_pongs(struct supervisor *supervisor)
+{
+    struct packet packet;
+    bool alive;
+
+    heartbeat_receive(&supervisor->heartbeat);
+    while (heartbeat_next(&supervisor->heartbeat, &packet, &alive)) {
+        if (alive) {
+            sign_of_life(supervisor);
+        }
+        count_pong(supervisor, packet.json);
+        packet_finish(&packet);
+    }
+}
+
 static void receive_packet(struct supervisor *supervisor, const struct packet *packet)
 {
     const char *type = json_member_text(packet->json, "type", "");
 
     sign_of_life(supervisor);
-    if (strcmp(type, "pong") == 0) {
-        count_pong(supervisor, packet->json);
-    } else if (strcmp(type, "ready") == 0) {
+    if (strcmp(type, "ready") == 0) {
         pthread_mutex_lock(&supervisor->lock);
         supervisor->ready = supervisor->ever_ready = true;
         pthread_mutex_unlock(&supervisor->lock);
@@ -359,17 +391,6 @@ static bool receive(struct supervisor *supervisor)
 }
 
 /* --- the loop --- */
-
-static void ping(struct supervisor *supervisor, int64_t now)
-{
-    cJSON *packet = cJSON_CreateObject();
-
-    cJSON_AddStringToObject(packet, "type", "ping");
-    cJSON_AddNumberToObject(packet, "ping", (double)now);
-    supervisor_send(supervisor, packet);
-    cJSON_Delete(packet);
-    supervisor->next_ping = now + PING_MS;
-}
 
 /* Whether the silent worker hangs, and how. */
 static bool hangs(struct supervisor *supervisor, int64_t now, struct supervisor_end *out)
@@ -408,7 +429,8 @@ static void watch_over(struct supervisor *supervisor, int64_t now)
     } else if (now - supervisor->heard > WATCH_AFTER_MS && hangs(supervisor, now, &end)) {
         take_down(supervisor, &end);
     } else if (supervisor->ready && supervisor->next_ping <= now) {
-        ping(supervisor, now);
+        heartbeat_ask(&supervisor->heartbeat, now);
+        supervisor->next_ping = now + PING_MS;
     }
 }
 
@@ -424,8 +446,9 @@ static int wait_ms(const struct supervisor *supervisor, int64_t wish)
 
 static void wait_and_receive(struct supervisor *supervisor, int timeout_ms)
 {
-    struct pollfd fds[2] = {{.fd = supervisor->wake_fd, .events = POLLIN},
-                            {.fd = supervisor->fd, .events = POLLIN}};
+    struct pollfd fds[3] = {{.fd = supervisor->wake_fd, .events = POLLIN},
+                            {.fd = supervisor->fd, .events = POLLIN},
+                            {.fd = supervisor->heartbeat.fd, .events = POLLIN}};
     eventfd_t ignored;
 
     load_first(supervisor);
@@ -434,7 +457,7 @@ static void wait_and_receive(struct supervisor *supervisor, int timeout_ms)
         fds[1].events |= POLLOUT;
     }
     pthread_mutex_unlock(&supervisor->lock);
-    if (poll(fds, 2, timeout_ms) <= 0) {
+    if (poll(fds, 3, timeout_ms) <= 0) {
         return;
     }
     if (fds[0].revents) {
@@ -444,6 +467,9 @@ static void wait_and_receive(struct supervisor *supervisor, int timeout_ms)
         pthread_mutex_lock(&supervisor->lock);
         chunks_write(supervisor);
         pthread_mutex_unlock(&supervisor->lock);
+    }
+    if (fds[2].revents) {
+        receive_pongs(supervisor);
     }
     if ((fds[1].revents & (POLLIN | POLLHUP | POLLERR)) && !receive(supervisor)) {
         take_down(supervisor, NULL);
@@ -471,7 +497,7 @@ struct supervisor *supervisor_create(const struct supervisor_params *params)
     struct supervisor *supervisor = memory_alloc(1, sizeof(*supervisor));
 
     supervisor->params = *params;
-    supervisor->fd = -1;
+    supervisor->fd = supervisor->heartbeat.fd = -1;
     supervisor->end = &supervisor->first;
     supervisor->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     pthread_mutex_init(&supervisor->lock, NULL);

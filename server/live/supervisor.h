@@ -2,8 +2,9 @@
 /* The life of the render process: starts it, speaks packets with it, notices that it died or hangs,
  * starts another. Knows nothing of scenes or pictures.
  *
- * It hangs when it gave no sign of life (bytes of a packet) and was still all the while
- * (renderer/vigil.h), or used more of the processor than any tile should. A process that is slow,
+ * It hangs when it gave no sign of life and was still all the while (renderer/vigil.h), or used
+ * more of the processor than any tile should. Signs of life are bytes of a packet, and pongs that
+ * say that the drawing thread went on, or has nothing to do. A process that is slow,
  * or does not get the processor, is left alone however long it takes. */
 #ifndef SERVER_SUPERVISOR_H
 #define SERVER_SUPERVISOR_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A driver that hangs, crashes, eats memory or takes long over some shaders: loaded into the daemon
+/* A driver that hangs, crashes, eats memory or takes long over some shaders, and a libpng that does
+ * so over some pictures: loaded into the daemon
  * in front of the real one (LD_PRELOAD), so that the program under test is the one that users run.
  * What it does is chosen by numbers in the shader's text. It takes time of the processor, so that a
  * busy machine changes nothing.
@@ -9,6 +10,7 @@
 #include <EGL/egl.h>
 #include <GL/glcorearb.h>
 #include <dlfcn.h>
+#include <png.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -27,7 +29,8 @@ enum act {
     HANG_TWICE,
     SLEEP,
     DRAW_SLOWLY,
-    DRAW_HARDLY
+    DRAW_HARDLY,
+    SLEEP_LATER
 };
 
 static const struct {
@@ -35,7 +38,14 @@ static const struct {
     enum act act;
 } acts[] = {{"31337.5", HANG},        {"31338.5", CRASH},       {"31339.5", EAT},
             {"31340.5", CRASH_LATER}, {"31341.5", HANG_ONCE},   {"31342.5", HANG_TWICE},
-            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY}, {"31345.5", DRAW_HARDLY}};
+            {"31343.5", SLEEP},       {"31344.5", DRAW_SLOWLY}, {"31345.5", DRAW_HARDLY},
+            {"31346.5", SLEEP_LATER}};
+
+/* Pictures of environments, by their width. */
+static const struct {
+    png_uint_32 width;
+    enum act act;
+} pictures[] = {{31, HANG}, {33, CRASH}, {35, HANG_ONCE}};
 
 enum { OBJECTS = 4096, EAT_BYTES = 1 << 20, GROUP_MS = 10, HARD_GROUP_MS = 500 };
 
@@ -131,6 +141,7 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
     case CRASH_LATER:
     case DRAW_SLOWLY:
     case DRAW_HARDLY:
+    case SLEEP_LATER:
     case NOTHING:
         break;
     }
@@ -154,6 +165,9 @@ static void APIENTRY use(GLuint program)
     if (is_later[program % OBJECTS] == CRASH_LATER && elsewhere) {
         abort();
     }
+    if (is_later[program % OBJECTS] == SLEEP_LATER && elsewhere) {
+        pause();
+    }
     group_ms = !elsewhere                                   ? 0
                : is_later[program % OBJECTS] == DRAW_SLOWLY ? GROUP_MS
                : is_later[program % OBJECTS] == DRAW_HARDLY ? HARD_GROUP_MS
@@ -167,6 +181,24 @@ static void APIENTRY dispatch(GLuint x, GLuint y, GLuint z)
         spend(group_ms * (int)(x * y * z));
     }
     real_dispatch(x, y, z);
+}
+
+void png_read_info(png_structrp png, png_inforp info)
+{
+    void (*real)(png_structrp, png_inforp) = dlsym(RTLD_NEXT, "png_read_info");
+
+    real(png, info);
+    for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++) {
+        if (png_get_image_width(png, info) != pictures[i].width) {
+            continue;
+        }
+        if (pictures[i].act == CRASH) {
+            abort();
+        }
+        if (pictures[i].act == HANG || processes_before() < 1) {
+            hang();
+        }
+    }
 }
 
 typedef __eglMustCastToProperFunctionPointerType function;

@@ -15,6 +15,7 @@ const HANG = ball('31337.5');
 const CRASH = ball('31338.5');
 const EAT = ball('31339.5');
 const CRASH_LATER = ball('31340.5');
+const SLEEP_LATER = ball('31346.5');
 
 const scene = (code) => ({
     format: 'fieldcast/1',
@@ -170,6 +171,13 @@ test('code that crashes while it draws is left out the second time', async () =>
     const edit = live.set(CODE, GOOD);
     const { revision } = await live.next('applied', { edit });
     await live.nextFrame((frame) => frame.lossless && frame.revision === revision);
+    await live.close();
+});
+
+test('a drawing thread that waits for nothing is found, although pings are answered', async () => {
+    const live = await open('asleep', SLEEP_LATER);
+    await live.next('notice', { code: 'scene_left_out' });
+    await othersGoOn();
     await live.close();
 });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels of a PNG with 8-bit channels, not interlaced (W3C PNG, third edition). For tests only.
+// PNG with 8-bit channels, not interlaced (W3C PNG, third edition). For tests only.
 import zlib from 'node:zlib';
 
 const CHANNELS = { 0: 1, 2: 3, 4: 2, 6: 4 };
@@ -24,6 +24,41 @@ function unfilter(raw, height, stride, step) {
         }
     }
     return out;
+}
+
+const CRC = Array.from({ length: 256 }, (_, n) => {
+    let c = n;
+    for (let k = 0; k < 8; k += 1) {
+        c = c & 1 ? 0xedb88320 ^ (c >>> 1) : c >>> 1;
+    }
+    return c >>> 0;
+});
+
+function chunk(type, data) {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const out = Buffer.alloc(body.length + 8);
+    let crc = 0xffffffff;
+    for (const byte of body) {
+        crc = CRC[(crc ^ byte) & 255] ^ (crc >>> 8);
+    }
+    out.writeUInt32BE(data.length, 0);
+    body.copy(out, 4);
+    out.writeUInt32BE((crc ^ 0xffffffff) >>> 0, body.length + 4);
+    return out;
+}
+
+/** A file of black pixels, 8 bits of three channels each: the smallest that such a picture can be. */
+export function blankPng(width, height) {
+    const header = Buffer.alloc(13);
+    header.writeUInt32BE(width, 0);
+    header.writeUInt32BE(height, 4);
+    header.set([8, 2, 0, 0, 0], 8);
+    return Buffer.concat([
+        Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+        chunk('IHDR', header),
+        chunk('IDAT', zlib.deflateSync(Buffer.alloc((3 * width + 1) * height), { level: 9 })),
+        chunk('IEND', Buffer.alloc(0)),
+    ]);
 }
 
 export function decodePng(bytes) {

@@ -79,11 +79,31 @@ static struct file radiance(const char *size)
     return file;
 }
 
+/* IEEE 754 binary16, as its words have it. */
+static double value_of(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, fraction = half & 1023;
+
+    assert_true(half < 0x7c00); /* finite, 0 and above */
+    return exponent ? ldexp(1024 + fraction, exponent - 25) : ldexp(fraction, -24);
+}
+
+/* The nearest half, of `value` or of what is as good as it: `doubt`. */
+static void want_value(const struct decoded *decoded, int i, int c, double value, double doubt)
+{
+    const double got = value_of(decoded->rgba[4 * i + c]), want = fmin(value, 65504);
+
+    assert_true(fabs(got - want) <= fmax(want * 0x1p-11, 0x1p-25) + doubt);
+    assert_int_equal(decoded->rgba[4 * i + 3], 0x3c00);
+}
+
 static void want_pixel(const struct decoded *decoded, int x, int y, double r, double g, double b)
 {
-    const float *p = decoded->rgb + 3 * (y * decoded->width + x);
+    const int i = y * decoded->width + x;
 
-    assert_true(fabs(p[0] - r) < 1e-6 && fabs(p[1] - g) < 1e-6 && fabs(p[2] - b) < 1e-6);
+    want_value(decoded, i, 0, r, 1e-6);
+    want_value(decoded, i, 1, g, 1e-6);
+    want_value(decoded, i, 2, b, 1e-6);
 }
 
 static void test_flat(void **state)
@@ -162,7 +182,7 @@ static void test_runs(void **state)
         const uint8_t *p = pixels + 4 * i;
         for (int c = 0; c < 3; c++) {
             double want = p[3] ? p[c] * pow(2, p[3] - 136) : 0;
-            assert_true(fabs(decoded.rgb[3 * i + c] - want) <= 1e-6 * want);
+            want_value(&decoded, i, c, want, 1e-6 * want);
         }
     }
     decoded_finish(&decoded);
@@ -245,6 +265,33 @@ static struct file make_png(int type, int depth, bool interlaced, const uint8_t 
     return file;
 }
 
+/* Wider than a panorama, of random numbers. */
+static uint8_t *large_png(bool interlaced, size_t *out_length)
+{
+    enum { WIDE = 5000, LOW = 6 };
+    static uint8_t rows[LOW][3 * WIDE];
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    char *bytes = NULL;
+    FILE *out = open_memstream(&bytes, out_length);
+
+    seed = 5;
+    for (size_t i = 0; i < sizeof rows; i++) {
+        rows[i / (3 * WIDE)][i % (3 * WIDE)] = (uint8_t)random_below(256);
+    }
+    assert_int_equal(setjmp(png_jmpbuf(png)), 0);
+    png_init_io(png, out);
+    png_set_IHDR(png, info, WIDE, LOW, 8, PNG_COLOR_TYPE_RGB,
+                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    png_write_image(png, (png_bytep[LOW]){rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]});
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+    assert_int_equal(fclose(out), 0);
+    return (uint8_t *)bytes;
+}
+
 static double linear(double s)
 {
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
@@ -276,7 +323,7 @@ static void test_png(void **state)
             const int c = channels < 3 ? 0 : k % 3;
             const uint8_t *at = bytes + pixel * (size_t)(k / 3) + (size_t)(c * width);
             const double value = width == 1 ? at[0] / 255.0 : (at[0] * 256 + at[1]) / 65535.0;
-            assert_true(fabs(decoded.rgb[k] - linear(value)) < 1e-6);
+            want_value(&decoded, k / 3, k % 3, linear(value), 1e-6);
         }
         decoded_finish(&decoded);
     }
@@ -295,8 +342,8 @@ static void test_png_palette(void **state)
     assert_true(decode(&file, file.length, &decoded, NULL));
     for (int i = 0; i < SIDE * SIDE; i++) {
         const int index = bytes[i / 2] >> (i % 2 ? 0 : 4) & 15;
-        assert_true(fabs(decoded.rgb[3 * i] - linear(index * 17 / 255.0)) < 1e-6);
-        assert_true(fabs(decoded.rgb[3 * i + 2] - linear(index * index / 255.0)) < 1e-6);
+        want_value(&decoded, i, 0, linear(index * 17 / 255.0), 1e-6);
+        want_value(&decoded, i, 2, linear(index * index / 255.0), 1e-6);
     }
     decoded_finish(&decoded);
 }
@@ -314,6 +361,87 @@ static void test_bad_png(void **state)
     want_refused(&changed, ERROR_INVALID, "damaged: ");
     memcpy(giant.bytes + 16, "\177\377\377\377\177\377\377\377", 8);
     want_refused(&giant, ERROR_LIMIT, "2147483647 x 2147483647 pixels are above 8192 a side");
+}
+
+/* --- larger than a panorama --- */
+
+/* A picture of `width` by `height`, flat: each pixel has the mantissas that `color` gives it. */
+static uint8_t *large_radiance(int width, int height, size_t *out_length,
+                               void (*color)(int x, int y, uint8_t rgb[3]))
+{
+    uint8_t *bytes = malloc(128 + (size_t)4 * (size_t)width * (size_t)height);
+    size_t length = (size_t)sprintf(
+        (char *)bytes, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height, width);
+
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            color(x, y, bytes + length);
+            bytes[length + 3] = 129; /* 128 is 1 */
+            length += 4;
+        }
+    }
+    *out_length = length;
+    return bytes;
+}
+
+static void stripes(int x, int y, uint8_t rgb[3])
+{
+    rgb[0] = 96;
+    rgb[1] = x % 2 ? 128 : 64;
+    rgb[2] = y % 2 ? 192 : 64;
+}
+
+/* Pixels are averaged two by two, three by three as their area says, and one way alone. */
+static void test_averaged(void **state)
+{
+    static const struct {
+        int width, height, out_width, out_height;
+    } sizes[] = {
+        {8192, 4, DECODED_WIDTH, 4}, {6144, 4, DECODED_WIDTH, 4}, {16, 4096, 16, DECODED_HEIGHT}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+        const bool thirds = sizes[k].width == 6144;
+        size_t length;
+        uint8_t *bytes = large_radiance(sizes[k].width, sizes[k].height, &length, stripes);
+        struct decoded decoded;
+
+        assert_true(image_decode(bytes, length, &decoded, NULL));
+        assert_int_equal(decoded.width, sizes[k].out_width);
+        assert_int_equal(decoded.height, sizes[k].out_height);
+        for (int y = 0; y < decoded.height; y += 1 + decoded.height / 8) {
+            for (int x = 0; x < decoded.width; x++) {
+                const double column = sizes[k].width == 16 ? (x % 2 ? 1 : 0.5)
+                                      : thirds             ? (x % 4 < 2 ? 2 : 2.5) / 3
+                                                           : 0.75;
+                const double row = sizes[k].height == 4 ? (y % 2 ? 1.5 : 0.5) : 1;
+                want_pixel(&decoded, x, y, 0.75, column, row);
+            }
+        }
+        decoded_finish(&decoded);
+        free(bytes);
+    }
+}
+
+/* What is stored as seven pictures is the same picture. */
+static void test_interlaced_averaged(void **state)
+{
+    struct decoded decoded[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        size_t length;
+        uint8_t *bytes = large_png(i == 1, &length);
+
+        assert_true(image_decode(bytes, length, &decoded[i], NULL));
+        free(bytes);
+    }
+    assert_int_equal(decoded[0].width, DECODED_WIDTH);
+    for (int i = 0; i < 4 * decoded[0].width * decoded[0].height; i++) {
+        assert_true(abs(decoded[0].rgba[i] - decoded[1].rgba[i]) <= 1);
+    }
+    decoded_finish(&decoded[0]);
+    decoded_finish(&decoded[1]);
 }
 
 /* --- anything --- */
@@ -335,8 +463,8 @@ static void mangle(const struct file *file)
             changed.bytes[random_below((uint32_t)file->length)] = (uint8_t)random_below(256);
         }
         if (decode(&changed, changed.length, &decoded, NULL)) {
-            for (int i = 0; i < 3 * decoded.width * decoded.height; i++) {
-                assert_true(isfinite(decoded.rgb[i]) && decoded.rgb[i] >= 0);
+            for (int i = 0; i < 4 * decoded.width * decoded.height; i++) {
+                value_of(decoded.rgba[i]);
             }
             decoded_finish(&decoded);
         }
@@ -362,10 +490,16 @@ static void test_mangled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),    cmocka_unit_test(test_long_flat_run),
-        cmocka_unit_test(test_runs),    cmocka_unit_test(test_bad_radiance),
-        cmocka_unit_test(test_png),     cmocka_unit_test(test_png_palette),
-        cmocka_unit_test(test_bad_png), cmocka_unit_test(test_mangled),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_long_flat_run),
+        cmocka_unit_test(test_runs),
+        cmocka_unit_test(test_bad_radiance),
+        cmocka_unit_test(test_png),
+        cmocka_unit_test(test_png_palette),
+        cmocka_unit_test(test_bad_png),
+        cmocka_unit_test(test_averaged),
+        cmocka_unit_test(test_interlaced_averaged),
+        cmocka_unit_test(test_mangled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The render process over its socket: pictures, edits, order, cancelling, refusals, its end. Each
  * test starts one by running this program again with --worker. */
+#include <fcntl.h>
 #include <poll.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -24,28 +25,35 @@
 
 #define EXAMPLE "protocol/examples/first-steps.json"
 
-static int fd = -1;
+static int fd = -1, pulse_fd = -1;
 static pid_t child;
-static struct packet_reader reader;
+static struct packet_reader reader, pulse_reader;
 static struct packet packet; /* the last received */
 
 /* --- the other end --- */
 
 static int start(void **state)
 {
-    int ends[2];
+    int ends[2], pulse_ends[2];
 
     (void)state;
     assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pulse_ends), 0);
     child = fork();
     assert_true(child >= 0);
     if (child == 0) {
+        const int high = fcntl(pulse_ends[1], F_DUPFD, 10);
+
         dup2(ends[1], WORKER_FD);
+        dup2(high, WORKER_PULSE_FD);
+        close(high);
         execl("/proc/self/exe", "test_worker", "--worker", (char *)NULL);
         _exit(127);
     }
     close(ends[1]);
+    close(pulse_ends[1]);
     fd = ends[0];
+    pulse_fd = pulse_ends[0];
     return 0;
 }
 
@@ -54,9 +62,11 @@ static int end(void)
     int status;
 
     close(fd);
+    close(pulse_fd);
     assert_int_equal(waitpid(child, &status, 0), child);
     packet_finish(&packet);
     packet_reader_finish(&reader);
+    packet_reader_finish(&pulse_reader);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 
@@ -117,6 +127,29 @@ static void expect(const char *type)
             fail_msg("no %s came", type);
         }
     }
+}
+
+/* Asks for the worker's pulse; the answer is the packet. */
+static void ping(int value)
+{
+    char line[64];
+    uint8_t bytes[4096];
+    size_t length;
+
+    snprintf(line, sizeof line, "{\"type\":\"ping\",\"ping\":%d}", value);
+    cJSON *json = cJSON_Parse(line);
+    uint8_t *packed = packet_pack(json, NULL, 0, &length);
+    assert_int_equal(send(pulse_fd, packed, length, MSG_NOSIGNAL), length);
+    free(packed);
+    cJSON_Delete(json);
+    packet_finish(&packet);
+    while (packet_reader_next(&pulse_reader, &packet) == 0) {
+        const ssize_t count = recv(pulse_fd, bytes, sizeof bytes, 0);
+        assert_true(count > 0);
+        packet_reader_add(&pulse_reader, bytes, (size_t)count);
+    }
+    assert_string_equal(json_member_text(packet.json, "type", ""), "pong");
+    assert_int_equal(json_member_number(packet.json, "ping", -1), value);
 }
 
 static double number(const char *name)
@@ -272,10 +305,7 @@ static void test_priority(void **state)
     send_scene("s", 1);
     expect("shown");
     send_render(1, 3, 1600, 1200, "");
-    send_text("{\"type\":\"ping\",\"ping\":1}");
     send_render(2, 0, 40, 30, "");
-    expect("pong"); /* answered in the middle of a picture */
-    assert_int_equal(number("pictures"), 0);
     expect("frame");
     assert_int_equal(number("job"), 2);
     expect("frame");
@@ -314,11 +344,49 @@ static void test_cancel(void **state)
     send_text("{\"type\":\"cancel\",\"job\":77}");
     expect("frame");
     assert_int_equal(number("job"), 3);
-    send_text("{\"type\":\"ping\",\"ping\":9}");
-    assert_string_equal(receive(), "pong");
-    assert_int_equal(number("ping"), 9);
+    do {
+        ping(9);
+    } while (!json_member_bool(packet.json, "idle", false));
     assert_int_equal(number("pictures"), 1);
     assert_true(number("resident_bytes") > 0);
+}
+
+/* It tells how far the drawing thread has come, and when that has nothing to do. */
+static void test_pulse(void **state)
+{
+    double steps;
+
+    (void)state;
+    send_scene("s", 1);
+    expect("shown");
+    do {
+        ping(1);
+    } while (!json_member_bool(packet.json, "idle", false));
+    steps = number("steps");
+    ping(2);
+    assert_true(json_member_bool(packet.json, "idle", false));
+    assert_true(number("steps") == steps);
+    send_render(1, 3, 1600, 1200, "");
+    do {
+        ping(3);
+    } while (number("tiles") == 0); /* in the middle of a picture */
+    assert_false(json_member_bool(packet.json, "idle", true));
+    assert_true(number("steps") > steps);
+    assert_int_equal(number("pictures"), 0);
+    expect("frame");
+}
+
+/* Nobody has to listen to it, and whoever talks nonsense there gets no answer. */
+static void test_pulse_gone(void **state)
+{
+    static const uint8_t nonsense[8] = {255, 255, 255, 255, 255, 255, 255, 255};
+
+    (void)state;
+    expect("ready");
+    assert_int_equal(send(pulse_fd, nonsense, sizeof nonsense, MSG_NOSIGNAL), sizeof nonsense);
+    send_scene("s", 1);
+    send_render(1, 0, 40, 30, "");
+    expect("frame");
 }
 
 static void test_dropped_scene(void **state)
@@ -525,6 +593,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_priority, start, stop),
         cmocka_unit_test_setup_teardown(test_scenes_take_turns, start, stop),
         cmocka_unit_test_setup_teardown(test_cancel, start, stop),
+        cmocka_unit_test_setup_teardown(test_pulse, start, stop),
+        cmocka_unit_test_setup_teardown(test_pulse_gone, start, stop),
         cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
         cmocka_unit_test_setup_teardown(test_outputs, start, stop),
         cmocka_unit_test_setup_teardown(test_what_is_asked, start, stop),
@@ -535,7 +605,8 @@ int main(int argc, char **argv)
     };
 
     if (argc > 1 && strcmp(argv[1], "--worker") == 0) {
-        return worker_run(WORKER_FD, &(struct worker_params){.renderer = {.device_index = -1}});
+        return worker_run(WORKER_FD, &(struct worker_params){.renderer = {.device_index = -1},
+                                                             .pulse_fd = WORKER_PULSE_FD});
     }
     return cmocka_run_group_tests_name("worker", tests, NULL, NULL);
 }

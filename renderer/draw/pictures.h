@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures of environments, read from their files by a thread of their own, one at a time: who
+ * draws never waits for one. Every function belongs to the drawing thread. */
+#ifndef RENDERER_PICTURES_H
+#define RENDERER_PICTURES_H
+
+#include "renderer/asset.h"
+#include "renderer/image/decode.h"
+
+struct pictures;
+struct picture; /* a file that is read, or was; counted */
+
+struct pictures *pictures_create(void); /* starts the thread; dies without one (aborts) */
+/* Waits for what is being read. Nobody holds a picture any more. */
+void pictures_destroy(struct pictures *pictures);
+
+/* The file is read when its turn comes, and forgotten when nobody wants it before. A new
+ * reference. */
+struct picture *pictures_want(struct pictures *pictures, struct asset *asset);
+void picture_unref(struct pictures *pictures, struct picture *picture); /* NULL: nothing */
+const char *picture_id(const struct picture *picture);
+/* It was read, or cannot be. */
+bool picture_is_done(const struct picture *picture);
+/* Of one that is done: its pixels, the picture's own. NULL: it has none. */
+const struct decoded *picture_pixels(const struct picture *picture);
+/* Why it has none, as a warning at /environment/image; the asset has it too. */
+const struct error *picture_problem(const struct picture *picture);
+uint32_t picture_us(const struct picture *picture); /* time that reading took */
+
+/* What is to be read next, once pictures_allow says so; NULL: nothing, or something is read now,
+ * which `*out_reading` is then. */
+struct picture *pictures_next(struct pictures *pictures, struct picture **out_reading);
+/* `limit_ms`: of the processor, for pictures_stuck. */
+void pictures_allow(struct pictures *pictures, struct picture *picture, int limit_ms);
+/* Takes over what was read; true where there is some. Waits for it, at most `wait_ms`. */
+bool pictures_collect(struct pictures *pictures, int wait_ms);
+/* Time of the processor that the thread has used. */
+int64_t pictures_cpu_us(const struct pictures *pictures);
+
+/* Reading takes more than it may. */
+struct pictures_stuck {
+    const char *id;
+    int measured_ms, limit_ms;
+};
+bool pictures_stuck(const struct pictures *pictures, struct pictures_stuck *out);
+
+#endif
