@@ -38,8 +38,8 @@
  * worker names it, and an empty one afterwards; it waits until the front has that. So it is known
  * whose code or file ended it. A compiler that may never end (limits.h) ends the worker, which says
  * so first (`slow`), as does reading that takes too long. The front tells the next worker what to
- * make of such a shape or file (`judge`): it may take so many times the usual time, or it is refused
- * (`code`). `pace`: how slow this machine compiles, as measured so far.
+ * make of such a shape or file (`judge`): it may take so many times the usual time, or it is
+ * refused (`code`). `pace`: how slow this machine compiles, as measured so far.
  *
  * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
