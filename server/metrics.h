@@ -29,6 +29,8 @@
       "Pictures refused because their client had its share of the queue")                          \
     X(IMAGES_OVER_QUEUE, "images_over_queue_total", "counter",                                     \
       "Pictures refused because the queue was full")                                               \
+    X(RESTS, "connection_rests_total", "counter",                                                  \
+      "Times that a live connection had to rest because it took much of the front's time")         \
     X(PICTURES_REUSED, "pictures_reused_total", "counter", "Pictures answered from memory")        \
     X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
     X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \

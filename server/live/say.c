@@ -93,6 +93,9 @@ static void add_error(cJSON *message, const struct error *err)
         cJSON_AddNumberToObject(message, "line", err->line);
         cJSON_AddNumberToObject(message, "column", err->column);
     }
+    if (err->retry_ms > 0) {
+        cJSON_AddNumberToObject(message, "retry_ms", err->retry_ms);
+    }
     if (err->limit_ms > 0) {
         cJSON_AddNumberToObject(message, "measured", err->measured_ms);
         cJSON_AddNumberToObject(message, "limit", err->limit_ms);

@@ -130,6 +130,17 @@ void session_frame_written(struct session *session, uint32_t frame, size_t bytes
     supervisor_wake(session->hub->supervisor);
 }
 
+void session_tell_rest(struct session *session, int wait_ms)
+{
+    struct error err = {0};
+
+    error_set(&err, ERROR_SHARE, "",
+              "What this page sent took much work: the server reads on in %.1f s",
+              wait_ms / 1000.0);
+    err.retry_ms = wait_ms;
+    session_say(session, say_fault("info", error_kind_name(err.kind), &err));
+}
+
 /* --- hello --- */
 
 static void add_limits(cJSON *welcome)

@@ -41,6 +41,8 @@ struct session *session_create(struct hub *hub, void (*wake)(void *connection), 
 void session_destroy(struct session *session);
 /* A whole text message. Takes the lock itself, since hello may load the scene. */
 void session_receive(struct session *session, const char *scene, const char *text, size_t length);
+/* Its messages took much time: none is read for so long. */
+void session_tell_rest(struct session *session, int wait_ms);
 /* `frame` was handed to the socket completely. */
 void session_frame_written(struct session *session, uint32_t frame, size_t bytes);
 

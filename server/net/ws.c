@@ -19,13 +19,15 @@
 #include "server/live/hub.h"
 #include "server/live/session.h"
 #include "server/log.h"
+#include "workload.h"
 
 enum {
     HELLO_SECONDS = 7, /* not the ping's time: both at once garble the close code */
     PING_SECONDS = 10,
     HANGUP_SECONDS = 25, /* without a pong or anything else */
     PIECES_PER_TURN = 16,
-    CLOSE_SECONDS = 3, /* for the other side to answer a close */
+    CLOSE_SECONDS = 3,     /* for the other side to answer a close */
+    REST_TOLD_US = 250000, /* a shorter one is not worth a word */
     CLOSE_UNSUPPORTED = 1003,
     CLOSE_NOT_TEXT = 1007,
 };
@@ -45,6 +47,8 @@ struct link {
     char *text;     /* the message being collected */
     size_t length, capacity;
     struct utf8_stream utf8; /* of that message */
+    struct workload workload;
+    bool resting; /* nothing is read until the timer */
 };
 
 struct ws {
@@ -204,10 +208,41 @@ static void keep_bytes(struct link *link, const char *bytes, size_t length)
     link->length += length;
 }
 
+/* Who has worked much is not read for as long. */
+static void rest(struct link *link, int64_t rest_us)
+{
+    struct hub *hub = link->ws->hub;
+
+    link->resting = true;
+    lws_rx_flow_control(link->wsi, 0);
+    lws_set_timer_usecs(link->wsi, (lws_usec_t)rest_us);
+    metric_add(&hub->metrics, METRIC_RESTS, 1);
+    if (rest_us >= REST_TOLD_US) {
+        hub_lock(hub);
+        session_tell_rest(link->session, (int)(rest_us / 1000));
+        hub_unlock(hub);
+    }
+}
+
+/* Time of the processor: who waits for it, or for a lock, does no work. */
+static int64_t thread_us(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
+}
+
 static void hand_on(struct link *link)
 {
     if (link->session) {
+        const int64_t before = thread_us();
+
         session_receive(link->session, link->scene, link->text ? link->text : "", link->length);
+        const int64_t rest_us = workload_charge(&link->workload, clock_us(), thread_us() - before);
+        if (rest_us > 0) {
+            rest(link, rest_us);
+        }
     }
     link->length = 0;
     if (link->capacity > 65536) { /* one large message shall not cost for ever */
@@ -246,6 +281,10 @@ static void on_timer(struct link *link)
 {
     struct hub *hub = link->ws->hub;
 
+    if (link->resting) {
+        link->resting = false;
+        lws_rx_flow_control(link->wsi, 1);
+    }
     hub_lock(hub);
     if (link->session && !link->session->client[0]) {
         session_close(link->session, CLOSE_POLICY, "protocol", -1);

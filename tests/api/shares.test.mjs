@@ -10,6 +10,7 @@ const TILE_MS = 10;
 const LARGE = { width: 4096, height: 4096 };
 const PICTURES = 40;
 const BETWEEN = 8; // tiles of others between a question and its answer: a question takes as long as a few
+const EDITS = 10;
 const SHARE = 16; // pictures of one client in the queue
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
@@ -108,6 +109,25 @@ test('a client has a quarter of the queue, and is told when to ask again', async
     gone.abort();
     await Promise.all(large);
     await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+});
+
+test('one who sends large edits without end leaves half of the time to others', async (t) => {
+    const children = Array.from({ length: 3000 }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 }));
+    await ask(daemon, 'POST', '/v1/scenes?id=many', { format: 'fieldcast/1', root: { id: 'root', type: 'union', children } });
+    const guest = await Live.open(daemon, 'many');
+    const other = await Live.open(daemon, 'two');
+    const value = (i) => ({ op: 'set', at: `/nodes/n${i}/params/radius`, value: 0.5 });
+    const edits = Array.from({ length: EDITS }, () => guest.change(children.map((_, i) => value(i))));
+    let small = 0;
+    while (!guest.find('applied', { edit: edits.at(-1) })) {
+        const edit = other.set('/nodes/ball/params/radius', 1 + small / 1000);
+        await other.next('applied', { edit });
+        small += 1;
+    }
+    t.diagnostic(`${small} small edits beside ${EDITS} of ${children.length} operations`);
+    assert.ok(small >= 4 * EDITS, `${small} small edits`);
+    assert.ok((await counter(daemon, 'connection_rests_total')) >= EDITS - 1);
+    await Promise.all([guest.close(), other.close()]);
 });
 
 test('nothing more is drawn for one whose line takes no more', async () => {
