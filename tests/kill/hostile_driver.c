@@ -47,7 +47,7 @@ static const struct {
     enum act act;
 } pictures[] = {{31, HANG}, {33, CRASH}, {35, HANG_ONCE}};
 
-enum { OBJECTS = 4096, EAT_BYTES = 1 << 20, GROUP_MS = 10, HARD_GROUP_MS = 500 };
+enum { OBJECTS = 4096, EAT_BYTES = 1 << 20, GROUP_MS = 10, HARD_GROUP_MS = 250 };
 
 static PFNGLSHADERSOURCEPROC real_source;
 static PFNGLATTACHSHADERPROC real_attach;
