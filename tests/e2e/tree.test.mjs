@@ -2,26 +2,20 @@
 // The scene tree, by pointer and by keys: what each act makes of the document on the server.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { until } from '../support/daemon.mjs';
 import {
     closePage,
-    difference,
     documentWhen,
     nodeIn,
     openStage,
-    pictureChanged,
-    pixels,
     row,
     rows,
-    settled,
-    stillPixels,
 } from './stage.mjs';
 
 let stage;
 let page;
 let id;
 before(async () => {
-    stage = await openStage();
+    stage = await openStage({ driver: 'null' });
 });
 after(() => stage.close());
 afterEach(async () => {
@@ -184,34 +178,6 @@ describe('by pointer', () => {
         await row(page, 'crate').click({ button: 'right' });
         await page.getByRole('menuitem', { name: /^Delete/ }).click();
         await ordered('root', 'ball', 'pair');
-    });
-
-    test('what is isolated is this page’s alone, and no edit', async () => {
-        await open();
-        const other = await stage.page({ scene: id });
-        const before = await stage.document(id);
-        await Promise.all([settled(page), settled(other)]);
-        const [all, seen] = [await stillPixels(page), await stillPixels(other)];
-        await row(page, 'pair').click();
-        await page.keyboard.press('Shift+H');
-        const pill = page.getByTestId('isolated');
-        await pill.getByText('Isolated: pair').waitFor();
-        await row(page, 'crate').and(page.locator('[data-apart]')).waitFor();
-        assert.equal(await row(page, 'ring').and(page.locator('[data-apart]')).count(), 0);
-        await row(page, 'pair').getByRole('img', { name: 'Isolated' }).waitFor();
-        await pictureChanged(page, all, 'the picture of the pair alone');
-        assert.equal(await stage.document(id), before);
-        assert.ok(difference(await stillPixels(other), seen) < 2, 'the other page shows all');
-        await pill.getByRole('button', { name: 'Show all' }).click();
-        await pill.waitFor({ state: 'detached' });
-        const again = async () => difference(await pixels(page), all) < 2;
-        await until(again, 'all of it again');
-        await row(page, 'crate').click();
-        await page.keyboard.press('Shift+H');
-        await pill.getByText('Isolated: crate').waitFor();
-        await page.keyboard.press('Delete');
-        await pill.waitFor({ state: 'detached' });
-        await closePage(other);
     });
 
     test('double click renames', async () => {

@@ -15,7 +15,7 @@ import {
 
 let stage;
 before(async () => {
-    stage = await openStage();
+    stage = await openStage({ driver: 'null' });
 });
 after(() => stage.close());
 
