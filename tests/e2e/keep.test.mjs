@@ -440,25 +440,6 @@ describe('what materials are', () => {
     });
 });
 
-describe('carrying a row', () => {
-    test('a line shows where it will be put, also while the pointer rests', async () => {
-        await open();
-        const [a, b] = [await row(page, 'crate').boundingBox(), await row(page, 'ball').boundingBox()];
-        await page.mouse.move(a.x + 80, a.y + a.height / 2);
-        await page.mouse.down();
-        await page.mouse.move(a.x + 86, a.y + a.height / 2 + 4, { steps: 3 });
-        await page.mouse.move(b.x + 80, b.y + 3, { steps: 12 });
-        const line = page.locator('.tree-line');
-        await line.waitFor();
-        /* Longer than the tree waits before it believes that the pointer has left. */
-        await page.waitForTimeout(400);
-        const { y } = await line.boundingBox();
-        assert.ok(Math.abs(y - b.y) < 4, `the line is at ${y}, the row at ${b.y}`);
-        await page.mouse.up();
-        await when((d) => d.root.children[0].id === 'crate', 'the row in its new place');
-    });
-});
-
 describe('palettes', () => {
     /** Presses keys one after the other, before the page can draw. */
     const press = (...keys) =>

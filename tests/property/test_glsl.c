@@ -249,13 +249,21 @@ static int tear_down(void **state)
     return 0;
 }
 
+/* A test that fails leaves its scenes. */
+static int empty_batch(void **state)
+{
+    (void)state;
+    batch_finish();
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_agrees),
-        cmocka_unit_test(nested_scenes_agree),
-        cmocka_unit_test(numbers_may_come_from_a_block),
-        cmocka_unit_test(empty_scenes_compile),
+        cmocka_unit_test_teardown(every_row_agrees, empty_batch),
+        cmocka_unit_test_teardown(nested_scenes_agree, empty_batch),
+        cmocka_unit_test_teardown(numbers_may_come_from_a_block, empty_batch),
+        cmocka_unit_test_teardown(empty_scenes_compile, empty_batch),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
