@@ -213,6 +213,12 @@ bool store_load(struct store *store, const char *scene, struct store_loaded *out
     return store_sqlite_load(store->db, scene, out, err);
 }
 
+bool store_find_edit(struct store *store, const char *scene, const char *author, int64_t edit,
+                     uint64_t *out_revision, struct error *err)
+{
+    return store_sqlite_find_edit(store->db, scene, author, edit, out_revision, err);
+}
+
 bool store_list_assets(struct store *store,
                        void (*each)(void *data, const struct store_asset *asset), void *data,
                        struct error *err)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes on disk: for each a snapshot of its document, the log of edits since with what undoes
- * them, and the newest edit number of each author; and the files that scenes name. Writes are
+ * them, and who has edits in it; and the files that scenes name. Writes are
  * queued and committed in order by one thread, as many as wait in one transaction; what was told
  * durable survives kill -9 and loss of power. A failed commit ends the program with
  * STORE_EXIT_STATUS: after a failed fsync nothing on disk can be trusted to become durable by
@@ -29,6 +29,7 @@ enum store_kind {
     STORE_EDIT,     /* an entry of the log */
     STORE_REPLACE,  /* a new document at a new revision */
     STORE_SNAPSHOT, /* the document at a revision that the log has reached */
+    STORE_AUTHOR,   /* the key of an author that has none yet */
     STORE_DELETE,
     STORE_ASSET,  /* a file, once */
     STORE_POSTER, /* the scene's last picture, in `asset`; what it was before is gone */
@@ -56,9 +57,10 @@ struct store_write {
     char scene[LIMIT_ID_BYTES + 1];
     uint64_t revision;
     char author[LIMIT_ID_BYTES + 1];
-    int64_t edit;           /* the author's number; 0: none */
-    char *text;             /* owned: operations of an edit, else the document */
-    struct store_step step; /* of STORE_EDIT; owned */
+    char key[ASSET_ID_CHARACTERS + 1]; /* digest of the author's; "": none */
+    int64_t edit;                      /* the author's number; 0: none */
+    char *text;                        /* owned: operations of an edit, else the document */
+    struct store_step step;            /* of STORE_EDIT; owned */
     char *name; /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
     size_t nodes;
     struct store_asset *asset; /* owned, with its bytes: of STORE_ASSET and STORE_POSTER */
@@ -84,9 +86,12 @@ struct store_edit {
     char *ops;
     struct store_step step;
 };
+/* Somebody with an edit in the log. */
 struct store_author {
     char author[LIMIT_ID_BYTES + 1];
-    int64_t edit;
+    char key[ASSET_ID_CHARACTERS + 1]; /* digest; "": from before there were keys */
+    int64_t edit;                      /* the newest number */
+    uint64_t revision;                 /* that it made */
 };
 /* What store_load found: a document, the edits that come after it in order, and the newest edits
  * with what undoes them, from before and after the document's revision. */
@@ -98,7 +103,7 @@ struct store_loaded {
     struct store_edit *past;
     size_t past_count;
     size_t past_bytes;
-    struct store_author *authors;
+    struct store_author *authors; /* by revision */
     size_t author_count;
 };
 void store_loaded_finish(struct store_loaded *loaded);
@@ -113,6 +118,10 @@ bool store_list(struct store *store, void (*each)(void *data, const struct store
 /* Any thread; sees what is committed. */
 bool store_load(struct store *store, const char *scene, struct store_loaded *out,
                 struct error *err);
+/* The revision that an author's edit made, among what is committed; 0: it is not in the log. Any
+ * thread; one row by its index, and no wait for other readers. */
+bool store_find_edit(struct store *store, const char *scene, const char *author, int64_t edit,
+                     uint64_t *out_revision, struct error *err);
 /* Calls `each` for every file, oldest first, without its bytes. */
 bool store_list_assets(struct store *store,
                        void (*each)(void *data, const struct store_asset *asset), void *data,

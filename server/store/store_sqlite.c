@@ -38,12 +38,19 @@ static const char *const schema[] = {
     "PRAGMA user_version = 3;",
     "CREATE TABLE posters(scene TEXT PRIMARY KEY, bytes BLOB NOT NULL);"
     "PRAGMA user_version = 4;",
+    /* Authors are those who have an edit in the log; `key` is a digest. */
+    "ALTER TABLE authors ADD COLUMN key TEXT NOT NULL DEFAULT '';"
+    "ALTER TABLE authors ADD COLUMN revision INTEGER NOT NULL DEFAULT 0;"
+    "UPDATE authors SET revision=coalesce((SELECT max(e.revision) FROM edits e"
+    " WHERE e.scene=authors.scene AND e.author=authors.author AND e.edit>0), 0);"
+    "DELETE FROM authors WHERE revision=0;"
+    "PRAGMA user_version = 5;",
 };
 enum { SCHEMA_VERSION = sizeof schema / sizeof schema[0] };
 
 /* Parameters of every statement: 1 scene, 2 revision, 3 author, 4 edit, 5 text, 6 name, 7 nodes,
  * 8 time, 9 edits kept; of an asset 10 id, 11 type, 12 width, 13 height, 14 bytes; of an edit's
- * step 15 kind, 16 undo, 17 redo, 18 group, 19 label, 20 inverse. */
+ * step 15 kind, 16 undo, 17 redo, 18 group, 19 label, 20 inverse; 21 key. */
 enum statement {
     CREATE_SCENE,
     UPDATE_SCENE,
@@ -52,7 +59,9 @@ enum statement {
     DROP_SNAPSHOTS,
     ADD_EDIT,
     SET_AUTHOR,
+    SET_KEY,
     CUT_LOG,
+    CUT_AUTHORS,
     DELETE_SCENE,
     DELETE_SNAPSHOTS,
     DELETE_EDITS,
@@ -74,9 +83,13 @@ static const char *const texts[STATEMENT_COUNT] = {
     [ADD_EDIT] = "INSERT INTO edits(scene, revision, author, edit, time, ops, kind, undo,"
                  " redo, step, label, inverse)"
                  " VALUES(?1, ?2, ?3, ?4, ?8, ?5, ?15, ?16, ?17, ?18, ?19, ?20)",
-    [SET_AUTHOR] = "INSERT INTO authors(scene, author, edit) SELECT ?1, ?3, ?4 WHERE ?4 > 0"
-                   " ON CONFLICT(scene, author) DO UPDATE SET edit=excluded.edit",
+    [SET_AUTHOR] = "INSERT INTO authors(scene, author, edit, key, revision)"
+                   " SELECT ?1, ?3, ?4, ?21, ?2 WHERE ?4 > 0"
+                   " ON CONFLICT(scene, author) DO UPDATE SET edit=excluded.edit,"
+                   " key=excluded.key, revision=excluded.revision",
+    [SET_KEY] = "UPDATE authors SET key=?21 WHERE scene=?1 AND author=?3 AND key=''",
     [CUT_LOG] = "DELETE FROM edits WHERE scene=?1 AND revision<=?2-?9",
+    [CUT_AUTHORS] = "DELETE FROM authors WHERE scene=?1 AND revision<=?2-?9",
     [DELETE_SCENE] = "DELETE FROM scenes WHERE id=?1",
     [DELETE_SNAPSHOTS] = "DELETE FROM snapshots WHERE scene=?1",
     [DELETE_EDITS] = "DELETE FROM edits WHERE scene=?1",
@@ -94,7 +107,8 @@ static const int steps[][6] = {
     [STORE_CREATE] = {CREATE_SCENE, ADD_SNAPSHOT, -1},
     [STORE_EDIT] = {ADD_EDIT, SET_AUTHOR, UPDATE_SCENE, -1},
     [STORE_REPLACE] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, UPDATE_SCENE, SET_REPLACED, -1},
-    [STORE_SNAPSHOT] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, CUT_LOG, -1},
+    [STORE_SNAPSHOT] = {ADD_SNAPSHOT, DROP_SNAPSHOTS, CUT_LOG, CUT_AUTHORS, -1},
+    [STORE_AUTHOR] = {SET_KEY, -1},
     [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, DELETE_POSTER,
                       -1},
     [STORE_ASSET] = {ADD_ASSET, -1},
@@ -105,6 +119,9 @@ struct store_sqlite {
     sqlite3 *writer, *reader;
     sqlite3_stmt *statements[STATEMENT_COUNT];
     pthread_mutex_t read_lock;
+    sqlite3 *finder; /* of single edits: a scene that is being read delays nobody */
+    sqlite3_stmt *find_edit;
+    pthread_mutex_t find_lock;
 };
 
 static bool database_error(sqlite3 *db, const char *what, struct error *err)
@@ -169,20 +186,32 @@ static bool open_writer(struct store_sqlite *db, const char *file, struct error 
     return true;
 }
 
+static bool open_reader(sqlite3 **out, const char *file, struct error *err)
+{
+    if (sqlite3_open_v2(file, out, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, NULL) != SQLITE_OK) {
+        return database_error(*out, file, err);
+    }
+    sqlite3_busy_timeout(*out, 5000);
+    return true;
+}
+
 struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
 {
     struct store_sqlite *db = memory_alloc(1, sizeof(*db));
 
     pthread_mutex_init(&db->read_lock, NULL);
-    if (!open_writer(db, file, err)) {
+    pthread_mutex_init(&db->find_lock, NULL);
+    if (!open_writer(db, file, err) || !open_reader(&db->reader, file, err) ||
+        !open_reader(&db->finder, file, err)) {
         goto fail;
     }
-    if (sqlite3_open_v2(file, &db->reader, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, NULL) !=
-        SQLITE_OK) {
-        database_error(db->reader, file, err);
+    if (sqlite3_prepare_v2(db->finder,
+                           "SELECT revision FROM edits"
+                           " WHERE scene=?1 AND author=?2 AND edit=?3 AND edit>0",
+                           -1, &db->find_edit, NULL) != SQLITE_OK) {
+        database_error(db->finder, file, err);
         goto fail;
     }
-    sqlite3_busy_timeout(db->reader, 5000);
     return db;
 fail:
     store_sqlite_close(db);
@@ -197,8 +226,11 @@ void store_sqlite_close(struct store_sqlite *db)
     for (int i = 0; i < STATEMENT_COUNT; i++) {
         sqlite3_finalize(db->statements[i]);
     }
+    sqlite3_finalize(db->find_edit);
+    sqlite3_close(db->finder);
     sqlite3_close(db->reader);
     sqlite3_close(db->writer); /* the last one checkpoints */
+    pthread_mutex_destroy(&db->find_lock);
     pthread_mutex_destroy(&db->read_lock);
     free(db);
 }
@@ -245,6 +277,7 @@ static bool run_statement(struct store_sqlite *db, int which, const struct store
     sqlite3_bind_int64(statement, 8, write->time_ms);
     sqlite3_bind_int64(statement, 9, STORE_LOG_KEPT);
     bind_step(statement, &write->step);
+    bind_text(statement, 21, write->key);
     if (write->asset) {
         bind_asset(statement, write->asset);
     }
@@ -290,10 +323,12 @@ static char *column_text(sqlite3_stmt *statement, int column)
     return memory_text((const char *)sqlite3_column_text(statement, column));
 }
 
+/* An id, or a digest, which is as long. */
 static void column_id(sqlite3_stmt *statement, int column, char out[LIMIT_ID_BYTES + 1])
 {
     snprintf(out, LIMIT_ID_BYTES + 1, "%s", (const char *)sqlite3_column_text(statement, column));
 }
+_Static_assert((int)ASSET_ID_CHARACTERS == (int)LIMIT_ID_BYTES, "column_id reads both");
 
 /* Calls `row` for each row; `scene` is parameter 1 where the statement has one. */
 static bool query(struct store_sqlite *db, const char *sql, const char *scene, int64_t number,
@@ -431,6 +466,8 @@ static void author_row(void *data, sqlite3_stmt *statement)
     struct store_author *author = &loaded->authors[loaded->author_count++];
     column_id(statement, 0, author->author);
     author->edit = sqlite3_column_int64(statement, 1);
+    column_id(statement, 2, author->key);
+    author->revision = (uint64_t)sqlite3_column_int64(statement, 3);
 }
 
 static bool load_rows(struct store_sqlite *db, const char *scene, struct store_loaded *out,
@@ -450,8 +487,10 @@ static bool load_rows(struct store_sqlite *db, const char *scene, struct store_l
                  " ORDER BY revision",
                  scene, (int64_t)out->revision, edit_row, out, err) &&
            load_past(db, scene, out, err) &&
-           query(db, "SELECT author, edit FROM authors WHERE scene=?1", scene, 0, author_row, out,
-                 err);
+           query(db,
+                 "SELECT author, edit, key, revision FROM authors WHERE scene=?1"
+                 " ORDER BY revision",
+                 scene, 0, author_row, out, err);
 }
 
 bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
@@ -466,6 +505,26 @@ bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_
     if (!ok) {
         store_loaded_finish(out);
     }
+    return ok;
+}
+
+bool store_sqlite_find_edit(struct store_sqlite *db, const char *scene, const char *author,
+                            int64_t edit, uint64_t *out_revision, struct error *err)
+{
+    pthread_mutex_lock(&db->find_lock);
+    bind_text(db->find_edit, 1, scene);
+    bind_text(db->find_edit, 2, author);
+    sqlite3_bind_int64(db->find_edit, 3, edit);
+    const int result = sqlite3_step(db->find_edit);
+    const bool ok = result == SQLITE_ROW || result == SQLITE_DONE;
+    if (ok) {
+        *out_revision = result == SQLITE_ROW ? (uint64_t)sqlite3_column_int64(db->find_edit, 0) : 0;
+    } else {
+        database_error(db->finder, "finding an edit", err);
+    }
+    sqlite3_reset(db->find_edit);
+    sqlite3_clear_bindings(db->find_edit);
+    pthread_mutex_unlock(&db->find_lock);
     return ok;
 }
 

@@ -18,6 +18,8 @@ bool store_sqlite_list(struct store_sqlite *db,
                        struct error *err);
 bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
                        struct error *err);
+bool store_sqlite_find_edit(struct store_sqlite *db, const char *scene, const char *author,
+                            int64_t edit, uint64_t *out_revision, struct error *err);
 bool store_sqlite_list_assets(struct store_sqlite *db,
                               void (*each)(void *data, const struct store_asset *asset), void *data,
                               struct error *err);

@@ -70,6 +70,7 @@ static void gives_back_document_edits_and_authors(void **state)
     assert_int_equal(loaded.author_count, 1);
     assert_string_equal(loaded.authors[0].author, "ann");
     assert_int_equal(loaded.authors[0].edit, 2);
+    assert_int_equal(loaded.authors[0].revision, 4);
     store_loaded_finish(&loaded);
 
     assert_true(commit_one(db, write_of(STORE_SNAPSHOT, "s", 3, "", 0, "third")));
@@ -179,6 +180,60 @@ static void a_commit_is_all_or_nothing(void **state)
     store_sqlite_close(db);
 }
 
+static uint64_t find_edit(struct store_sqlite *db, const char *author, int64_t edit)
+{
+    uint64_t revision = 99;
+
+    assert_true(store_sqlite_find_edit(db, "s", author, edit, &revision, NULL));
+    return revision;
+}
+
+static void finds_single_edits(void **state)
+{
+    struct store_sqlite *db = open_database("f.sqlite");
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", 2, "ann", 7, "[1]")));
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", 3, "rest", 0, "[2]")));
+    assert_int_equal(find_edit(db, "ann", 7), 2);
+    assert_int_equal(find_edit(db, "ann", 6), 0);
+    assert_int_equal(find_edit(db, "bob", 7), 0);
+    assert_int_equal(find_edit(db, "rest", 0), 0);
+    assert_true(commit_one(db, write_of(STORE_DELETE, "s", 3, "", 0, NULL)));
+    assert_int_equal(find_edit(db, "ann", 7), 0);
+    store_sqlite_close(db);
+}
+
+/* Each edit is of another author; of all that there ever were those of the log are kept. */
+static void keeps_the_authors_of_the_log(void **state)
+{
+    struct store_sqlite *db = open_database("g.sqlite");
+    struct store_loaded loaded;
+    uint64_t last = STORE_LOG_KEPT + 500;
+    char author[16];
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
+    struct store_write *writes = memory_alloc((size_t)last, sizeof(*writes));
+    for (uint64_t revision = 2; revision <= last; revision++) {
+        snprintf(author, sizeof(author), "%u", (unsigned)revision);
+        writes[revision - 2] = write_of(STORE_EDIT, "s", revision, author, 1, "[]");
+        writes[revision - 2].next = revision < last ? &writes[revision - 1] : NULL;
+    }
+    assert_true(store_sqlite_commit(db, writes, NULL));
+    free(writes);
+    assert_true(commit_one(db, write_of(STORE_SNAPSHOT, "s", last, "", 0, "last")));
+    assert_true(store_sqlite_load(db, "s", &loaded, NULL));
+    assert_int_equal(loaded.author_count, STORE_LOG_KEPT);
+    assert_int_equal(loaded.authors[0].revision, last - STORE_LOG_KEPT + 1);
+    store_loaded_finish(&loaded);
+    /* Nothing of a forgotten one is left that its numbers could meet. */
+    assert_int_equal(find_edit(db, "2", 1), 0);
+    assert_true(commit_one(db, write_of(STORE_EDIT, "s", last + 1, "2", 1, "[]")));
+    store_sqlite_close(db);
+}
+
 static void see(void *data, const struct store_asset *asset)
 {
     struct store_asset *seen = data;
@@ -252,6 +307,8 @@ static void knows_older_databases(void **state)
                         "ALTER TABLE edits DROP COLUMN step;"
                         "ALTER TABLE edits DROP COLUMN label;"
                         "ALTER TABLE edits DROP COLUMN inverse;"
+                        "ALTER TABLE authors DROP COLUMN key;"
+                        "ALTER TABLE authors DROP COLUMN revision;"
                         "ALTER TABLE scenes DROP COLUMN replaced; PRAGMA user_version = 1");
     db = open_database("d.sqlite");
     assert_true(store_sqlite_load(db, "s", &loaded, NULL));
@@ -319,6 +376,8 @@ int main(void)
         cmocka_unit_test(gives_back_what_undoes),
         cmocka_unit_test(gives_back_posters),
         cmocka_unit_test(a_commit_is_all_or_nothing),
+        cmocka_unit_test(finds_single_edits),
+        cmocka_unit_test(keeps_the_authors_of_the_log),
         cmocka_unit_test(gives_back_files),
         cmocka_unit_test(knows_older_databases),
         cmocka_unit_test(flush_waits_until_all_is_told),
