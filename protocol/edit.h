@@ -44,6 +44,8 @@ struct history_entry {
 
 struct history *history_create(void);
 void history_destroy(struct history *history);
+/* The author's steps are gone. */
+void history_forget(struct history *history, const char *author);
 /* Edits of one author with the same non-empty group join in one step; of several sets of one place
  * in a group only the oldest value is kept. An undo or redo moves a step without applying it. */
 void history_record(struct history *history, const struct history_entry *entry);

@@ -65,6 +65,15 @@ static struct author *find_author(const struct history *history, const char *nam
     return author;
 }
 
+static struct author **link_of(struct history *history, const char *name)
+{
+    struct author **link = &history->newest;
+    while (*link && strcmp((*link)->name, name) != 0) {
+        link = &(*link)->next;
+    }
+    return link;
+}
+
 /* Forgets those who were not heard of for longest. */
 static void forget_oldest(struct history *history)
 {
@@ -82,10 +91,7 @@ static void forget_oldest(struct history *history)
 /* Finds or makes the author and puts it in front. */
 static struct author *hear_of(struct history *history, const char *name)
 {
-    struct author **link = &history->newest;
-    while (*link && strcmp((*link)->name, name) != 0) {
-        link = &(*link)->next;
-    }
+    struct author **link = link_of(history, name);
     struct author *author = *link;
     if (author) {
         *link = author->next;
@@ -114,6 +120,16 @@ void history_destroy(struct history *history)
         author_destroy(author);
     }
     free(history);
+}
+
+void history_forget(struct history *history, const char *author_name)
+{
+    struct author **link = link_of(history, author_name);
+    struct author *author = *link;
+    if (author) {
+        *link = author->next;
+        author_destroy(author);
+    }
 }
 
 static void record_edit(struct author *author, const struct history_entry *entry)

@@ -58,6 +58,7 @@
     X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \
     X(OPERATIONS, "operations", 10000, "operations", "operations of one edit")                     \
     X(POSTER_BYTES, "poster_bytes", 1048576, "bytes", "the last picture that is kept of a scene")  \
+    X(EDIT_JUMP, "edit_jump", 1000, "numbers", "from an edit of a client to its next")             \
     X(UNDO_GROUPS, "undo_groups", 1000, "groups", "undo steps kept for one author")                \
     X(IMAGE_SIDE, "image_side", 16384, "pixels", "width or height of a picture")                   \
     X(IMAGE_PIXELS, "image_pixels", 268435456, "pixels", "width times height of a picture")        \

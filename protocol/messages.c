@@ -14,6 +14,7 @@
 enum field_kind {
     FIELD_VALUE,
     FIELD_CLIENT,
+    FIELD_KEY,
     FIELD_CAMERA,
     FIELD_OPERATIONS,
     FIELD_NODES,
@@ -59,6 +60,8 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
     [MESSAGE_HELLO] = {"hello", "The first message.", FIELDS(
         {.param = {"client", PARAM_TEXT, .doc = "8 to 64 of A-Z a-z 0-9 _ -: the author."},
          .required = true, .kind = FIELD_CLIENT},
+        {.param = {"key", PARAM_TEXT, .doc = "What welcome told this client: 32 of 0-9 a-f."},
+         .kind = FIELD_KEY},
         {.param = {"name", PARAM_TEXT, .doc = "Shown to others."}},
         {.param = {"revision", COUNT, .doc = "The last one known, to resume."}},
         {.param = {"epoch", PARAM_TEXT, .doc = "The one that the revision belongs to."}})},
@@ -102,6 +105,11 @@ static const struct message_type server_messages[] = {
         {.param = {"epoch", PARAM_TEXT,
           .doc = "Revisions of different epochs have nothing in common."},
          .required = true},
+        {.param = {"author", PARAM_TEXT, .doc = "What others are told of who this client is."},
+         .required = true},
+        {.param = {"key", PARAM_TEXT,
+          .doc = "Secret of this client: who says its name has to show it."},
+         .required = true},
         {.param = {"renderer", .doc = "name, version, software, device."}, .required = true,
          .kind = FIELD_OBJECT},
         {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
@@ -123,7 +131,8 @@ static const struct message_type server_messages[] = {
         SKIPPED)},
     {"changed", "Somebody else's edit, or the result of one's own undo or redo.", FIELDS(
         REVISION,
-        {.param = {"author", PARAM_TEXT, .doc = "Client that made the edit."}, .required = true},
+        {.param = {"author", PARAM_TEXT, .doc = "`author` of its welcome, or rest."},
+         .required = true},
         {.param = {"ops", .doc = "The operations in canonical form."}, .required = true,
          .kind = FIELD_OPERATIONS},
         {.param = {"edit", COUNT, .doc = "Only to the author: number of the undo or redo."}})},
@@ -179,6 +188,14 @@ static bool check_client(const cJSON *json, const char *place, struct error *err
                      LIMIT_ID_BYTES);
 }
 
+static bool check_key(const cJSON *json, const char *place, struct error *err)
+{
+    const char *text = cJSON_IsString(json) ? json->valuestring : "";
+    return (strlen(text) == MESSAGE_KEY_CHARACTERS &&
+            strspn(text, "0123456789abcdef") == MESSAGE_KEY_CHARACTERS) ||
+           error_set(err, ERROR_INVALID, place, "expected %d of 0-9 a-f", MESSAGE_KEY_CHARACTERS);
+}
+
 static bool check_nodes(const cJSON *json, const char *place, struct error *err)
 {
     const cJSON *id;
@@ -212,6 +229,8 @@ static bool check_field(const struct field *field, const cJSON *json, const char
     switch (field->kind) {
     case FIELD_CLIENT:
         return check_client(json, place, err);
+    case FIELD_KEY:
+        return check_key(json, place, err);
     case FIELD_CAMERA:
         record_init(&camera, &camera_type);
         ok = record_read(&camera, json, place, err);
@@ -346,7 +365,7 @@ static cJSON *describe_field(const struct field *field)
         [FIELD_OBJECT] = "object",
     };
     cJSON *row;
-    if (field->kind == FIELD_VALUE || field->kind == FIELD_CLIENT) {
+    if (field->kind == FIELD_VALUE || field->kind == FIELD_CLIENT || field->kind == FIELD_KEY) {
         row = param_describe(&field->param);
         cJSON_DeleteItemFromObjectCaseSensitive(row, "default");
     } else {

@@ -21,6 +21,8 @@ enum message_kind {
     MESSAGE_COUNT
 };
 
+enum { MESSAGE_KEY_CHARACTERS = 32 }; /* of a client: 128 random bits */
+
 struct message {
     enum message_kind kind;
     cJSON *json; /* the whole object, checked: members known, types and ranges right */

@@ -12,6 +12,7 @@
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "room_authors.h"
 #include "room_log.h"
 #include "room_worker.h"
 #include "say.h"
@@ -66,38 +67,10 @@ void room_destroy(struct room *room)
     fallback_finish(room);
     poster_finish(room);
     picker_finish_room(room);
-    while (room->authors) {
-        struct room_author *author = room->authors;
-
-        room->authors = author->next;
-        free(author);
-    }
+    authors_finish(&room->authors);
     history_destroy(room->history);
     scene_destroy(room->scene);
     free(room);
-}
-
-static struct room_author *find_author(const struct room *room, const char *id)
-{
-    struct room_author *author = room->authors;
-
-    while (author && strcmp(author->id, id) != 0) {
-        author = author->next;
-    }
-    return author;
-}
-
-static struct room_author *add_author(struct room *room, const char *id)
-{
-    struct room_author *author = find_author(room, id);
-
-    if (!author) {
-        author = memory_alloc(1, sizeof(*author));
-        snprintf(author->id, sizeof(author->id), "%s", id);
-        author->next = room->authors;
-        room->authors = author;
-    }
-    return author;
 }
 
 static bool replay(struct room *room, const struct store_edit *edit, struct error *err)
@@ -175,41 +148,10 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
         return NULL;
     }
     recall_all(room, loaded);
-    for (size_t i = 0; i < loaded->author_count; i++) {
-        struct room_author *author = add_author(room, loaded->authors[i].author);
-
-        author->last_edit = author->loaded_edit = loaded->authors[i].edit;
-    }
+    room_authors_load(room, loaded);
     room->durable = room->log_from = room->revision;
     room->edits_since_snapshot = (int)loaded->edit_count;
     return room;
-}
-
-int64_t room_last_edit(const struct room *room, const char *author)
-{
-    const struct room_author *known = find_author(room, author);
-
-    return known ? known->last_edit : 0;
-}
-
-/* Whether this number of the author has been used. */
-static enum room_outcome check_number(const struct room *room, const struct room_change *change,
-                                      uint64_t *out_revision, struct error *err)
-{
-    const struct room_author *author = change->edit ? find_author(room, change->author) : NULL;
-
-    if (!author || change->edit > author->last_edit) {
-        return ROOM_APPLIED;
-    }
-    const struct room_entry *entry = room_log_find(room, change->author, change->edit);
-    if (!entry && change->edit > author->loaded_edit && !room->log_cut) {
-        error_set(err, ERROR_CONFLICT, "/edit",
-                  "numbers count up: %" PRId64 " is not above %" PRId64, change->edit,
-                  author->last_edit);
-        return ROOM_REFUSED;
-    }
-    *out_revision = entry ? entry->revision : room->durable;
-    return ROOM_KNOWN;
 }
 
 /* --- what follows an accepted change --- */
@@ -224,11 +166,10 @@ static void on_durable(void *data)
     if (commit->revision > room->durable) {
         room->durable = commit->revision;
     }
-    for (struct session *session = room->sessions; session && commit->edit > 0;
-         session = session->next) {
-        if (strcmp(session->client, commit->author) == 0) {
-            session_tell_durable(session, commit->edit, commit->revision);
-        }
+    const struct author *author =
+        commit->edit > 0 ? authors_find(&room->authors, commit->author) : NULL;
+    if (author && author->session) {
+        session_tell_durable(author->session, commit->edit, commit->revision);
     }
     room->pending--;
     if (room->deleted && room->pending == 0) {
@@ -266,9 +207,10 @@ static void push_write(struct room *room, enum store_kind kind, const struct roo
     write->data = commit;
     snprintf(write->scene, sizeof(write->scene), "%s", room->id);
     snprintf(write->author, sizeof(write->author), "%s", change->author);
+    snprintf(write->key, sizeof(write->key), "%s", change->by ? change->by->key : "");
     room->pending++;
     store_push(room->hub->store, write);
-    if (kind != STORE_SNAPSHOT && kind != STORE_DELETE) {
+    if (kind == STORE_CREATE || kind == STORE_EDIT || kind == STORE_REPLACE) {
         struct timespec now;
 
         clock_gettime(CLOCK_REALTIME, &now);
@@ -295,11 +237,23 @@ void room_snapshot(struct room *room)
     room->edits_since_snapshot = 0;
     push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""},
                scene_print(room->scene, false), NULL);
+    room_authors_cut(room);
+}
+
+void room_store_author(struct room *room, struct author *author)
+{
+    push_write(room, STORE_AUTHOR, &(struct room_change){.author = author->id, .by = author}, NULL,
+               NULL);
+}
+
+const char *room_change_name(const struct room_change *change)
+{
+    return change->by ? change->by->name : change->author;
 }
 
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
 {
-    struct blob *message = say_changed(room->revision, change->author, ops, 0);
+    struct blob *message = say_changed(room->revision, room_change_name(change), ops, 0);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         if (session != change->session) {
@@ -318,8 +272,8 @@ static void commit_change(struct room *room, const struct room_change *change, c
     char *text = json_print(ops, false);
 
     room->revision++;
-    if (change->edit) {
-        add_author(room, change->author)->last_edit = change->edit;
+    if (change->by) {
+        authors_edited(&room->authors, change->by, change->edit, room->revision);
     }
     room_log_add(room, change, text);
     tell_others(room, change, text);
@@ -363,7 +317,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
                             uint64_t *out_revision, struct error *err)
 {
     cJSON *applied = NULL, *inverse = NULL;
-    enum room_outcome outcome = check_number(room, change, out_revision, err);
+    enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     if (outcome != ROOM_APPLIED) {
         return outcome;
@@ -385,7 +339,7 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
                             uint64_t *out_revision, cJSON **out_skipped, struct error *err)
 {
     struct history_move move = {0};
-    enum room_outcome outcome = check_number(room, change, out_revision, err);
+    enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     *out_skipped = NULL;
     if (outcome != ROOM_APPLIED) {
@@ -424,7 +378,6 @@ void room_replace(struct room *room, struct scene *scene, const struct room_chan
     room->edits_since_snapshot = 0;
     problem_let_in(room); /* it may have helped */
     room_log_clear(room);
-    room->log_cut = true;
     room_worker_replace(room);
     struct blob *message = room_document_message(room);
     for (struct session *session = room->sessions; session; session = session->next) {
@@ -452,7 +405,7 @@ struct blob *room_changed_message(const struct room *room, uint64_t revision, co
     const struct room_entry *entry = room_log_entry(room, revision);
     bool own = strcmp(entry->author, client) == 0;
 
-    return say_changed(revision, entry->author, entry->ops, own ? entry->edit : 0);
+    return say_changed(revision, entry->name, entry->ops, own ? entry->edit : 0);
 }
 
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "authors.h"
 #include "fallback.h"
 #include "picker.h"
 #include "protocol/asset.h"
@@ -21,8 +22,8 @@ struct session;
 struct store_loaded;
 
 enum {
-    ROOM_LOG = 2048, /* edits kept in memory for those who resume */
-    ROOM_LOG_BYTES = 4194304,
+    ROOM_LOG = 2048,          /* edits kept in memory for those who resume */
+    ROOM_LOG_BYTES = 4194304, /* the same, in operations; more where they are not committed */
     ROOM_SNAPSHOT_EDITS = 256,
     ROOM_IDLE_MS = 60000, /* closed when nobody looked at it for so long */
 };
@@ -32,14 +33,8 @@ struct room_entry {
     uint64_t revision;
     int64_t edit; /* the author's number; 0: none */
     char author[LIMIT_ID_BYTES + 1];
+    char name[AUTHOR_NAME_CHARACTERS + 1]; /* that others are told */
     char *ops;
-};
-
-struct room_author {
-    char id[LIMIT_ID_BYTES + 1];
-    int64_t last_edit;   /* newest number in the log */
-    int64_t loaded_edit; /* what that was when the room was opened */
-    struct room_author *next;
 };
 
 struct room {
@@ -53,8 +48,7 @@ struct room {
     struct room_entry log[ROOM_LOG]; /* ring: entry of revision r at r % ROOM_LOG */
     uint64_t log_from;               /* the log holds every revision above this one */
     size_t log_bytes;
-    bool log_cut; /* it no longer holds every edit since the room was opened */
-    struct room_author *authors;
+    struct authors authors;
     struct session *sessions;
     size_t session_count;
     size_t pending; /* writes not yet committed: the room stays */
@@ -93,15 +87,20 @@ void room_destroy(struct room *room);
 /* Queues the creation of a new room's scene, or its deletion, after which the room frees itself. */
 void room_store_new(struct room *room, void (*then)(void *data), void *data);
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data);
+/* Queues the key of an author whose edits are older than it. */
+void room_store_author(struct room *room, struct author *author);
 
 struct room_change {
     const char *author;        /* client id, or "rest" */
+    struct author *by;         /* NULL: "rest", who has no numbers */
     int64_t edit;              /* 0: none */
     const char *group, *label; /* of the step of undo; may be NULL */
     struct session *session;   /* of the author; NULL: none */
     void (*then)(void *data);  /* after the commit, on the store's thread; may be NULL */
     void *data;
 };
+/* What others are told of who it was. */
+const char *room_change_name(const struct room_change *change);
 
 enum room_outcome { ROOM_APPLIED, ROOM_KNOWN /* a resend: nothing changed */, ROOM_REFUSED };
 
@@ -115,7 +114,6 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
 /* Puts another document in place; takes `scene`. */
 void room_replace(struct room *room, struct scene *scene, const struct room_change *change);
 
-int64_t room_last_edit(const struct room *room, const char *author);
 /* The `document` message; caller unrefs. */
 struct blob *room_document_message(const struct room *room);
 /* The `changed` message of a logged revision for `client`: `edit` only where that is the author.

@@ -33,7 +33,6 @@ static void forget_oldest(struct room *room)
     fallback_forget(room, room->log_from + 1);
     struct room_entry *entry = entry_at(room, ++room->log_from);
 
-    room->log_cut = true;
     room->log_bytes -= strlen(entry->ops);
     free(entry->ops);
     memset(entry, 0, sizeof(*entry));
@@ -43,14 +42,16 @@ void room_log_add(struct room *room, const struct room_change *change, const cha
 {
     size_t length = strlen(ops);
 
-    while (room->log_from + 1 < room->revision && (room->revision - room->log_from > ROOM_LOG ||
-                                                   room->log_bytes + length > ROOM_LOG_BYTES)) {
+    while (room->log_from + 1 < room->revision &&
+           (room->revision - room->log_from > ROOM_LOG ||
+            (room->log_bytes + length > ROOM_LOG_BYTES && room->log_from < room->durable))) {
         forget_oldest(room);
     }
     struct room_entry *entry = entry_at(room, room->revision);
     *entry = (struct room_entry){
         .revision = room->revision, .edit = change->edit, .ops = memory_text(ops)};
     snprintf(entry->author, sizeof(entry->author), "%s", change->author);
+    snprintf(entry->name, sizeof(entry->name), "%s", room_change_name(change));
     room->log_bytes += length;
 }
 

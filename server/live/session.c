@@ -6,12 +6,14 @@
 #include <string.h>
 #include <sys/random.h>
 
+#include "hello.h"
 #include "hub.h"
 #include "picker.h"
 #include "problem.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "room.h"
+#include "room_authors.h"
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -47,6 +49,10 @@ void session_leave_room(struct session *session)
         link = &(*link)->next;
     }
     *link = session->next;
+    if (session->author) {
+        room_authors_left(room, session->author);
+        session->author = NULL;
+    }
     session->next = NULL;
     session->room = NULL;
     room->session_count--;
@@ -102,7 +108,7 @@ void session_close(struct session *session, int code, const char *reason, int re
     }
 }
 
-static void say_error(struct session *session, const struct error *err)
+void session_error(struct session *session, const struct error *err)
 {
     session_say(session, say_fault("error", error_kind_name(err->kind), err));
 }
@@ -141,155 +147,61 @@ void session_tell_rest(struct session *session, int wait_ms)
     session_say(session, say_fault("info", error_kind_name(err.kind), &err));
 }
 
-/* --- hello --- */
+/* --- messages --- */
 
-static void add_limits(cJSON *welcome)
+/* Numbers may be left out, but nobody gets to where none is left. */
+static bool use_number(struct session *session, int64_t number, struct error *err)
 {
-    cJSON *limits = cJSON_AddObjectToObject(welcome, "limits");
-    size_t count = 0;
-    const struct limit *table = limits_table(&count);
+    const int64_t greatest = session->newest_edit + LIMIT_EDIT_JUMP;
 
-    for (size_t i = 0; i < count; i++) {
-        cJSON_AddNumberToObject(limits, table[i].name, (double)table[i].value);
+    if (number > greatest) {
+        return error_set(err, ERROR_LIMIT, "/edit",
+                         "%" PRId64 " is above the maximum %" PRId64 ": %d above the newest",
+                         number, greatest, LIMIT_EDIT_JUMP);
     }
+    if (number > session->newest_edit) {
+        session->newest_edit = number;
+    }
+    return true;
 }
 
-/* What the newest steps are called, the newest first. */
-static void add_labels(cJSON *welcome, const struct session *session, const char *name, bool redo)
-{
-    cJSON *labels = cJSON_AddArrayToObject(welcome, name);
-
-    for (size_t i = 0; i < SESSION_LABELS; i++) {
-        const char *label = history_label(session->room->history, session->client, redo, i);
-
-        if (!label) {
-            return;
-        }
-        cJSON_AddItemToArray(labels, cJSON_CreateString(label));
-    }
-}
-
-static void say_welcome(struct session *session)
+static enum room_outcome apply(struct session *session, const struct message *message,
+                               const struct room_change *change, uint64_t *out_revision,
+                               cJSON **out_skipped, struct error *err)
 {
     struct room *room = session->room;
-    const struct renderer_info *info = &session->hub->renderer;
-    cJSON *welcome = say_begin("welcome");
-    size_t undo = 0, redo = 0;
 
-    history_depth(room->history, session->client, &undo, &redo);
-    cJSON_AddStringToObject(welcome, "session", session->id);
-    cJSON_AddStringToObject(welcome, "scene", room->id);
-    cJSON_AddNumberToObject(welcome, "revision", (double)room->revision);
-    cJSON_AddStringToObject(welcome, "epoch", room->epoch);
-    cJSON *renderer = cJSON_AddObjectToObject(welcome, "renderer");
-    cJSON_AddStringToObject(renderer, "name", info->name);
-    cJSON_AddStringToObject(renderer, "version", info->version);
-    cJSON_AddBoolToObject(renderer, "software", info->software);
-    cJSON_AddStringToObject(renderer, "device", info->device);
-    cJSON_AddNumberToObject(welcome, "last_edit", (double)room_last_edit(room, session->client));
-    cJSON_AddNumberToObject(welcome, "undo", (double)undo);
-    cJSON_AddNumberToObject(welcome, "redo", (double)redo);
-    add_labels(welcome, session, "undo_labels", false);
-    add_labels(welcome, session, "redo_labels", true);
-    add_limits(welcome);
-    session_say(session, say(welcome));
+    if (!use_number(session, change->edit, err)) {
+        metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
+        return ROOM_REFUSED;
+    }
+    if (message->kind == MESSAGE_EDIT) {
+        return room_edit(room, change, cJSON_GetObjectItemCaseSensitive(message->json, "ops"),
+                         out_revision, err);
+    }
+    enum room_outcome outcome =
+        room_undo(room, change, message->kind == MESSAGE_REDO, out_revision, out_skipped, err);
+    if (outcome == ROOM_APPLIED) {
+        session_say(session, room_changed_message(room, *out_revision, session->client));
+    }
+    return outcome;
 }
-
-/* What the client missed, if the log still holds it; else the document. */
-static void bring_up_to_date(struct session *session, const cJSON *hello)
-{
-    struct room *room = session->room;
-    uint64_t known = (uint64_t)json_member_number(hello, "revision", 0);
-    bool resumes = strcmp(json_member_text(hello, "epoch", ""), room->epoch) == 0 &&
-                   known >= room->log_from && known <= room->revision && known > 0;
-
-    if (!resumes) {
-        session_say(session, room_document_message(room));
-        return;
-    }
-    for (uint64_t r = known + 1; r <= room->revision; r++) {
-        session_say(session, room_changed_message(room, r, session->client));
-    }
-}
-
-static void enter_room(struct session *session, struct room *room, const char *client)
-{
-    for (struct session *other = room->sessions, *next; other; other = next) {
-        next = other->next;
-        if (strcmp(other->client, client) == 0) {
-            session_close(other, CLOSE_NORMAL, "replaced", -1);
-            other->client[0] = '\0';
-        }
-    }
-    snprintf(session->client, sizeof(session->client), "%s", client);
-    session->room = room;
-    session->next = room->sessions;
-    room->sessions = session;
-    room->session_count++;
-    room->idle_since = 0;
-}
-
-/* Takes the lock and keeps it. */
-static void hello(struct session *session, const char *scene, const cJSON *message)
-{
-    struct hub *hub = session->hub;
-    struct error err = {0};
-    struct room *room = hub_lock_room(hub, scene, &err);
-
-    if (!room) {
-        hub_lock(hub);
-        say_error(session, &err);
-        session_close(session, CLOSE_POLICY, error_kind_name(err.kind), -1);
-        return;
-    }
-    if (session->close_code) {
-        return;
-    }
-    if (session->room) {
-        error_set(&err, ERROR_INVALID, "/type", "hello was said already");
-        say_error(session, &err);
-        return;
-    }
-    enter_room(session, room, json_member_text(message, "client", ""));
-    say_welcome(session);
-    bring_up_to_date(session, message);
-    problem_tell(session, room);
-    compiles_tell(session, room, clock_ms());
-    if (!hub_accepts_scene(hub, room->scene, &err)) {
-        error_set(&err, ERROR_FORBIDDEN, err.place,
-                  "this server runs no code: what has some is not shown as it is meant");
-        session_say(session, say_fault("warning", "code_off", &err));
-    }
-    log_debug("session", "%s entered %s as %s", session->id, room->id, session->client);
-}
-
-/* --- the other messages --- */
 
 static void edit(struct session *session, const struct message *message)
 {
     struct error err = {0};
     uint64_t revision = 0;
-    struct room_change change = {
+    const struct room_change change = {
         .author = session->client,
+        .by = session->author,
         .edit = (int64_t)json_member_number(message->json, "edit", 0),
         .group = json_member_text(message->json, "group", NULL),
         .label = json_member_text(message->json, "label", NULL),
         .session = session,
     };
-    enum room_outcome outcome;
     cJSON *skipped = NULL;
+    const enum room_outcome outcome = apply(session, message, &change, &revision, &skipped, &err);
 
-    if (message->kind == MESSAGE_EDIT) {
-        outcome =
-            room_edit(session->room, &change,
-                      cJSON_GetObjectItemCaseSensitive(message->json, "ops"), &revision, &err);
-    } else {
-        outcome = room_undo(session->room, &change, message->kind == MESSAGE_REDO, &revision,
-                            &skipped, &err);
-        if (outcome == ROOM_APPLIED) {
-            session_say(session, room_changed_message(session->room, revision, session->client));
-        }
-    }
     if (outcome == ROOM_REFUSED) {
         session_say(session, say_rejected(change.edit, &err, skipped));
     } else {
@@ -303,7 +215,7 @@ static void pick(struct session *session, const cJSON *message)
     struct error err = {0};
 
     if (!picker_ask(session, message, &err)) {
-        say_error(session, &err);
+        session_error(session, &err);
     }
 }
 
@@ -312,7 +224,7 @@ static void view(struct session *session, const cJSON *message)
     struct error err = {0};
 
     if (!frames_set_view(session, message, &err)) {
-        say_error(session, &err);
+        session_error(session, &err);
     }
 }
 
@@ -321,7 +233,7 @@ static void retry(struct session *session, const cJSON *message)
     struct error err = {0};
 
     if (!problem_retry(session->room, json_member_text(message, "place", NULL), &err)) {
-        say_error(session, &err);
+        session_error(session, &err);
     }
 }
 
@@ -331,7 +243,7 @@ static void handle(struct session *session, const struct message *message)
         struct error err = {0};
 
         error_set(&err, ERROR_INVALID, "/type", "the first message must be hello");
-        say_error(session, &err);
+        session_error(session, &err);
         session_close(session, CLOSE_POLICY, "protocol", -1);
         return;
     }
@@ -369,9 +281,10 @@ static void refuse(struct session *session, const char *text, size_t length,
 
     if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
         metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
+        use_number(session, (int64_t)number, NULL);
         session_say(session, say_rejected((int64_t)number, err, NULL));
     } else {
-        say_error(session, err);
+        session_error(session, err);
     }
     cJSON_Delete(json);
 }
@@ -389,7 +302,7 @@ void session_receive(struct session *session, const char *scene, const char *tex
         return;
     }
     if (message.kind == MESSAGE_HELLO) {
-        hello(session, scene, message.json); /* locks */
+        hello_receive(session, scene, message.json); /* locks */
     } else {
         hub_lock(hub);
         if (!session->close_code) {

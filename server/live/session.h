@@ -7,6 +7,7 @@
 #include "frames.h"
 #include "server/net/outbox.h"
 
+struct author;
 struct hub;
 struct room;
 
@@ -26,6 +27,8 @@ struct session {
     struct session *next; /* in the room */
     char id[17];
     char client[LIMIT_ID_BYTES + 1]; /* "" before hello */
+    struct author *author;           /* in the room; NULL: none, or another session's by now */
+    int64_t newest_edit;             /* the greatest number used, of refused edits too */
     struct outbox outbox;
     struct frames frames;
     uint64_t pick_turn; /* of the picker, when it answered last */
@@ -48,6 +51,8 @@ void session_frame_written(struct session *session, uint32_t frame, size_t bytes
 
 void session_say(struct session *session, struct blob *message);  /* takes the reference */
 void session_send(struct session *session, struct blob *message); /* borrows it */
+/* A notice of what was wrong with a message. */
+void session_error(struct session *session, const struct error *err);
 void session_close(struct session *session, int code, const char *reason, int retry_ms);
 /* The scene goes away; the connection closes by itself. */
 void session_leave_room(struct session *session);

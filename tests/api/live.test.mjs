@@ -59,7 +59,7 @@ describe('edits', () => {
         assert.equal((await a.next('applied', { edit })).revision, 2);
         assert.equal((await a.next('applied', { edit, durable: true })).undo, 1);
         const changed = await b.next('changed');
-        assert.deepEqual([changed.revision, changed.author], [2, a.client]);
+        assert.deepEqual([changed.revision, changed.author], [2, a.welcome.author]);
         assert.deepEqual(changed.ops, [{ op: 'set', at: RADIUS, value: 1.25 }]);
         assert.equal(changed.edit, undefined);
         assert.equal(a.find('changed'), undefined);

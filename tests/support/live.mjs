@@ -94,6 +94,9 @@ export const handshake = (port, scene, headers = {}) =>
         .reduce((text, [name, value]) => `${text}${name}: ${value}\r\n`, `GET /v1/scenes/${scene}/live HTTP/1.1\r\n`) +
     '\r\n';
 
+/** What each client was told, as a page keeps it beside its author. */
+const keys = new Map();
+
 /**
  * A live connection. `messages` and `frames` hold what came, in order; frames are acknowledged at
  * once unless `ack: false`.
@@ -122,7 +125,10 @@ export class Live {
         this.socket.on('error', ({ code }) => Object.assign(this, { closed: true, error: code }));
     }
 
-    /** Connects, says hello, waits for the document or what was missed. */
+    /**
+     * Connects, says hello with the key that this client was told before (or with `key`; null: with
+     * none), waits for the answer: `welcome` has the type `closed` where the server refuses.
+     */
     static async open(daemon, scene, options = {}) {
         const live = new Live(daemon, scene, options);
         await until(() => live.status !== null || live.closed, 'the handshake');
@@ -130,8 +136,12 @@ export class Live {
             return live;
         }
         if (options.hello !== false) {
-            live.say({ type: 'hello', client: live.client, ...options.resume });
+            const { key = keys.get(live.client) ?? null } = options;
+            live.say({ type: 'hello', client: live.client, ...(key === null ? {} : { key }), ...options.resume });
             live.welcome = await live.next('welcome');
+            if (live.welcome.key) {
+                keys.set(live.client, live.welcome.key);
+            }
             live.edit = live.welcome?.last_edit ?? 0;
         }
         return live;

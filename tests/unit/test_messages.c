@@ -43,6 +43,9 @@ static void test_accepts(void **state)
     assert_accepted("{\"client\":\"12345678\",\"name\":\"Anna\",\"revision\":9007199254740991,"
                     "\"epoch\":\"e1\",\"type\":\"hello\"}",
                     MESSAGE_HELLO);
+    assert_accepted("{\"type\":\"hello\",\"client\":\"12345678\","
+                    "\"key\":\"0123456789abcdef0123456789abcdef\"}",
+                    MESSAGE_HELLO);
     assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":4096}", MESSAGE_VIEW);
     assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":1,\"isolate\":[]}",
                     MESSAGE_VIEW);
@@ -78,6 +81,11 @@ static void test_refuses(void **state)
                    "expected 8 to 64");
     assert_refused("{\"type\":\"hello\",\"client\":12345678}", ERROR_INVALID, "/client",
                    "expected 8 to 64");
+    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"key\":\"\"}", ERROR_INVALID,
+                   "/key", "expected 32 of 0-9 a-f");
+    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\","
+                   "\"key\":\"0123456789ABCDEF0123456789ABCDEF\"}",
+                   ERROR_INVALID, "/key", "expected 32 of 0-9 a-f");
     assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"revision\":-1}", ERROR_INVALID,
                    "/revision", "-1 is below the minimum 0");
     assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"color\":1}", ERROR_SYNTAX,
