@@ -47,9 +47,9 @@ test("a reloaded tab keeps its author, another open tab has its own", async () =
     const one = new Memory();
     const first = await takeAuthor(all, one, tabs.locksOf("one"));
     const other = await takeAuthor(all, new Memory(), tabs.locksOf("two"));
-    expect(other).not.toBe(first);
+    expect(other.id).not.toBe(first.id);
     tabs.close("one");
-    expect(await takeAuthor(all, one, tabs.locksOf("one"))).toBe(first);
+    expect((await takeAuthor(all, one, tabs.locksOf("one"))).id).toBe(first.id);
 });
 
 test("a duplicated tab is not taken for the one it was made of", async () => {
@@ -57,7 +57,7 @@ test("a duplicated tab is not taken for the one it was made of", async () => {
     const tabs = new Tabs();
     const copied = new Memory();
     const first = await takeAuthor(all, copied, tabs.locksOf("one"));
-    expect(await takeAuthor(all, copied, tabs.locksOf("two"))).not.toBe(first);
+    expect((await takeAuthor(all, copied, tabs.locksOf("two"))).id).not.toBe(first.id);
 });
 
 test("a restarted browser is the author it was", async () => {
@@ -65,13 +65,56 @@ test("a restarted browser is the author it was", async () => {
     const tabs = new Tabs();
     const first = await takeAuthor(all, new Memory(), tabs.locksOf("one"));
     tabs.close("one");
-    expect(await takeAuthor(all, new Memory(), tabs.locksOf("two"))).toBe(first);
+    expect((await takeAuthor(all, new Memory(), tabs.locksOf("two"))).id).toBe(first.id);
 });
 
 test("without locks an author lives as long as the tab", async () => {
     const all = new Memory();
     const tab = new Memory();
     const first = await takeAuthor(all, tab, undefined);
-    expect(await takeAuthor(all, tab, undefined)).toBe(first);
-    expect(await takeAuthor(all, new Memory(), undefined)).not.toBe(first);
+    expect((await takeAuthor(all, tab, undefined)).id).toBe(first.id);
+    expect((await takeAuthor(all, new Memory(), undefined)).id).not.toBe(first.id);
+});
+
+const KEY = "0123456789abcdef".repeat(2);
+
+test("the key stays beside its author, in the tab and in the browser", async () => {
+    const all = new Memory();
+    const tabs = new Tabs();
+    const one = new Memory();
+    const first = await takeAuthor(all, one, tabs.locksOf("one"));
+    expect(first.key).toBe(null);
+    first.keep(KEY);
+    tabs.close("one");
+    const reloaded = await takeAuthor(all, one, tabs.locksOf("one"));
+    expect([reloaded.id, reloaded.key]).toEqual([first.id, KEY]);
+    tabs.close("one");
+    const restarted = await takeAuthor(all, new Memory(), tabs.locksOf("two"));
+    expect([restarted.id, restarted.key]).toEqual([first.id, KEY]);
+    const other = await takeAuthor(all, new Memory(), tabs.locksOf("three"));
+    expect([other.id === first.id, other.key]).toEqual([false, null]);
+});
+
+test("an author from before there were keys has none", async () => {
+    const all = new Memory();
+    all.setItem("fieldcast.authors", JSON.stringify(["old-author"]));
+    const author = await takeAuthor(all, new Memory(), new Tabs().locksOf("one"));
+    expect([author.id, author.key]).toEqual(["old-author", null]);
+});
+
+test("an author whose id is somebody else's is never taken again", async () => {
+    const all = new Memory();
+    const tabs = new Tabs();
+    const one = new Memory();
+    const author = await takeAuthor(all, one, tabs.locksOf("one"));
+    const { id } = author;
+    author.keep(KEY);
+    author.renew();
+    expect([author.id === id, author.key]).toEqual([false, null]);
+    tabs.close("one");
+    expect((await takeAuthor(all, one, tabs.locksOf("one"))).id).toBe(author.id);
+    tabs.close("one");
+    const next = await takeAuthor(all, new Memory(), tabs.locksOf("two"));
+    const later = await takeAuthor(all, new Memory(), tabs.locksOf("three"));
+    expect([next.id, later.id]).not.toContain(id);
 });

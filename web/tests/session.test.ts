@@ -157,7 +157,7 @@ class Client {
     constructor(name: string, server: Server) {
         this.name = name;
         this.server = server;
-        this.session = createSession(name, SCHEMA);
+        this.session = createSession(SCHEMA);
     }
 
     /* The worker's knowledge of the revision may be older than the page's by `lag`. */
@@ -297,7 +297,7 @@ test("three clients converge over delays, refusals, lost connections and restart
 
 function live(): { session: Session; say: (message: SessionMessage) => readonly SessionEvent[] } {
     const state = {
-        session: createSession("me", SCHEMA),
+        session: createSession(SCHEMA),
         say: (message: SessionMessage) => {
             const outcome = receive(state.session, message);
             state.session = outcome.session;
@@ -374,6 +374,19 @@ test("edits that a restarted server no longer has are sent again", () => {
     expect(takeOutbox(state.session).messages).toMatchObject([{ edit: 1, ops: [radius(3)] }]);
 });
 
+test("edits that were refused leave no gap after a reconnect", () => {
+    const state = live();
+    for (let edited = 1; edited <= 1500; edited++) {
+        state.session = takeOutbox(edit(state.session, [radius(3)]).session).session;
+        const why = { code: "invalid", place: "", message: "" };
+        state.say({ type: "rejected", edit: edited, ...why });
+    }
+    state.session = disconnect(edit(edit(state.session, [radius(4)]).session, [radius(5)]).session);
+    state.say({ type: "welcome", revision: 9, epoch: "f", last_edit: 7 });
+    state.say({ type: "document", revision: 9, document: SCENE });
+    expect(takeOutbox(state.session).messages).toMatchObject([{ edit: 8 }, { edit: 9 }]);
+});
+
 test("a cancelled gesture is forgotten, or undone where it was sent", () => {
     const state = live();
     state.session = edit(state.session, [radius(3)], { group: "g" }).session;
@@ -385,7 +398,7 @@ test("a cancelled gesture is forgotten, or undone where it was sent", () => {
 });
 
 test("an edit before the document is refused", () => {
-    const { problem } = edit(createSession("me", SCHEMA), [radius(1)]);
+    const { problem } = edit(createSession(SCHEMA), [radius(1)]);
     expect(problem?.code).toBe("unavailable");
 });
 
@@ -399,7 +412,7 @@ test("an undo tells what it left out, and a step that was left out whole is gone
         redo: 0,
     } as const;
     const ops: readonly Operation[] = [{ op: "set", at: "/nodes/a/params/radius", value: 1 }];
-    let session = receive(createSession("me", SCHEMA), welcome).session;
+    let session = receive(createSession(SCHEMA), welcome).session;
     session = receive(session, { type: "document", revision: 1, document: SCENE }).session;
     session = askHistory(session, "undo");
     const refused = receive(session, {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Who edits: an author's id, to which the server keeps what can be undone. It outlives a reload of
- * the page and a restart of the browser; each open tab holds one of its own. */
+/* Who edits: an author's id, to which the server keeps what can be undone, and the key that the
+ * server wants to see with it. They outlive a reload of the page and a restart of the browser; each
+ * open tab holds ones of its own. */
 import type { Storage } from "../model/stores.ts";
 
 const TAB_KEY = "fieldcast.author";
@@ -9,15 +10,39 @@ const MOST_KNOWN = 16;
 /* The page before a reload lets go of its id when it is gone. */
 const RELOAD_MS = 1000;
 
+/* As it is kept: the id, and behind a dot the key, once there is one. */
+interface Kept {
+    readonly id: string;
+    readonly key: string | null;
+}
+
+export interface Author extends Kept {
+    /* The server has told the key. */
+    keep(key: string): void;
+    /* The server knows the id as somebody else's: from now on another one. */
+    renew(): void;
+}
+
 export function randomId(): string {
     const bytes = crypto.getRandomValues(new Uint8Array(12));
     return [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-function readKnown(all: Storage): string[] {
+function parseKept(text: string): Kept {
+    const [id = "", key = null] = text.split(".");
+    return { id, key };
+}
+
+function printKept({ id, key }: Kept): string {
+    return key === null ? id : `${id}.${key}`;
+}
+
+function readKnown(all: Storage): Kept[] {
     try {
         const known: unknown = JSON.parse(all.getItem(KNOWN_KEY) ?? "[]");
-        return Array.isArray(known) ? known.filter((id) => typeof id === "string") : [];
+        return Array.isArray(known)
+            ? known.filter((kept) => typeof kept === "string").map(parseKept)
+            : [];
     } catch {
         return [];
     }
@@ -37,20 +62,75 @@ function hold(locks: LockManager, id: string, options: LockOptions): Promise<boo
 
 async function firstFree(
     locks: LockManager,
-    own: string | null,
-    known: readonly string[],
-): Promise<string> {
-    if (own !== null && (await hold(locks, own, { signal: AbortSignal.timeout(RELOAD_MS) }))) {
+    own: Kept | null,
+    known: readonly Kept[],
+): Promise<Kept> {
+    const reloaded = { signal: AbortSignal.timeout(RELOAD_MS) };
+    if (own !== null && (await hold(locks, own.id, reloaded))) {
         return own;
     }
-    for (const id of known) {
-        if (id !== own && (await hold(locks, id, { ifAvailable: true }))) {
-            return id;
+    for (const kept of known) {
+        if (kept.id !== own?.id && (await hold(locks, kept.id, { ifAvailable: true }))) {
+            return kept;
         }
     }
+    return newcomer(locks);
+}
+
+async function newcomer(locks: LockManager): Promise<Kept> {
     const id = randomId();
     await hold(locks, id, { ifAvailable: true });
-    return id;
+    return { id, key: null };
+}
+
+class StoredAuthor implements Author {
+    readonly #all: Storage;
+    readonly #tab: Storage;
+    readonly #locks: LockManager | undefined;
+    #kept: Kept;
+
+    constructor(all: Storage, tab: Storage, locks: LockManager | undefined, kept: Kept) {
+        this.#all = all;
+        this.#tab = tab;
+        this.#locks = locks;
+        this.#kept = kept;
+        this.#store();
+    }
+
+    get id(): string {
+        return this.#kept.id;
+    }
+
+    get key(): string | null {
+        return this.#kept.key;
+    }
+
+    keep(key: string): void {
+        if (key !== this.#kept.key) {
+            this.#kept = { ...this.#kept, key };
+            this.#store();
+        }
+    }
+
+    renew(): void {
+        const { id } = this.#kept;
+        this.#kept = { id: randomId(), key: null };
+        if (this.#locks) {
+            void hold(this.#locks, this.#kept.id, { ifAvailable: true });
+        }
+        this.#store(id);
+    }
+
+    #store(gone = ""): void {
+        const text = printKept(this.#kept);
+        this.#tab.setItem(TAB_KEY, text);
+        if (this.#locks) {
+            const others = readKnown(this.#all)
+                .filter(({ id }) => id !== this.#kept.id && id !== gone)
+                .map(printKept);
+            this.#all.setItem(KNOWN_KEY, JSON.stringify([text, ...others].slice(0, MOST_KNOWN)));
+        }
+    }
 }
 
 /* `all` is kept for the browser, `tab` for this tab. `locks` is missing on pages that came over plain
@@ -59,14 +139,11 @@ export async function takeAuthor(
     all: Storage,
     tab: Storage,
     locks: LockManager | undefined,
-): Promise<string> {
-    const own = tab.getItem(TAB_KEY);
-    const known = readKnown(all);
-    const id = locks ? await firstFree(locks, own, known) : (own ?? randomId());
-    tab.setItem(TAB_KEY, id);
-    if (locks) {
-        const others = readKnown(all).filter((one) => one !== id);
-        all.setItem(KNOWN_KEY, JSON.stringify([id, ...others].slice(0, MOST_KNOWN)));
-    }
-    return id;
+): Promise<Author> {
+    const text = tab.getItem(TAB_KEY);
+    const own = text === null ? null : parseKept(text);
+    const kept = locks
+        ? await firstFree(locks, own, readKnown(all))
+        : (own ?? { id: randomId(), key: null });
+    return new StoredAuthor(all, tab, locks, kept);
 }

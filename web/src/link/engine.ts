@@ -27,6 +27,8 @@ export type Order =
           readonly url: string;
           readonly protocols: readonly string[];
           readonly client: string;
+          /* Null until the server tells one. */
+          readonly key: string | null;
           readonly name: string;
       }
     | { readonly kind: "close" }
@@ -125,6 +127,7 @@ export class Engine {
     readonly #presenter = new Presenter();
     readonly #meter = new Meter();
     #target: Open | null = null;
+    #key: string | null = null;
     #socket: WebSocket | null = null;
     #attempts = 0;
     #retry: ReturnType<typeof setTimeout> | null = null;
@@ -147,6 +150,7 @@ export class Engine {
             case "open":
                 this.#leave();
                 this.#target = order;
+                this.#key = order.key;
                 this.#at = null;
                 this.#attempts = 0;
                 this.#presenter.clear();
@@ -231,6 +235,7 @@ export class Engine {
         this.#send({
             type: "hello",
             client,
+            ...(this.#key === null ? {} : { key: this.#key }),
             ...(name ? { name } : {}),
             ...(this.#at ? { revision: this.#at.revision, epoch: this.#at.epoch } : {}),
         });
@@ -286,6 +291,7 @@ export class Engine {
         }
         if (message.type === "welcome") {
             this.#attempts = 0;
+            this.#key = message.key;
             this.#state("live");
         } else if (message.type === "bye") {
             this.#bye = { reason: message.reason, retryMs: message.retry_ms ?? null };

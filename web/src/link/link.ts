@@ -19,7 +19,7 @@ import * as sessions from "../model/session.ts";
 import { EMPTY_DOCUMENT_STATE, IDLE_LINK, type LinkState, type Stores } from "../model/stores.ts";
 import { text } from "../model/texts.ts";
 import { checkValue } from "../model/values.ts";
-import { randomId } from "./author.ts";
+import { type Author, randomId } from "./author.ts";
 import type { Report } from "./engine.ts";
 import { type Host, startHost } from "./host.ts";
 import { Motion } from "./motion.ts";
@@ -53,7 +53,7 @@ export interface Gesture {
 
 export interface Link {
     /* Opens a scene as an author; closes the one before. Needs the schema to know what may be set. */
-    connect(scene: string, schema: Schema, author: string): void;
+    connect(scene: string, schema: Schema, author: Author): void;
     disconnect(): void;
     /* Shows the picture in `element`, filling it; answers the function that takes it away. */
     attach(element: HTMLElement): () => void;
@@ -93,6 +93,7 @@ class SceneLink implements Link {
     readonly #motion: Motion;
     readonly #retry = (): void => this.retry();
     #session: sessions.Session | null = null;
+    #author: Author | null = null;
     #groups = 0;
     /* Nodes that an undo or redo has brought back, to be selected. */
     #back: readonly string[] = [];
@@ -111,20 +112,22 @@ class SceneLink implements Link {
 
     /* --- connection --- */
 
-    connect(scene: string, schema: Schema, author: string): void {
+    connect(scene: string, schema: Schema, author: Author): void {
         this.disconnect();
+        this.#author = author;
         const base = new URL(this.#options.base || window.location.origin);
         const url = new URL(`/v1/scenes/${encodeURIComponent(scene)}/live`, base);
         url.protocol = base.protocol === "https:" ? "wss:" : "ws:";
         const { token, name = "" } = this.#options;
-        this.#session = sessions.createSession(author, schema);
+        this.#session = sessions.createSession(schema);
         this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, scene, schema });
         this.#stores.link.setState({ ...IDLE_LINK, connection: "connecting" });
         this.#host.send({
             kind: "open",
             url: url.href,
             protocols: [SUBPROTOCOL, ...(token === null ? [] : [TOKEN_PREFIX + token])],
-            client: author,
+            client: author.id,
+            key: author.key,
             name,
         });
         this.#viewer.tell();
@@ -230,11 +233,16 @@ class SceneLink implements Link {
                 this.#compiling(message);
                 break;
             case "notice":
-                this.#notices.fromServer(message);
+                if (message.code === "forbidden" && message.place === "/key") {
+                    this.#becomeAnother();
+                } else {
+                    this.#notices.fromServer(message);
+                }
                 break;
             case "bye":
                 break;
             case "welcome":
+                this.#author?.keep(message.key);
                 this.#stores.link.setState({ renderer: message.renderer });
                 this.#notices.welcome();
                 this.#receive(message);
@@ -242,6 +250,16 @@ class SceneLink implements Link {
                 break;
             default:
                 this.#receive(message);
+        }
+    }
+
+    /* The key is lost, or the id was taken: what its author did stays, and cannot be undone here. */
+    #becomeAnother(): void {
+        const { scene } = this.#stores.document.getState();
+        if (scene !== null && this.#author && this.#session) {
+            const { schema } = this.#session;
+            this.#author.renew();
+            this.connect(scene, schema, this.#author);
         }
     }
 

@@ -14,6 +14,8 @@ export const TOKEN_PREFIX = "fieldcast.token.";
 export interface HelloMessage {
     readonly type: "hello";
     readonly client: string;
+    /* What the client was told by `welcome`. */
+    readonly key?: string;
     readonly name?: string;
     readonly revision?: number;
     readonly epoch?: string | number;
@@ -64,6 +66,10 @@ export type ClientMessage =
 export interface WelcomeExtra {
     readonly session: string | number;
     readonly scene: string;
+    /* What others are told of who this client is. */
+    readonly author: string;
+    /* Only this client is told: it shows it with its next hello. */
+    readonly key: string;
     readonly renderer: RendererInfo;
     readonly limits?: JsonObject;
 }

@@ -24,7 +24,6 @@ export interface PendingEdit {
 
 export interface Session {
     readonly schema: Schema;
-    readonly client: string;
     readonly confirmed: SceneDocument | null;
     readonly shown: SceneDocument | null;
     readonly revision: number;
@@ -120,10 +119,9 @@ export type OutgoingEdit =
     | { readonly type: "undo"; readonly edit: number }
     | { readonly type: "redo"; readonly edit: number };
 
-export function createSession(client: string, schema: Schema): Session {
+export function createSession(schema: Schema): Session {
     return {
         schema,
-        client,
         confirmed: null,
         shown: null,
         revision: 0,
@@ -254,10 +252,11 @@ export function isSaved(session: Session): boolean {
 function welcome(session: Session, message: Extract<SessionMessage, { type: "welcome" }>): Outcome {
     const last = message.last_edit;
     const lost = session.settling.filter((entry) => entry.edit > last);
-    const pending = [...lost, ...session.pending].map((entry) => ({
-        ...entry,
-        sent: entry.edit <= last,
-    }));
+    /* What is not in the log is counted anew: numbers may not leave wide gaps. */
+    let newest = last;
+    const pending = [...lost, ...session.pending].map((entry) =>
+        entry.edit <= last ? { ...entry, sent: true } : { ...entry, edit: ++newest, sent: false },
+    );
     return {
         session: dropLanded({
             ...session,
@@ -265,7 +264,7 @@ function welcome(session: Session, message: Extract<SessionMessage, { type: "wel
             epoch: message.epoch,
             pending,
             settling: [],
-            nextEdit: Math.max(session.nextEdit, last + 1),
+            nextEdit: newest + 1,
             undo: message.undo ?? session.undo,
             redo: message.redo ?? session.redo,
             landedEdit: last,

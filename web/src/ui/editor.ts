@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's one set of stores, link and REST, and what commands may ask of the page. */
-import { takeAuthor } from "../link/author.ts";
+import { type Author, takeAuthor } from "../link/author.ts";
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
 import type { App } from "../model/actions.ts";
@@ -57,7 +57,7 @@ export function createEditor(): Editor {
 async function openScene(
     editor: Editor,
     scene: string | null,
-    author: Promise<string>,
+    author: Promise<Author>,
 ): Promise<void> {
     const { stores, link, rest } = editor;
     link.disconnect();
