@@ -13,10 +13,10 @@ float roughness(Surface s)
 /* --- microfacets --- */
 
 /* All that a mirror of microfacets throws back of even surroundings, for light from the angle of
- * cosine c: x of what is mirrored at normal incidence, plus y; z is lost between the facets; all
- * three add up to 1. Our own fits of rational functions to integrals of the formula below, within
- * 0.015 from a roughness of 0.3 up, 0.03 below; after Karis (Physically based shading on mobile,
- * 2014). */
+ * cosine c: x of what is mirrored at normal incidence, plus y of what is at a grazing angle; z is
+ * lost between the facets; all three add up to 1. Our own fits of rational functions to integrals
+ * of the formula below, within 0.015 from a roughness of 0.3 up, 0.03 below; after Karis
+ * (Physically based shading on mobile, 2014). */
 vec3 mirror_albedo(float rough, float c)
 {
     float r = clamp(rough, 0.1, 1.0), a = r * r, x = clamp(c, 0.01, 1.0);
@@ -45,6 +45,7 @@ vec3 mirror_mean(float rough)
  * same manner: all is the same for light that goes the other way, and none is lost. */
 struct Facets {
     vec3 f0;
+    float most; /* mirrored at a grazing angle */
     float rough;
     vec3 again;  /* share of light lost between facets that comes out */
     vec3 spread; /* share of light past the mirror that comes out */
@@ -61,16 +62,17 @@ struct Mirror {
 Mirror mirror_at(Facets f, float c)
 {
     vec3 e = mirror_albedo(f.rough, c);
-    vec3 once = f.f0 * e.x + e.y;
+    vec3 once = f.f0 * e.x + f.most * e.y;
     return Mirror(once, once + f.again * e.z, e.z);
 }
 
 Facets facets(Surface s)
 {
-    vec3 e = mirror_mean(s.gloss), mean = (20.0 * s.specular + 1.0) / 21.0;
+    float most = mirror_most(s.specular);
+    vec3 e = mirror_mean(s.gloss), mean = (20.0 * s.specular + most) / 21.0;
     vec3 again = mean * mean * (1.0 - e.z) / (1.0 - mean * e.z);
-    vec3 left = 1.0 - (s.specular * e.x + e.y + again * e.z);
-    return Facets(s.specular, s.gloss, again, s.diffuse * (1.0 - s.transmission),
+    vec3 left = 1.0 - (s.specular * e.x + most * e.y + again * e.z);
+    return Facets(s.specular, most, s.gloss, again, s.diffuse * (1.0 - s.transmission),
                   max(left, 1e-3), e.z);
 }
 
@@ -102,7 +104,7 @@ vec3 facets_reflected(Surface s, vec3 n, vec3 view, vec3 towards)
 vec3 varnish(Surface s, float c)
 {
     float least = s.reflectivity, most = min(25.0 * least, 1.0);
-    return vec3(least + (most - least) * fresnel(vec3(0.0), c).x);
+    return vec3(least + (most - least) * grazing(c));
 }
 
 /* Part of the light along the mirrored direction that reaches the eye. */

@@ -8,9 +8,9 @@ Ray camera_ray(vec2 at)
     vec2 place = at / vec2(size.xy);
     vec3 aside = right.xyz * (2.0 * place.x - 1.0) + up.xyz * (1.0 - 2.0 * place.y);
     if (eye.w > 0.5) {
-        return Ray(eye.xyz + aside, forward.xyz, 0.0, false);
+        return Ray(eye.xyz + aside, forward.xyz, 0.0, false, 0.0);
     }
-    return Ray(eye.xyz, normalize(forward.xyz + aside), 0.0, false);
+    return Ray(eye.xyz, normalize(forward.xyz + aside), 0.0, false, 0.0);
 }
 
 /* Where in its pixel sample i lies, in 0..1: the first in the middle, the others so that any number

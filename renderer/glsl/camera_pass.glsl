@@ -8,6 +8,6 @@ void main()
 {
     ivec2 here = group_place();
     Ray ray = camera_sample(tile.xy + here, turn.x);
-    imageStore(out_ray_from, here, vec4(ray.origin, 0.0));
-    imageStore(out_ray_along, here, vec4(ray.direction, 0.0));
+    imageStore(out_ray_from, here, ray_from(ray));
+    imageStore(out_ray_along, here, ray_along(ray));
 }

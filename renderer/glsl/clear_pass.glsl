@@ -15,8 +15,8 @@ layout(rgba16f, binding = 5) uniform image2DArray seen;
 
 void send(ivec2 here, Ray ray, vec4 weight, vec3 medium)
 {
-    imageStore(out_ray_from, here, vec4(ray.origin, ray.way));
-    imageStore(out_ray_along, here, vec4(ray.direction, ray.inside ? 1.0 : 0.0));
+    imageStore(out_ray_from, here, ray_from(ray));
+    imageStore(out_ray_along, here, ray_along(ray));
     imageStore(weights, here, weight);
     imageStore(media, here, vec4(medium, 0.0));
     list_add(here);
@@ -38,7 +38,7 @@ void aim(ivec2 here, Ray ray, vec4 g)
     if (t < INFINITY && crossed && !leaving && dot(g.xyz, in_light.direction) > 0.0 &&
         any(greaterThan(arrives, vec3(0.0))) && int(light.extent.z) != SHADOW_NONE) {
         float off = 2.0 * footprint(ray, t);
-        Ray next = Ray(p + g.xyz * off, in_light.direction, ray.way + t, ray.inside);
+        Ray next = Ray(p + g.xyz * off, in_light.direction, ray.way + t, ray.inside, 0.0);
         send(here, next, vec4(1.0, 1.0, 1.0, in_light.reach), vec3(0.0));
     }
 }
@@ -64,8 +64,8 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
         weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * dye(s);
     }
     if (through_it && turn.z == 1) {
-        vec3 p = ray.origin + ray.direction * t - g.xyz * (0.75 * footprint(ray, t));
-        Ray next = Ray(p, ray.direction, ray.way, !leaving);
+        vec3 p = ray.origin + ray.direction * t;
+        Ray next = Ray(p, ray.direction, ray.way, !leaving, start_behind(ray, t, -max(c, 0.02)));
         send(here, next, vec4(weight.rgb, left - t), leaving ? vec3(0.0) : s.absorption);
     } else {
         vec4 arrives = imageLoad(seen, ivec3(here, turn.y));

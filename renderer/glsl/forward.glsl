@@ -19,11 +19,11 @@ void main()
         float t = found.hit ? found.t : 0.0;
         vec3 p = ray.origin + ray.direction * t;
         Surface s;
-        through = !ray.inside ? 0.0 : found.solid ? FAR : -FAR;
+        through = found.solid ? FAR : ray.inside ? -FAR : 0.0;
         surface(p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
         look(p, found.normal, footprint(ray, t), found.hit);
         has_next = false;
-        vec4 g = vec4(found.normal, found.solid && ray.inside ? -found.t : found.t);
+        vec4 g = vec4(found.normal, found.solid ? -max(found.t, 1e-30) : found.t);
         add_light(here, ray, g, s, seen_open, vec4(0.0, 0.0, 0.0, 1.0), i == 0, i == turn.y, weight,
                   medium, total);
         ray = ray_of(next_ray);

@@ -3,7 +3,7 @@
 
 struct Hit {
     bool hit;
-    bool solid; /* of a ray inside: what it met is in there, not the way out */
+    bool solid; /* what it met was looked for alone: in something clear, or close to its surface */
     float free; /* nothing is nearer */
     float t;
     vec3 normal; /* towards where the ray comes from */
@@ -56,14 +56,16 @@ Hit march(Ray ray, float start, float cone, int most)
     float ahead = 0.0; /* length of the step being tried */
     float radius = 0.0, root = 0.0, slope = -1.0, grade = -1.0;
     int left = end >= t ? (ray.inside ? 2 * most : most) : 0, taken = 0;
-    bool hit = false, solid = false;
+    bool hit = false, solid = false, early = false;
     vec3 base = ray.origin, gradient = vec3(0.0);
     float e = 0.0, rest = 0.0, free = t, out_there = FAR;
 
     for (int round = zero; round < 3; round++) {
         for (int i = zero; i < left; i++) {
             bool clear = ray.inside && (round == 0 ? (i & 1) == 0 : !solid);
-            through = ray.inside ? (clear ? -FAR : FAR) : 0.0;
+            early = round == 0 ? t + ahead < ray.start : early;
+            bool fresh = ahead == 0.0 || (t < ray.start && !early);
+            through = clear ? -FAR : ray.inside || early ? FAR : 0.0;
             vec3 corner = vec3((((i + 3) >> 1) & 1), ((i >> 1) & 1), (i & 1)) * 2.0 - 1.0;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
             float d = map(base + offset);
@@ -71,20 +73,20 @@ Hit march(Ray ray, float start, float cone, int most)
             gradient += corner * d;
             rest += 0.25 * d;
             if (round > 0 || clear) {
-                out_there = d;
+                out_there = early ? FAR : d;
                 continue;
             }
             taken++;
             float print = footprint(ray, t + ahead), grain = GRAIN * (far_off + t);
             /* Where both are, the solid one is seen, not some of each. */
-            solid = d < out_there + 0.5 * print;
+            solid = d < out_there + 0.02 * print;
             d = min(d, out_there);
             float last = ahead, change = d - radius;
             bool even = single && abs(change - grade * last) < 0.1 * last;
             bool back = last > radius + abs(d) + max(even ? GAP * print : 0.0, 2.0 * grain);
-            bool inside = single && !back && d < 0.0 && last > 0.0, stay = back || inside;
-            grade = back || last == 0.0 ? -1.0 : change / last;
-            slope = back || last == 0.0 ? -1.0 : mix(slope, grade, 0.3);
+            bool inside = single && !back && d < 0.0 && !fresh, stay = back || inside;
+            grade = back || fresh ? -1.0 : change / last;
+            slope = back || fresh ? -1.0 : mix(slope, grade, 0.3);
             t = stay ? t : t + last;
             radius = stay ? radius : d;
             /* From t to where the line meets the surface, and so far from an end of it. */
@@ -101,6 +103,8 @@ Hit march(Ray ray, float start, float cone, int most)
             float reach = (2.0 * radius + (even ? gap : 0.0)) / (1.0 - slope);
             ahead = inside ? root : max(radius, min(reach, root + 0.01 * print));
             ahead = single ? max(ahead, 2.0 * grain) : room / (1.0 + widening);
+            /* Not beyond where it looks for clear things too. */
+            ahead = t < ray.start ? min(max(radius, 2.0 * grain), ray.start - t) : ahead;
         }
         if (round == 0) {
             free = t;
@@ -124,5 +128,5 @@ Hit march(Ray ray, float start, float cone, int most)
     vec3 normal = length_of > 0.0 ? gradient / length_of : -ray.direction;
     /* Behind an edge that the ray only brushed, the field leads away from the eye. */
     normal = normalize(normal - ray.direction * max(dot(normal, ray.direction) + 0.02, 0.0));
-    return Hit(hit, solid, free, hit ? t : INFINITY, normal, taken);
+    return Hit(hit, solid && (ray.inside || early), free, hit ? t : INFINITY, normal, taken);
 }

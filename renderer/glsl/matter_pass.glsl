@@ -14,8 +14,8 @@ void main()
     float t = abs(g.w);
     bool hit = t < INFINITY;
     vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
-    /* From inside, where two surfaces lie near each other, the one that was met. */
-    through = !ray.inside ? 0.0 : g.w < 0.0 ? FAR : -FAR;
+    /* Where two surfaces lie near each other, the one that was met. */
+    through = g.w < 0.0 ? FAR : ray.inside ? -FAR : 0.0;
     Surface s;
     uvec4 matter, more;
     surface(p, Shading(p, vec3(0.0), g.xyz, ray.direction, t), s);

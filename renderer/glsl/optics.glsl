@@ -1,12 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* What happens to light where two media meet. */
 
-/* Schlick: An inexpensive BRDF model for physically-based rendering, 1994; `cosine` of the angle to
- * the normal, in the thinner medium. */
-vec3 fresnel(vec3 f0, float cosine)
+/* How near to a grazing angle, 1, an angle is (Schlick: An inexpensive BRDF model for
+ * physically-based rendering, 1994); `cosine` of it to the normal, in the thinner medium. */
+float grazing(float cosine)
 {
     float x = clamp(1.0 - cosine, 0.0, 1.0), x2 = x * x;
-    return f0 + (1.0 - f0) * (x2 * x2 * x);
+    return x2 * x2 * x;
+}
+
+/* Part of the light that is mirrored at a grazing angle, f0 head-on: of what hardly mirrors head-on
+ * it is not all (Lagarde and de Rousiers: Moving Frostbite to physically based rendering, SIGGRAPH
+ * 2014 course). So a medium that is none, of index 1, mirrors nothing. */
+float mirror_most(vec3 f0)
+{
+    return min(50.0 * max(f0.r, max(f0.g, f0.b)), 1.0);
+}
+
+/* Part of the light that is mirrored at an angle. */
+vec3 fresnel(vec3 f0, float cosine)
+{
+    return mix(f0, vec3(mirror_most(f0)), grazing(cosine));
 }
 
 /* Snell: the direction of a ray behind a surface, n towards where it comes from; `ratio` of the
@@ -19,12 +33,10 @@ bool bend(vec3 direction, vec3 n, float ratio, out vec3 bent)
     return k > 0.0;
 }
 
-/* Part of the light that is mirrored where a ray goes into a clear medium, or out of it. What
- * hardly mirrors head-on does not at a grazing angle either (Lagarde and de Rousiers: Moving
- * Frostbite to physically based rendering, 2014). */
+/* The same where a ray goes into a clear medium, or out of it. */
 float interface_mirror(float ior, float c, bool inside)
 {
-    float r = (ior - 1.0) / (ior + 1.0), f0 = r * r;
+    float r = (ior - 1.0) / (ior + 1.0);
     float thin = inside ? sqrt(max(1.0 - ior * ior * (1.0 - c * c), 0.0)) : c;
-    return min(fresnel(vec3(f0), thin).x, 50.0 * f0);
+    return fresnel(vec3(r * r), thin).x;
 }

@@ -2,14 +2,14 @@
 /* What the light of a sample's ray adds to the sample, and which rays it goes on with. Where these
  * are kept is for stack.glsl, or forward.glsl. */
 
-/* A ray from the surface on, a little off it; less on the way through, where it may be thin. */
-Waiting ray_off(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, vec4 weight,
-                vec3 medium)
+/* A ray from the surface on: mirrored a little off it, on the way through along its own line. */
+Waiting ray_on(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, vec4 weight,
+               vec3 medium)
 {
-    float off = dot(n, direction) < 0.0 ? -0.75 : 2.0;
-    vec3 origin = p + n * (off * footprint(ray, t));
-    return Waiting(vec4(origin, ray.way + t), vec4(direction, inside ? 1.0 : 0.0), weight,
-                   vec4(medium, 0.0));
+    float c = dot(n, direction);
+    vec3 origin = c < 0.0 ? p : p + n * (2.0 * footprint(ray, t));
+    Ray next = Ray(origin, direction, ray.way + t, inside, c < 0.0 ? start_behind(ray, t, c) : 0.0);
+    return Waiting(ray_from(next), ray_along(next), weight, vec4(medium, 0.0));
 }
 
 /* What stands for a ray that is not followed. */
@@ -81,10 +81,10 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
     if (effects.y > 0) {
         vec3 kept = weight.rgb * ((1.0 - far) * air.a * smoke.a);
         float depth = weight.w + 1.0, sharp = leaving ? 1.0 : mirror_sharpness(s);
-        Waiting mirror = ray_off(ray, p, n, w.mirrored, ray.inside, t,
-                                 vec4(kept * w.mirror * sharp, depth), medium);
-        Waiting passing = ray_off(ray, p, n, w.passed, !leaving, t, vec4(kept * w.passing, depth),
-                                  leaving ? vec3(0.0) : s.absorption);
+        Waiting mirror = ray_on(ray, p, n, w.mirrored, ray.inside, t,
+                                vec4(kept * w.mirror * sharp, depth), medium);
+        Waiting passing = ray_on(ray, p, n, w.passed, !leaving, t, vec4(kept * w.passing, depth),
+                                 leaving ? vec3(0.0) : s.absorption);
         total.rgb += go_on(here, mirror, hit && w.mirror_ray, passing, hit && w.passing_ray, first,
                            last);
     }

@@ -6,23 +6,42 @@ struct Ray {
     vec3 direction; /* of length 1 */
     float way;      /* from the eye to the origin */
     bool inside;    /* of something that light goes through */
+    float start;    /* nothing that light goes through is met before: it comes out of its surface */
 };
 
 /* A ray that is to be followed later. */
 struct Waiting {
     vec4 from;   /* origin, way */
-    vec4 along;  /* direction, 1 where it is inside */
+    vec4 along;  /* direction, start; below 0 outside */
     vec4 weight; /* what its light counts; w: how often it was mirrored or broken */
     vec4 medium; /* rgb: absorption where it is */
 };
 
-Ray ray_of(Waiting w)
+Ray ray_of(vec4 from, vec4 along)
 {
-    return Ray(w.from.xyz, w.along.xyz, w.from.w, w.along.w > 0.5);
+    return Ray(from.xyz, along.xyz, from.w, along.w > 0.0, abs(along.w));
+}
+
+vec4 ray_from(Ray ray)
+{
+    return vec4(ray.origin, ray.way);
+}
+
+vec4 ray_along(Ray ray)
+{
+    return vec4(ray.direction, ray.inside ? max(ray.start, 1e-30) : -ray.start);
 }
 
 /* Radius of a pixel's footprint at distance t along the ray. */
 float footprint(Ray ray, float t)
 {
     return forward.w * (eye.w > 0.5 ? 1.0 : ray.way + t);
+}
+
+/* Where a ray looks for other clear things, that came by `ray` to a surface at t and goes through
+ * it along a direction whose cosine to the normal is c, less than 0: not far behind, for it may be
+ * thin, and within its rounding. */
+float start_behind(Ray ray, float t, float c)
+{
+    return footprint(ray, t) * min(-0.75 / c, 3.0);
 }

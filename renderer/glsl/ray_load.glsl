@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The ray that a sample is at. */
 
-layout(binding = 5) uniform sampler2D ray_from;  /* origin, way from the eye to it */
-layout(binding = 6) uniform sampler2D ray_along; /* direction, 1 where it is inside */
+layout(binding = 5) uniform sampler2D rays_from;  /* origin, way from the eye to it */
+layout(binding = 6) uniform sampler2D rays_along; /* as Waiting.along */
 
 Ray ray_load(ivec2 here)
 {
-    vec4 from = texelFetch(ray_from, max(here, 0), 0);
-    vec4 along = texelFetch(ray_along, max(here, 0), 0);
-    return Ray(from.xyz, along.xyz, from.w, along.w > 0.5);
+    return ray_of(texelFetch(rays_from, max(here, 0), 0), texelFetch(rays_along, max(here, 0), 0));
 }

@@ -33,7 +33,7 @@ static const char questions_glsl[] =
     "    Question q = questions[gl_GlobalInvocationID.x];\n"
     "    vec3 d = normalize(q.direction.xyz);\n"
     "    int what = int(q.what.x);\n"
-    "    Ray ray = Ray(q.origin.xyz, d, 0.0, false);\n"
+    "    Ray ray = Ray(q.origin.xyz, d, 0.0, false, 0.0);\n"
     "    answers[gl_GlobalInvocationID.x] =\n"
     "        what == 0 ? vec4(sky(d), 0.0) : what == 1 ? vec4(sky_irradiance(d), 0.0)\n"
     "        : what == 2 ? vec4(sky_mirrored(d, q.what.y), 0.0) : fog(ray, q.what.y);\n"

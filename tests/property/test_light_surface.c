@@ -139,13 +139,13 @@ static void ask_standard(struct formula_row rows[ROUGH * COSINES], double diffus
 
 static void white_standard_loses_nothing(void **state)
 {
-    static const double speculars[] = {0.04, 1};
+    static const double speculars[] = {0, 0.005, 0.04, 1};
     struct formula_row rows[ROUGH * COSINES];
     double least = 1, most = 1;
 
     (void)state;
-    for (int metal = 0; metal < 2; metal++) {
-        ask_standard(rows, metal ? 0 : 1, speculars[metal]);
+    for (int kind = 0; kind < 4; kind++) {
+        ask_standard(rows, speculars[kind] < 1 ? 1 : 0, speculars[kind]);
         for (int i = 0; i < ROUGH * COSINES; i++) {
             const struct formula_row *r = &rows[i];
             /* In surroundings of 1, and of lights everywhere. */
@@ -177,6 +177,18 @@ static void nothing_gains_light(void **state)
                     (double)r->out[0], (double)r->out[1]);
             }
         }
+    }
+}
+
+/* Not even at a grazing angle. */
+static void what_mirrors_nothing_head_on_mirrors_nothing(void **state)
+{
+    struct formula_row rows[ROUGH * COSINES];
+
+    (void)state;
+    ask_standard(rows, 1, 0);
+    for (int i = 0; i < ROUGH * COSINES; i++) {
+        assert_true(rows[i].out[3] == 0);
     }
 }
 
@@ -214,8 +226,11 @@ static void matt_phong_is_lambert(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_may_go_either_way), cmocka_unit_test(white_standard_loses_nothing),
-        cmocka_unit_test(nothing_gains_light),     cmocka_unit_test(rays_bring_the_mirror_image),
+        cmocka_unit_test(light_may_go_either_way),
+        cmocka_unit_test(white_standard_loses_nothing),
+        cmocka_unit_test(nothing_gains_light),
+        cmocka_unit_test(rays_bring_the_mirror_image),
+        cmocka_unit_test(what_mirrors_nothing_head_on_mirrors_nothing),
         cmocka_unit_test(matt_phong_is_lambert),
     };
     return cmocka_run_group_tests(tests, start, end);

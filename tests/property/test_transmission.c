@@ -130,6 +130,120 @@ static void what_dyes_is_what_the_reference_says(void **state)
     assert_true(fabs(inside - 0.5) < 0.01);
 }
 
+/* --- glass that is none --- */
+
+#define BALL(r, x, y, z)                                                                           \
+    "{\"type\":\"sphere\",\"material\":\"own\",\"params\":{\"radius\":" #r                         \
+    "},\"transform\":{\"translation\":[" #x "," #y "," #z "]}},"
+#define BLOCK(a, b, c, x, y, z)                                                                    \
+    "{\"type\":\"box\",\"material\":\"own\",\"params\":{\"size\":[" #a "," #b "," #c               \
+    "]},\"transform\":{\"translation\":[" #x "," #y "," #z "]}},"
+
+/* Things on a floor at -0.7, each with a comma behind. */
+static const struct {
+    const char *name, *text;
+} arrangements[] = {
+    {"touches the floor", BALL(0.7, 0, 0, 0)},
+    {"hardly touches it", BALL(0.7, 0, 0.003, 0)},
+    {"overlaps it", BALL(0.7, 0, -0.1, 0)},
+    {"is almost under it", BALL(0.7, 0, -0.5, 0)},
+    {"two touch", BALL(0.7, -0.7, 0, 0) BALL(0.7, 0.7, 0, 0)},
+    {"one on another", BALL(0.4, 0, -0.3, 0) BALL(0.4, 0, 0.5, 0)},
+    {"block on the floor", BLOCK(1, 1, 1, 0, -0.2, 0)},
+    {"block in the floor", BLOCK(1, 1, 1, 0, -0.3, 0)},
+    {"row of small ones", BALL(0.05, -0.36, -0.65, 0) BALL(0.05, -0.24, -0.65, 0)
+                              BALL(0.05, -0.12, -0.65, 0) BALL(0.05, 0, -0.65, 0)},
+    {"around a solid", BALL(0.5, 0.9, -0.4, -1)},
+};
+
+static const char *const views[] = {
+    "\"position\":[0,1,3.4],\"target\":[0,-0.2,0]",
+    "\"position\":[0,-0.4,3.4],\"target\":[0,-0.5,0]",
+    "\"position\":[0,4,1],\"target\":[0,-0.5,0]",
+    "\"position\":[0,6,20],\"target\":[0,-0.5,0],\"fov\":8",
+    "\"type\":\"orthographic\",\"height\":2.4,\"position\":[0,1,3.4],\"target\":[0,-0.2,0]",
+};
+
+/* On a floor with two solid balls, in the light of the sun and of a lamp. */
+static struct image draw_things(const char *things, const char *material, const char *view,
+                                int width, int height)
+{
+    char text[2400];
+
+    snprintf(text, sizeof text,
+             "{\"format\":\"fieldcast/1\",\"camera\":{%s},\"lights\":[" LAMP
+             ",{\"type\":\"point\",\"intensity\":4,\"position\":[1,2.5,1]}],"
+             "\"render\":{\"antialiasing\":\"none\",\"ray_depth\":8},"
+             "\"environment\":{\"type\":\"sky\",\"floor\":true,\"floor_height\":-0.7},"
+             "\"materials\":{\"own\":%s,\"red\":" MATERIAL(
+                 "phong",
+                 "\"diffuse\":[0.8,0.1,0.1]") "},"
+                                              "\"root\":{\"type\":\"group\",\"children\":[%s"
+                                              "{\"type\":\"sphere\",\"material\":\"red\","
+                                              "\"params\":{\"radius\":0.25},"
+                                              "\"transform\":{\"translation\":[0.9,-0.4,-1]}},"
+                                              "{\"type\":\"sphere\",\"material\":\"red\","
+                                              "\"params\":{\"radius\":0.2},"
+                                              "\"transform\":{\"translation\":[0,-0.3,-0.2]}}]}}",
+             view, material, things);
+    struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
+    struct job_desc desc = drawing_desc(width, height);
+    desc.as_floats = true;
+    struct image image = drawing_of(resident, &desc, AOV_COLOR);
+    resident_destroy(resident);
+    return image;
+}
+
+/* The picture is that without it, within 0.01 of a white of 1. In the corner of glass and floor,
+ * narrower than a hundredth of a pixel, the floor's normal may be that of both: one pixel, and one
+ * of 4000, may be off by up to 0.2. */
+static void assert_none_seen(const struct image *with, const struct image *without,
+                             const char *things, const char *view)
+{
+    const float *a = with->pixels, *b = without->pixels;
+    const int pixels = with->width * with->height;
+    int off = 0;
+    double most = 0;
+
+    for (int i = 0; i < pixels; i++) {
+        double apart = 0;
+        for (int c = 0; c < 3; c++) {
+            apart = fmax(apart, fabs((double)a[4 * i + c] - (double)b[4 * i + c]));
+        }
+        off += !(apart <= 0.01);
+        most = fmax(most, apart);
+    }
+    if (off > 1 + pixels / 4000 || !(most <= 0.2)) {
+        fail_msg("%s, %d x %d, %s: %d pixels are off, by up to %g", things, with->width,
+                 with->height, view, off, most);
+    }
+}
+
+static void glass_of_index_one_is_invisible(void **state)
+{
+    static const char *const materials[] = {
+        MATERIAL("phong", "\"diffuse\":[1,1,1],\"specular\":[0,0,0],\"opacity\":0,\"ior\":1"),
+        MATERIAL("standard",
+                 "\"base_color\":[1,1,1],\"transmission\":1,\"roughness\":0,\"ior\":1")};
+    static const int widths[] = {32, 64, 160};
+    const size_t count = sizeof arrangements / sizeof arrangements[0];
+    const size_t view_count = sizeof views / sizeof views[0];
+
+    (void)state;
+    for (size_t v = 0; v < view_count * 3; v++) {
+        const char *view = views[v % view_count];
+        const int width = widths[v / view_count];
+        struct image without = draw_things("", materials[0], view, width, width * 3 / 4);
+        for (size_t i = 0; i < count; i++) {
+            struct image with = draw_things(arrangements[i].text, materials[(i + v) % 2], view,
+                                            width, width * 3 / 4);
+            assert_none_seen(&with, &without, arrangements[i].name, view);
+            image_finish(&with);
+        }
+        image_finish(&without);
+    }
+}
+
 /* --- cuts --- */
 
 /* `operation` of a ball and a half space, seen from the front; materials `clear` and `red`. */
@@ -230,6 +344,7 @@ int main(void)
         cmocka_unit_test(clear_things_cannot_be_seen_in_a_white_room),
         cmocka_unit_test(light_through_phong_keeps_its_colour),
         cmocka_unit_test(what_dyes_is_what_the_reference_says),
+        cmocka_unit_test(glass_of_index_one_is_invisible),
         cmocka_unit_test(a_solid_cut_is_seen_from_inside),
         cmocka_unit_test(what_glass_cuts_out_of_a_solid_is_solid),
         cmocka_unit_test(a_solid_cut_throws_a_shadow),
