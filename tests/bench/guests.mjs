@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// What a viewer feels of others: how long a view of 128×96 that moves 25 times a second waits for its
+// picture, alone and beside each kind of guest, by turns in one run. Milliseconds and their ratios,
+// of the medians and of the 99th of a hundred.
+import net from 'node:net';
+import zlib from 'node:zlib';
+import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
+import { handshake, Live } from '../support/live.mjs';
+
+const VIEW = { width: 128, height: 96 };
+const LARGE = { width: 4096, height: 4096 };
+const EVERY_MS = 40;
+const SECONDS = Number(process.env.GUEST_SECONDS ?? 6);
+const wanted = process.argv.slice(2); // names of guests; none: all
+
+const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
+const place = (i) => ({ camera: { position: [5 * Math.sin(i / 20), 1, 5 * Math.cos(i / 20)] } });
+const percentile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
+const round = (x) => Math.round(x * 100) / 100;
+
+/** Does something again and again until it is told to stop. */
+function repeat(act) {
+    let going = true;
+    const done = (async () => {
+        for (let i = 0; going; i += 1) {
+            await act(i, () => !going);
+        }
+    })();
+    return () => {
+        going = false;
+        return done;
+    };
+}
+
+/** A viewer that looks from everywhere; those that read ask for the next picture when one is there. */
+async function viewer(daemon, scene, view, { reads = true } = {}) {
+    const live = await Live.open(daemon, scene, { ack: reads });
+    const stop = repeat(async (i) => {
+        live.look({ ...view, ...place(i) });
+        await sleep(EVERY_MS);
+        live.frames.splice(0, Math.max(0, live.frames.length - 2));
+    });
+    if (!reads) {
+        live.stopReading();
+    }
+    return async () => {
+        await stop();
+        live.socket.destroy();
+    };
+}
+
+const several = async (count, make) => {
+    const all = await Promise.all(Array.from({ length: count }, (_, i) => make(i)));
+    return () => Promise.all(all.map((stop) => stop()));
+};
+
+function zeros(side) {
+    const chunk = (type, body) => {
+        const whole = Buffer.concat([Buffer.from(type), body]);
+        const out = Buffer.alloc(8 + body.length + 4);
+        out.writeUInt32BE(body.length, 0);
+        whole.copy(out, 4);
+        out.writeUInt32BE(zlib.crc32(whole), out.length - 4);
+        return out;
+    };
+    const head = Buffer.alloc(13);
+    head.writeUInt32BE(side, 0);
+    head.writeUInt32BE(side, 4);
+    head.set([8, 2, 0, 0, 0], 8);
+    return Buffer.concat([
+        Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]),
+        chunk('IHDR', head),
+        chunk('IDAT', zlib.deflateSync(Buffer.alloc((side * 3 + 1) * side), { level: 9 })),
+        chunk('IEND', Buffer.alloc(0)),
+    ]);
+}
+
+const picture = (daemon, body) =>
+    fetch(`${daemon.url}/v1/render`, { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) })
+        .then((answer) => answer.arrayBuffer())
+        .catch(() => null);
+
+const GUESTS = {
+    'ten viewers that never read': (daemon) => several(10, () => viewer(daemon, 'other', { width: 1024, height: 768 }, { reads: false })),
+    'ten viewers that read': (daemon) => several(10, () => viewer(daemon, 'other', VIEW)),
+    'a view of 4096 by 4096': (daemon) => viewer(daemon, 'other', LARGE),
+    'twenty pictures of 16384 by 16384': (daemon) => {
+        const gone = new AbortController();
+        const all = Array.from({ length: 20 }, (_, i) =>
+            fetch(`${daemon.url}/v1/scenes/other/image.png?width=16384&height=16384&camera.fov=${20 + i}`, { signal: gone.signal }).catch(() => null),
+        );
+        return () => gone.abort() || Promise.all(all);
+    },
+    'large pictures of zeros': async (daemon) => {
+        const posted = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: zeros(5792), headers: { 'content-type': 'image/png' } });
+        const { id } = await posted.json();
+        return repeat((i) => picture(daemon, { scene: { ...ball, environment: { image: id, rotation: i % 360 } }, width: 16, height: 16 }));
+    },
+    'code that is new each time': (daemon) =>
+        repeat((i) =>
+            picture(daemon, {
+                scene: { format: 'fieldcast/1', root: { id: 'a', type: 'field', params: { code: `float sdf(vec3 p) { float a = p.x; for (int i = 0; i < 40; i++) { a = sin(a + ${i}.0); } return length(p) - 0.5 - 0.001 * a; }` } } },
+                width: 16,
+                height: 16,
+            }),
+        ),
+    'edits of 5,500 operations': async (daemon) => {
+        const live = await Live.open(daemon, 'many');
+        const ops = Array.from({ length: 5500 }, (_, i) => ({ op: 'set', at: `/nodes/n${i}/params/radius`, value: 0.5 }));
+        const stop = repeat(async () => {
+            const edit = live.change(ops);
+            await live.next('applied', { edit });
+            live.messages.length = 0;
+        });
+        return async () => {
+            await stop();
+            await live.close();
+        };
+    },
+    'seven hundred half-open connections': (daemon) => {
+        const sockets = Array.from({ length: 700 }, () => {
+            const socket = net.connect(daemon.port, '127.0.0.1', () => socket.write(handshake(daemon.port, 'other').slice(0, 40)));
+            socket.on('error', () => {});
+            return socket;
+        });
+        return () => sockets.forEach((socket) => socket.destroy());
+    },
+};
+
+/** Milliseconds from each view to the first picture of it or of a later one. */
+async function waits(live, seconds) {
+    const asked = new Map();
+    const times = [];
+    const end = Date.now() + 1000 * seconds;
+    live.frames.length = 0;
+    for (let i = 0; Date.now() < end; i += 1) {
+        asked.set(live.look({ ...VIEW, ...place(i) }), Date.now());
+        await sleep(EVERY_MS);
+        for (const frame of live.frames.splice(0)) {
+            for (const [seq, at] of asked) {
+                if (seq <= frame.seq) {
+                    times.push(frame.at - at);
+                    asked.delete(seq);
+                }
+            }
+        }
+    }
+    for (const at of asked.values()) {
+        times.push(Date.now() - at); // at least
+    }
+    return times;
+}
+
+const daemon = await startDaemon();
+await ask(daemon, 'POST', '/v1/scenes?id=viewed', { from: 'example:snowman' });
+await ask(daemon, 'POST', '/v1/scenes?id=other', { from: 'example:snowman' });
+const children = Array.from({ length: 5500 }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 }));
+await ask(daemon, 'POST', '/v1/scenes?id=many', { format: 'fieldcast/1', root: { id: 'root', type: 'union', children } });
+const live = await Live.open(daemon, 'viewed');
+live.look(VIEW);
+await live.nextFrame((frame) => frame.lossless);
+await waits(live, 2);
+
+const results = {};
+for (const [name, come] of Object.entries(GUESTS).filter(([one]) => wanted.length === 0 || wanted.some((word) => one.includes(word)))) {
+    console.error(`guests: ${name}`);
+    const restarts = await counter(daemon, 'worker_restarts_total');
+    const alone = await waits(live, SECONDS);
+    const leave = await come(daemon);
+    await sleep(500);
+    const beside = await waits(live, SECONDS);
+    await leave();
+    await sleep(500);
+    const p = (share) => round(percentile(beside, share) / percentile(alone, share));
+    results[name] = {
+        alone_p50_ms: percentile(alone, 0.5),
+        alone_p99_ms: percentile(alone, 0.99),
+        beside_p50_ms: percentile(beside, 0.5),
+        beside_p99_ms: percentile(beside, 0.99),
+        p50_ratio: p(0.5),
+        p99_ratio: p(0.99),
+        restarts: (await counter(daemon, 'worker_restarts_total')) - restarts,
+    };
+}
+console.log(JSON.stringify(results, null, 2));
+await live.close();
+await daemon.stop();
+process.exit(0);
