@@ -149,6 +149,11 @@ double renderer_pace(const struct renderer *renderer)
     return program_cache_pace(renderer->programs);
 }
 
+void renderer_share(struct renderer *renderer, bool shared)
+{
+    renderer->shared = shared;
+}
+
 void renderer_set_pace(struct renderer *renderer, double pace)
 {
     program_cache_set_pace(renderer->programs, pace);

@@ -90,6 +90,8 @@ struct renderer_verdict {
 void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict);
 /* How slow this machine compiles: program_cache_pace. */
 double renderer_pace(const struct renderer *renderer);
+/* Whether pictures of several clients wait: then tiles take a few milliseconds only. */
+void renderer_share(struct renderer *renderer, bool shared);
 void renderer_set_pace(struct renderer *renderer, double pace);
 
 /* A file that scenes name by its SHA-256, copied; it stays while a scene names it, and for some

@@ -9,7 +9,10 @@
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
-enum { PROGRESS_US = 1000000 }; /* how often a long picture is told to go on */
+enum {
+    PROGRESS_US = 1000000, /* how often a long picture is told to go on */
+    SHARED_US = 1000000,   /* a client that has been here will be back */
+};
 
 static uint64_t now_us(void)
 {
@@ -181,6 +184,17 @@ static bool begin_task(struct worker *w, const cJSON *packet, struct task *task,
     return begin_encoding(w, task, err);
 }
 
+/* Somebody else's picture waits too. */
+static bool has_company(const struct worker *w, const struct turn *turn)
+{
+    const struct task *task = w->tasks;
+
+    while (task && task->turn == turn) {
+        task = task->next;
+    }
+    return task;
+}
+
 void worker_on_render(struct worker *w, const cJSON *packet)
 {
     struct task *task = memory_alloc(1, sizeof *task);
@@ -196,6 +210,9 @@ void worker_on_render(struct worker *w, const cJSON *packet)
         worker_send_failed(w, task->number, &err);
         worker_drop_task(w, &task);
         return;
+    }
+    if (has_company(w, task->turn)) {
+        w->shared_until_us = task->received_us + SHARED_US;
     }
     while (*last) {
         last = &(*last)->next;
@@ -334,6 +351,7 @@ static uint64_t drawn_us(const struct task *task)
 
 static enum job_state step(struct worker *w, struct task *task)
 {
+    renderer_share(w->renderer, now_us() < w->shared_until_us);
     const uint64_t before = drawn_us(task);
     const enum job_state state = job_step(task->job);
 

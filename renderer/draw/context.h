@@ -24,6 +24,7 @@ struct renderer {
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;
+    bool shared; /* see renderer_share */
     struct renderer_verdict *verdicts;
     size_t verdict_count;
     bool told_compile; /* on_compile was called with a shape, and not yet with 0 */

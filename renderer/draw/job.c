@@ -30,16 +30,18 @@ static bool may_have_rounds(const struct job *job)
     return job->in_rounds && (long)job->region.width * job->region.height <= ROUNDS_PIXELS_MAX;
 }
 
-static void begin_row(struct job *job, int y, int doublings)
+static void begin_row(struct job *job, int y)
 {
     const struct draw *draw = job->renderer->draw;
     const struct draw_plan *plan = &job->picture.plan;
-    const int side = draw_tile_side_of(draw, plan, doublings);
+    struct pace_row pace =
+        pace_begin(job->pace, job->renderer->shared ? PACE_SHARED : PACE_ALONE, job->level);
+    const int side = draw_tile_side_of(draw, plan, pace.doublings);
 
-    while (doublings > 0 && draw_tile_side_of(draw, plan, doublings - 1) == side) {
-        doublings--; /* the largest */
+    while (pace.doublings > 0 && draw_tile_side_of(draw, plan, pace.doublings - 1) == side) {
+        pace.doublings--; /* the largest */
     }
-    job->row = (struct row){.y = y, .doublings = doublings, .side = side};
+    job->row = (struct row){.y = y, .side = side, .pace = pace};
 }
 
 /* When its program and environment are there, the picture's own buffers. */
@@ -65,9 +67,9 @@ static enum job_state begin(struct job *job)
     }
     job->begun = true;
     if (job->careful) {
-        job->pace->doublings[job->level] = 0;
+        pace_be_careful(job->pace, job->level);
     }
-    begin_row(job, 0, job->pace->doublings[job->level]);
+    begin_row(job, 0);
     if (may_have_rounds(job)) {
         draw_in_rounds(
             job->renderer->draw, &job->picture,
@@ -106,10 +108,8 @@ static void end_tile_start(struct job *job)
     if (row->x < job->region.width) {
         return;
     }
-    if (row->slowest_us < PACE_SHORT_US) {
-        pace_grow(job->pace, job->level, row->doublings);
-    }
-    begin_row(job, row->y + row->side, job->pace->doublings[job->level]);
+    pace_end(job->pace, job->level, &row->pace);
+    begin_row(job, row->y + row->side);
 }
 
 /* The slot of the tile that was started last. */
@@ -157,11 +157,8 @@ static bool learn(struct job *job, int64_t took_us, int64_t cpu_us)
 {
     struct row *row = &job->row;
 
-    row->slowest_us = took_us > row->slowest_us ? took_us : row->slowest_us;
-    if (took_us > PACE_LONG_US) {
-        pace_shrink(job->pace, job->level, row->doublings);
-    }
-    return row->doublings > 0 || cpu_us <= job->limit_us ||
+    pace_learn(job->pace, job->level, &row->pace, took_us);
+    return row->pace.doublings > 0 || cpu_us <= job->limit_us ||
            error_set_slow(&job->error, "", "the smallest part of the picture took",
                           (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
 }
@@ -180,7 +177,7 @@ static void begin_row_anew(struct job *job)
         job->rows[i] = NULL;
     }
     job->started = job->collected = 0;
-    begin_row(job, job->row.y, job->pace->doublings[job->level]);
+    begin_row(job, job->row.y);
 }
 
 /* --- a sample of a tile --- */
@@ -217,7 +214,7 @@ static bool draw_next(struct job *job)
     if (job->renderer->info.software && !learn(job, took_us, cpu_us)) {
         return false;
     }
-    if (took_us > PACE_WRONG_US && job->row.doublings > 0 && job->picture.from == 0) {
+    if (took_us > PACE_WRONG_US && job->row.pace.doublings > 0 && job->picture.from == 0) {
         begin_row_anew(job);
     } else if (!job_is_within_tile(job)) {
         end_tile_start(job);
@@ -298,7 +295,7 @@ static enum job_state after_rows(struct job *job)
     }
     if (draw_next_round(&job->picture)) {
         job->started = job->collected = 0;
-        begin_row(job, 0, job->pace->doublings[job->level]);
+        begin_row(job, 0);
         return job->state = JOB_ROUND;
     }
     job->renderer->counters.pictures++;

@@ -7,11 +7,10 @@
 
 /* A row of tiles. */
 struct row {
-    int y;         /* from the top of the region */
-    int x;         /* of the tile that is started next */
-    int doublings; /* of the smallest side */
-    int side;      /* of its tiles, as far as the region goes */
-    int64_t slowest_us;
+    int y;    /* from the top of the region */
+    int x;    /* of the tile that is started next */
+    int side; /* of its tiles, as far as the region goes */
+    struct pace_row pace;
 };
 
 struct job {

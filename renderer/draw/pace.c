@@ -5,13 +5,17 @@
 
 #include "protocol/memory.h"
 
+static const struct {
+    int64_t long_us, short_us;
+} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {200000, 40000}, [PACE_SHARED] = {20000, 4000}};
+
 struct pace *pace_create(void)
 {
     struct pace *pace = memory_alloc(1, sizeof *pace);
 
     pace->references = 1;
     for (int i = 0; i < QUALITY_COUNT; i++) {
-        pace->doublings[i] = PACE_FIRST;
+        pace->doublings[PACE_ALONE][i] = pace->doublings[PACE_SHARED][i] = PACE_FIRST;
     }
     return pace;
 }
@@ -29,16 +33,33 @@ void pace_unref(struct pace *pace)
     }
 }
 
-void pace_shrink(struct pace *pace, enum quality_level level, int doublings)
+struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
+                           enum quality_level level)
 {
-    if (pace->doublings[level] >= doublings && doublings > 0) {
-        pace->doublings[level] = doublings - 1;
+    return (struct pace_row){.company = company, .doublings = pace->doublings[company][level]};
+}
+
+void pace_be_careful(struct pace *pace, enum quality_level level)
+{
+    pace->doublings[PACE_ALONE][level] = pace->doublings[PACE_SHARED][level] = 0;
+}
+
+void pace_learn(struct pace *pace, enum quality_level level, struct pace_row *row, int64_t us)
+{
+    int *doublings = &pace->doublings[row->company][level];
+
+    row->slowest_us = us > row->slowest_us ? us : row->slowest_us;
+    if (us > bounds[row->company].long_us && *doublings >= row->doublings && row->doublings > 0) {
+        *doublings = row->doublings - 1;
     }
 }
 
-void pace_grow(struct pace *pace, enum quality_level level, int doublings)
+void pace_end(struct pace *pace, enum quality_level level, const struct pace_row *row)
 {
-    if (pace->doublings[level] <= doublings && doublings < PACE_MOST) {
-        pace->doublings[level] = doublings + 1;
+    int *doublings = &pace->doublings[row->company][level];
+
+    if (row->slowest_us < bounds[row->company].short_us && *doublings <= row->doublings &&
+        row->doublings < PACE_MOST) {
+        *doublings = row->doublings + 1;
     }
 }

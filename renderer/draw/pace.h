@@ -1,31 +1,47 @@
 /* SPDX-License-Identifier: MIT */
 /* How large the tiles of a scene are: as large as can be drawn in a moment, so that others get
  * their turn. Learned from tile to tile, for each quality level, and kept as long as the scene is
- * held. Pixels do not depend on it. Pure; one thread. */
+ * held. Small tiles take more time in all (a third more on a software driver), so they are for
+ * times when others wait. Pixels do not depend on it. Pure; one thread. */
 #ifndef RENDERER_PACE_H
 #define RENDERER_PACE_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "protocol/picture.h"
 
+enum pace_company { PACE_ALONE, PACE_SHARED, PACE_COMPANIES };
+
 enum {
-    PACE_LONG_US = 20000, /* a sample of a tile that takes longer halves the side of later ones */
-    PACE_SHORT_US = 4000, /* where all of a row take less it is doubled */
-    PACE_FIRST = 3,       /* doublings of the smallest side, where nothing is known */
+    PACE_FIRST = 3, /* doublings of the smallest side, where nothing is known */
     PACE_MOST = 6,
+};
+
+/* Of the row that is drawn: what was known when it began. */
+struct pace_row {
+    enum pace_company company;
+    int doublings; /* of the smallest side */
+    int64_t slowest_us;
 };
 
 /* Counted, since pictures under way outlive scenes. */
 struct pace {
     int references;
-    int doublings[QUALITY_COUNT]; /* of the smallest side */
+    int doublings[PACE_COMPANIES][QUALITY_COUNT]; /* of the smallest side */
 };
 
 struct pace *pace_create(void);
 struct pace *pace_ref(struct pace *pace);
 void pace_unref(struct pace *pace);
-/* A sample of a tile took too long, or all of a row of tiles took little, whose side was the
- * smallest one doubled so many times. */
-void pace_shrink(struct pace *pace, enum quality_level level, int doublings);
-void pace_grow(struct pace *pace, enum quality_level level, int doublings);
+/* The next row. */
+struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
+                           enum quality_level level);
+/* The smallest tiles, from the next row on. */
+void pace_be_careful(struct pace *pace, enum quality_level level);
+/* A sample of a tile of the row took so long: too long halves the side of later ones. */
+void pace_learn(struct pace *pace, enum quality_level level, struct pace_row *row, int64_t us);
+/* All of the row is started: where each took little, the side of later ones is doubled. */
+void pace_end(struct pace *pace, enum quality_level level, const struct pace_row *row);
 
 #endif

@@ -3,7 +3,7 @@
 // picture, alone and beside each kind of guest, by turns in one run. Milliseconds and their ratios,
 // of the medians and of the 99th of a hundred.
 import net from 'node:net';
-import zlib from 'node:zlib';
+import zlib from "node:zlib";
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { handshake, Live } from '../support/live.mjs';
 

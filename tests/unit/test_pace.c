@@ -1,27 +1,49 @@
 /* SPDX-License-Identifier: MIT */
-/* How tiles shrink and grow. */
+/* How large tiles become, by how long they take. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "renderer/draw/pace.h"
 
-static void a_slow_tile_halves_the_side_once(void **state)
+enum { QUICK_US = 1000, MIDDLING_US = 30000, SLOW_US = 300000 };
+
+/* A row of tiles that took so long each; returns the doublings of the next one. */
+static int row_of(struct pace *pace, enum pace_company company, enum quality_level level,
+                  int64_t us)
+{
+    struct pace_row row = pace_begin(pace, company, level);
+
+    for (int i = 0; i < 10; i++) {
+        pace_learn(pace, level, &row, us);
+    }
+    pace_end(pace, level, &row);
+    return pace_begin(pace, company, level).doublings;
+}
+
+static void a_slow_row_halves_the_side_once(void **state)
 {
     struct pace *pace = pace_create();
 
     (void)state;
-    for (int i = 0; i < 10; i++) {
-        pace_shrink(pace, QUALITY_FINAL, PACE_FIRST); /* tiles of one row */
-    }
-    assert_int_equal(pace->doublings[QUALITY_FINAL], PACE_FIRST - 1);
-    assert_int_equal(pace->doublings[QUALITY_INTERACTIVE], PACE_FIRST);
-    pace_grow(pace, QUALITY_FINAL, PACE_FIRST - 1);
-    assert_int_equal(pace->doublings[QUALITY_FINAL], PACE_FIRST);
+    assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_FINAL, SLOW_US), PACE_FIRST - 1);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_INTERACTIVE).doublings, PACE_FIRST);
+    assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_FINAL, QUICK_US), PACE_FIRST);
+    pace_unref(pace);
+}
+
+/* Tiles that are good for one are too long where others wait. */
+static void company_makes_tiles_shorter(void **state)
+{
+    struct pace *pace = pace_create();
+
+    (void)state;
+    assert_int_equal(row_of(pace, PACE_SHARED, QUALITY_STILL, MIDDLING_US), PACE_FIRST - 1);
+    assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_STILL, MIDDLING_US), PACE_FIRST + 1);
+    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, PACE_FIRST - 1);
     pace_unref(pace);
 }
 
@@ -31,13 +53,13 @@ static void sides_have_ends(void **state)
 
     (void)state;
     for (int i = 0; i < 20; i++) {
-        pace_grow(pace, QUALITY_STILL, pace->doublings[QUALITY_STILL]);
+        row_of(pace, PACE_ALONE, QUALITY_STILL, QUICK_US);
     }
-    assert_int_equal(pace->doublings[QUALITY_STILL], PACE_MOST);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, PACE_MOST);
     for (int i = 0; i < 20; i++) {
-        pace_shrink(pace, QUALITY_STILL, pace->doublings[QUALITY_STILL]);
+        row_of(pace, PACE_ALONE, QUALITY_STILL, SLOW_US);
     }
-    assert_int_equal(pace->doublings[QUALITY_STILL], 0);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, 0);
     pace_unref(pace);
 }
 
@@ -45,21 +67,37 @@ static void sides_have_ends(void **state)
 static void what_is_out_of_date_changes_nothing(void **state)
 {
     struct pace *pace = pace_create();
+    struct pace_row small = pace_begin(pace, PACE_ALONE, QUALITY_DRAFT), large = small;
 
     (void)state;
-    pace_grow(pace, QUALITY_DRAFT, 0);
-    assert_int_equal(pace->doublings[QUALITY_DRAFT], PACE_FIRST);
-    pace_shrink(pace, QUALITY_DRAFT, PACE_MOST);
-    assert_int_equal(pace->doublings[QUALITY_DRAFT], PACE_FIRST);
+    small.doublings = 0;
+    pace_end(pace, QUALITY_DRAFT, &small);
+    large.doublings = PACE_MOST;
+    pace_learn(pace, QUALITY_DRAFT, &large, SLOW_US);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_DRAFT).doublings, PACE_FIRST);
+    pace_unref(pace);
+}
+
+static void a_careful_picture_has_the_smallest(void **state)
+{
+    struct pace *pace = pace_create();
+
+    (void)state;
+    pace_be_careful(pace, QUALITY_STILL);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, 0);
+    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, 0);
+    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_FINAL).doublings, PACE_FIRST);
     pace_unref(pace);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_slow_tile_halves_the_side_once),
+        cmocka_unit_test(a_slow_row_halves_the_side_once),
+        cmocka_unit_test(company_makes_tiles_shorter),
         cmocka_unit_test(sides_have_ends),
         cmocka_unit_test(what_is_out_of_date_changes_nothing),
+        cmocka_unit_test(a_careful_picture_has_the_smallest),
     };
     return cmocka_run_group_tests_name("pace", tests, NULL, NULL);
 }
