@@ -3,9 +3,9 @@
 // picture, alone and beside each kind of guest, by turns in one run. Milliseconds and their ratios,
 // of the medians and of the 99th of a hundred.
 import net from 'node:net';
-import zlib from "node:zlib";
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { handshake, Live } from '../support/live.mjs';
+import { blankPng } from '../support/png.mjs';
 
 const VIEW = { width: 128, height: 96 };
 const LARGE = { width: 4096, height: 4096 };
@@ -54,27 +54,6 @@ const several = async (count, make) => {
     return () => Promise.all(all.map((stop) => stop()));
 };
 
-function zeros(side) {
-    const chunk = (type, body) => {
-        const whole = Buffer.concat([Buffer.from(type), body]);
-        const out = Buffer.alloc(8 + body.length + 4);
-        out.writeUInt32BE(body.length, 0);
-        whole.copy(out, 4);
-        out.writeUInt32BE(zlib.crc32(whole), out.length - 4);
-        return out;
-    };
-    const head = Buffer.alloc(13);
-    head.writeUInt32BE(side, 0);
-    head.writeUInt32BE(side, 4);
-    head.set([8, 2, 0, 0, 0], 8);
-    return Buffer.concat([
-        Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]),
-        chunk('IHDR', head),
-        chunk('IDAT', zlib.deflateSync(Buffer.alloc((side * 3 + 1) * side), { level: 9 })),
-        chunk('IEND', Buffer.alloc(0)),
-    ]);
-}
-
 const picture = (daemon, body) =>
     fetch(`${daemon.url}/v1/render`, { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) })
         .then((answer) => answer.arrayBuffer())
@@ -92,7 +71,7 @@ const GUESTS = {
         return () => gone.abort() || Promise.all(all);
     },
     'large pictures of zeros': async (daemon) => {
-        const posted = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: zeros(5792), headers: { 'content-type': 'image/png' } });
+        const posted = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: blankPng(5792, 5792), headers: { 'content-type': 'image/png' } });
         const { id } = await posted.json();
         return repeat((i) => picture(daemon, { scene: { ...ball, environment: { image: id, rotation: i % 360 } }, width: 16, height: 16 }));
     },
