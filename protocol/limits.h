@@ -30,7 +30,7 @@
       "width of an environment's picture; larger files are averaged to it")                        \
     X(PANORAMA_BYTES, "panorama_bytes", 268435456, "bytes",                                        \
       "pictures of environments kept ready that no scene uses now")                                \
-    X(READ_MS, "read_ms", 5000, "milliseconds", "reading the picture of an environment")           \
+    X(READ_MS, "read_ms", 10000, "milliseconds", "reading the picture of an environment")           \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \
@@ -43,6 +43,8 @@
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
     X(CODE_WORK, "code_work", 65536, "operations", "one call of code, with its loops run through") \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
+    X(CODE_ARRAY_BYTES, "code_array_bytes", 2048, "bytes",                                         \
+      "all arrays in code, with every call written out")                                           \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
       "the same with code in it, at least")                                                        \

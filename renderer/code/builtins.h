@@ -51,7 +51,8 @@ struct builtin {
     const char *name;
     enum family family;
     int arguments;
-    int weight; /* operations that it counts for in each component; 0: one */
+    int weight; /* operations that it counts for in each component when it runs; 0: one */
+    int load;   /* the same when it is compiled, as measured; 0: as `weight` */
     int trips;  /* iterations of loops in it, at most */
     /* A name to call, or a text where $0, $1, $2 are arguments, each at most once. NULL: `name`. */
     const char *glsl;

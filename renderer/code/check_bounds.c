@@ -13,7 +13,7 @@ struct bounds_walk {
 };
 
 struct cost {
-    long size, work, trips;
+    long size, work, trips, bytes;
 };
 
 static bool walk_function(struct bounds_walk *walk, struct function *function, struct at call);
@@ -31,14 +31,26 @@ static bool spend_work(struct bounds_walk *walk, struct cost *cost, long work, s
                            LIMIT_CODE_WORK, "code_work");
 }
 
-/* Adds operations, and refuses when they become too many. */
-static bool spend(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
+/* Adds operations that are only compiled, and refuses when they become too many. */
+static bool spend_size(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
 {
     cost->size += size;
-    return spend_work(walk, cost, size, at) &&
-           (cost->size <= LIMIT_CODE_SIZE ||
-            tree_fail_limit(walk->tree, at, "operations, with every call written out,",
-                            LIMIT_CODE_SIZE, "code_size"));
+    return cost->size <= LIMIT_CODE_SIZE ||
+           tree_fail_limit(walk->tree, at, "operations, with every call written out,",
+                           LIMIT_CODE_SIZE, "code_size");
+}
+
+static bool spend(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
+{
+    return spend_work(walk, cost, size, at) && spend_size(walk, cost, size, at);
+}
+
+static bool spend_bytes(struct bounds_walk *walk, struct cost *cost, long bytes, struct at at)
+{
+    cost->bytes += bytes;
+    return cost->bytes <= LIMIT_CODE_ARRAY_BYTES ||
+           tree_fail_limit(walk->tree, at, "bytes of arrays, with every call written out,",
+                           LIMIT_CODE_ARRAY_BYTES, "code_array_bytes");
 }
 
 /* --- calls --- */
@@ -77,16 +89,41 @@ static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct 
         arguments += type_components(p->type);
     }
     cost->trips += to->trips;
-    return spend(walk, cost, 1 + arguments + to->size, expr->at) &&
-           spend_work(walk, cost, to->work - to->size, expr->at);
+    return spend(walk, cost, 1 + arguments, expr->at) &&
+           spend_size(walk, cost, to->size, expr->at) &&
+           spend_work(walk, cost, to->work, expr->at) &&
+           spend_bytes(walk, cost, to->bytes, expr->at);
 }
 
 /* --- expressions --- */
 
-static long size_of_builtin(const struct expr *expr)
+static long work_of_builtin(const struct expr *expr)
 {
     long count = most(type_components(expr->type), type_components(expr->args->type));
     return expr->builtin->weight > 0 ? count * expr->builtin->weight : count;
+}
+
+/* What it takes to compile beyond that. */
+static long load_of_builtin(const struct expr *expr)
+{
+    const struct builtin *builtin = expr->builtin;
+    long work = work_of_builtin(expr);
+    return builtin->load > 0 ? work / most(builtin->weight, 1) * builtin->load - work : 0;
+}
+
+/* Drivers spread an index that is not constant over all that it may mean: each component of a
+ * number, and of vectors and matrices each with each. Measured as loads of builtins.c. */
+static long load_of_index(const struct expr *expr, bool written)
+{
+    enum { EACH = 3, PAIRS = 16 };
+    long whole = type_components(expr->a->type), pairs = 0;
+    if (expr->b->value) {
+        return 0;
+    }
+    if (type_components(expr->type) > 1) {
+        pairs = EACH * whole * whole / PAIRS;
+    }
+    return most(EACH * whole, pairs) * (written ? 2 : 1);
 }
 
 /* Of the expression itself, without what is in it. Drivers make much of whole numbers' divisions,
@@ -117,9 +154,43 @@ static long size_of(const struct expr *expr)
     case EXPR_ASSIGN:
         return divides ? HEAVY * count : expr->op == OP_NONE ? count : 2 * count;
     case EXPR_BUILTIN:
-        return size_of_builtin(expr);
+        return work_of_builtin(expr);
     default:
         return count;
+    }
+}
+
+static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct expr *expr);
+
+/* What an index into it costs when it is assigned to, beyond reading it. */
+static bool walk_written(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
+{
+    for (; expr && !expr->value; expr = expr->a) {
+        if (expr->kind == EXPR_INDEX &&
+            !spend_size(walk, cost, load_of_index(expr, true) - load_of_index(expr, false),
+                        expr->at)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What is compiled and does not run. */
+static bool walk_load(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
+{
+    if (expr->value) {
+        return true;
+    }
+    switch (expr->kind) {
+    case EXPR_BUILTIN:
+        return spend_size(walk, cost, load_of_builtin(expr), expr->at);
+    case EXPR_INDEX:
+        return spend_size(walk, cost, load_of_index(expr, false), expr->at);
+    case EXPR_ASSIGN:
+    case EXPR_STEP:
+        return walk_written(walk, cost, expr->a);
+    default:
+        return true;
     }
 }
 
@@ -127,6 +198,9 @@ static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct 
 {
     if (!expr) {
         return true;
+    }
+    if (!walk_load(walk, cost, expr)) {
+        return false;
     }
     if (!expr->value) {
         if (!walk_expr(walk, cost, expr->a) || !walk_expr(walk, cost, expr->b) ||
@@ -167,18 +241,29 @@ static bool walk_list(struct bounds_walk *walk, struct cost *cost, const struct 
 
 static bool walk_for(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
 {
-    struct cost body = {.size = cost->size};
+    struct cost body = {.size = cost->size, .bytes = cost->bytes};
     if (!walk_statement(walk, &body, stmt->body)) {
         return false;
     }
     cost->trips += stmt->trips * (1 + body.trips);
     cost->size = body.size;
+    cost->bytes = body.bytes;
     if (!spend_work(walk, cost, stmt->trips * (1 + body.work), stmt->at)) {
         return false;
     }
     return cost->trips <= LIMIT_CODE_TRIPS ||
            tree_fail_limit(walk->tree, stmt->at, "iterations of loops", LIMIT_CODE_TRIPS,
                            "code_trips");
+}
+
+static bool walk_variable(struct bounds_walk *walk, struct cost *cost,
+                          const struct variable *variable, struct at at)
+{
+    enum { COMPONENT_BYTES = 4 };
+    const long count = type_components(variable->type);
+    return spend(walk, cost, count, at) &&
+           (variable->type.count == 0 || variable->value ||
+            spend_bytes(walk, cost, COMPONENT_BYTES * count, at));
 }
 
 static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
@@ -195,7 +280,7 @@ static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const st
                (!stmt->other || walk_statement(walk, cost, stmt->other));
     case STMT_DECLARE:
         return walk_list(walk, cost, stmt->body) && walk_expr(walk, cost, stmt->expr) &&
-               (!variable || spend(walk, cost, type_components(variable->type), stmt->at));
+               (!variable || walk_variable(walk, cost, variable, stmt->at));
     case STMT_BLOCK:
         return walk_list(walk, cost, stmt->body);
     default:
@@ -237,6 +322,7 @@ static bool walk_function(struct bounds_walk *walk, struct function *function, s
     function->size = cost.size;
     function->work = cost.work;
     function->trips = cost.trips;
+    function->bytes = cost.bytes;
     if (function->trips > LIMIT_CODE_TRIPS) {
         return tree_fail_limit(walk->tree, function->at, "iterations of loops", LIMIT_CODE_TRIPS,
                                "code_trips");

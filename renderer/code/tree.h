@@ -172,6 +172,7 @@ struct function {
     struct function *caller; /* while open */
     long size, work; /* operations with calls written out; the same, as often as loops run them */
     long trips;      /* iterations of all loops */
+    long bytes;      /* of arrays */
     int height;      /* of the calls below it */
     struct call *calls;           /* what it calls, once for each call */
     bool reachable;               /* from the entry */

@@ -220,7 +220,52 @@ static void size_is_limited(void **state)
         assert_limit(text, last == 8, words);
         free(text);
     }
-    assert_parts("float sdf(vec3 p) {", "{mat4 a[64];}", "", "", "return p.x; }", 3, words);
+}
+
+/* 512 numbers of them, wherever they stand. */
+static void bytes_of_arrays_are_limited(void **state)
+{
+    (void)state;
+    const char *words = "bytes of arrays, with every call written out, above the maximum 2048 "
+                        "(code_array_bytes)";
+    assert_parts("float sdf(vec3 p) {", "{mat4 a[8];}", "", "", "return p.x; }", 4, words);
+    assert_parts("float f(float x) { float a[64]; return x; }\n"
+                 "float sdf(vec3 p) { float a = p.x;",
+                 "a += f(a);", "", "", "return a; }", 8, words);
+    assert_limit("float sdf(vec3 p) { for (int i = 0; i < 9; i++) { float a[64]; } return p.x; }",
+                 true, words);
+}
+
+/* Little to write and little to run, and minutes of a driver's compiler. */
+static void compile_bombs_are_refused(void **state)
+{
+    (void)state;
+    const char *words = "operations, with every call written out, above the maximum 4096";
+    const char *head = "float sdf(vec3 p) { float a = p.x;", *tail = "return a; }";
+    /* A statement, an assignment, and 40 for the sine. */
+    assert_parts(head, "a=sin(a);", "", "", tail, (4096 - 2) / 42, words);
+    const char *const parts[] = {"a = pow(a, 0.5);", "a = fbm(p + a, 8);", "a = noise(p + a);",
+                                 "a = atan(a, p.y);", "p = normalize(p.zxy);"};
+    static const size_t most[] = {110, 12, 22, 60, 180};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        char *text = repeated(head, parts[i], most[i], tail);
+        assert_limit(text, false, words);
+        free(text);
+    }
+    assert_limit("float sdf(vec3 p) { mat4 m[64]; m[int(p.x)][int(p.y)][int(p.z)] = 1.0;\n"
+                 "return p.x; }",
+                 false, "bytes of arrays");
+    assert_limit("float sdf(vec3 p) { mat4 m[8]; m[int(p.x)][int(p.y)][int(p.z)] = 1.0;\n"
+                 "return p.x; }",
+                 false, words);
+    assert_limit("float sdf(vec3 p) { vec4 m[32]; m[int(p.x)][int(p.y)] = 1.0; return p.x; }",
+                 false, words);
+    assert_limit("float sdf(vec3 p) { mat3 m = mat3(1.0); m[int(p.x)][int(p.y)] = p.z;\n"
+                 "return m[int(p.z)][int(p.x)]; }",
+                 true, words);
+    /* What is indexed by numbers that are known is not spread. */
+    assert_limit("float sdf(vec3 p) { mat4 m[8]; m[7][1][2] = p.x; return m[7][1][2]; }", true,
+                 words);
 }
 
 static void trips_are_limited(void **state)
@@ -430,6 +475,8 @@ int main(void)
         cmocka_unit_test(rows_of_operators_are_limited),
         cmocka_unit_test(calls_are_limited),
         cmocka_unit_test(size_is_limited),
+        cmocka_unit_test(bytes_of_arrays_are_limited),
+        cmocka_unit_test(compile_bombs_are_refused),
         cmocka_unit_test(trips_are_limited),
         cmocka_unit_test(work_is_limited),
         cmocka_unit_test(arrays_and_parameters_are_limited),
