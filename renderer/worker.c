@@ -15,6 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "confine.h"
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
@@ -200,6 +201,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    confine();
     signal(SIGINT, SIG_IGN); /* a Ctrl-C at the terminal is for the front */
     w.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     renderer.on_compile = worker_on_compile;

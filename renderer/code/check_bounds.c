@@ -261,9 +261,8 @@ static bool walk_variable(struct bounds_walk *walk, struct cost *cost,
 {
     enum { COMPONENT_BYTES = 4 };
     const long count = type_components(variable->type);
-    return spend(walk, cost, count, at) &&
-           (variable->type.count == 0 || variable->value ||
-            spend_bytes(walk, cost, COMPONENT_BYTES * count, at));
+    return spend(walk, cost, count, at) && (variable->type.count == 0 || variable->value ||
+                                            spend_bytes(walk, cost, COMPONENT_BYTES * count, at));
 }
 
 static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)

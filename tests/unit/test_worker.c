@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -351,6 +352,40 @@ static void test_cancel(void **state)
     assert_true(number("resident_bytes") > 0);
 }
 
+/* The number behind a word of its status, as hexadecimal digits. */
+static unsigned long status_of(pid_t process, const char *word)
+{
+    char path[64], line[256];
+    unsigned long value = ~0ul;
+
+    snprintf(path, sizeof path, "/proc/%d/status", (int)process);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        if (strncmp(line, word, strlen(word)) == 0) {
+            value = strtoul(line + strlen(word), NULL, 16);
+        }
+    }
+    fclose(file);
+    return value;
+}
+
+/* Also where the program was started with all privileges. */
+static void test_confined(void **state)
+{
+    static const char *const none[] = {"CapEff:", "CapPrm:", "CapInh:"};
+    struct rlimit core;
+
+    (void)state;
+    expect("ready");
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        assert_int_equal(status_of(child, none[i]), 0);
+    }
+    assert_int_equal(status_of(child, "NoNewPrivs:"), 1);
+    assert_int_equal(prlimit(child, RLIMIT_CORE, NULL, &core), 0);
+    assert_int_equal(core.rlim_max, 0);
+}
+
 /* It tells how far the drawing thread has come, and when that has nothing to do. */
 static void test_pulse(void **state)
 {
@@ -588,6 +623,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_packets),
         cmocka_unit_test_setup_teardown(test_ready, start, stop),
+        cmocka_unit_test_setup_teardown(test_confined, start, stop),
         cmocka_unit_test_setup_teardown(test_render_and_edit, start, stop),
         cmocka_unit_test_setup_teardown(test_structural_edit, start, stop),
         cmocka_unit_test_setup_teardown(test_priority, start, stop),
