@@ -417,7 +417,8 @@ const struct builtin builtin_table[] = {
     {"refract", FAMILY_REFRACT, 3, .weight = 4, .load = 14, .whole = refracted},
     {"matrixCompMult", FAMILY_MATRIX, 2, .two = product},
     {"transpose", FAMILY_MATRIX, 1, .whole = transposed},
-    {"inverse", FAMILY_MATRIX, 1, .weight = 5, .load = 14, .glsl = "code_inverse", .whole = inverted},
+    {"inverse", FAMILY_MATRIX, 1, .weight = 5, .load = 14, .glsl = "code_inverse",
+     .whole = inverted},
     {"determinant", FAMILY_DETERMINANT, 1, .whole = determinant_of},
     {"outerProduct", FAMILY_OUTER, 2, .whole = outer_product},
     {"mul", FAMILY_PRODUCT, 2, .glsl = NULL},
@@ -431,10 +432,11 @@ const struct builtin builtin_table[] = {
     {"any", FAMILY_COUNT, 1, .whole = any_of},
     {"all", FAMILY_COUNT, 1, .whole = all_of},
     /* Value noise from -1 to 1, waves about two units long. */
-    {"noise", FAMILY_PLACE, 1, .weight = 20, .load = 72, .glsl = "noise_value($0, 0u)", .whole = pattern_noise},
+    {"noise", FAMILY_PLACE, 1, .weight = 20, .load = 72, .glsl = "noise_value($0, 0u)",
+     .whole = pattern_noise},
     /* The sum of up to eight octaves, each of twice the frequency and half the height. */
-    {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .load = 125, .trips = PATTERN_OCTAVES, .glsl = "code_fbm",
-     .whole = pattern_fbm},
+    {"fbm", FAMILY_OCTAVES, 2, .weight = 40, .load = 125, .trips = PATTERN_OCTAVES,
+     .glsl = "code_fbm", .whole = pattern_fbm},
     /* A number from 0 to 1 for each cube of side 1, by chance. */
     {"hash", FAMILY_PLACE, 1, .weight = 8, .load = 24, .glsl = "code_hash", .whole = pattern_hash},
     /* 0 and 1 by turns in cubes of side 1. */
