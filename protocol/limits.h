@@ -22,6 +22,7 @@
     X(LIGHTS, "lights", 16, "lights", "lights of a scene")                                         \
     X(VOLUMES, "volumes", 8, "volumes", "volumes of a scene")                                      \
     X(ASSETS, "assets", 1024, "files", "uploaded files kept")                                      \
+    X(ASSETS_BYTES, "assets_bytes", 1073741824, "bytes", "uploaded files kept, together")          \
     X(ASSET_BYTES, "asset_bytes", 33554432, "bytes", "one uploaded file")                          \
     X(ASSET_SIDE, "asset_side", 8192, "pixels", "width or height of an uploaded picture")          \
     X(ASSET_PIXELS, "asset_pixels", 33554432, "pixels",                                            \
@@ -75,7 +76,10 @@
     X(IMAGE_QUEUE, "image_queue", 64, "requests", "pictures waiting to be rendered")               \
     X(IMAGE_SHARE, "image_share", 16, "requests", "the same, of one client")                       \
     X(IMAGE_CACHE_BYTES, "image_cache_bytes", 67108864, "bytes", "finished pictures kept")         \
-    X(HEAD_BYTES, "head_bytes", 16384, "bytes", "the head of an HTTP request")
+    X(HEAD_BYTES, "head_bytes", 16384, "bytes", "the head of an HTTP request")                     \
+    X(BODIES_BYTES, "bodies_bytes", 268435456, "bytes",                                            \
+      "bodies of requests that are being received, together")                                      \
+    X(LIVE_SILENCE, "live_silence", 14, "seconds", "a live connection that answers no ping")
 
 enum {
 #define X(NAME, name, value, unit, doc) LIMIT_##NAME = value,

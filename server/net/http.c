@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "admit.h"
+#include "body.h"
 #include "protocol/memory.h"
 #include "request.h"
 #include "safety.h"
@@ -43,8 +44,9 @@ struct exchange {
     struct MHD_Connection *connection;
     const struct route *route;
     char *target;
-    bool begun, counted;              /* admitted; among http->pending */
-    size_t body_capacity, body_bytes; /* bytes seen, kept or not */
+    bool begun, counted; /* admitted; among http->pending */
+    struct body body;
+    size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
     struct MHD_Response *response; /* under http->lock until REPLIED */
     int status;
@@ -60,6 +62,7 @@ struct http {
     struct MHD_Daemon *daemon;
     int gone_epoll;
     atomic_int connections, pending;
+    struct bodies bodies;
     pthread_mutex_t lock; /* the states; taken after the hub's lock */
 };
 
@@ -239,6 +242,7 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
     exchange->http = http;
     exchange->connection = connection;
     exchange->target = target ? memory_text(target) : NULL;
+    exchange->body.bodies = &http->bodies;
     exchange->request.hub = http->hub;
     exchange->request.header = find_header;
     read_address(connection, exchange->request.client);
@@ -271,17 +275,15 @@ static size_t body_limit(const struct exchange *exchange)
     return admit_body_limit(exchange->route);
 }
 
-static void add_body(struct exchange *exchange, const char *bytes, size_t length)
+static void refuse_memory(struct exchange *exchange)
 {
-    struct request *request = &exchange->request;
+    char detail[120];
 
-    if (request->body_length + length + 1 > exchange->body_capacity) {
-        exchange->body_capacity = (request->body_length + length + 1) * 2;
-        request->body = memory_resize(request->body, exchange->body_capacity, 1);
-    }
-    memcpy(request->body + request->body_length, bytes, length);
-    request->body_length += length;
-    request->body[request->body_length] = '\0';
+    snprintf(detail, sizeof(detail),
+             "bodies of requests hold %zu bytes already; the limit is %d bytes",
+             exchange->http->bodies.held, LIMIT_BODIES_BYTES);
+    struct response response = response_problem(503, "unavailable", "", detail);
+    request_reply(&exchange->request, &response);
 }
 
 /* The library takes no reply in the middle of a body. So what is too much is read away for a while
@@ -293,8 +295,9 @@ static enum MHD_Result receive_body(struct exchange *exchange, const char *bytes
         exchange->body_bytes > BODY_PATIENCE * body_limit(exchange)) {
         return MHD_NO;
     }
-    if (exchange->body_bytes <= body_limit(exchange) && !exchange->response) {
-        add_body(exchange, bytes, *length);
+    if (exchange->body_bytes <= body_limit(exchange) && !exchange->response &&
+        !body_add(&exchange->body, &exchange->request, bytes, *length)) {
+        refuse_memory(exchange);
     }
     *length = 0;
     return MHD_YES;
@@ -338,6 +341,9 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
         return answer_now(exchange, &response);
     }
     if (admit_request(&exchange->request, exchange->target, &exchange->route, &response)) {
+        const uint64_t announced = admit_announced_bytes(&exchange->request);
+
+        exchange->body.most = announced ? (size_t)announced : body_limit(exchange);
         return MHD_YES;
     }
     if (admit_has_body(&exchange->request) && !request_header(&exchange->request, "Expect") &&
@@ -392,6 +398,7 @@ static void on_completed(void *data, struct MHD_Connection *connection, void **c
     if (exchange->response) {
         MHD_destroy_response(exchange->response);
     }
+    body_finish(&exchange->body);
     request_finish(&exchange->request);
     while (exchange->trimmed) {
         struct trimmed *next = exchange->trimmed->next;

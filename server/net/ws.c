@@ -23,8 +23,7 @@
 
 enum {
     HELLO_SECONDS = 7, /* not the ping's time: both at once garble the close code */
-    PING_SECONDS = 10,
-    HANGUP_SECONDS = 25, /* without a pong or anything else */
+    PING_SECONDS = 5,
     PIECES_PER_TURN = 16,
     CLOSE_SECONDS = 3,     /* for the other side to answer a close */
     REST_TOLD_US = 250000, /* a shorter one is not worth a word */
@@ -67,7 +66,7 @@ struct ws {
 };
 
 static const lws_retry_bo_t idle_policy = {.secs_since_valid_ping = PING_SECONDS,
-                                           .secs_since_valid_hangup = HANGUP_SECONDS};
+                                           .secs_since_valid_hangup = LIMIT_LIVE_SILENCE};
 
 static void link_destroy(struct link *link)
 {

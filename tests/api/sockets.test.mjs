@@ -121,6 +121,14 @@ describe('heads', () => {
         assert.deepEqual(peer.statuses(), [200]);
     });
 
+    test('half-closed behind a request for a picture that takes a while is taken for gone', async () => {
+        const peer = connect();
+        peer.socket.end(get('Connection: close\r\n', '/v1/scenes/s/image.png?width=4096&height=4096&samples=4'));
+        await peer.end();
+        assert.deepEqual(peer.statuses(), []);
+        await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the end of the order');
+    });
+
     test('half-closed in front of a whole request is closed', async () => {
         const peer = connect();
         peer.socket.end('GET /healthz HTTP/1.1\r\n');
@@ -304,6 +312,32 @@ describe('slow clients', () => {
 });
 
 describe('too many', () => {
+    test('bodies in memory: what is above the limit is answered 503, small ones go on', async () => {
+        const { limits } = (await ask(daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
+        const limit = limits.find(({ name }) => name === 'bodies_bytes').value;
+        const size = 15 << 20;
+        const body = Buffer.alloc(size - 1, 'x');
+        const count = Math.ceil(limit / size) + 3;
+        const head = `POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Length: ${size}\r\n\r\n`;
+        const peers = Array.from({ length: count }, () => connect());
+        await Promise.all(
+            peers.map((peer) => new Promise((done) => peer.socket.write(head, () => peer.socket.write(body, done)))),
+        );
+        await ask(daemon, 'PUT', '/v1/scenes/small', { format: 'fieldcast/1', root: { type: 'sphere' } });
+        peers.forEach((peer) => peer.socket.write('x'));
+        await until(() => peers.every((peer) => peer.statuses().length), 'answers');
+        const refused = peers.filter((peer) => peer.statuses()[0] === 503);
+        assert.ok((count - refused.length) * size <= limit && refused.length < count / 2, `${refused.length}`);
+        assert.ok(refused.every((peer) => /\r\nRetry-After: 1\r\n/i.test(peer.text) && /the limit is 268435456/.test(peer.text)));
+        const last = connect();
+        last.socket.write(head);
+        last.socket.write(body);
+        last.socket.write('x');
+        await until(() => last.statuses().length, 'an answer');
+        assert.deepEqual(last.statuses(), [400], 'there is room again');
+        [...peers, last].forEach((peer) => peer.close());
+    });
+
     test('HTTP connections: the last ones are answered 503, and there is room again when some leave', async () => {
         const peers = Array.from({ length: 560 }, () => connect());
         peers.forEach((peer) => peer.socket.write(get()));

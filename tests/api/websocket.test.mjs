@@ -419,6 +419,22 @@ describe('the server closes', () => {
         });
     }
 
+    test('on who answers no ping, and not on who does', async () => {
+        const { limits } = (await ask(daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
+        assert.ok(limits.find(({ name }) => name === 'live_silence').value <= 15);
+        const [dead, alive] = [await Peer.open(daemon, 's'), await Peer.open(daemon, 's')];
+        let answered = 0;
+        await until(() => {
+            for (; answered < alive.of(PING).length; answered += 1) {
+                alive.send(frame(PONG, alive.of(PING)[answered].payload));
+            }
+            return dead.ended;
+        }, 'the end of the silent one');
+        assert.ok(answered > 1 && !alive.ended);
+        await lives(alive);
+        alive.destroy();
+    });
+
     test('too many small parts', async () => {
         const peer = await Peer.open(daemon, 's');
         const part = frame(CONTINUATION, ' '.repeat(60000), { final: false });
