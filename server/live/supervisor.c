@@ -24,6 +24,7 @@
 #include "server/log.h"
 
 enum {
+    SPARE_PAIRS = 2, /* its packets, its pulse */
     PING_MS = 250,
     START_MS = 60000,       /* one that is not ready yet may be still, or at work, for so long */
     WATCH_AFTER_MS = 500,   /* of silence it is looked at */
@@ -54,6 +55,8 @@ struct supervisor {
 
     /* The thread's own. */
     pid_t pid;
+    int spare[SPARE_PAIRS]
+             [2]; /* of the next worker: it starts where no descriptor is free; or -1 */
     struct packet_reader reader;
     struct heartbeat heartbeat;
     int64_t started, heard, next_ping, next_start;
@@ -207,37 +210,44 @@ void supervisor_set_patience(struct supervisor *supervisor, int times)
     atomic_store(&supervisor->patience, times);
 }
 
-static bool open_pair(int pair[2])
+static bool make_spare(struct supervisor *supervisor)
 {
-    const bool ok = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0;
+    bool ok = true;
 
-    if (!ok) {
-        log_error("worker", "no socket: %s", strerror(errno));
+    for (int i = 0; i < SPARE_PAIRS; i++) {
+        int pair[2];
+
+        if (supervisor->spare[i][0] < 0 &&
+            socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0) {
+            memcpy(supervisor->spare[i], pair, sizeof(pair));
+        }
+        ok = ok && supervisor->spare[i][0] >= 0;
     }
     return ok;
 }
 
-static void close_open(int fd)
-{
-    if (fd >= 0) {
-        close(fd);
-    }
-}
-
 static void start(struct supervisor *supervisor)
 {
-    int pair[2] = {-1, -1}, pulse[2] = {-1, -1};
+    int pair[2], pulse[2];
 
     supervisor->started = clock_ms();
     supervisor->next_start = 0;
     sign_of_life(supervisor);
     supervisor_set_patience(supervisor, 1);
-    bool ok = open_pair(pair) && open_pair(pulse) && spawn(supervisor, pair[1], pulse[1]);
-    close_open(pair[1]);
-    close_open(pulse[1]);
+    if (!make_spare(supervisor)) {
+        log_error("worker", "no socket: %s", strerror(errno));
+        supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
+        return;
+    }
+    memcpy(pair, supervisor->spare[0], sizeof(pair));
+    memcpy(pulse, supervisor->spare[1], sizeof(pulse));
+    memset(supervisor->spare, -1, sizeof(supervisor->spare));
+    bool ok = spawn(supervisor, pair[1], pulse[1]);
+    close(pair[1]);
+    close(pulse[1]);
     if (!ok) {
-        close_open(pair[0]);
-        close_open(pulse[0]);
+        close(pair[0]);
+        close(pulse[0]);
         supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
         return;
     }
@@ -422,6 +432,7 @@ static void watch_over(struct supervisor *supervisor, int64_t now)
 {
     struct supervisor_end end = {0};
 
+    make_spare(supervisor);
     if (supervisor->fd < 0) {
         if (supervisor->next_start <= now) {
             start(supervisor);
@@ -498,6 +509,7 @@ struct supervisor *supervisor_create(const struct supervisor_params *params)
 
     supervisor->params = *params;
     supervisor->fd = supervisor->heartbeat.fd = -1;
+    memset(supervisor->spare, -1, sizeof(supervisor->spare));
     supervisor->end = &supervisor->first;
     supervisor->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     pthread_mutex_init(&supervisor->lock, NULL);
@@ -522,6 +534,12 @@ void supervisor_destroy(struct supervisor *supervisor)
     }
     supervisor_stop(supervisor);
     close(supervisor->wake_fd);
+    for (int i = 0; i < SPARE_PAIRS; i++) {
+        if (supervisor->spare[i][0] >= 0) {
+            close(supervisor->spare[i][0]);
+            close(supervisor->spare[i][1]);
+        }
+    }
     pthread_mutex_destroy(&supervisor->lock);
     free(supervisor);
 }

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { ask, counter, sleep, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
+import net from 'node:net';
 
 const KILLS = 5;
 const RADIUS = '/nodes/ball/params/radius';
@@ -122,4 +123,28 @@ test('where nothing can be drawn the daemon ends and says why', async () => {
     assert.equal(status, 1);
     assert.match(daemon.errors, /device/i);
     await daemon.stop();
+});
+
+test('where no descriptor is free the next worker still starts', async () => {
+    const tight = await startDaemon({ driver: 'null', limits: 'ulimit -n 64' });
+    await ask(tight, 'POST', '/v1/scenes?id=s', DOCUMENT);
+    const lives = [await Live.open(tight, 's')];
+    lives[0].look();
+    await lives[0].nextFrame();
+    while (lives.at(-1).status.includes(' 101 ')) {
+        lives.push(await Live.open(tight, 's'));
+    }
+    assert.match(lives.at(-1).status, / 503 /);
+    // Whatever becomes free is taken at once.
+    const greedy = setInterval(() => lives.push(new Live(tight, 's')), 5);
+    const pid = tight.worker();
+    process.kill(pid, 'SIGKILL');
+    await until(() => tight.worker() && tight.worker() !== pid, 'another worker');
+    clearInterval(greedy);
+    assert.notEqual(tight.worker(), pid);
+    const from = lives[0].frames.length;
+    lives[0].look({ camera: { position: [0, 1, 9] } });
+    await lives[0].nextFrame(() => true, from);
+    lives.forEach((live) => live.socket.destroy());
+    await tight.stop();
 });
