@@ -22,6 +22,7 @@
     X(CRASHED, "crashed", 503)           /* it ended the render process: not before a retry */     \
     X(UNAVAILABLE, "unavailable", 503)   /* not now: worker restarting, queue full, draining */    \
     X(SHARE, "share", 429)               /* more than this client's share: after retry_ms */       \
+    X(FULL, "full", 507)                 /* no room to keep more */                                \
     X(INTERNAL, "internal", 500)         /* our fault */
 
 enum error_kind {

@@ -17,6 +17,8 @@
     X(SESSIONS_TOTAL, "sessions_total", "counter", "Live connections since the start")             \
     X(ROOMS, "rooms", "gauge", "Open scenes")                                                      \
     X(SCENES, "scenes", "gauge", "Scenes in the store")                                            \
+    X(SCENES_UNREADABLE, "scene_reads_failed_total", "counter",                                    \
+      "Scenes that the store could not give back")                                                 \
     X(EDITS, "edits_total", "counter", "Edits accepted")                                           \
     X(EDITS_REJECTED, "edits_rejected_total", "counter", "Edits refused")                          \
     X(EDITS_DURABLE, "edits_durable_total", "counter", "Edits committed to the store")             \

@@ -16,6 +16,7 @@
 #include "drawing.h"
 #include "protocol/memory.h"
 #include "server/rest/embedded.h"
+#include "server/store/store.h"
 
 enum { DEVICES_MAX = 16 };
 #define DISK_WANTED (1ULL << 30)
@@ -134,6 +135,19 @@ static int check_data(const char *path)
     return bad;
 }
 
+static int check_store(const char *path)
+{
+    struct error err = {0};
+
+    if (!store_check(path, &err)) {
+        return say(BAD, "scenes",
+                   "%s: %s; what can be read is served, the rest is lost without a "
+                   "copy",
+                   err.place, err.message);
+    }
+    return say(GOOD, "scenes", "no damage is found");
+}
+
 static int try_bind(const struct addrinfo *address)
 {
     int one = 1;
@@ -199,6 +213,7 @@ int command_doctor(const struct options *options)
     puts("fieldcast " FIELDCAST_VERSION);
     int bad = check_drawing(options);
     bad += check_data(option_text(options, OPTION_DATA));
+    bad += check_store(option_text(options, OPTION_DATA));
     bad += check_port(option_text(options, OPTION_HOST), option_text(options, OPTION_PORT));
     bad += check_descriptors();
     bad += check_page();

@@ -74,6 +74,7 @@ static struct room *load_room(struct hub *hub, const char *id, struct error *err
             err->kind = ERROR_INTERNAL;
         }
     }
+    metric_add(&hub->metrics, METRIC_SCENES_UNREADABLE, !room && err->kind == ERROR_INTERNAL);
     return room;
 }
 

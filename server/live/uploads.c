@@ -20,6 +20,7 @@ void uploads_add(void *data, const struct store_asset *asset)
     }
     uploads->items = memory_resize(uploads->items, uploads->count + 1, sizeof(*uploads->items));
     upload = &uploads->items[uploads->count++];
+    uploads->bytes += example_files_find(asset->id) ? 0 : asset->length;
     *upload = (struct upload){
         .width = asset->info.width, .height = asset->info.height, .length = asset->length};
     snprintf(upload->id, sizeof(upload->id), "%s", asset->id);
@@ -37,6 +38,25 @@ void uploads_add_embedded(struct uploads *uploads)
             uploads_add(uploads, &asset);
         }
     }
+}
+
+void uploads_remove(struct uploads *uploads, const char *id)
+{
+    for (size_t i = 0; i < uploads->count; i++) {
+        if (strcmp(uploads->items[i].id, id) == 0) {
+            uploads->bytes -= uploads->items[i].length;
+            uploads->count--;
+            memmove(uploads->items + i, uploads->items + i + 1,
+                    (uploads->count - i) * sizeof(*uploads->items));
+            return;
+        }
+    }
+}
+
+bool uploads_have_room(const struct uploads *uploads, size_t length)
+{
+    return uploads->count + uploads->pending_count < LIMIT_ASSETS &&
+           uploads->bytes + uploads->pending_bytes + length <= LIMIT_ASSETS_BYTES;
 }
 
 void uploads_finish(struct uploads *uploads)

@@ -20,11 +20,16 @@ struct upload {
 struct uploads {
     struct upload *items; /* oldest first */
     size_t count;
+    size_t bytes;                        /* of those that clients sent */
+    size_t pending_count, pending_bytes; /* on their way to the disk */
 };
 
 /* What the store lists; `data` is the uploads. */
 void uploads_add(void *data, const struct store_asset *asset);
 void uploads_add_embedded(struct uploads *uploads);
+void uploads_remove(struct uploads *uploads, const char *id);
+/* Whether one more file may be kept. */
+bool uploads_have_room(const struct uploads *uploads, size_t length);
 void uploads_finish(struct uploads *uploads);
 /* NULL: there is no such file. */
 const struct upload *uploads_find(const struct uploads *uploads, const char *id);

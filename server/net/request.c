@@ -193,7 +193,8 @@ const char *response_title(int status)
                   {426, "Upgrade Required"},
                   {429, "Too Many Requests"},
                   {500, "Internal Server Error"},
-                  {503, "Service Unavailable"}};
+                  {503, "Service Unavailable"},
+                  {507, "Insufficient Storage"}};
 
     for (size_t i = 0; i < sizeof(titles) / sizeof(*titles); i++) {
         if (titles[i].status == status) {

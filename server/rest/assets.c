@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "embedded.h"
 #include "protocol/memory.h"
 #include "routes.h"
 #include "server/digest.h"
@@ -11,6 +12,7 @@
 #include "server/live/room.h"
 #include "server/live/room_worker.h"
 #include "server/live/session.h"
+#include "server/live/upload_names.h"
 
 /* A file on its way to the disk. */
 struct waiting {
@@ -74,6 +76,8 @@ static void on_stored(void *data)
     cJSON *json;
 
     hub_lock(hub);
+    hub->uploads.pending_count--;
+    hub->uploads.pending_bytes -= waiting->asset.length;
     uploads_add(&hub->uploads, &waiting->asset);
     tell_rooms(hub, waiting->asset.id);
     json = describe(uploads_find(&hub->uploads, waiting->asset.id));
@@ -88,22 +92,69 @@ static void store_asset(struct request *request, struct store_asset *asset)
     struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
     struct store_write *write = memory_alloc(1, sizeof(*write));
 
+    hub_lock(request->hub);
+    request->hub->uploads.pending_count++;
+    request->hub->uploads.pending_bytes += asset->length;
+    hub_unlock(request->hub);
     *waiting = (struct waiting){request, request->hub, *asset};
     *write = (struct store_write){
         .kind = STORE_ASSET, .asset = asset, .on_durable = on_stored, .data = waiting};
     store_push(request->hub->store, write);
 }
 
-/* Under the hub's lock. What it is, where it is known; NULL and `err` where there is no room. */
-static cJSON *find_known(const struct hub *hub, const char *id, struct error *err)
+/* Under the hub's lock; `on_durable` may be NULL. */
+static void remove_asset(struct hub *hub, const char *id, void (*on_durable)(void *data),
+                         void *data)
 {
-    const struct upload *known = uploads_find(&hub->uploads, id);
+    struct store_write *write = memory_alloc(1, sizeof(*write));
 
-    if (!known && hub->uploads.count >= LIMIT_ASSETS) {
-        error_set(err, ERROR_LIMIT, "", "%zu files are kept already; the limit is %d",
-                  hub->uploads.count, LIMIT_ASSETS);
+    *write = (struct store_write){.kind = STORE_ASSET_DELETE,
+                                  .asset = memory_alloc(1, sizeof(*write->asset)),
+                                  .on_durable = on_durable,
+                                  .data = data};
+    snprintf(write->asset->id, sizeof(write->asset->id), "%s", id);
+    uploads_remove(&hub->uploads, id);
+    store_push(hub->store, write);
+}
+
+/* Under the hub's lock: removes what no scene names, oldest first, until there is room. */
+static void remove_unnamed(struct hub *hub, const struct upload_names *names, size_t length)
+{
+    for (size_t i = 0; i < names->count && !uploads_have_room(&hub->uploads, length); i++) {
+        const char *id = names->items[i].id;
+
+        if (!upload_names_scene(names, id) && !example_files_find(id) &&
+            uploads_find(&hub->uploads, id)) {
+            remove_asset(hub, id, NULL, NULL);
+        }
     }
-    return known ? describe(known) : NULL;
+}
+
+/* False and `err`: all that is kept is named by scenes. */
+static bool make_room(struct hub *hub, size_t length, struct error *err)
+{
+    struct upload_names names;
+
+    hub_lock(hub);
+    bool room = uploads_have_room(&hub->uploads, length);
+    hub_unlock(hub);
+    if (room) {
+        return true;
+    }
+    if (!upload_names_read(hub, &names, err)) {
+        return false;
+    }
+    hub_lock(hub);
+    upload_names_add_open(&names, hub);
+    remove_unnamed(hub, &names, length);
+    room = uploads_have_room(&hub->uploads, length) ||
+           error_set(err, ERROR_FULL, "/v1/assets",
+                     "%zu files of %zu bytes, all named by scenes, are kept; the limits are %d "
+                     "files and %d bytes",
+                     hub->uploads.count, hub->uploads.bytes, LIMIT_ASSETS, LIMIT_ASSETS_BYTES);
+    hub_unlock(hub);
+    upload_names_finish(&names);
+    return room;
 }
 
 void assets_create(struct request *request)
@@ -118,12 +169,13 @@ void assets_create(struct request *request)
         asset_inspect((const uint8_t *)request->body, request->body_length, &asset->info, &err)) {
         digest_text(request->body, request->body_length, asset->id);
         hub_lock(hub);
-        known = find_known(hub, asset->id, &err);
+        const struct upload *upload = uploads_find(&hub->uploads, asset->id);
+        known = upload ? describe(upload) : NULL;
         hub_unlock(hub);
     }
     if (known) {
         reply(request, 200, known, asset->id);
-    } else if (err.kind != ERROR_NONE) {
+    } else if (err.kind != ERROR_NONE || !make_room(hub, request->body_length, &err)) {
         request_reply_error(request, &err);
     } else {
         asset->bytes = request->body;
@@ -157,4 +209,50 @@ void assets_read(struct request *request)
     response.type = type;
     response_add(&response, "Cache-Control", "public, max-age=31536000, immutable");
     request_reply(request, &response);
+}
+
+static void on_removed(void *data)
+{
+    struct response response = {.status = 204, .body = "", .borrowed = true};
+
+    request_reply(data, &response);
+}
+
+/* Under the hub's lock. Whether the file may go; `names` is NULL where nothing was read yet. */
+static bool check_removal(struct hub *hub, const char *id, const struct upload_names *names,
+                          struct error *err)
+{
+    const char *scene = names ? upload_names_scene(names, id) : NULL;
+
+    if (!uploads_find(&hub->uploads, id)) {
+        return error_set(err, ERROR_NOT_FOUND, "", "there is no asset %s", id);
+    }
+    if (example_files_find(id)) {
+        return error_set(err, ERROR_CONFLICT, "", "examples name this file");
+    }
+    return !scene || error_set(err, ERROR_CONFLICT, "", "the scene %s names this file", scene);
+}
+
+void assets_delete(struct request *request)
+{
+    struct hub *hub = request->hub;
+    const char *id = request->capture[0];
+    struct upload_names names = {0};
+    struct error err = {0};
+
+    hub_lock(hub);
+    bool ok = check_removal(hub, id, NULL, &err);
+    hub_unlock(hub);
+    if (ok && upload_names_read(hub, &names, &err)) {
+        hub_lock(hub);
+        upload_names_add_open(&names, hub);
+        if (check_removal(hub, id, &names, &err)) {
+            remove_asset(hub, id, on_removed, request);
+        }
+        hub_unlock(hub);
+        upload_names_finish(&names);
+    }
+    if (err.kind != ERROR_NONE) {
+        request_reply_error(request, &err);
+    }
 }

@@ -300,6 +300,15 @@ void pages_ready(struct request *request)
     bool ready = hub->renders.ready;
     info = hub->renderer;
     hub_unlock(hub);
+    const char *damage = store_damage(hub->store);
+    if (*damage) {
+        char detail[300];
+
+        snprintf(detail, sizeof(detail), "the database is damaged: %s", damage);
+        struct response response = response_problem(503, "unavailable", "store", detail);
+        request_reply(request, &response);
+        return;
+    }
     if (!ready || atomic_load(&hub->draining)) {
         struct response response = response_problem(503, "unavailable", "",
                                                     ready ? "the server is shutting down"

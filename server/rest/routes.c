@@ -17,6 +17,7 @@ static const struct route table[] = {
     {"GET", "/v1/assets", assets_list, BODY_NONE, GUARDED},
     {"POST", "/v1/assets", assets_create, BODY_FILE, GUARDED},
     {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED},
+    {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED},
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED},
     {"GET", "/v1/examples", pages_examples, BODY_NONE, GUARDED},
     {"GET", "/v1/examples/{}", pages_example, BODY_NONE, GUARDED},

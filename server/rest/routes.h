@@ -37,6 +37,7 @@ void scenes_poster(struct request *request);
 void assets_list(struct request *request);
 void assets_create(struct request *request);
 void assets_read(struct request *request);
+void assets_delete(struct request *request);
 void images_of_scene(struct request *request);
 void images_of_example(struct request *request);
 void images_render(struct request *request);

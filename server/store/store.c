@@ -152,6 +152,11 @@ static bool take_directory(struct store *store, const char *directory, struct er
     return true;
 }
 
+static void database_path(char *out, size_t size, const char *directory)
+{
+    snprintf(out, size, "%s/scenes.sqlite", directory);
+}
+
 struct store *store_open(const char *directory, struct metrics *metrics, struct error *err)
 {
     struct store *store = memory_alloc(1, sizeof(*store));
@@ -165,10 +170,14 @@ struct store *store_open(const char *directory, struct metrics *metrics, struct 
     if (!take_directory(store, directory, err)) {
         goto fail;
     }
-    snprintf(path, sizeof(path), "%s/scenes.sqlite", directory);
+    database_path(path, sizeof(path), directory);
     store->db = store_sqlite_open(path, err);
     if (!store->db) {
         goto fail;
+    }
+    if (*store_damage(store)) {
+        log_error("store", "%s is damaged: %s; what can be read is served", path,
+                  store_damage(store));
     }
     if (pthread_create(&store->thread, NULL, run, store) != 0) {
         error_set(err, ERROR_INTERNAL, "store", "no thread can be started");
@@ -179,6 +188,19 @@ struct store *store_open(const char *directory, struct metrics *metrics, struct 
 fail:
     store_close(store);
     return NULL;
+}
+
+const char *store_damage(const struct store *store)
+{
+    return store_sqlite_damage(store->db);
+}
+
+bool store_check(const char *directory, struct error *err)
+{
+    char path[4096];
+
+    database_path(path, sizeof(path), directory);
+    return access(path, F_OK) != 0 || store_sqlite_check(path, err);
 }
 
 void store_close(struct store *store)
@@ -224,6 +246,13 @@ bool store_list_assets(struct store *store,
                        struct error *err)
 {
     return store_sqlite_list_assets(store->db, each, data, err);
+}
+
+bool store_list_texts(struct store *store,
+                      void (*each)(void *data, const char *scene, const char *text), void *data,
+                      struct error *err)
+{
+    return store_sqlite_list_texts(store->db, each, data, err);
 }
 
 bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,

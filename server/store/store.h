@@ -31,8 +31,9 @@ enum store_kind {
     STORE_SNAPSHOT, /* the document at a revision that the log has reached */
     STORE_AUTHOR,   /* the key of an author that has none yet */
     STORE_DELETE,
-    STORE_ASSET,  /* a file, once */
-    STORE_POSTER, /* the scene's last picture, in `asset`; what it was before is gone */
+    STORE_ASSET,        /* a file, once */
+    STORE_ASSET_DELETE, /* it is named by its id in `asset`, without bytes */
+    STORE_POSTER,       /* the scene's last picture, in `asset`; what it was before is gone */
 };
 
 /* A file that scenes name by its SHA-256. */
@@ -110,6 +111,10 @@ void store_loaded_finish(struct store_loaded *loaded);
 
 /* Makes the directory when it is missing and takes hold of it against other processes. */
 struct store *store_open(const char *directory, struct metrics *metrics, struct error *err);
+/* What is wrong with the database, as it was found at the start; "": nothing. */
+const char *store_damage(const struct store *store);
+/* Looks for damage in a directory that a store may have open. No database is no damage. */
+bool store_check(const char *directory, struct error *err);
 /* Commits what is queued, then closes. */
 void store_close(struct store *store);
 /* Calls `each` for every scene, by id. */
@@ -126,6 +131,11 @@ bool store_find_edit(struct store *store, const char *scene, const char *author,
 bool store_list_assets(struct store *store,
                        void (*each)(void *data, const struct store_asset *asset), void *data,
                        struct error *err);
+/* Calls `each` for all that scenes are made of: the newest document of each and, as JSON, the edits
+ * behind it. */
+bool store_list_texts(struct store *store,
+                      void (*each)(void *data, const char *scene, const char *text), void *data,
+                      struct error *err);
 /* Any thread; the caller frees the bytes. */
 bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,
                       struct error *err);

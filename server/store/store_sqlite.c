@@ -67,6 +67,7 @@ enum statement {
     DELETE_EDITS,
     DELETE_AUTHORS,
     ADD_ASSET,
+    DELETE_ASSET,
     SET_POSTER,
     DELETE_POSTER,
     STATEMENT_COUNT
@@ -98,6 +99,7 @@ static const char *const texts[STATEMENT_COUNT] = {
     [SET_POSTER] = "INSERT OR REPLACE INTO posters(scene, bytes) SELECT id, ?14 FROM scenes"
                    " WHERE id=?1",
     [DELETE_POSTER] = "DELETE FROM posters WHERE scene=?1",
+    [DELETE_ASSET] = "DELETE FROM assets WHERE id=?10",
     [ADD_ASSET] = "INSERT OR IGNORE INTO assets(id, type, width, height, time, bytes)"
                   " VALUES(?10, ?11, ?12, ?13, ?8, ?14)",
 };
@@ -112,6 +114,7 @@ static const int steps[][6] = {
     [STORE_DELETE] = {DELETE_SCENE, DELETE_SNAPSHOTS, DELETE_EDITS, DELETE_AUTHORS, DELETE_POSTER,
                       -1},
     [STORE_ASSET] = {ADD_ASSET, -1},
+    [STORE_ASSET_DELETE] = {DELETE_ASSET, -1},
     [STORE_POSTER] = {SET_POSTER, -1},
 };
 
@@ -122,6 +125,7 @@ struct store_sqlite {
     sqlite3 *finder; /* of single edits: a scene that is being read delays nobody */
     sqlite3_stmt *find_edit;
     pthread_mutex_t find_lock;
+    char damage[200];
 };
 
 static bool database_error(sqlite3 *db, const char *what, struct error *err)
@@ -145,6 +149,24 @@ static int user_version(sqlite3 *db)
     }
     sqlite3_finalize(statement);
     return version;
+}
+
+/* What PRAGMA quick_check says first, "" for "ok": every page is read, indices are not compared. */
+static void look_for_damage(sqlite3 *db, char *out, size_t size)
+{
+    sqlite3_stmt *statement = NULL;
+    int result = sqlite3_prepare_v2(db, "PRAGMA quick_check(1)", -1, &statement, NULL);
+
+    if (result == SQLITE_OK) {
+        result = sqlite3_step(statement);
+    }
+    const char *said =
+        result == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : sqlite3_errmsg(db);
+    snprintf(out, size, "%s", said && strcmp(said, "ok") != 0 ? said : "");
+    for (char *c = out; *c; c++) {
+        *c = *c == '\n' ? ' ' : *c;
+    }
+    sqlite3_finalize(statement);
 }
 
 static bool bring_up_to_date(sqlite3 *db, const char *file, struct error *err)
@@ -205,6 +227,7 @@ struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
         !open_reader(&db->finder, file, err)) {
         goto fail;
     }
+    look_for_damage(db->writer, db->damage, sizeof(db->damage));
     if (sqlite3_prepare_v2(db->finder,
                            "SELECT revision FROM edits"
                            " WHERE scene=?1 AND author=?2 AND edit=?3 AND edit>0",
@@ -216,6 +239,27 @@ struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
 fail:
     store_sqlite_close(db);
     return NULL;
+}
+
+const char *store_sqlite_damage(const struct store_sqlite *db)
+{
+    return db->damage;
+}
+
+bool store_sqlite_check(const char *file, struct error *err)
+{
+    char damage[200];
+    sqlite3 *db = NULL;
+    bool ok = sqlite3_open_v2(file, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK ||
+              database_error(db, file, err);
+
+    if (ok) {
+        sqlite3_busy_timeout(db, 5000);
+        look_for_damage(db, damage, sizeof(damage));
+        ok = !*damage || error_set(err, ERROR_INTERNAL, file, "damaged: %s", damage);
+    }
+    sqlite3_close(db);
+    return ok;
 }
 
 void store_sqlite_close(struct store_sqlite *db)
@@ -525,6 +569,36 @@ bool store_sqlite_find_edit(struct store_sqlite *db, const char *scene, const ch
     sqlite3_reset(db->find_edit);
     sqlite3_clear_bindings(db->find_edit);
     pthread_mutex_unlock(&db->find_lock);
+    return ok;
+}
+
+struct text_call {
+    void (*each)(void *data, const char *scene, const char *text);
+    void *data;
+};
+
+static void text_row(void *data, sqlite3_stmt *statement)
+{
+    struct text_call *call = data;
+
+    call->each(call->data, (const char *)sqlite3_column_text(statement, 0),
+               (const char *)sqlite3_column_text(statement, 1));
+}
+
+bool store_sqlite_list_texts(struct store_sqlite *db,
+                             void (*each)(void *data, const char *scene, const char *text),
+                             void *data, struct error *err)
+{
+    struct text_call call = {each, data};
+
+    pthread_mutex_lock(&db->read_lock);
+    bool ok = query(db,
+                    "SELECT scene, document FROM snapshots AS s WHERE revision ="
+                    " (SELECT max(revision) FROM snapshots WHERE scene = s.scene)"
+                    " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
+                    " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
+                    "", 0, text_row, &call, err);
+    pthread_mutex_unlock(&db->read_lock);
     return ok;
 }
 

@@ -9,6 +9,9 @@
 struct store_sqlite;
 
 struct store_sqlite *store_sqlite_open(const char *file, struct error *err);
+/* As store_damage and store_check. */
+const char *store_sqlite_damage(const struct store_sqlite *db);
+bool store_sqlite_check(const char *file, struct error *err);
 void store_sqlite_close(struct store_sqlite *db);
 /* Writes the whole list in one transaction. False: nothing of it is in the database. */
 bool store_sqlite_commit(struct store_sqlite *db, const struct store_write *writes,
@@ -23,6 +26,9 @@ bool store_sqlite_find_edit(struct store_sqlite *db, const char *scene, const ch
 bool store_sqlite_list_assets(struct store_sqlite *db,
                               void (*each)(void *data, const struct store_asset *asset), void *data,
                               struct error *err);
+bool store_sqlite_list_texts(struct store_sqlite *db,
+                             void (*each)(void *data, const char *scene, const char *text),
+                             void *data, struct error *err);
 bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
                              size_t *out_length, struct error *err);
 bool store_sqlite_load_poster(struct store_sqlite *db, const char *scene, void **out_bytes,

@@ -248,3 +248,112 @@ test('without the token nothing is taken', async () => {
     await daemon.stop();
     removeDirectory(directory);
 });
+
+/** Files of one pixel, each another one. */
+const dot_file = (i) => Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n'), Buffer.from([i & 255, i >> 8, 7, 128])]);
+const remove = (daemon, id) => fetch(`${daemon.url}/v1/assets/${id}`, { method: 'DELETE' });
+const statusOf = async (daemon, id) => (await fetch(`${daemon.url}/v1/assets/${id}`)).status;
+
+describe('removing', () => {
+    let daemon;
+    const data = makeDirectory();
+    const [named, free, tried] = [1, 2, 3].map(dot_file);
+    before(async () => {
+        daemon = await startDaemon({ driver: 'null', data });
+        for (const file of [named, free, tried]) {
+            assert.equal((await send(daemon, file)).status, 201);
+        }
+        await ask(daemon, 'POST', '/v1/scenes?id=s', scene(digest(named)));
+    });
+    after(async () => {
+        await daemon.stop();
+        removeDirectory(data);
+    });
+
+    test('a file that no scene names', async () => {
+        assert.equal((await remove(daemon, digest(free))).status, 204);
+        assert.equal(await statusOf(daemon, digest(free)), 404);
+        assert.equal((await remove(daemon, digest(free))).status, 404);
+        assert.ok(!(await ask(daemon, 'GET', '/v1/assets')).assets.some(({ id }) => id === digest(free)));
+    });
+
+    test('not one that a scene names', async () => {
+        const answer = await remove(daemon, digest(named));
+        assert.equal(answer.status, 409);
+        assert.match((await answer.json()).detail, /the scene s names this file/);
+        assert.equal(await statusOf(daemon, digest(named)), 200);
+    });
+
+    test('not one of the examples', async () => {
+        const { assets } = await ask(daemon, 'GET', '/v1/assets');
+        const answer = await remove(daemon, assets[0].id);
+        assert.equal(answer.status, 409);
+        assert.match((await answer.json()).detail, /examples name this file/);
+    });
+
+    test('one that an edit names until it is undone', async () => {
+        const live = await Live.open(daemon, 's');
+        live.set('/environment/image', digest(tried));
+        await live.next('applied', { edit: live.edit });
+        assert.equal((await remove(daemon, digest(tried))).status, 409);
+        assert.equal((await remove(daemon, digest(named))).status, 204);
+        assert.equal((await send(daemon, named)).status, 201);
+        const step = live.step('undo');
+        await live.next('applied', { edit: step });
+        assert.equal((await remove(daemon, digest(tried))).status, 204);
+        await live.close();
+    });
+
+    test('for good: it is not there after a restart, and what is named is', async () => {
+        await daemon.kill();
+        daemon = await startDaemon({ driver: 'null', data });
+        assert.deepEqual(await Promise.all([named, free, tried].map((file) => statusOf(daemon, digest(file)))), [200, 404, 404]);
+        assert.equal((await remove(daemon, digest(named))).status, 409);
+        await ask(daemon, 'DELETE', '/v1/scenes/s');
+        assert.equal((await remove(daemon, digest(named))).status, 204);
+    });
+});
+
+describe('as many as may be kept', () => {
+    let daemon;
+    let limit;
+    let files;
+    before(async () => {
+        daemon = await startDaemon({ driver: 'null', ready: false });
+        ({ value: limit } = (await ask(daemon, 'GET', '/v1/schema.json'))['x-fieldcast'].limits.find(({ name }) => name === 'assets'));
+        const { assets } = await ask(daemon, 'GET', '/v1/assets');
+        files = Array.from({ length: limit - assets.length }, (_, i) => dot_file(i + 1));
+        for (let i = 0; i < files.length; i += 8) {
+            const answers = await Promise.all(files.slice(i, i + 8).map((file) => send(daemon, file)));
+            answers.forEach(({ status }) => assert.equal(status, 201));
+        }
+    });
+    after(() => daemon.stop());
+
+    test('the oldest that no scene names makes room', async () => {
+        const { assets } = await ask(daemon, 'GET', '/v1/assets');
+        const sent = assets.map(({ id }) => id).filter((id) => files.some((file) => digest(file) === id));
+        assert.equal(assets.length, limit);
+        await ask(daemon, 'POST', '/v1/scenes?id=first', scene(sent[0]));
+        const more = dot_file(60000);
+        assert.equal((await send(daemon, more)).status, 201);
+        const ids = (await ask(daemon, 'GET', '/v1/assets')).assets.map(({ id }) => id);
+        assert.equal(ids.length, limit);
+        assert.ok(ids.includes(sent[0]) && !ids.includes(sent[1]) && ids.includes(sent[2]) && ids.at(-1) === digest(more));
+    });
+
+    test('there is no room where scenes name all', async () => {
+        const ids = (await ask(daemon, 'GET', '/v1/assets')).assets.map(({ id }) => id);
+        for (let i = 0; i < ids.length; i += 8) {
+            await Promise.all(ids.slice(i, i + 8).map((id, k) => ask(daemon, 'PUT', `/v1/scenes/n${i + k}`, scene(id))));
+        }
+        const answer = await send(daemon, dot_file(60001));
+        assert.equal(answer.status, 507);
+        const { place, detail } = await answer.json();
+        assert.equal(place, '/v1/assets');
+        assert.match(detail, new RegExp(`${limit} files of \\d+ bytes, .* the limits are ${limit} files and 1073741824 bytes`));
+        await ask(daemon, 'DELETE', `/v1/scenes/n${ids.length - 1}`);
+        assert.equal((await send(daemon, dot_file(60001))).status, 201);
+        assert.equal(await statusOf(daemon, ids.at(-1)), 404);
+    });
+});

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+/* A name is looked for in the texts of documents and of edits behind them: 64 hexadecimal digits.
+ * An edit that is not yet part of a document may have been undone; then a file counts as named for
+ * a while. */
+#include "upload_names.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hub.h"
+#include "protocol/memory.h"
+#include "room.h"
+
+static struct upload_name *find(const struct upload_names *names, const char *id, size_t length)
+{
+    for (size_t i = 0; length == ASSET_ID_CHARACTERS && i < names->count; i++) {
+        if (memcmp(names->items[i].id, id, length) == 0) {
+            return &names->items[i];
+        }
+    }
+    return NULL;
+}
+
+static void add(struct upload_names *names, const char *id, size_t length, const char *scene)
+{
+    struct upload_name *name = find(names, id, length);
+
+    if (name) {
+        snprintf(name->scene, sizeof(name->scene), "%s", scene);
+    }
+}
+
+static void read_text(void *data, const char *scene, const char *text)
+{
+    static const char digits[] = "0123456789abcdef";
+
+    while (*(text += strcspn(text, digits))) {
+        size_t length = strspn(text, digits);
+
+        add(data, text, length, scene);
+        text += length;
+    }
+}
+
+/* Under the hub's lock. */
+static void begin(struct hub *hub, struct upload_names *out)
+{
+    out->count = hub->uploads.count;
+    out->items = memory_alloc(out->count, sizeof(*out->items));
+    for (size_t i = 0; i < out->count; i++) {
+        memcpy(out->items[i].id, hub->uploads.items[i].id, sizeof(out->items[i].id));
+    }
+    for (struct room *room = hub->rooms; room; room = room->next) {
+        if (room->edits_since_snapshot && !room->deleted) {
+            room_snapshot(room);
+        }
+    }
+}
+
+bool upload_names_read(struct hub *hub, struct upload_names *out, struct error *err)
+{
+    hub_lock(hub);
+    begin(hub, out);
+    hub_unlock(hub);
+    store_flush(hub->store);
+    if (!store_list_texts(hub->store, read_text, out, err)) {
+        upload_names_finish(out);
+        return false;
+    }
+    return true;
+}
+
+void upload_names_finish(struct upload_names *names)
+{
+    free(names->items);
+    *names = (struct upload_names){0};
+}
+
+void upload_names_add_open(struct upload_names *names, const struct hub *hub)
+{
+    for (const struct room *room = hub->rooms; room; room = room->next) {
+        const char *image = record_text(&room->scene->environment, "image");
+
+        if (!room->deleted) {
+            add(names, image, strlen(image), room->id);
+        }
+    }
+}
+
+const char *upload_names_scene(const struct upload_names *names, const char *id)
+{
+    const struct upload_name *name = find(names, id, strlen(id));
+
+    return !name ? "" : *name->scene ? name->scene : NULL;
+}
