@@ -73,7 +73,7 @@ const SMALL = { width: 12, height: 8 };
 function starve(pid) {
     const processor = /^Cpus_allowed_list:\s+(\d+)/m.exec(fs.readFileSync(`/proc/${pid}/status`, 'utf8'))[1];
     const loop = ['-c', processor, 'timeout', '60', 'sh', '-c', 'while :; do :; done'];
-    const loops = Array.from({ length: 4 }, () => spawn('taskset', loop));
+    const loops = Array.from({ length: 32 }, () => spawn('taskset', loop));
     execFileSync('taskset', ['-a', '-p', '-c', processor, String(pid)]);
     execFileSync('chrt', ['-a', '-i', '-p', '0', String(pid)]);
     return {
