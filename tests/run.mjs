@@ -238,6 +238,8 @@ for (const signal of ['SIGINT', 'SIGTERM']) {
     });
 }
 
+// The driver makes no more than the last folder of the name.
+fs.mkdirSync(environment.MESA_SHADER_CACHE_DIR, { recursive: true });
 const logs = path.join(build, 'logs');
 fs.mkdirSync(logs, { recursive: true });
 const total = { passed: 0, failed: 0, cpu: 0 };

@@ -26,7 +26,7 @@ void main()
         vec4 g = vec4(found.normal, found.solid ? -max(found.t, 1e-30) : found.t);
         add_light(here, ray, g, s, seen_open, vec4(0.0, 0.0, 0.0, 1.0), i == 0, i == turn.y, weight,
                   medium, total);
-        ray = ray_of(next_ray);
+        ray = ray_of(next_ray.from, next_ray.along);
         weight = next_ray.weight;
         medium = next_ray.medium.rgb;
     }
