@@ -225,13 +225,13 @@ test('a shader of the scene: its properties are a form, colours and sliders chan
     const amount = field(page, 'amount');
     await amount.fill('0');
     await amount.press('Enter');
-    await when((d) => d.materials['shader-1'].properties.amount === 0, 'the amount');
+    await when((d) => d.materials['shader-1'].properties?.amount === 0, 'the amount');
     await pictureChanged(page, striped, 'the picture without stripes');
     await page.locator('[data-param=color1] .colour-button').click();
     const hex = page.getByLabel('color1 Hex');
     await hex.fill('#2060ff');
     await hex.press('Enter');
-    await when((d) => d.materials['shader-1'].properties.color1?.[2] === 1, 'the colour');
+    await when((d) => d.materials['shader-1'].properties?.color1?.[2] === 1, 'the colour');
     await page.keyboard.press('Escape');
     await page.locator('.resources').getByText('shader-1').last().click();
     await page.getByRole('button', { name: 'More actions' }).click();
