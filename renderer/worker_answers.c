@@ -138,7 +138,9 @@ void worker_send_compiling(struct worker *w, const char *scene, uint64_t revisio
 
     cJSON_AddStringToObject(json, "scene", scene);
     cJSON_AddNumberToObject(json, "revision", (double)revision);
-    add_shape(json, shape);
+    if (shape) {
+        add_shape(json, shape);
+    }
     worker_send(w, json, NULL, 0);
 }
 
