@@ -7,6 +7,8 @@
 
 #include "utf8.h"
 
+enum { PLACE_MEMBER_BYTES = 64 }; /* that are shown of one */
+
 static void replace_malformed(char *text)
 {
     size_t left = strlen(text);
@@ -78,15 +80,19 @@ bool error_set_slow(struct error *err, const char *place, const char *what, int 
 const char *error_place(char *out, const char *place, const char *member)
 {
     static const char cut[] = "...";
-    char joined[2 * ERROR_PLACE_BYTES];
-    int length =
-        snprintf(joined, sizeof joined, "%.*s/%.*s", ERROR_PLACE_BYTES - 1, place, 64, member);
+    char joined[ERROR_PLACE_BYTES + PLACE_MEMBER_BYTES + 1];
+    size_t before = strnlen(place, ERROR_PLACE_BYTES - 1);
+    size_t own = strnlen(member, PLACE_MEMBER_BYTES), length = before + 1 + own;
+    memcpy(joined, place, before);
+    joined[before] = '/';
+    memcpy(joined + before + 1, member, own);
+    joined[length] = '\0';
     if (length < ERROR_PLACE_BYTES) {
-        memcpy(out, joined, (size_t)length + 1);
+        memcpy(out, joined, length + 1);
     } else {
         size_t kept = ERROR_PLACE_BYTES - sizeof cut;
         memcpy(out, cut, sizeof cut - 1);
-        memcpy(out + sizeof cut - 1, joined + (size_t)length - kept, kept + 1);
+        memcpy(out + sizeof cut - 1, joined + length - kept, kept + 1);
     }
     return out;
 }

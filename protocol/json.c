@@ -14,6 +14,11 @@
 /* I-JSON (RFC 7493): whole numbers beyond this are not exact in a double. */
 #define NUMBER_MAX 9007199254740991.0
 
+enum {
+    SMALL_NUMBER_CHARACTERS = 16, /* in front of the point: fewer are within that */
+    FEW_KEYS = 8,                 /* are compared each with each: that is quicker than sorting */
+};
+
 struct key {
     size_t name, length; /* in scan.names, decoded */
     size_t at;           /* in the text */
@@ -222,6 +227,19 @@ static bool scan_digits(struct scan *scan)
     return true;
 }
 
+static bool check_magnitude(struct scan *scan, size_t start, size_t length)
+{
+    char text[LIMIT_JSON_NUMBER_BYTES + 1], message[128];
+    memcpy(text, scan->text + start, length);
+    text[length] = '\0';
+    if (fabs(strtod(text, NULL)) > NUMBER_MAX) {
+        snprintf(message, sizeof message, "%s is beyond the greatest magnitude %.0f", text,
+                 NUMBER_MAX);
+        return fail_at(scan, start, ERROR_LIMIT, message);
+    }
+    return true;
+}
+
 static bool scan_number(struct scan *scan)
 {
     size_t start = scan->at;
@@ -234,6 +252,7 @@ static bool scan_number(struct scan *scan)
     } else if (!scan_digits(scan)) {
         return false;
     }
+    bool small = scan->at - start < SMALL_NUMBER_CHARACTERS;
     if (peek(scan) == '.') {
         scan->at++;
         if (!scan_digits(scan)) {
@@ -241,6 +260,7 @@ static bool scan_number(struct scan *scan)
         }
     }
     if (peek(scan) == 'e' || peek(scan) == 'E') {
+        small = false;
         scan->at++;
         scan->at += peek(scan) == '+' || peek(scan) == '-';
         if (!scan_digits(scan)) {
@@ -251,15 +271,7 @@ static bool scan_number(struct scan *scan)
     if (length > LIMIT_JSON_NUMBER_BYTES) {
         return fail_limit(scan, start, "characters of a number", LIMIT_JSON_NUMBER_BYTES);
     }
-    char text[LIMIT_JSON_NUMBER_BYTES + 1], message[128];
-    memcpy(text, scan->text + start, length);
-    text[length] = '\0';
-    if (fabs(strtod(text, NULL)) > NUMBER_MAX) {
-        snprintf(message, sizeof message, "%s is beyond the greatest magnitude %.0f", text,
-                 NUMBER_MAX);
-        return fail_at(scan, start, ERROR_LIMIT, message);
-    }
-    return true;
+    return small || check_magnitude(scan, start, length);
 }
 
 static bool scan_word(struct scan *scan, const char *word)
@@ -341,12 +353,24 @@ static int compare_keys(const void *a, const void *b, void *names)
     return order ? order : x->at < y->at ? -1 : 1;
 }
 
+static bool all_differ(const struct key *keys, size_t count, const char *names)
+{
+    for (size_t i = 1; i < count; i++) {
+        for (size_t j = 0; j < i; j++) {
+            if (compare_names(&keys[i], &keys[j], names) == 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* Sorting needs no good hash: nobody can choose keys that make it slow. */
 static bool check_duplicates(struct scan *scan, size_t first)
 {
     struct key *keys = scan->keys + first;
     size_t count = scan->key_count - first;
-    if (count < 2) {
+    if (count <= FEW_KEYS && all_differ(keys, count, scan->names)) {
         return true;
     }
     qsort_r(keys, count, sizeof *keys, compare_keys, scan->names);

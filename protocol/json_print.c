@@ -3,13 +3,15 @@
  * client and the server give the same bytes. */
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "json.h"
 #include "memory.h"
 
-enum { LINE_WIDTH = 96 };
+enum { LINE_WIDTH = 96, MILLION_DIGITS = 6 };
+#define MILLION 1e6
 
 struct text {
     char *bytes;
@@ -41,12 +43,46 @@ struct decimal {
     int point; /* value = 0.DIGITS * 10^point */
 };
 
+/* Digits of a whole number; returns how many. */
+static int put_digits(uint64_t number, char *out)
+{
+    char reversed[20];
+    int count = 0;
+    do {
+        reversed[count++] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    for (int i = 0; i < count; i++) {
+        out[i] = reversed[count - 1 - i];
+    }
+    return count;
+}
+
+/* Most numbers are a few millionths. A decimal of so few digits that reads back as the value is the
+ * only one, and dividing two exact numbers rounds as reading does. */
+static bool millionths(double value, struct decimal *out)
+{
+    double number = nearbyint(value * MILLION);
+    if (number < 1 || number > MILLION * MILLION || number / MILLION != value) {
+        return false;
+    }
+    out->count = put_digits((uint64_t)number, out->digits);
+    out->point = out->count - MILLION_DIGITS;
+    while (out->digits[out->count - 1] == '0') {
+        out->count--;
+    }
+    return true;
+}
+
 /* The fewest digits that read back as `value`: a normal double keeps any 15, and %e pads with
  * zeros, so fewer need not be tried. */
 static struct decimal shortest_decimal(double value)
 {
     struct decimal decimal = {.count = 0};
     char text[40];
+    if (millionths(value, &decimal)) {
+        return decimal;
+    }
     for (int digits = value < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*e", digits - 1, value);
         if (strtod(text, NULL) == value) {
@@ -94,7 +130,9 @@ static void add_number(struct text *text, double value)
 {
     char out[32];
     if (fabs(value) < 1e6 && value == trunc(value)) {
-        snprintf(out, sizeof out, "%d", (int)value);
+        int sign = value < 0;
+        out[0] = '-';
+        out[sign + put_digits((uint64_t)fabs(value), out + sign)] = '\0';
     } else {
         json_number(value, out);
     }

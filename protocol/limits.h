@@ -75,6 +75,8 @@
     X(SESSIONS, "sessions", 256, "sessions", "live connections")                                   \
     X(IMAGE_QUEUE, "image_queue", 64, "requests", "pictures waiting to be rendered")               \
     X(IMAGE_SHARE, "image_share", 16, "requests", "the same, of one client")                       \
+    X(DOCUMENT_QUEUE, "document_queue", 64, "requests", "large documents waiting to be read")      \
+    X(DOCUMENT_SHARE, "document_share", 16, "requests", "the same, of one client")                 \
     X(IMAGE_CACHE_BYTES, "image_cache_bytes", 67108864, "bytes", "finished pictures kept")         \
     X(HEAD_BYTES, "head_bytes", 16384, "bytes", "the head of an HTTP request")                     \
     X(BODIES_BYTES, "bodies_bytes", 268435456, "bytes",                                            \

@@ -15,6 +15,7 @@
 #include "protocol/messages.h"
 #include "protocol/schema.h"
 #include "room.h"
+#include "room_apart.h"
 #include "room_worker.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -114,14 +115,32 @@ bool hub_has_scene(struct hub *hub, const char *id)
     return found;
 }
 
+bool hub_scene_is_heavy(struct hub *hub, const char *id)
+{
+    hub_lock(hub);
+    const struct catalog_entry *entry = catalog_find(&hub->catalog, id);
+    const bool heavy = entry && entry->nodes > TASK_LIGHT_NODES;
+    hub_unlock(hub);
+    return heavy;
+}
+
+bool hub_is_ready(struct hub *hub, const char *id)
+{
+    hub_lock(hub);
+    const struct catalog_entry *entry = catalog_find(&hub->catalog, id);
+    const bool ready = !entry || (find_room(hub, id) && entry->nodes <= TASK_LIGHT_NODES);
+    hub_unlock(hub);
+    return ready;
+}
+
 static struct room *no_such_scene(const char *id, struct error *err)
 {
     error_set(err, ERROR_NOT_FOUND, "", "there is no scene %s", id);
     return NULL;
 }
 
-/* Only this function loads, one scene at a time, so a room found missing stays missing until here
- * it is added. A room that left memory was committed before. */
+/* Only this function loads, and none twice at a time, so a room found missing stays missing until
+ * here it is added. A room that left memory was committed before. */
 struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
 {
     hub_lock(hub);
@@ -129,13 +148,14 @@ struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
     if (room) {
         return room;
     }
-    bool exists = catalog_find(&hub->catalog, id) != NULL;
+    const struct catalog_entry *entry = catalog_find(&hub->catalog, id);
+    pthread_mutex_t *load_lock = &hub->load_lock[entry && entry->nodes > TASK_LIGHT_NODES];
     hub_unlock(hub);
-    if (!exists) {
+    if (!entry) {
         return no_such_scene(id, err);
     }
 
-    pthread_mutex_lock(&hub->load_lock);
+    pthread_mutex_lock(load_lock);
     hub_lock(hub);
     room = find_room(hub, id);
     if (!room) {
@@ -156,7 +176,18 @@ struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err)
             no_such_scene(id, err);
         }
     }
-    pthread_mutex_unlock(&hub->load_lock);
+    pthread_mutex_unlock(load_lock);
+    return room;
+}
+
+struct room *hub_lock_room_to_change(struct hub *hub, const char *id, struct error *err)
+{
+    struct room *room;
+
+    while ((room = hub_lock_room(hub, id, err)) && room->holds > 0) {
+        pthread_cond_wait(&hub->released, &hub->lock);
+        hub_unlock(hub);
+    }
     return room;
 }
 
@@ -180,7 +211,7 @@ static void invent_id(const struct hub *hub, char out[LIMIT_ID_BYTES + 1])
     } while (catalog_find(&hub->catalog, out));
 }
 
-struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene,
+struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene, char *text,
                                void (*then)(void *data), void *data, struct error *err)
 {
     char name[LIMIT_ID_BYTES + 1];
@@ -200,12 +231,13 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
         struct room *room = room_create(hub, name, scene, 1);
 
         add_room(hub, room);
-        room_store_new(room, then, data);
+        room_store_new(room, text, then, data);
         metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog.count);
         return room;
     }
     hub_unlock(hub);
     scene_destroy(scene);
+    free(text);
     return NULL;
 }
 
@@ -384,12 +416,12 @@ static void close_idle_rooms(struct hub *hub, int64_t now_ms)
 {
     for (struct room *room = hub->rooms, *next; room; room = next) {
         next = room->next;
-        if (room->sessions || room->pending || renders_has_room(&hub->renders, room) ||
-            now_ms - room->idle_since < ROOM_IDLE_MS) {
+        if (room->sessions || room->pending || room->holds ||
+            renders_has_room(&hub->renders, room) || now_ms - room->idle_since < ROOM_IDLE_MS) {
             continue;
         }
         if (room->edits_since_snapshot) {
-            room_snapshot(room);
+            room_snapshot_soon(room);
             continue;
         }
         poster_store(room);
@@ -449,7 +481,9 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     struct hub *hub = memory_alloc(1, sizeof(*hub));
 
     pthread_mutex_init(&hub->lock, NULL);
-    pthread_mutex_init(&hub->load_lock, NULL);
+    pthread_mutex_init(&hub->load_lock[0], NULL);
+    pthread_mutex_init(&hub->load_lock[1], NULL);
+    pthread_cond_init(&hub->released, NULL);
     renders_init(&hub->renders);
     hub->access = params->access;
     hub->web_dir = params->web_dir;
@@ -459,7 +493,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     uploads_add_embedded(&hub->uploads);
     if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err) ||
         !store_list_assets(hub->store, uploads_add, &hub->uploads, err) ||
-        !(hub->picker = picker_create(hub, err))) {
+        !(hub->picker = picker_create(hub, err)) || !(hub->tasks = tasks_create(err))) {
         hub_destroy(hub);
         return NULL;
     }
@@ -486,8 +520,9 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
 
 void hub_drain(struct hub *hub)
 {
-    hub_lock(hub);
     atomic_store(&hub->draining, true);
+    tasks_stop(hub->tasks);
+    hub_lock(hub);
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->edits_since_snapshot) {
             room_snapshot(room);
@@ -512,6 +547,7 @@ void hub_destroy(struct hub *hub)
         return;
     }
     hub_stop(hub);
+    tasks_destroy(hub->tasks);
     picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);
@@ -526,7 +562,9 @@ void hub_destroy(struct hub *hub)
     catalog_finish(&hub->catalog);
     uploads_finish(&hub->uploads);
     free(hub->schema);
-    pthread_mutex_destroy(&hub->load_lock);
+    pthread_cond_destroy(&hub->released);
+    pthread_mutex_destroy(&hub->load_lock[1]);
+    pthread_mutex_destroy(&hub->load_lock[0]);
     pthread_mutex_destroy(&hub->lock);
     free(hub);
 }

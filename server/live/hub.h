@@ -3,9 +3,9 @@
  * pictures being rendered. Sections under the lock are short: nothing in them waits for the disk,
  * a socket or the worker.
  *
- * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | picker | store writer | main
- * (signals).
- * Order of locks: load_lock, lock, then the private ones of store, supervisor, http and ws. */
+ * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | picker | tasks | store writer |
+ * main (signals).
+ * Order of locks: load_lock, lock, then the private ones of store, supervisor, http, ws, tasks. */
 #ifndef SERVER_HUB_H
 #define SERVER_HUB_H
 
@@ -23,19 +23,22 @@
 #include "server/rest/pictures.h"
 #include "server/store/store.h"
 #include "supervisor.h"
+#include "tasks.h"
 #include "uploads.h"
 
 struct room;
 struct ws;
 
 struct hub {
-    pthread_mutex_t lock;      /* guards everything below that changes */
-    pthread_mutex_t load_lock; /* one load at a time; taken before `lock` */
+    pthread_mutex_t lock;         /* guards everything below that changes */
+    pthread_mutex_t load_lock[2]; /* one load of a light, one of a heavy scene; before `lock` */
+    pthread_cond_t released;      /* with `lock`: a document is held by nobody, or by one less */
     struct access access;
     struct metrics metrics; /* atomic by itself */
     struct store *store;
     struct supervisor *supervisor;
     struct picker *picker;
+    struct tasks *tasks;
     struct ws *ws; /* set before its thread starts */
     const char *web_dir;
     bool code_refused;            /* no code of users is taken, nor compiled */
@@ -77,10 +80,17 @@ void hub_unlock(struct hub *hub);
 /* Takes the lock and gives the open room, loaded if it was not. NULL, and the lock not held, when
  * there is no such scene or it cannot be read. */
 struct room *hub_lock_room(struct hub *hub, const char *id, struct error *err);
+/* The same for who changes the document: waits while somebody holds it. Threads of tasks only. */
+struct room *hub_lock_room_to_change(struct hub *hub, const char *id, struct error *err);
 bool hub_has_scene(struct hub *hub, const char *id);
-/* Creates a scene; takes the lock, returns holding it, like hub_lock_room. Takes `scene` in any
- * case. `id` "" finds one. `then` runs after the commit on the store's thread. */
-struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene,
+/* Whether reading, printing or copying the scene takes long. Takes the lock. */
+bool hub_scene_is_heavy(struct hub *hub, const char *id);
+/* Whether it is in memory, or nowhere, and not heavy. Takes the lock. */
+bool hub_is_ready(struct hub *hub, const char *id);
+/* Creates a scene; takes the lock, returns holding it, like hub_lock_room. Takes `scene` and
+ * `text`, which is what it prints as, in any case. `id` "" finds one. `then` runs after the commit
+ * on the store's thread. */
+struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *scene, char *text,
                                void (*then)(void *data), void *data, struct error *err);
 /* Under the lock: forgets and deletes the scene; the room is gone afterwards. */
 void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data), void *data);

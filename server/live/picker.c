@@ -150,8 +150,8 @@ static struct picker_field *find_field(struct picker *picker, const struct quest
     return best;
 }
 
-/* A copy of the state that is picked in: the newest, or the last good one where that is what is
- * shown. */
+/* A copy of the state that is picked in: the newest, for which it lets go of the lock, or the last
+ * good one where that is what is shown. */
 static struct scene *copy_scene(struct room *room, const struct picker_field *picks,
                                 uint64_t *out_revision)
 {
@@ -161,7 +161,18 @@ static struct scene *copy_scene(struct room *room, const struct picker_field *pi
     if (!good) {
         *out_revision = room->revision;
     }
-    return *out_revision == picks->tried ? NULL : scene_copy(good ? good : room->scene);
+    if (*out_revision == picks->tried) {
+        return NULL;
+    }
+    if (good) {
+        return scene_copy(good);
+    }
+    room_hold(room);
+    hub_unlock(room->hub);
+    struct scene *copy = scene_copy(room->scene);
+    hub_lock(room->hub);
+    room_release(room);
+    return copy;
 }
 
 /* Without the code, where the server runs none. Takes `scene`. */

@@ -12,6 +12,7 @@
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "room_apart.h"
 #include "room_authors.h"
 #include "room_log.h"
 #include "room_worker.h"
@@ -67,6 +68,7 @@ void room_destroy(struct room *room)
     fallback_finish(room);
     poster_finish(room);
     picker_finish_room(room);
+    room_forget_text(room);
     authors_finish(&room->authors);
     history_destroy(room->history);
     scene_destroy(room->scene);
@@ -219,10 +221,10 @@ static void push_write(struct room *room, enum store_kind kind, const struct roo
     }
 }
 
-void room_store_new(struct room *room, void (*then)(void *data), void *data)
+void room_store_new(struct room *room, char *text, void (*then)(void *data), void *data)
 {
     push_write(room, STORE_CREATE, &(struct room_change){.author = "", .then = then, .data = data},
-               scene_print(room->scene, false), NULL);
+               text, NULL);
 }
 
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
@@ -234,9 +236,11 @@ void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
 
 void room_snapshot(struct room *room)
 {
+    char *text =
+        room->text ? memory_text((const char *)room->text->bytes) : scene_print(room->scene, false);
+
     room->edits_since_snapshot = 0;
-    push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""},
-               scene_print(room->scene, false), NULL);
+    push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""}, text, NULL);
     room_authors_cut(room);
 }
 
@@ -265,12 +269,10 @@ static void tell_others(struct room *room, const struct room_change *change, con
 }
 
 /* The scene holds the change already; gives it a revision and tells everybody but the author. Takes
- * what `step` holds. */
+ * `text`, which is what `ops` print as, and what `step` holds. */
 static void commit_change(struct room *room, const struct room_change *change, const cJSON *ops,
-                          const struct store_step *step)
+                          char *text, const struct store_step *step)
 {
-    char *text = json_print(ops, false);
-
     room->revision++;
     if (change->by) {
         authors_edited(&room->authors, change->by, change->edit, room->revision);
@@ -278,11 +280,11 @@ static void commit_change(struct room *room, const struct room_change *change, c
     room_log_add(room, change, text);
     tell_others(room, change, text);
     problem_let_in(room); /* it may have helped */
-    room_worker_edit(room, ops);
+    room_worker_edit(room, ops, text);
     push_write(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
-        room_snapshot(room);
+        room_snapshot_soon(room);
     }
 }
 
@@ -292,22 +294,22 @@ static bool check_open(const struct room *room, struct error *err)
            error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
 }
 
-/* Takes `inverse`. */
+/* Takes the inverse and its text. */
 static struct store_step record_step(struct room *room, const struct room_change *change,
-                                     const cJSON *applied, cJSON *inverse)
+                                     const struct room_work *work)
 {
     struct store_step step = {.kind = HISTORY_EDIT,
                               .group = memory_text(change->group ? change->group : ""),
                               .label = memory_text(change->label ? change->label : ""),
-                              .inverse = json_print(inverse, false)};
+                              .inverse = work->inverse_text};
 
     history_depth(room->history, change->author, &step.undo, &step.redo);
     history_record(room->history, &(struct history_entry){.kind = HISTORY_EDIT,
                                                           .author = change->author,
                                                           .group = step.group,
                                                           .label = step.label,
-                                                          .applied = applied,
-                                                          .inverse = inverse,
+                                                          .applied = work->applied,
+                                                          .inverse = work->inverse,
                                                           .undo = step.undo,
                                                           .redo = step.redo});
     return step;
@@ -316,7 +318,7 @@ static struct store_step record_step(struct room *room, const struct room_change
 enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
                             uint64_t *out_revision, struct error *err)
 {
-    cJSON *applied = NULL, *inverse = NULL;
+    struct room_work work = {0};
     enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     if (outcome != ROOM_APPLIED) {
@@ -324,14 +326,14 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     }
     fallback_before_edit(room, ops);
     if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
-        !edit_apply(room->scene, ops, &applied, &inverse, err)) {
+        !room_apply(room, ops, &work, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }
-    const struct store_step step = record_step(room, change, applied, inverse);
-    commit_change(room, change, applied, &step);
-    cJSON_Delete(applied);
+    const struct store_step step = record_step(room, change, &work);
+    commit_change(room, change, work.applied, work.applied_text, &step);
     *out_revision = room->revision;
+    room_work_finish(room, &work);
     return ROOM_APPLIED;
 }
 
@@ -360,43 +362,53 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
                                     .group = memory_text(""),
                                     .label = memory_text(move.label),
                                     .inverse = json_print(move.inverse, false)};
-    commit_change(room, change, move.applied, &step);
+    room_forget_text(room);
+    commit_change(room, change, move.applied, json_print(move.applied, false), &step);
     history_move_finish(&move);
     *out_revision = room->revision;
     return ROOM_APPLIED;
 }
 
-void room_replace(struct room *room, struct scene *scene, const struct room_change *change)
+static void tell_document(struct room *room, const char *text)
 {
-    if (!fallback_before_replace(room, scene)) {
-        scene_destroy(room->scene);
-    }
-    room->scene = scene;
-    history_destroy(room->history);
-    room->history = history_create();
-    room->revision++;
-    room->edits_since_snapshot = 0;
-    problem_let_in(room); /* it may have helped */
-    room_log_clear(room);
-    room_worker_replace(room);
-    struct blob *message = room_document_message(room);
+    struct blob *message = room->sessions ? say_document(room->revision, text, strlen(text)) : NULL;
+
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
         frames_changed(session);
     }
     blob_unref(message);
-    push_write(room, STORE_REPLACE, change, scene_print(room->scene, false), NULL);
+}
+
+struct scene *room_replace(struct room *room, struct scene *scene, char *text,
+                           const struct room_change *change)
+{
+    struct scene *before = fallback_before_replace(room, scene) ? NULL : room->scene;
+
+    room->scene = scene;
+    history_destroy(room->history);
+    room->history = history_create();
+    room->revision++;
+    room->edits_since_snapshot = 0;
+    room_keep_text(room, text);
+    problem_let_in(room); /* it may have helped */
+    room_log_clear(room);
+    room_worker_replace(room);
+    tell_document(room, text);
+    push_write(room, STORE_REPLACE, change, text, NULL);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
+    return before;
 }
 
 /* --- what others ask of it --- */
 
-struct blob *room_document_message(const struct room *room)
+struct blob *room_document_message(struct room *room)
 {
-    char *document = scene_print(room->scene, false);
-    struct blob *message = say_document(room->revision, document);
+    struct blob *text = room_text(room);
+    struct blob *message =
+        say_document(room->revision, (const char *)text->bytes, text->length - 1);
 
-    free(document);
+    blob_unref(text);
     return message;
 }
 

@@ -51,9 +51,12 @@ struct room {
     struct authors authors;
     struct session *sessions;
     size_t session_count;
+    size_t holds;   /* who reads the document without the lock: nobody changes it meanwhile */
     size_t pending; /* writes not yet committed: the room stays */
     int edits_since_snapshot;
+    bool snapshot_soon; /* a task will store one */
     bool deleted;
+    struct blob *text;  /* what the document prints as; NULL: not known */
     int64_t idle_since; /* clock_ms; 0: in use */
     struct picker_field picks[PICKER_FIELDS];
 
@@ -84,11 +87,16 @@ struct room *room_create(struct hub *hub, const char *id, struct scene *scene, u
 struct room *room_load(struct hub *hub, const char *id, const struct store_loaded *loaded,
                        struct error *err);
 void room_destroy(struct room *room);
-/* Queues the creation of a new room's scene, or its deletion, after which the room frees itself. */
-void room_store_new(struct room *room, void (*then)(void *data), void *data);
+/* Queues the creation of a new room's scene, whose text it takes, or its deletion, after which the
+ * room frees itself. */
+void room_store_new(struct room *room, char *text, void (*then)(void *data), void *data);
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data);
 /* Queues the key of an author whose edits are older than it. */
 void room_store_author(struct room *room, struct author *author);
+
+/* Between these two the document is as it was, without the lock too, and the room stays. */
+void room_hold(struct room *room);
+void room_release(struct room *room);
 
 struct room_change {
     const char *author;        /* client id, or "rest" */
@@ -104,18 +112,25 @@ const char *room_change_name(const struct room_change *change);
 
 enum room_outcome { ROOM_APPLIED, ROOM_KNOWN /* a resend: nothing changed */, ROOM_REFUSED };
 
-/* Checks, orders, applies, stores and tells one edit. `then` runs only after ROOM_APPLIED. */
+/* Checks, orders, applies, stores and tells one edit. `then` runs only after ROOM_APPLIED. Nobody
+ * may hold the room. Many operations are applied to a copy, for which the lock is let go; only on
+ * threads of tasks, where `change` stays valid meanwhile. */
 enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
                             uint64_t *out_revision, struct error *err);
 /* `*out_skipped`: operations that were left out because others have set their places since; NULL:
  * none. Of ROOM_REFUSED too. The caller frees it. */
 enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
                             uint64_t *out_revision, cJSON **out_skipped, struct error *err);
-/* Puts another document in place; takes `scene`. */
-void room_replace(struct room *room, struct scene *scene, const struct room_change *change);
+/* Puts another document in place; takes `scene` and `text`, which is what it prints as. Returns the
+ * one before, to be destroyed; NULL: it is still needed. */
+struct scene *room_replace(struct room *room, struct scene *scene, char *text,
+                           const struct room_change *change);
 
-/* The `document` message; caller unrefs. */
-struct blob *room_document_message(const struct room *room);
+/* What the document prints as. One of many nodes is printed without the lock and kept until the
+ * next edit; only on threads of tasks then. A text with its NUL; caller unrefs. */
+struct blob *room_text(struct room *room);
+/* The `document` message, made of room_text; caller unrefs. */
+struct blob *room_document_message(struct room *room);
 /* The `changed` message of a logged revision for `client`: `edit` only where that is the author.
  * Caller unrefs. */
 struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client);

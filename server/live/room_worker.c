@@ -44,7 +44,10 @@ static void send_scene(struct room *room, const struct scene *scene, uint64_t re
     cJSON *packet = packet_of(room, "scene", revision);
 
     send_image(room, scene);
-    cJSON_AddItemToObject(packet, "document", scene_to_json(scene));
+    cJSON_AddItemToObject(packet, "document",
+                          room->text && scene == room->scene && !room->hub->code_refused
+                              ? cJSON_CreateRaw((const char *)room->text->bytes)
+                              : scene_to_json(scene));
     room->sent = revision;
     send_and_delete(room, packet);
 }
@@ -78,14 +81,17 @@ void room_worker_done(struct room *room, uint64_t revision)
     send_and_delete(room, packet);
 }
 
-void room_worker_edit(struct room *room, const cJSON *ops)
+void room_worker_edit(struct room *room, const cJSON *ops, const char *text)
 {
     if (room->sent == 0 || room->sent + 1 != room->revision) {
         return; /* room_worker_done sends all at once */
     }
     cJSON *packet = packet_of(room, "edit", room->revision);
     send_image(room, room->scene);
-    cJSON_AddItemToObject(packet, "ops", cJSON_Duplicate(ops, true));
+    /* A text has no members that code_text_remove could find. */
+    cJSON_AddItemToObject(packet, "ops",
+                          room->hub->code_refused ? cJSON_Duplicate(ops, true)
+                                                  : cJSON_CreateRaw(text));
     room->sent = room->revision;
     send_and_delete(room, packet);
 }

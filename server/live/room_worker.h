@@ -15,8 +15,8 @@ struct room;
 void room_worker_open(struct room *room);
 /* The worker has come to an end with this revision: it can draw it, or never will. */
 void room_worker_done(struct room *room, uint64_t revision);
-/* After an edit gave the room a new revision. */
-void room_worker_edit(struct room *room, const cJSON *ops);
+/* After an edit gave the room a new revision; `text` is what `ops` print as. */
+void room_worker_edit(struct room *room, const cJSON *ops, const char *text);
 /* After another document did. */
 void room_worker_replace(struct room *room);
 /* A file is there from now on. True where the scene names it. */

@@ -33,14 +33,14 @@ static struct blob *joined(char *text, size_t length)
     return blob;
 }
 
-struct blob *say_document(uint64_t revision, const char *document)
+struct blob *say_document(uint64_t revision, const char *document, size_t bytes)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
 
     fprintf(out, "{\"type\":\"document\",\"revision\":%" PRIu64 ",\"document\":", revision);
-    fputs(document, out);
+    fwrite(document, 1, bytes, out);
     fputc('}', out);
     fclose(out);
     return joined(text, length);

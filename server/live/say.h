@@ -14,7 +14,7 @@ struct blob *say(cJSON *message);
 /* An object with its `type` already in. */
 cJSON *say_begin(const char *type);
 /* {type, revision, document}: the parts as text, since documents are large. */
-struct blob *say_document(uint64_t revision, const char *document);
+struct blob *say_document(uint64_t revision, const char *document, size_t bytes);
 /* `author`'s operations; `edit` 0 is left out. */
 struct blob *say_changed(uint64_t revision, const char *author, const char *ops, int64_t edit);
 /* `skipped`: operations that an undo or redo left out; NULL: none. */

@@ -59,17 +59,31 @@ void session_leave_room(struct session *session)
     room->idle_since = clock_ms();
 }
 
-void session_destroy(struct session *session)
+static void session_destroy(struct session *session)
 {
-    if (!session) {
-        return;
-    }
     picker_forget(session);
     frames_finish(session);
     session_leave_room(session);
     outbox_finish(&session->outbox);
     metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
     free(session);
+}
+
+static void ignore(void *connection)
+{
+    (void)connection;
+}
+
+void session_leave(struct session *session)
+{
+    if (!session->working) {
+        session_destroy(session);
+        return;
+    }
+    session->left = true;
+    session->close_code = CLOSE_GOING_AWAY;
+    session->wake = ignore;
+    picker_forget(session);
 }
 
 /* --- telling --- */
@@ -279,6 +293,7 @@ static void refuse(struct session *session, const char *text, size_t length,
     const char *type = json_member_text(json, "type", "");
     double number = json_member_number(json, "edit", 0);
 
+    hub_lock(session->hub);
     if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
         metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
         use_number(session, (int64_t)number, NULL);
@@ -286,29 +301,121 @@ static void refuse(struct session *session, const char *text, size_t length,
     } else {
         session_error(session, err);
     }
+    hub_unlock(session->hub);
     cJSON_Delete(json);
 }
 
-void session_receive(struct session *session, const char *scene, const char *text, size_t length)
+static bool changes_document(enum message_kind kind)
+{
+    return kind == MESSAGE_EDIT || kind == MESSAGE_UNDO || kind == MESSAGE_REDO;
+}
+
+/* A change waits for those who hold the document. False, where it is not a task: it would wait. */
+static bool receive_checked(struct session *session, const struct message *message, bool apart)
+{
+    struct hub *hub = session->hub;
+    bool done = true;
+
+    hub_lock(hub);
+    while (changes_document(message->kind) && session->room && session->room->holds > 0 && done) {
+        done = apart;
+        if (apart) {
+            pthread_cond_wait(&hub->released, &hub->lock);
+        }
+    }
+    if (done && !session->close_code) {
+        handle(session, message);
+    }
+    hub_unlock(hub);
+    return done;
+}
+
+static bool receive(struct session *session, const char *scene, const char *text, size_t length,
+                    bool apart)
 {
     struct hub *hub = session->hub;
     struct message message;
     struct error err = {0};
+    bool done = true;
 
     if (!message_read(text, length, &message, &err)) {
-        hub_lock(hub);
         refuse(session, text, length, &err);
-        hub_unlock(hub);
-        return;
+        return true;
     }
-    if (message.kind == MESSAGE_HELLO) {
+    if (message.kind != MESSAGE_HELLO) {
+        done = receive_checked(session, &message, apart);
+    } else if (apart || hub_is_ready(hub, scene)) {
         hello_receive(session, scene, message.json); /* locks */
+        hub_unlock(hub);
     } else {
-        hub_lock(hub);
-        if (!session->close_code) {
-            handle(session, &message);
-        }
+        done = false;
+    }
+    message_finish(&message);
+    return done;
+}
+
+bool session_receive(struct session *session, const char *scene, const char *text, size_t length)
+{
+    return length <= SESSION_LIGHT_BYTES && receive(session, scene, text, length, false);
+}
+
+/* --- messages that take long --- */
+
+struct errand {
+    struct session *session;
+    char scene[LIMIT_ID_BYTES + 1];
+    char *text;
+    size_t length;
+};
+
+/* The errand is over; nobody knows a session that its connection has left. */
+static void finish_errand(struct errand *errand, int64_t worked_us)
+{
+    struct session *session = errand->session;
+    struct hub *hub = session->hub;
+
+    hub_lock(hub);
+    session->working = false;
+    session->worked_us = worked_us;
+    if (session->left) {
+        session_destroy(session);
+    } else {
+        session->wake(session->connection);
     }
     hub_unlock(hub);
-    message_finish(&message);
+    free(errand->text);
+    free(errand);
+}
+
+static void run_errand(void *data, bool dropped)
+{
+    struct errand *errand = data;
+    const int64_t before = clock_thread_us();
+
+    if (!dropped) {
+        receive(errand->session, errand->scene, errand->text, errand->length, true);
+    }
+    finish_errand(errand, clock_thread_us() - before);
+}
+
+void session_receive_apart(struct session *session, const char *scene, char *text, size_t length)
+{
+    struct hub *hub = session->hub;
+    struct errand *errand = memory_alloc(1, sizeof(*errand));
+
+    *errand = (struct errand){.session = session, .text = text, .length = length};
+    snprintf(errand->scene, sizeof(errand->scene), "%s", scene);
+    hub_lock(hub);
+    session->working = true;
+    hub_unlock(hub);
+    if (!tasks_add(hub->tasks,
+                   &(struct task_order){.scene = scene,
+                                        .account = session->id,
+                                        .heavy = length > SESSION_LIGHT_BYTES ||
+                                                 hub_scene_is_heavy(hub, scene),
+                                        .run = run_errand,
+                                        .data = errand},
+                   NULL)) {
+        finish_errand(errand, 0); /* the server is shutting down */
+    }
 }

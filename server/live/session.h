@@ -19,6 +19,8 @@ enum {
     CLOSE_TRY_LATER = 1013,
 };
 
+enum { SESSION_LIGHT_BYTES = 8192 }; /* of a message; a longer one is a task */
+
 enum { SESSION_LABELS = 100 }; /* steps of undo that are told by name */
 
 struct session {
@@ -32,6 +34,9 @@ struct session {
     struct outbox outbox;
     struct frames frames;
     uint64_t pick_turn; /* of the picker, when it answered last */
+    bool working;       /* a task has a message of it: the session stays until that is done */
+    bool left;          /* meanwhile its connection has closed */
+    int64_t worked_us;  /* what the last task took of a processor */
     int close_code;     /* > 0: close when the outbox is empty, or at once when it is full */
     bool close_now;
     /* Something is to be written or closed; any thread. */
@@ -41,9 +46,14 @@ struct session {
 
 /* The connection is open; the scene's room is not asked for before hello. */
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection);
-void session_destroy(struct session *session);
-/* A whole text message. Takes the lock itself, since hello may load the scene. */
-void session_receive(struct session *session, const char *scene, const char *text, size_t length);
+/* A whole text message. Takes the lock itself, since hello may load the scene. False: nothing was
+ * done, because it may take long: session_receive_apart shall have it. */
+bool session_receive(struct session *session, const char *scene, const char *text, size_t length);
+/* The same as a task, whatever it takes; takes `text`. Nothing else of the session may be received
+ * until `working` is false, of which `wake` tells. */
+void session_receive_apart(struct session *session, const char *scene, char *text, size_t length);
+/* The connection has closed. */
+void session_leave(struct session *session);
 /* Its messages took much time: none is read for so long. */
 void session_tell_rest(struct session *session, int wait_ms);
 /* `frame` was handed to the socket completely. */

@@ -24,13 +24,6 @@
 
 enum { BODY_PATIENCE = 3 }; /* times the limit that are read before the connection is cut */
 
-enum exchange_state {
-    READING,
-    HANDLING,  /* the handler runs */
-    SUSPENDED, /* it will reply later */
-    REPLIED,
-};
-
 /* A header's value without the white space behind it. */
 struct trimmed {
     struct trimmed *next;
@@ -48,9 +41,11 @@ struct exchange {
     struct body body;
     size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
-    struct MHD_Response *response; /* under http->lock until REPLIED */
+    struct MHD_Response *response; /* under http->lock until replied */
     int status;
-    enum exchange_state state; /* under http->lock */
+    bool replied;   /* under http->lock, as the next two */
+    bool handling;  /* a thread of the tasks has it */
+    bool suspended; /* until it is replied and not handled any more */
     void (*gone)(void *data);
     void *gone_data;
     int64_t started_us;
@@ -134,6 +129,14 @@ static void unwatch(struct exchange *exchange)
     }
 }
 
+/* Under the lock. A handler may use the request until it returns. */
+static void resume_if_ready(struct exchange *exchange)
+{
+    if (exchange->replied && exchange->suspended && !exchange->handling) {
+        MHD_resume_connection(exchange->connection);
+    }
+}
+
 void request_reply(struct request *request, const struct response *response)
 {
     struct exchange *exchange = (struct exchange *)request;
@@ -141,14 +144,11 @@ void request_reply(struct request *request, const struct response *response)
     struct MHD_Response *built = build_response(exchange, response);
 
     pthread_mutex_lock(&http->lock);
-    bool suspended = exchange->state == SUSPENDED;
     exchange->response = built;
     exchange->status = response->status;
-    exchange->state = REPLIED;
+    exchange->replied = true;
     unwatch(exchange);
-    if (suspended) {
-        MHD_resume_connection(exchange->connection);
-    }
+    resume_if_ready(exchange);
     pthread_mutex_unlock(&http->lock);
 }
 
@@ -160,7 +160,7 @@ void request_on_gone(struct request *request, void (*gone)(void *data), void *da
         MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
 
     pthread_mutex_lock(&exchange->http->lock);
-    if (exchange->state != REPLIED &&
+    if (!exchange->replied &&
         epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_ADD, info->connect_fd, &event) == 0) {
         exchange->gone = gone;
         exchange->gone_data = data;
@@ -313,22 +313,66 @@ static enum MHD_Result refuse_body(struct exchange *exchange)
     return answer_now(exchange, &response);
 }
 
+/* On a thread of the tasks. */
+static void run_handler(void *data, bool dropped)
+{
+    struct exchange *exchange = data;
+    struct http *http = exchange->http;
+
+    if (dropped) {
+        struct response response =
+            response_problem(503, "unavailable", "", "the server is shutting down");
+        request_reply(&exchange->request, &response);
+    } else {
+        exchange->route->handle(&exchange->request);
+    }
+    pthread_mutex_lock(&http->lock);
+    exchange->handling = false;
+    resume_if_ready(exchange);
+    pthread_mutex_unlock(&http->lock);
+}
+
+static void hand_over(struct exchange *exchange)
+{
+    struct hub *hub = exchange->http->hub;
+    const bool named = exchange->route->scene == SCENE_NAMED;
+    const char *id = named ? exchange->request.capture[0] : "";
+    struct error err = {0};
+
+    exchange->handling = true;
+    if (!tasks_add(hub->tasks,
+                   &(struct task_order){.scene = id,
+                                        .account = exchange->request.client,
+                                        .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
+                                                 (named && hub_scene_is_heavy(hub, id)),
+                                        .bounded = true,
+                                        .run = run_handler,
+                                        .data = exchange},
+                   &err)) {
+        exchange->handling = false;
+        request_reply_error(&exchange->request, &err);
+    }
+}
+
 static enum MHD_Result handle(struct exchange *exchange)
 {
     struct http *http = exchange->http;
 
-    exchange->state = HANDLING;
     exchange->counted = true;
     atomic_fetch_add(&http->pending, 1);
-    exchange->route->handle(&exchange->request);
+    if (exchange->route->scene == SCENE_NONE) {
+        exchange->route->handle(&exchange->request);
+    } else {
+        hand_over(exchange);
+    }
     pthread_mutex_lock(&http->lock);
-    bool replied = exchange->state == REPLIED;
-    if (!replied) {
-        exchange->state = SUSPENDED;
+    const bool ready = exchange->replied && !exchange->handling;
+    if (!ready) {
+        exchange->suspended = true;
         MHD_suspend_connection(exchange->connection);
     }
     pthread_mutex_unlock(&http->lock);
-    return replied ? queue_reply(exchange) : MHD_YES;
+    return ready ? queue_reply(exchange) : MHD_YES;
 }
 
 /* The head is there. A refusal waits until the body has been read away: closing before would reset
@@ -373,9 +417,9 @@ static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, 
         return receive_body(exchange, upload, upload_size);
     }
     pthread_mutex_lock(&exchange->http->lock);
-    enum exchange_state state = exchange->state;
+    const bool replied = exchange->replied;
     pthread_mutex_unlock(&exchange->http->lock);
-    if (state == REPLIED) {
+    if (replied) {
         return queue_reply(exchange);
     }
     return exchange->body_bytes > body_limit(exchange) ? refuse_body(exchange) : handle(exchange);

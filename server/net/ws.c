@@ -26,6 +26,7 @@ enum {
     PING_SECONDS = 5,
     PIECES_PER_TURN = 16,
     CLOSE_SECONDS = 3,     /* for the other side to answer a close */
+    APART_SECONDS = 2,     /* between signs that a connection which is not read lives */
     REST_TOLD_US = 250000, /* a shorter one is not worth a word */
     CLOSE_UNSUPPORTED = 1003,
     CLOSE_NOT_TEXT = 1007,
@@ -48,6 +49,7 @@ struct link {
     struct utf8_stream utf8; /* of that message */
     struct workload workload;
     bool resting; /* nothing is read until the timer */
+    bool apart;   /* nor until a task is done with a message */
 };
 
 struct ws {
@@ -182,7 +184,9 @@ static void on_closed(struct link *link)
     struct hub *hub = link->ws->hub;
 
     hub_lock(hub);
-    session_destroy(link->session);
+    if (link->session) {
+        session_leave(link->session);
+    }
     link->session = NULL;
     hub_unlock(hub);
 }
@@ -223,24 +227,51 @@ static void rest(struct link *link, int64_t rest_us)
     }
 }
 
-/* Time of the processor: who waits for it, or for a lock, does no work. */
-static int64_t thread_us(void)
+static void charge(struct link *link, int64_t worked_us)
 {
-    struct timespec t;
+    const int64_t rest_us = workload_charge(&link->workload, clock_us(), worked_us);
 
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
+    if (rest_us > 0) {
+        rest(link, rest_us);
+    }
+}
+
+/* Nothing more is read until a task is done with the message. */
+static void give_away(struct link *link)
+{
+    link->apart = true;
+    lws_rx_flow_control(link->wsi, 0);
+    lws_set_timer_usecs(link->wsi, (lws_usec_t)APART_SECONDS * LWS_USEC_PER_SEC);
+    session_receive_apart(link->session, link->scene, link->text, link->length);
+    link->text = NULL;
+    link->capacity = 0;
+}
+
+static void take_back(struct link *link)
+{
+    struct hub *hub = link->ws->hub;
+
+    hub_lock(hub);
+    const bool working = link->session->working;
+    const int64_t worked_us = link->session->worked_us;
+    hub_unlock(hub);
+    if (!working) {
+        link->apart = false;
+        lws_rx_flow_control(link->wsi, 1);
+        charge(link, worked_us);
+    }
 }
 
 static void hand_on(struct link *link)
 {
     if (link->session) {
-        const int64_t before = thread_us();
+        const int64_t before = clock_thread_us();
 
-        session_receive(link->session, link->scene, link->text ? link->text : "", link->length);
-        const int64_t rest_us = workload_charge(&link->workload, clock_us(), thread_us() - before);
-        if (rest_us > 0) {
-            rest(link, rest_us);
+        if (session_receive(link->session, link->scene, link->text ? link->text : "",
+                            link->length)) {
+            charge(link, clock_thread_us() - before);
+        } else {
+            give_away(link);
         }
     }
     link->length = 0;
@@ -280,6 +311,11 @@ static void on_timer(struct link *link)
 {
     struct hub *hub = link->ws->hub;
 
+    if (link->apart) {
+        lws_validity_confirmed(link->wsi);
+        lws_set_timer_usecs(link->wsi, (lws_usec_t)APART_SECONDS * LWS_USEC_PER_SEC);
+        return;
+    }
     if (link->resting) {
         link->resting = false;
         lws_rx_flow_control(link->wsi, 1);
@@ -384,6 +420,9 @@ static void on_kicked(struct ws *ws)
             hub_unlock(ws->hub);
         }
         if (atomic_exchange(&link->dirty, false) && link->session) {
+            if (link->apart) {
+                take_back(link);
+            }
             lws_callback_on_writable(link->wsi);
         }
     }

@@ -4,37 +4,37 @@
 #include <string.h>
 
 static const struct route table[] = {
-    {"GET", "/v1/scenes", scenes_list, BODY_NONE, GUARDED},
-    {"POST", "/v1/scenes", scenes_create, BODY_JSON, GUARDED},
-    {"POST", "/v1/import", scenes_import, BODY_JSON, GUARDED},
-    {"GET", "/v1/scenes/{}", scenes_read, BODY_NONE, GUARDED},
-    {"PUT", "/v1/scenes/{}", scenes_replace, BODY_JSON, GUARDED},
-    {"PATCH", "/v1/scenes/{}", scenes_edit, BODY_JSON, GUARDED},
-    {"DELETE", "/v1/scenes/{}", scenes_delete, BODY_NONE, GUARDED},
-    {"GET", "/v1/scenes/{}/live", scenes_live, BODY_NONE, GUARDED},
-    {"GET", "/v1/scenes/{}/poster.jpg", scenes_poster, BODY_NONE, GUARDED},
-    {"GET", "/v1/scenes/{}/image.{}", images_of_scene, BODY_NONE, GUARDED},
-    {"GET", "/v1/assets", assets_list, BODY_NONE, GUARDED},
-    {"POST", "/v1/assets", assets_create, BODY_FILE, GUARDED},
-    {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED},
-    {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED},
-    {"POST", "/v1/render", images_render, BODY_JSON, GUARDED},
-    {"GET", "/v1/examples", pages_examples, BODY_NONE, GUARDED},
-    {"GET", "/v1/examples/{}", pages_example, BODY_NONE, GUARDED},
-    {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, GUARDED},
-    {"GET", "/v1/examples/{}/image.{}", images_of_example, BODY_NONE, GUARDED},
-    {"GET", "/v1/reference/{}.jpg", pages_reference, BODY_NONE, GUARDED},
-    {"GET", "/v1/schema.json", pages_schema, BODY_NONE, GUARDED},
-    {"GET", "/metrics", pages_metrics, BODY_NONE, GUARDED},
-    {"GET", "/healthz", pages_health, BODY_NONE, OPEN},
-    {"GET", "/readyz", pages_ready, BODY_NONE, OPEN},
-    {"GET", "/", pages_app, BODY_NONE, PAGE},
-    {"GET", "/s/{}", pages_app, BODY_NONE, PAGE},
+    {"GET", "/v1/scenes", scenes_list, BODY_NONE, GUARDED, SCENE_NONE},
+    {"POST", "/v1/scenes", scenes_create, BODY_JSON, GUARDED, SCENE_NEW},
+    {"POST", "/v1/import", scenes_import, BODY_JSON, GUARDED, SCENE_NEW},
+    {"GET", "/v1/scenes/{}", scenes_read, BODY_NONE, GUARDED, SCENE_NAMED},
+    {"PUT", "/v1/scenes/{}", scenes_replace, BODY_JSON, GUARDED, SCENE_NAMED},
+    {"PATCH", "/v1/scenes/{}", scenes_edit, BODY_JSON, GUARDED, SCENE_NAMED},
+    {"DELETE", "/v1/scenes/{}", scenes_delete, BODY_NONE, GUARDED, SCENE_NAMED},
+    {"GET", "/v1/scenes/{}/live", scenes_live, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/scenes/{}/poster.jpg", scenes_poster, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/scenes/{}/image.{}", images_of_scene, BODY_NONE, GUARDED, SCENE_NAMED},
+    {"GET", "/v1/assets", assets_list, BODY_NONE, GUARDED, SCENE_NONE},
+    {"POST", "/v1/assets", assets_create, BODY_FILE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED, SCENE_NONE},
+    {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED, SCENE_NONE},
+    {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
+    {"GET", "/v1/examples", pages_examples, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples/{}", pages_example, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples/{}/image.{}", images_of_example, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/reference/{}.jpg", pages_reference, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/schema.json", pages_schema, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/metrics", pages_metrics, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/healthz", pages_health, BODY_NONE, OPEN, SCENE_NONE},
+    {"GET", "/readyz", pages_ready, BODY_NONE, OPEN, SCENE_NONE},
+    {"GET", "/", pages_app, BODY_NONE, PAGE, SCENE_NONE},
+    {"GET", "/s/{}", pages_app, BODY_NONE, PAGE, SCENE_NONE},
 };
 enum { ROUTE_COUNT = sizeof(table) / sizeof(*table) };
 
 /* Everything else that can be read is a file of the page. */
-static const struct route asset_route = {"GET", "", pages_asset, BODY_NONE, OPEN};
+static const struct route asset_route = {"GET", "", pages_asset, BODY_NONE, OPEN, SCENE_NONE};
 
 static bool match(const char *pattern, struct request *request)
 {

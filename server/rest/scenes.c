@@ -131,7 +131,13 @@ void scenes_read(struct request *request)
     tag_of(room, tag);
     struct response response = {.status = 304, .body = "", .borrowed = true};
     if (!request_tag_listed(request_header(request, "If-None-Match"), tag)) {
-        response = response_text(200, "application/json", scene_print(room->scene, false));
+        struct blob *text = room_text(room);
+
+        response = (struct response){.status = 200, .type = "application/json"};
+        response.length = text->length - 1;
+        response.body = memory_alloc(text->length, 1);
+        memcpy(response.body, text->bytes, text->length);
+        blob_unref(text);
         response_add(&response, "Fieldcast-Revision", "%" PRIu64, room->revision);
     }
     hub_unlock(request->hub);
@@ -191,7 +197,8 @@ static void create(struct request *request, const char *id, struct scene *scene,
 
     waiting->notes = notes;
     if (hub_accepts_scene(request->hub, scene, &err)) {
-        room = hub_lock_new_room(request->hub, id, scene, answer_change, waiting, &err);
+        room = hub_lock_new_room(request->hub, id, scene, scene_print(scene, false), answer_change,
+                                 waiting, &err);
     } else {
         scene_destroy(scene);
     }
@@ -229,7 +236,11 @@ static struct scene *copy_of_scene(struct hub *hub, const char *id, struct error
     if (!room) {
         return NULL;
     }
+    room_hold(room);
+    hub_unlock(hub);
     struct scene *scene = scene_copy(room->scene);
+    hub_lock(hub);
+    room_release(room);
     hub_unlock(hub);
     return scene;
 }
@@ -372,8 +383,10 @@ void scenes_replace(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    struct room *room = hub_lock_room(hub, id, &err);
+    char *text = scene_print(scene, false);
+    struct room *room = hub_lock_room_to_change(hub, id, &err);
     if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
+        free(text);
         create(request, id, scene, NULL, NULL);
         return;
     }
@@ -382,6 +395,7 @@ void scenes_replace(struct request *request)
             hub_unlock(hub);
         }
         scene_destroy(scene);
+        free(text);
         if (err.kind == ERROR_NOT_FOUND) {
             err.kind = ERROR_PRECONDITION; /* If-Match, and there is nothing that could match */
         }
@@ -390,16 +404,19 @@ void scenes_replace(struct request *request)
     }
     struct waiting *waiting = wait_for(request, 200, id);
     waiting->revision = room->revision + 1;
-    room_replace(room, scene,
-                 &(struct room_change){.author = "rest", .then = answer_change, .data = waiting});
+    struct scene *before = room_replace(
+        room, scene, text,
+        &(struct room_change){.author = "rest", .then = answer_change, .data = waiting});
     hub_unlock(hub);
+    scene_destroy(before);
 }
 
 void scenes_edit(struct request *request)
 {
     struct error err = {0};
     cJSON *ops = json_parse(request->body ? request->body : "", request->body_length, &err);
-    struct room *room = ops ? hub_lock_room(request->hub, request->capture[0], &err) : NULL;
+    struct room *room =
+        ops ? hub_lock_room_to_change(request->hub, request->capture[0], &err) : NULL;
     struct waiting *waiting = wait_for(request, 200, request->capture[0]);
     bool applied = false;
 
@@ -420,7 +437,7 @@ void scenes_edit(struct request *request)
 void scenes_delete(struct request *request)
 {
     struct error err = {0};
-    struct room *room = hub_lock_room(request->hub, request->capture[0], &err);
+    struct room *room = hub_lock_room_to_change(request->hub, request->capture[0], &err);
 
     if (!room) {
         request_reply_error(request, &err);

@@ -5,6 +5,7 @@
 import net from 'node:net';
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { handshake, Live } from '../support/live.mjs';
+import { largeDocument } from '../support/large.mjs';
 import { blankPng } from '../support/png.mjs';
 
 const VIEW = { width: 128, height: 96 };
@@ -95,6 +96,10 @@ const GUESTS = {
             await stop();
             await live.close();
         };
+    },
+    'documents of 100,000 nodes': (daemon) => {
+        const document = largeDocument(99_000);
+        return repeat(() => fetch(`${daemon.url}/v1/scenes/large`, { method: 'PUT', headers: { 'content-type': 'application/json' }, body: document }).catch(() => null));
     },
     'seven hundred half-open connections': (daemon) => {
         const sockets = Array.from({ length: 700 }, () => {

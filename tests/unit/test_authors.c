@@ -156,7 +156,7 @@ static void write_old_database(void)
     struct author *author = authors_add(&room->authors, "the-author");
     cJSON *json = cJSON_Parse(ops);
     uint64_t revision = 0;
-    room_store_new(room, NULL, NULL);
+    room_store_new(room, scene_print(room->scene, false), NULL, NULL);
     assert_int_equal(room_edit(room,
                                &(struct room_change){.author = author->id, .by = author, .edit = 8},
                                json, &revision, &err),

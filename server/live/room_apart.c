@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+#include "room_apart.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "hub.h"
+#include "protocol/json.h"
+#include "protocol/memory.h"
+
+void room_hold(struct room *room)
+{
+    room->holds++;
+}
+
+void room_release(struct room *room)
+{
+    room->holds--;
+    pthread_cond_broadcast(&room->hub->released);
+}
+
+static bool is_heavy(const struct room *room)
+{
+    return room->scene->node_count > TASK_LIGHT_NODES;
+}
+
+/* --- text --- */
+
+static struct blob *with_end(const char *text)
+{
+    return blob_create(text, strlen(text) + 1);
+}
+
+void room_keep_text(struct room *room, const char *text)
+{
+    room_forget_text(room);
+    if (is_heavy(room)) {
+        room->text = with_end(text);
+    }
+}
+
+void room_forget_text(struct room *room)
+{
+    blob_unref(room->text);
+    room->text = NULL;
+}
+
+static struct blob *print(const struct room *room)
+{
+    char *text = scene_print(room->scene, false);
+    struct blob *blob = with_end(text);
+
+    free(text);
+    return blob;
+}
+
+struct blob *room_text(struct room *room)
+{
+    if (room->text) {
+        return blob_ref(room->text);
+    }
+    if (!is_heavy(room)) {
+        return print(room);
+    }
+    room_hold(room);
+    hub_unlock(room->hub);
+    struct blob *text = print(room);
+    hub_lock(room->hub);
+    blob_unref(room->text);
+    room->text = blob_ref(text);
+    room_release(room);
+    return text;
+}
+
+/* --- snapshots --- */
+
+struct snapshot {
+    struct hub *hub;
+    char id[LIMIT_ID_BYTES + 1];
+};
+
+static void store_snapshot(void *data, bool dropped)
+{
+    struct snapshot *snapshot = data;
+    struct room *room = dropped ? NULL : hub_lock_room_to_change(snapshot->hub, snapshot->id, NULL);
+
+    if (room) {
+        room->snapshot_soon = false;
+        blob_unref(room_text(room));
+        room_snapshot(room);
+        hub_unlock(snapshot->hub);
+    }
+    free(snapshot);
+}
+
+void room_snapshot_soon(struct room *room)
+{
+    if (!is_heavy(room) || room->text) {
+        room_snapshot(room);
+        return;
+    }
+    if (room->snapshot_soon) {
+        return;
+    }
+    struct snapshot *snapshot = memory_alloc(1, sizeof(*snapshot));
+
+    snapshot->hub = room->hub;
+    snprintf(snapshot->id, sizeof(snapshot->id), "%s", room->id);
+    room->snapshot_soon = tasks_add(room->hub->tasks,
+                                    &(struct task_order){.scene = room->id,
+                                                         .account = "",
+                                                         .heavy = true,
+                                                         .run = store_snapshot,
+                                                         .data = snapshot},
+                                    NULL);
+    if (!room->snapshot_soon) {
+        free(snapshot);
+    }
+}
+
+/* --- many operations --- */
+
+static bool apply(struct scene *scene, const cJSON *ops, struct room_work *out, struct error *err)
+{
+    if (!edit_apply(scene, ops, &out->applied, &out->inverse, err)) {
+        return false;
+    }
+    out->applied_text = json_print(out->applied, false);
+    out->inverse_text = json_print(out->inverse, false);
+    return true;
+}
+
+/* Others may still read the document when the copy is to take its place. */
+static bool apply_to_copy(struct room *room, const cJSON *ops, struct room_work *out,
+                          struct error *err)
+{
+    room_hold(room);
+    hub_unlock(room->hub);
+    struct scene *copy = scene_copy(room->scene);
+    const bool ok = apply(copy, ops, out, err);
+    if (!ok) {
+        scene_destroy(copy);
+    }
+    hub_lock(room->hub);
+    while (room->holds > 1) {
+        pthread_cond_wait(&room->hub->released, &room->hub->lock);
+    }
+    room_release(room);
+    if (ok) {
+        out->before = room->scene;
+        room->scene = copy;
+    }
+    return ok;
+}
+
+bool room_apply(struct room *room, const cJSON *ops, struct room_work *out, struct error *err)
+{
+    const bool ok = cJSON_GetArraySize(ops) > ROOM_LIGHT_OPERATIONS
+                        ? apply_to_copy(room, ops, out, err)
+                        : apply(room->scene, ops, out, err);
+
+    if (ok) {
+        room_forget_text(room);
+    }
+    return ok;
+}
+
+void room_work_finish(struct room *room, struct room_work *work)
+{
+    if (work->before) {
+        room_hold(room);
+        hub_unlock(room->hub);
+        scene_destroy(work->before);
+        cJSON_Delete(work->applied);
+        hub_lock(room->hub);
+        room_release(room);
+    } else {
+        cJSON_Delete(work->applied);
+    }
+    *work = (struct room_work){0};
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* What is done with a room's document outside the hub's lock, while nobody changes it: printing one
+ * of many nodes, applying many operations to a copy. Every function is called under the lock; those
+ * that let go of it say so. */
+#ifndef SERVER_ROOM_APART_H
+#define SERVER_ROOM_APART_H
+
+#include "room.h"
+
+enum { ROOM_LIGHT_OPERATIONS = 256 }; /* of an edit; more are applied to a copy */
+
+/* What an edit made. */
+struct room_work {
+    cJSON *applied, *inverse;
+    char *applied_text, *inverse_text;
+    struct scene *before; /* that the copy took the place of; NULL: none did */
+};
+
+/* Nobody may hold the room. With many operations it lets go of the lock. */
+bool room_apply(struct room *room, const cJSON *ops, struct room_work *out, struct error *err);
+/* Frees what nobody has taken; lets go of the lock if that takes long. */
+void room_work_finish(struct room *room, struct room_work *work);
+/* `text` is what the document prints as now; kept where printing takes long. */
+void room_keep_text(struct room *room, const char *text);
+void room_forget_text(struct room *room);
+/* Stores a snapshot soon, or at once where that is quick. */
+void room_snapshot_soon(struct room *room);
+
+#endif

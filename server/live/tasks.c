@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+#include "tasks.h"
+
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "protocol/limits.h"
+#include "protocol/memory.h"
+
+enum { THREADS = 2, LIGHT_THREAD = 0 };
+
+struct task {
+    struct task *next;
+    char *scene, *account;
+    struct task_order order;
+    uint64_t round;
+};
+
+struct tasks {
+    pthread_mutex_t lock; /* taken after any other */
+    pthread_cond_t news;
+    pthread_t threads[THREADS];
+    int started;
+    bool stopping;
+    struct task *first; /* by rounds */
+    struct task *current[THREADS];
+    uint64_t round; /* of the task that was begun last */
+};
+
+static void task_destroy(struct task *task)
+{
+    free(task->scene);
+    free(task->account);
+    free(task);
+}
+
+/* --- whose turn it is --- */
+
+static bool same_scene(const struct task *a, const struct task *b)
+{
+    return *a->scene && strcmp(a->scene, b->scene) == 0;
+}
+
+/* Its scene is worked on, or something else of it comes first. */
+static bool is_behind(const struct tasks *tasks, const struct task *task)
+{
+    for (int i = 0; i < THREADS; i++) {
+        if (tasks->current[i] && same_scene(task, tasks->current[i])) {
+            return true;
+        }
+    }
+    for (const struct task *other = tasks->first; other != task; other = other->next) {
+        if (same_scene(task, other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The next one that this thread may do; NULL: none. */
+static struct task *take(struct tasks *tasks, int thread)
+{
+    for (struct task **link = &tasks->first; *link; link = &(*link)->next) {
+        struct task *task = *link;
+
+        if ((task->order.heavy && thread == LIGHT_THREAD) || is_behind(tasks, task)) {
+            continue;
+        }
+        *link = task->next;
+        tasks->round = task->round;
+        return task;
+    }
+    return NULL;
+}
+
+/* A client's tasks are a round apart, so that each round has one of every client. */
+static void insert(struct tasks *tasks, struct task *task)
+{
+    struct task **link = &tasks->first;
+
+    task->round = tasks->round;
+    for (const struct task *other = tasks->first; other; other = other->next) {
+        if (other->round >= task->round && strcmp(other->account, task->account) == 0) {
+            task->round = other->round + 1;
+        }
+    }
+    while (*link && (*link)->round <= task->round) {
+        link = &(*link)->next;
+    }
+    task->next = *link;
+    *link = task;
+}
+
+static bool admits(const struct tasks *tasks, const struct task_order *order, struct error *err)
+{
+    int all = 0, own = 0;
+
+    for (const struct task *task = tasks->first; task; task = task->next) {
+        all += task->order.heavy;
+        own += task->order.heavy && strcmp(task->account, order->account) == 0;
+    }
+    if (tasks->stopping) {
+        return error_set(err, ERROR_UNAVAILABLE, "", "the server is shutting down");
+    }
+    if (!order->heavy || !order->bounded ||
+        (own < LIMIT_DOCUMENT_SHARE && all < LIMIT_DOCUMENT_QUEUE)) {
+        return true;
+    }
+    const bool share = own >= LIMIT_DOCUMENT_SHARE;
+    error_set(err, share ? ERROR_SHARE : ERROR_UNAVAILABLE, "",
+              "%d large documents%s wait already; the limit is %d", share ? own : all,
+              share ? " of this client" : "", share ? LIMIT_DOCUMENT_SHARE : LIMIT_DOCUMENT_QUEUE);
+    if (err) {
+        err->retry_ms = 1000;
+    }
+    return false;
+}
+
+bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error *err)
+{
+    pthread_mutex_lock(&tasks->lock);
+    const bool ok = admits(tasks, order, err);
+    if (ok) {
+        struct task *task = memory_alloc(1, sizeof(*task));
+
+        task->order = *order;
+        task->scene = memory_text(order->scene);
+        task->account = memory_text(order->account);
+        insert(tasks, task);
+        pthread_cond_broadcast(&tasks->news);
+    }
+    pthread_mutex_unlock(&tasks->lock);
+    return ok;
+}
+
+size_t tasks_count(struct tasks *tasks)
+{
+    size_t count = 0;
+
+    pthread_mutex_lock(&tasks->lock);
+    for (const struct task *task = tasks->first; task; task = task->next) {
+        count++;
+    }
+    for (int i = 0; i < THREADS; i++) {
+        count += tasks->current[i] != NULL;
+    }
+    pthread_mutex_unlock(&tasks->lock);
+    return count;
+}
+
+/* --- threads --- */
+
+struct seat {
+    struct tasks *tasks;
+    int thread;
+};
+
+static void *run(void *data)
+{
+    struct seat *seat = data;
+    struct tasks *tasks = seat->tasks;
+    const int thread = seat->thread;
+
+    free(seat);
+    pthread_mutex_lock(&tasks->lock);
+    while (!tasks->stopping) {
+        struct task *task = take(tasks, thread);
+
+        if (!task) {
+            pthread_cond_wait(&tasks->news, &tasks->lock);
+            continue;
+        }
+        tasks->current[thread] = task;
+        pthread_mutex_unlock(&tasks->lock);
+        task->order.run(task->order.data, false);
+        pthread_mutex_lock(&tasks->lock);
+        tasks->current[thread] = NULL;
+        task_destroy(task);
+        pthread_cond_broadcast(&tasks->news); /* others of its scene may go */
+    }
+    pthread_mutex_unlock(&tasks->lock);
+    return NULL;
+}
+
+struct tasks *tasks_create(struct error *err)
+{
+    struct tasks *tasks = memory_alloc(1, sizeof(*tasks));
+
+    pthread_mutex_init(&tasks->lock, NULL);
+    pthread_cond_init(&tasks->news, NULL);
+    while (tasks->started < THREADS) {
+        struct seat *seat = memory_alloc(1, sizeof(*seat));
+
+        *seat = (struct seat){.tasks = tasks, .thread = tasks->started};
+        if (pthread_create(&tasks->threads[tasks->started], NULL, run, seat) != 0) {
+            free(seat);
+            error_set(err, ERROR_INTERNAL, "tasks", "a thread cannot be started");
+            tasks_destroy(tasks);
+            return NULL;
+        }
+        tasks->started++;
+    }
+    return tasks;
+}
+
+void tasks_stop(struct tasks *tasks)
+{
+    pthread_mutex_lock(&tasks->lock);
+    tasks->stopping = true;
+    struct task *left = tasks->first;
+    tasks->first = NULL;
+    pthread_cond_broadcast(&tasks->news);
+    pthread_mutex_unlock(&tasks->lock);
+    for (; tasks->started > 0; tasks->started--) {
+        pthread_join(tasks->threads[tasks->started - 1], NULL);
+    }
+    while (left) {
+        struct task *task = left;
+
+        left = task->next;
+        task->order.run(task->order.data, true);
+        task_destroy(task);
+    }
+}
+
+void tasks_destroy(struct tasks *tasks)
+{
+    if (!tasks) {
+        return;
+    }
+    tasks_stop(tasks);
+    pthread_cond_destroy(&tasks->news);
+    pthread_mutex_destroy(&tasks->lock);
+    free(tasks);
+}

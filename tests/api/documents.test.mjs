@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Large documents and edits of very many operations hold up nobody but those who wait for them. No
+// clock decides: what matters is who is answered before whom.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { ask, startDaemon, until } from '../support/daemon.mjs';
+import { largeDocument } from '../support/large.mjs';
+import { Live } from '../support/live.mjs';
+
+const SHARE = 16; // large documents of one client that may wait
+const NODES = 30_000; // of a large document
+const MANY = 3000; // operations of a large edit
+const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
+const children = Array.from({ length: MANY }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 }));
+const many = { format: 'fieldcast/1', root: { id: 'root', type: 'union', children } };
+const setAll = (radius) => children.map(({ id }) => ({ op: 'set', at: `/nodes/${id}/params/radius`, value: radius }));
+
+let daemon;
+before(async () => {
+    daemon = await startDaemon({ driver: 'null' });
+    await ask(daemon, 'POST', '/v1/scenes?id=other', ball);
+    await ask(daemon, 'POST', '/v1/scenes?id=many', many);
+});
+after(() => daemon.stop());
+
+const put = (id, body, options = {}) =>
+    fetch(`${daemon.url}/v1/scenes/${id}`, { method: 'PUT', headers: { 'content-type': 'application/json' }, body, ...options });
+
+/** A document of more than 64 KiB and few nodes. */
+function fatDocument() {
+    const code = `float sdf(vec3 p) { return length(p) - 1.0; } /*${'.'.repeat(15000)}*/`;
+    const nodes = Array.from({ length: 5 }, (_, i) => ({ id: `n${i}`, type: 'field', visible: i === 0, params: { code } }));
+    return JSON.stringify({ format: 'fieldcast/1', root: { id: 'root', type: 'union', children: nodes } });
+}
+
+/** What everybody does with another scene: each is one question and its answer. */
+async function everydayWork(live) {
+    assert.equal((await fetch(`${daemon.url}/healthz`)).status, 200);
+    assert.equal((await ask(daemon, 'GET', '/v1/scenes/other')).root.id, 'ball');
+    await ask(daemon, 'PATCH', '/v1/scenes/other', [{ op: 'set', at: '/nodes/ball/params/radius', value: 0.7 }]);
+    live.look({});
+    const pick = live.seq;
+    live.say({ type: 'pick', pick, seq: live.seq, x: 10, y: 10 });
+    await live.next('picked', { pick });
+    await live.next('applied', { edit: live.set('/nodes/ball/params/radius', 0.8) });
+    await ask(daemon, 'POST', '/v1/scenes?id=fresh', ball);
+    const beside = await Live.open(daemon, 'fresh');
+    await beside.next('document');
+    await beside.close();
+    await ask(daemon, 'DELETE', '/v1/scenes/fresh');
+}
+
+test('other scenes are read, picked in, edited and made while a large document is read', async () => {
+    const live = await Live.open(daemon, 'other');
+    const order = [];
+    const body = largeDocument(NODES);
+    const large = Promise.all(
+        ['a', 'b', 'c'].map((id) =>
+            put(id, body).then((answer) => {
+                order.push(id);
+                return answer.status;
+            }),
+        ),
+    );
+    // Bodies are there when the first is being read.
+    await everydayWork(live);
+    await everydayWork(live);
+    order.push('others');
+    assert.deepEqual(await large, [201, 201, 201]);
+    assert.equal(order.at(-1) === 'others', false, `answered in the order ${order}`);
+    await live.close();
+});
+
+test('other scenes are edited while a large scene is sent to a viewer, stored and read', async () => {
+    const live = await Live.open(daemon, 'other');
+    const order = [];
+    const large = ['a', 'b', 'c'].flatMap((id) => [
+        ask(daemon, 'PATCH', `/v1/scenes/${id}`, [{ op: 'set', at: '/nodes/node-0/params/radius', value: 0.5 }]),
+        Live.open(daemon, id).then(async (viewer) => {
+            await viewer.next('document');
+            await viewer.close();
+        }),
+        ask(daemon, 'GET', `/v1/scenes/${id}`),
+    ]);
+    const all = Promise.all(large).then(() => order.push('large'));
+    await everydayWork(live);
+    order.push('others');
+    await all;
+    assert.deepEqual(order, ['others', 'large']);
+    await live.close();
+});
+
+test('edits of one client stay in order, whatever each takes', async () => {
+    const live = await Live.open(daemon, 'many');
+    const edits = [];
+    for (let i = 1; i <= 3; i += 1) {
+        edits.push(live.change(setAll(i / 10)));
+        edits.push(live.set('/nodes/n1/params/radius', 0.9));
+    }
+    const revisions = [];
+    for (const edit of edits) {
+        revisions.push((await live.next('applied', { edit })).revision);
+    }
+    assert.deepEqual(revisions, revisions.map((_, i) => revisions[0] + i));
+    const now = (await ask(daemon, 'GET', '/v1/scenes/many')).root.children;
+    assert.deepEqual([now[0].params.radius, now[1].params.radius, now[2].params.radius], [0.3, 0.9, 0.3]);
+    live.say({ type: 'undo', edit: (live.edit += 1) });
+    live.say({ type: 'undo', edit: (live.edit += 1) });
+    await live.next('applied', { edit: live.edit });
+    const before = (await ask(daemon, 'GET', '/v1/scenes/many')).root.children;
+    assert.deepEqual([before[0].params.radius, before[1].params.radius], [0.2, 0.9]);
+    await live.close();
+});
+
+test('all or none of many operations are applied', async () => {
+    const live = await Live.open(daemon, 'many');
+    const { revision } = live.welcome;
+    const edit = live.change([...setAll(0.7), { op: 'remove', at: '/nodes/nobody' }]);
+    const refused = await live.next('rejected', { edit });
+    assert.equal(refused.place, '/nodes/nobody');
+    const applied = await live.next('applied', { edit: live.set('/nodes/n1/params/radius', 0.4) });
+    assert.equal(applied.revision, revision + 1);
+    await live.close();
+});
+
+test('two clients who send many operations to one scene each get a revision of their own', async () => {
+    const both = await Promise.all([Live.open(daemon, 'many'), Live.open(daemon, 'many')]);
+    const all = both.flatMap((live, i) => Array.from({ length: 3 }, () => [live, live.change(setAll(0.2 + i / 10))]));
+    const revisions = [];
+    for (const [live, edit] of all) {
+        revisions.push((await live.next('applied', { edit })).revision);
+    }
+    assert.equal(new Set(revisions).size, all.length);
+    await Promise.all(both.map((live) => live.close()));
+});
+
+test('an edit that was received is applied, though its client has left', async () => {
+    const live = await Live.open(daemon, 'many');
+    const { revision } = live.welcome;
+    live.change(setAll(0.6));
+    const seen = await Live.open(daemon, 'many');
+    await until(() => seen.messages.some((m) => m.type === 'changed') || live.find('applied'), 'the edit to begin');
+    live.change(setAll(0.65));
+    live.socket.end();
+    await until(async () => (await ask(daemon, 'GET', '/v1/scenes')).scenes.find(({ id }) => id === 'many').revision >= revision + 1, 'the edit');
+    await until(async () => (await ask(daemon, 'GET', '/v1/scenes')).scenes.find(({ id }) => id === 'many').viewers === 1, 'the client to be gone');
+    await seen.close();
+});
+
+test('one client has no more than its share of large documents waiting', async () => {
+    const body = fatDocument();
+    const first = put('a', largeDocument(NODES));
+    const answers = await Promise.all(Array.from({ length: SHARE + 8 }, (_, i) => put(`fat-${i}`, body)));
+    assert.equal((await first).status, 200);
+    const refused = answers.filter(({ status }) => status === 429);
+    assert.ok(refused.length > 0, `${answers.map(({ status }) => status)}`);
+    assert.ok(answers.every(({ status }) => status === 429 || status === 201));
+    assert.ok(Number(refused[0].headers.get('retry-after')) >= 1);
+    const problem = await refused[0].json();
+    assert.equal(problem.code, 'share');
+    assert.match(problem.detail, new RegExp(`^${SHARE} large documents of this client wait already; the limit is ${SHARE}$`));
+});
