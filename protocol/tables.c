@@ -3,6 +3,7 @@
  * render settings. */
 #include <string.h>
 
+#include "kinds.h"
 #include "limits.h"
 #include "nodes.h"
 #include "picture.h"
@@ -10,12 +11,12 @@
 #define PARAMS(...) ((const struct param[]){__VA_ARGS__, {.name = NULL}})
 
 static const char *const camera_kinds[] = {"perspective", "orthographic", NULL};
-static const char *const sky_kinds[] = {"sky", "solid", "image", NULL};
-static const char *const density_kinds[] = {"constant", "noise", "field", NULL};
+static const char *const sky_kinds[] = {SKY_KINDS(KINDS_WORD) NULL};
+static const char *const density_kinds[] = {DENSITY_KINDS(KINDS_WORD) NULL};
 static const char *const antialiasing_kinds[] = {"auto", "none", "edges", "adaptive", "full", NULL};
-static const char *const shadow_kinds[] = {"none", "hard", "soft", NULL};
+static const char *const shadow_kinds[] = {SHADOW_KINDS(KINDS_WORD) NULL};
 static const char *const lighting_kinds[] = {"lit", "unlit", NULL};
-static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
+static const char *const tone_maps[] = {TONE_MAPS(KINDS_WORD) NULL};
 
 /* clang-format off */
 /* What the lights have in common. */
@@ -34,7 +35,7 @@ static const char *const tone_maps[] = {"none", "reinhard", "aces", NULL};
     {"range", PARAM_FLOAT, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.5, \
      .zero = "unlimited", .doc = "Beyond this distance there is no light; 0: no limit."}
 #define LIGHT_SHADOW \
-    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {2}, .group = "shadow", \
+    {"shadow", PARAM_ENUM, .choices = shadow_kinds, .def = {SHADOW_SOFT}, .group = "shadow", \
      .doc = "Kind of shadow."}, \
     {"size", PARAM_FLOAT, .def = {8}, .min = 0, .max = 1000, .above_min = true, .step = 0.5, \
      .group = "shadow", .when = "shadow=soft", \
@@ -156,7 +157,7 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
      .zero = "auto", .doc = "How often a ray is mirrored or broken at most; 0: as the level says."},
     {"exposure", PARAM_FLOAT, .min = -20, .max = 20, .step = 0.1, .main = true,
      .group = "tone", .doc = "Brightness in stops: one more doubles the light."},
-    {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {2},
+    {"tone_map", PARAM_ENUM, .choices = tone_maps, .def = {TONE_ACES},
      .group = "tone", .doc = "How bright light is fitted into the picture."},
     {"max_steps", PARAM_INT, .def = {256}, .min = 16, .max = 1024, .step = 16,
      .group = "limits", .doc = "Steps after which a ray gives up."},
@@ -165,15 +166,15 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
      .doc = "Nothing farther from the eye is seen."})};
 
 const struct record_type light_types[] = {
-    {"directional", "Light from far away, like the sun's.", PARAMS(
+    [LIGHT_DIRECTIONAL] = {"directional", "Light from far away, like the sun's.", PARAMS(
         {"direction", PARAM_VEC3, .def = {-0.5, -0.8, -0.4}, .direction = true, .step = 0.05,
          .main = true, .doc = "Where the light goes; any length but 0."},
         LIGHT_COLOR, LIGHT_SHADOW)},
-    {"point", "Light from one place to all sides.", PARAMS(
+    [LIGHT_POINT] = {"point", "Light from one place to all sides.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .def = {2, 4, 3}, .step = 0.05, .main = true,
          .doc = "Where the light is."},
         LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
-    {"spot", "Light from one place into a cone.", PARAMS(
+    [LIGHT_SPOT] = {"spot", "Light from one place into a cone.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .def = {2, 4, 3}, .step = 0.05, .main = true,
          .doc = "Where the light is."},
         {"direction", PARAM_VEC3, .def = {-0.4, -0.8, -0.6}, .direction = true, .step = 0.05,
@@ -183,7 +184,7 @@ const struct record_type light_types[] = {
         {"softness", PARAM_FLOAT, .def = {0.2}, .min = 0, .max = 1, .step = 0.05,
          .doc = "Part of the angle over which the light fades to the rim."},
         LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
-    {.name = NULL},
+    [LIGHT_KIND_COUNT] = {.name = NULL},
 };
 
 /* What light that enters a surface meets inside. */
@@ -272,7 +273,7 @@ const struct record_type shader_types[] = {
      .doc = "Light given by each unit of length at density 1."}, \
     {"density", PARAM_FLOAT, .def = {1}, .min = 0, .max = 1000, .step = 0.1, .main = true, \
      .group = "density", .doc = "Part of the light met for each unit of length."}, \
-    {"source", PARAM_ENUM, .choices = density_kinds, .def = {1}, \
+    {"source", PARAM_ENUM, .choices = density_kinds, .def = {DENSITY_NOISE}, \
      .group = "density", \
      .doc = "What the density follows: nothing, noise, or the distance to the scene's surfaces."}, \
     {"falloff", PARAM_FLOAT, UNIT_LENGTH, .def = {0.2}, .min = 0, .max = LIMIT_COORDINATE, \
@@ -295,23 +296,24 @@ const struct record_type shader_types[] = {
      .doc = "Above 0 light is scattered forwards, below 0 backwards."}
 
 const struct record_type volume_types[] = {
-    {"box", "Smoke or cloud in a box.", PARAMS(
+    [VOLUME_BOX] = {"box", "Smoke or cloud in a box.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
         {"size", PARAM_VEC3, UNIT_LENGTH, .def = {2, 2, 2}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.05, .doc = "Full lengths."},
         DENSITY)},
-    {"sphere", "Smoke or cloud in a ball.", PARAMS(
+    [VOLUME_SPHERE] = {"sphere", "Smoke or cloud in a ball.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
         {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.05, .doc = "Its radius."},
         DENSITY)},
-    {"ellipsoid", "Smoke or cloud in a ball with three radii of its own.", PARAMS(
+    [VOLUME_ELLIPSOID] = {"ellipsoid", "Smoke or cloud in a ball with three radii of its own.",
+     PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Its centre."},
         {"radii", PARAM_VEC3, UNIT_LENGTH, .def = {1.5, 0.75, 1}, .min = 0,
          .max = LIMIT_COORDINATE, .above_min = true, .step = 0.05,
          .doc = "Semi-axes along X, Y and Z."},
         DENSITY)},
-    {.name = NULL},
+    [VOLUME_KIND_COUNT] = {.name = NULL},
 };
 
 const struct record_type primitive_type = {

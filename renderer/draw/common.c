@@ -1,23 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "common.h"
 
-#define SHADE_FILES                                                                                \
-    "frame.glsl", "group.glsl", "ray.glsl", "ray_load.glsl", "surface.glsl", "gbuffer.glsl",       \
-        "lights.glsl", "optics.glsl", "brdf.glsl", "sky.glsl", "fog.glsl", "list.glsl",            \
-        "stack.glsl", "shade.glsl", "paths.glsl", "shade_pass.glsl"
-
-static const char *const files[COMMON_COUNT][20] = {
-    [COMMON_CAMERA] = {"frame.glsl", "group.glsl", "ray.glsl", "camera.glsl", "camera_pass.glsl",
-                       NULL},
-    [COMMON_CLEAR] = {"frame.glsl", "group.glsl", "ray.glsl", "ray_load.glsl", "surface.glsl",
-                      "gbuffer.glsl", "lights.glsl", "optics.glsl", "list.glsl", "clear_pass.glsl",
-                      NULL},
-    [COMMON_SHADE] = {SHADE_FILES},
-    [COMMON_PLAIN] = {SHADE_FILES},
-    [COMMON_GATHER] = {"frame.glsl", "group.glsl", "tone.glsl", "gather_pass.glsl", NULL},
-    [COMMON_EDGES] = {"frame.glsl", "group.glsl", "ray.glsl", "camera.glsl", "list.glsl",
-                      "edges.glsl", "edges_pass.glsl", NULL},
-    [COMMON_AGAIN] = {"frame.glsl", "group.glsl", "list.glsl", "again_pass.glsl", NULL},
+static const struct pass_source sources[COMMON_COUNT] = {
+    [COMMON_CAMERA] = {true, .file = "camera_pass.glsl"},
+    [COMMON_CLEAR] = {true, .file = "clear_pass.glsl"},
+    [COMMON_SHADE] = {true, .file = "shade_pass.glsl"},
+    [COMMON_PLAIN] = {true, "#define PLAIN\n", "shade_pass.glsl"},
+    [COMMON_GATHER] = {true, .file = "gather_pass.glsl"},
+    [COMMON_EDGES] = {true, .file = "edges_pass.glsl"},
+    [COMMON_AGAIN] = {true, .file = "again_pass.glsl"},
 };
 
 bool common_init(struct common *out_common, const struct gl *gl, struct error *err)
@@ -25,11 +16,7 @@ bool common_init(struct common *out_common, const struct gl *gl, struct error *e
     struct common common = {0};
 
     for (int i = 0; i < COMMON_COUNT; i++) {
-        const struct pass_source source = {.compute = true,
-                                           .defines = i == COMMON_PLAIN ? "#define PLAIN\n" : "",
-                                           .files = files[i]};
-
-        if (!pass_init(&common.passes[i], gl, &source, err)) {
+        if (!pass_init(&common.passes[i], gl, &sources[i], err)) {
             common_finish(&common, gl);
             return false;
         }

@@ -161,35 +161,16 @@ uint64_t draw_rays(const struct draw *draw)
     return together;
 }
 
-/* "#define STEPS_WHITE 64.0" and the colours, as GLSL. */
-static void define_steps(char *out, size_t size)
-{
-    size_t used =
-        (size_t)snprintf(out, size, "#define STEPS_WHITE %d.0\n#define STEPS_RAMP vec3[%d](",
-                         STEPS_WHITE, STEPS_COLORS);
-
-    for (int i = 0; i < STEPS_COLORS; i++) {
-        const unsigned char *c = steps_colors[i];
-        used += (size_t)snprintf(out + used, size - used, "%svec3(%d.0, %d.0, %d.0) / 255.0",
-                                 i ? ", " : "", c[0], c[1], c[2]);
-    }
-    snprintf(out + used, size - used, ")\n");
-}
-
 /* The resolve pass of a form. */
 static struct pass *resolve_pass(struct draw *draw, const struct draw_form *form, struct error *err)
 {
-    static const char *const files[] = {"frame.glsl",   "ray.glsl",     "camera.glsl",
-                                        "surface.glsl", "gbuffer.glsl", "tone.glsl",
-                                        "edges.glsl",   "resolve.glsl", NULL};
     struct pass *pass = &draw->resolve[form - forms];
-    char defines[512];
+    char defines[64];
 
     if (pass->program == 0) {
-        const int used = snprintf(defines, sizeof defines, "#define %s\n", form->define);
-        define_steps(defines + used, sizeof defines - (size_t)used);
-        if (!pass_init(pass, draw->gl, &(struct pass_source){.defines = defines, .files = files},
-                       err)) {
+        snprintf(defines, sizeof defines, "#define %s\n", form->define);
+        const struct pass_source source = {.defines = defines, .file = "resolve.glsl"};
+        if (!pass_init(pass, draw->gl, &source, err)) {
             return NULL;
         }
         draw->compilations++;
@@ -221,8 +202,8 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
     const struct gl *gl = draw->gl;
     struct draw_picture picture = {.plan = *plan,
                                    .until = plan->samples,
-                                   .lights = block->modes[0],
-                                   .clear = block->clear_min[3] > 0};
+                                   .lights = block->light_count,
+                                   .clear = block->has_clear};
 
     for (int i = 0; i < AOV_COUNT; i++) {
         picture.forms[i] = wanted[i];
@@ -340,14 +321,14 @@ static void resolve(struct draw *draw, const struct wave *wave, const struct dra
 {
     const struct gl *gl = draw->gl;
     const struct draw_slot *slot = wave->slot;
-    struct pass_place place = wave->tile;
+    const struct draw_plan *plan = wave->plan;
 
-    place.turn[2] = margin_of(wave->plan);
-    place.turn[3] = wave->plan->antialiasing == ANTIALIASING_EDGES;
     targets_bind_common(wave->targets, gl, &wave->targets->eye, &wave->targets->eye);
     gl->Viewport(0, 0, slot->tile.width, slot->tile.height);
     gl->BindFramebuffer(GL_FRAMEBUFFER, wave->targets->out_buffers[form->kind]);
-    pass_draw(&draw->resolve[form - forms], gl, &place);
+    pass_draw(&draw->resolve[form - forms], gl, &wave->tile,
+              PASS_ARGS(struct resolve_args, .margin = margin_of(plan),
+                        .blend_edges = plan->antialiasing == ANTIALIASING_EDGES));
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[form->aov]);
     gl->ReadPixels(0, 0, slot->tile.width, slot->tile.height, form->read_format, form->read_type,
                    NULL);

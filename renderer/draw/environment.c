@@ -12,7 +12,6 @@
 enum {
     PLAIN_WIDTH = 128, /* of what is drawn where there is no picture; twice the height */
     MIRROR_WIDTH = 128,
-    MIRROR_LEVELS = 4, /* of glsl/sky.glsl */
     MATT_WIDTH = 32,
 };
 
@@ -38,11 +37,12 @@ static uint64_t mix(uint64_t state, const void *bytes, size_t length)
 /* What sky_sun() of glsl/sky.glsl looks at. */
 static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
 {
-    for (int i = 0; i < block->modes[0]; i++) {
+    for (int i = 0; i < block->light_count; i++) {
         const struct frame_light *light = &block->lights[i];
 
-        if (light->place[3] == LIGHT_DIRECTIONAL) {
-            return mix(mix(state, light->place, 12), light->color, 12);
+        if (light->kind == LIGHT_DIRECTIONAL) {
+            return mix(mix(state, light->position, sizeof light->position), light->color,
+                       sizeof light->color);
         }
     }
     return state;
@@ -50,17 +50,19 @@ static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
 
 static uint64_t key_of(const struct frame_block *block, const char *image)
 {
-    const int32_t sun = block->effects[2] & EFFECT_SUN;
-    uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->modes[1], sizeof block->modes[1]);
+    const int32_t sun = block->effects & EFFECT_SUN;
+    uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->sky_kind, sizeof block->sky_kind);
 
-    if (block->modes[1] == SKY_IMAGE) {
+    if (block->sky_kind == SKY_IMAGE) {
         return mix(state, image, strlen(image));
     }
-    state = mix(state, block->zenith, 12);
-    if (block->modes[1] == SKY_SOLID) {
+    state = mix(state, block->zenith, sizeof block->zenith);
+    if (block->sky_kind == SKY_SOLID) {
         return state;
     }
-    state = mix(mix(mix(state, block->horizon, 12), block->ground, 12), &sun, sizeof sun);
+    state = mix(state, block->horizon, sizeof block->horizon);
+    state = mix(state, block->ground, sizeof block->ground);
+    state = mix(state, &sun, sizeof sun);
     return sun ? mix_sun(state, block) : state;
 }
 
@@ -105,11 +107,11 @@ static void make(const struct environments *environments, enum maker maker, GLui
                  int width)
 {
     const struct gl *gl = environments->gl;
-    const struct pass_place place = {
-        .width = width, .height = width / 2, .turn = {level}, .mode = PASS_TILE};
+    const struct pass_place place = {.width = width, .height = width / 2, .mode = PASS_TILE};
 
-    gl->BindImageTexture(0, out, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
-    pass_compute(&environments->makers[maker], gl, &place);
+    gl->BindImageTexture(IMAGE_ENVIRONMENT, out, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    pass_compute(&environments->makers[maker], gl, &place,
+                 PASS_ARGS(struct environment_args, .level = level));
 }
 
 /* The gradient, or the one colour. */
@@ -214,10 +216,10 @@ static struct environment *create(struct environments *environments,
 
 void environment_leave_out(struct frame_block *block)
 {
-    const float unturned[4] = {1, 0, 1, 0};
-
-    block->modes[1] = SKY_SOLID;
-    memcpy(block->panorama, unturned, sizeof unturned);
+    block->sky_kind = SKY_SOLID;
+    block->sky_turn[0] = 1;
+    block->sky_turn[1] = 0;
+    block->sky_brightness = 1;
 }
 
 static uint64_t now_us(void)
@@ -279,9 +281,7 @@ struct environments *environments_create(const struct gl *gl, struct error *err)
     environments->gl = gl;
     gl->GenBuffers(1, &environments->frame);
     for (int i = 0; i < MAKER_COUNT; i++) {
-        const char *const list[] = {"frame.glsl", "sky.glsl", "environment_place.glsl", files[i],
-                                    NULL};
-        const struct pass_source source = {.compute = true, .defines = "", .files = list};
+        const struct pass_source source = {.compute = true, .file = files[i]};
 
         if (!pass_init(&environments->makers[i], gl, &source, err)) {
             environments_destroy(environments);

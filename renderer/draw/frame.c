@@ -8,7 +8,7 @@
 /* Stands for infinity where products of it must stay numbers. */
 static const double FAR_AWAY = 1e9;
 
-static void set3(float out[4], const double *v, double scale)
+static void set3(float out[3], const double *v, double scale)
 {
     for (int i = 0; i < 3; i++) {
         out[i] = (float)(v[i] * scale);
@@ -26,38 +26,52 @@ static int choice(const struct record *record, const char *name)
 }
 
 /* Of length 1, times `sign`; any direction of length 0 stays. */
-static void set_direction(float out[4], const double *d, double sign)
+static void set_direction(float out[3], const double *d, double sign)
 {
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 
     set3(out, d, length > 0 ? sign / length : sign);
 }
 
+static void pack_directional(struct frame_light *light, const struct record *record)
+{
+    set_direction(light->position, record_vector(record, "direction"), -1);
+}
+
+static void pack_point(struct frame_light *light, const struct record *record)
+{
+    set3(light->position, record_vector(record, "position"), 1);
+    light->radius = (float)record_number(record, "radius");
+    light->range = (float)record_number(record, "range");
+}
+
+static void pack_spot(struct frame_light *light, const struct record *record)
+{
+    const double angle = record_number(record, "angle");
+
+    pack_point(light, record);
+    set_direction(light->axis, record_vector(record, "direction"), 1);
+    light->fade_cosine = (float)cos(angle * (1 - record_number(record, "softness")));
+    light->rim_cosine = (float)cos(angle);
+}
+
+static void (*const light_packers[LIGHT_KIND_COUNT])(struct frame_light *light,
+                                                     const struct record *record) = {
+    [LIGHT_DIRECTIONAL] = pack_directional,
+    [LIGHT_POINT] = pack_point,
+    [LIGHT_SPOT] = pack_spot,
+};
+
 static struct frame_light make_light(const struct record *record)
 {
-    struct frame_light light = {0};
-    const bool directional = strcmp(record->type->name, "directional") == 0;
-    const bool spot = strcmp(record->type->name, "spot") == 0;
-
-    if (directional) {
-        set_direction(light.place, record_vector(record, "direction"), -1);
-    } else {
-        set3(light.place, record_vector(record, "position"), 1);
-        light.extent[0] = (float)record_number(record, "radius");
-        light.extent[1] = (float)record_number(record, "range");
-    }
-    if (spot) {
-        const double angle = record_number(record, "angle");
-        set_direction(light.axis, record_vector(record, "direction"), 1);
-        light.axis[3] = (float)cos(angle * (1 - record_number(record, "softness")));
-        light.extent[3] = (float)cos(angle);
-    }
-    light.place[3] = directional ? LIGHT_DIRECTIONAL : spot ? LIGHT_SPOT : LIGHT_POINT;
+    struct frame_light light = {.kind = (int32_t)(record->type - light_types)};
     /* One that gives no light is black and casts no shadow: numbers, so nothing is compiled. */
     const bool lit = record_number(record, "visible") != 0;
+
+    light_packers[light.kind](&light, record);
     set3(light.color, record_vector(record, "color"), lit ? record_number(record, "intensity") : 0);
-    light.color[3] = (float)record_number(record, "size");
-    light.extent[2] = lit ? (float)choice(record, "shadow") : 0;
+    light.sharpness = (float)record_number(record, "size");
+    light.shadow = lit ? choice(record, "shadow") : SHADOW_NONE;
     return light;
 }
 
@@ -66,9 +80,9 @@ static void set_fog(struct frame_block *block, const struct record *environment)
     const double height = record_number(environment, "fog_height");
 
     set3(block->fog_color, record_vector(environment, "fog_color"), 1);
-    block->fog_color[3] = (float)record_number(environment, "fog");
-    block->fog_shape[0] = height > 0 ? (float)fmin(1 / height, LIMIT_COORDINATE) : 0;
-    block->fog_shape[1] = (float)record_number(environment, "fog_base");
+    block->fog_density = (float)record_number(environment, "fog");
+    block->fog_thinning = height > 0 ? (float)fmin(1 / height, LIMIT_COORDINATE) : 0;
+    block->fog_base = (float)record_number(environment, "fog_base");
 }
 
 static void set_environment(struct frame_block *block, const struct record *environment)
@@ -81,12 +95,12 @@ static void set_environment(struct frame_block *block, const struct record *envi
     set3(block->zenith, record_vector(environment, gradient ? "zenith" : "color"), 1);
     set3(block->horizon, record_vector(environment, "horizon"), 1);
     set3(block->ground, record_vector(environment, "ground"), 1);
-    block->horizon[3] = (float)record_number(environment, "intensity");
-    block->panorama[0] = (float)cos(turn);
-    block->panorama[1] = (float)sin(turn);
-    block->panorama[2] = image ? (float)record_number(environment, "brightness") : 1;
-    block->modes[1] = kind;
-    block->effects[2] |= gradient && record_number(environment, "sun") > 0 ? EFFECT_SUN : 0;
+    block->ambient = (float)record_number(environment, "intensity");
+    block->sky_turn[0] = (float)cos(turn);
+    block->sky_turn[1] = (float)sin(turn);
+    block->sky_brightness = image ? (float)record_number(environment, "brightness") : 1;
+    block->sky_kind = kind;
+    block->effects |= gradient && record_number(environment, "sun") > 0 ? EFFECT_SUN : 0;
     set_fog(block, environment);
 }
 
@@ -100,49 +114,57 @@ static double waves_above(double part, int octaves)
     return deviation * sqrt(3) / M_PI * log(odds);
 }
 
-/* A ball is an ellipsoid with three radii alike. */
-static void set_volume_shape(struct frame_volume *volume, const struct record *record)
+static void pack_box(struct frame_volume *volume, const struct record *record)
 {
-    if (strcmp(record->type->name, "box") == 0) {
-        set3(volume->extent, record_vector(record, "size"), 0.5);
-        volume->place[3] = VOLUME_BOX;
-        return;
-    }
-    volume->place[3] = VOLUME_ELLIPSOID;
-    if (strcmp(record->type->name, "ellipsoid") == 0) {
-        set3(volume->extent, record_vector(record, "radii"), 1);
-    } else {
-        const double radius = record_number(record, "radius");
-        set3(volume->extent, (const double[]){radius, radius, radius}, 1);
-    }
+    set3(volume->extent, record_vector(record, "size"), 0.5);
+    volume->kind = VOLUME_BOX;
 }
+
+/* A ball is an ellipsoid with three radii alike. */
+static void pack_sphere(struct frame_volume *volume, const struct record *record)
+{
+    const double radius = record_number(record, "radius");
+
+    set3(volume->extent, (const double[]){radius, radius, radius}, 1);
+    volume->kind = VOLUME_ELLIPSOID;
+}
+
+static void pack_ellipsoid(struct frame_volume *volume, const struct record *record)
+{
+    set3(volume->extent, record_vector(record, "radii"), 1);
+    volume->kind = VOLUME_ELLIPSOID;
+}
+
+static void (*const volume_packers[VOLUME_KIND_COUNT])(struct frame_volume *volume,
+                                                       const struct record *record) = {
+    [VOLUME_BOX] = pack_box,
+    [VOLUME_SPHERE] = pack_sphere,
+    [VOLUME_ELLIPSOID] = pack_ellipsoid,
+};
 
 static struct frame_volume make_volume(const struct record *record)
 {
-    struct frame_volume volume = {0};
-    const int octaves = (int)record_number(record, "octaves");
+    struct frame_volume volume = {.octaves = (int32_t)record_number(record, "octaves")};
 
-    set3(volume.place, record_vector(record, "position"), 1);
-    set_volume_shape(&volume, record);
-    volume.extent[3] = (float)record_number(record, "falloff");
+    set3(volume.center, record_vector(record, "position"), 1);
+    volume_packers[record->type - volume_types](&volume, record);
+    volume.falloff = (float)record_number(record, "falloff");
     set3(volume.color, record_vector(record, "color"), 1);
-    volume.color[3] = (float)record_number(record, "density");
+    volume.density = (float)record_number(record, "density");
     set3(volume.emission, record_vector(record, "emission"), 1);
-    volume.emission[3] = (float)record_number(record, "anisotropy");
-    volume.noise[0] = (float)record_number(record, "frequency");
-    volume.noise[1] = (float)octaves;
-    volume.noise[2] = (float)record_number(record, "seed");
-    volume.noise[3] = (float)waves_above(record_number(record, "cover"), octaves);
-    volume.source[0] = (float)choice(record, "source");
-    volume.source[1] = (float)fmax(record_number(record, "reach"), 1e-6);
+    volume.anisotropy = (float)record_number(record, "anisotropy");
+    volume.frequency = (float)record_number(record, "frequency");
+    volume.seed = (int32_t)record_number(record, "seed");
+    volume.threshold = (float)waves_above(record_number(record, "cover"), volume.octaves);
+    volume.source = choice(record, "source");
+    volume.reach = (float)fmax(record_number(record, "reach"), 1e-6);
     return volume;
 }
 
 static void set_volumes(struct frame_block *block, const struct resource_list *volumes)
 {
     for (size_t i = 0; i < volumes->count && i < LIMIT_VOLUMES; i++) {
-        block->volumes[i] = make_volume(&volumes->items[i]->record);
-        block->effects[3]++;
+        block->volumes[block->volume_count++] = make_volume(&volumes->items[i]->record);
     }
 }
 
@@ -152,7 +174,7 @@ static void set_clear(struct frame_block *block, const struct frame_extent *exte
         block->clear_min[i] = (float)clamp(extent->clear_min[i], -FAR_AWAY, FAR_AWAY);
         block->clear_max[i] = (float)clamp(extent->clear_max[i], -FAR_AWAY, FAR_AWAY);
     }
-    block->clear_min[3] = extent->clear;
+    block->has_clear = extent->clear;
 }
 
 static void set_bounds(struct frame_block *block, const struct frame_extent *extent)
@@ -179,18 +201,17 @@ void frame_set_scene(struct frame_block *block, const struct scene *scene,
 
     *block = (struct frame_block){0};
     for (size_t i = 0; i < scene->lights.count && i < LIMIT_LIGHTS; i++) {
-        block->lights[i] = make_light(&scene->lights.items[i]->record);
-        block->modes[0]++;
+        block->lights[block->light_count++] = make_light(&scene->lights.items[i]->record);
     }
     set_volumes(block, &scene->volumes);
     set_environment(block, &scene->environment);
     set_bounds(block, extent);
     set_clear(block, extent);
-    block->bounds_max[3] = (float)record_number(render, "max_distance");
-    block->zenith[3] = (float)exp2(record_number(render, "exposure"));
-    block->ground[3] = (float)occlusion_reach(render, extent);
-    block->panorama[3] = (float)record_number(render, "occlusion_strength");
-    block->modes[2] = choice(render, "tone_map");
+    block->max_distance = (float)record_number(render, "max_distance");
+    block->exposure = (float)exp2(record_number(render, "exposure"));
+    block->occlusion_reach = (float)occlusion_reach(render, extent);
+    block->occlusion_strength = (float)record_number(render, "occlusion_strength");
+    block->tone_map = choice(render, "tone_map");
 }
 
 void frame_set_camera(struct frame_block *block, const struct camera *camera, int width, int height)
@@ -199,10 +220,10 @@ void frame_set_camera(struct frame_block *block, const struct camera *camera, in
     set3(block->forward, camera->forward, 1);
     set3(block->right, camera->right, 1);
     set3(block->up, camera->up, 1);
-    block->eye[3] = camera->orthographic ? 1 : 0;
-    block->forward[3] = (float)camera->pixel_radius;
-    block->right[3] = (float)camera->lens;
-    block->up[3] = (float)camera->focus;
+    block->orthographic = camera->orthographic;
+    block->pixel_radius = (float)camera->pixel_radius;
+    block->lens_radius = (float)camera->lens;
+    block->focus_distance = (float)camera->focus;
     block->size[0] = width;
     block->size[1] = height;
 }

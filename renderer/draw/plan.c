@@ -25,50 +25,50 @@ static bool set_steps(struct frame_block *block, int wanted, int wanted_shadow,
                       const struct frame_extent *extent)
 {
     const int each = 1 + extent->loop_trips;
-    const int lights = block->modes[0] > 0 ? block->modes[0] : 1;
-    const int rounds = block->clear_min[3] > 0 ? 2 : 1; /* of a ray inside, for each step */
+    const int lights = block->light_count > 0 ? block->light_count : 1;
+    const int rounds = block->has_clear ? 2 : 1; /* of a ray inside, for each step */
     int steps = wanted, shadow_steps = wanted_shadow;
 
     if (extent->limit_loops) {
         /* Eight points for the normal, and one evaluation of the surface. */
         const int most = (LOOP_BUDGET / each - 9) / rounds;
-        const int most_shadow = (LOOP_BUDGET / each - block->effects[0]) / lights - 1;
+        const int most_shadow = (LOOP_BUDGET / each - block->occlusion_samples) / lights - 1;
         steps = most < steps ? most : steps;
         shadow_steps = most_shadow < shadow_steps ? most_shadow : shadow_steps;
     }
-    block->size[3] = steps > 1 ? steps : 1;
-    block->modes[3] = shadow_steps > 1 ? shadow_steps : 1;
+    block->max_steps = steps > 1 ? steps : 1;
+    block->shadow_steps = shadow_steps > 1 ? shadow_steps : 1;
     return steps < wanted || shadow_steps < wanted_shadow;
 }
 
 /* Rounds of the loops in glsl/volume.glsl for one step of a ray, when map() takes `each`. */
 static int volume_rounds(const struct frame_block *block, int each)
 {
-    const int lights = block->modes[0] > 0 ? block->modes[0] : 1;
+    const int lights = block->light_count > 0 ? block->light_count : 1;
     int density = 0;
 
-    for (int i = 0; i < block->effects[3]; i++) {
-        density += 1 + (int)block->volumes[i].noise[1];
+    for (int i = 0; i < block->volume_count; i++) {
+        density += 1 + block->volumes[i].octaves;
     }
     const int step_to_light = each + density;
-    return 1 + block->effects[3] +
-           lights * (1 + block->effects[3] + (1 + 3 * block->counts[1]) * step_to_light);
+    return 1 + block->volume_count +
+           lights * (1 + block->volume_count + (1 + 3 * block->volume_light_steps) * step_to_light);
 }
 
 /* The same for volumes: light in them is looked at less closely first, then they are. */
 static void set_volume_steps(struct frame_block *block, const struct quality *q,
                              const struct frame_extent *extent)
 {
-    const int edges = 1 + 3 * block->effects[3]; /* and the surface */
+    const int edges = 1 + 3 * block->volume_count; /* and the surface */
     int most = q->volume_steps;
 
-    block->counts[0] = q->volume_steps;
-    block->counts[1] = q->volume_shadow_steps;
+    block->volume_steps = q->volume_steps;
+    block->volume_light_steps = q->volume_shadow_steps;
     do {
         most = LOOP_BUDGET / volume_rounds(block, 1 + extent->loop_trips) - edges;
-    } while (extent->limit_loops && most < block->counts[0] && --block->counts[1] > 1);
-    if (extent->limit_loops && most < block->counts[0]) {
-        block->counts[0] = most > 1 ? most : 1;
+    } while (extent->limit_loops && most < block->volume_steps && --block->volume_light_steps > 1);
+    if (extent->limit_loops && most < block->volume_steps) {
+        block->volume_steps = most > 1 ? most : 1;
     }
 }
 
@@ -95,13 +95,12 @@ static void set_samples(struct draw_plan *plan, struct frame_block *block,
         plan->from_camera ? ANTIALIASING_NONE : choose_antialiasing(render, q, level, n);
     plan->samples = plan->antialiasing > ANTIALIASING_EDGES ? n * n : 1;
     if (q->lens_samples == 0 || plan->from_camera) {
-        block->right[3] = 0; /* no lens */
-    } else if (block->right[3] > 0) {
+        block->lens_radius = 0; /* no lens */
+    } else if (block->lens_radius > 0) {
         plan->antialiasing = ANTIALIASING_FULL;
         plan->samples = plan->samples > q->lens_samples ? plan->samples : q->lens_samples;
     }
-    block->size[2] = n;
-    block->counts[2] = plan->samples;
+    block->samples = plan->samples;
 }
 
 static void set_effects(struct draw_plan *plan, struct frame_block *block,
@@ -111,19 +110,18 @@ static void set_effects(struct draw_plan *plan, struct frame_block *block,
         plan->mirrors && (is_on(render, "reflections") || is_on(render, "refractions"));
     const int depth = q->ray_depth ? own_or(render, "ray_depth", q->ray_depth) : 0;
 
-    block->effects[0] =
+    block->occlusion_samples =
         is_on(render, "occlusion") ? own_or(render, "occlusion_samples", q->occlusion_samples) : 0;
-    block->effects[1] = rays ? depth : 0;
-    block->effects[2] = (block->effects[2] & EFFECT_SUN) |
-                        (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
-                        (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
-                        (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
-                        (transparent ? EFFECT_TRANSPARENT : 0);
-    block->clear_max[3] = (float)q->ray_least;
-    block->counts[3] = q->clear_depth;
-    plan->rays = block->effects[1] ? q->rays : 0;
+    block->ray_depth = rays ? depth : 0;
+    block->effects = (block->effects & EFFECT_SUN) |
+                     (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
+                     (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
+                     (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
+                     (transparent ? EFFECT_TRANSPARENT : 0);
+    block->min_throughput = (float)q->ray_least;
+    plan->rays = block->ray_depth ? q->rays : 0;
     plan->clear_depth = is_on(render, "shadows") ? q->clear_depth : 0;
-    plan->volumes = block->effects[3] > 0;
+    plan->volumes = block->volume_count > 0;
 }
 
 bool plan_make(struct draw_plan *out_plan, struct frame_block *block, const struct record *render,

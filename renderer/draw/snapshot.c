@@ -193,7 +193,7 @@ static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
 
     frame_set_scene(&snapshot->frame, scene, &snapshot->extent);
     snapshot->fewer_steps = has_fewer_steps(snapshot);
-    if (snapshot->frame.modes[1] != SKY_IMAGE ||
+    if (snapshot->frame.sky_kind != SKY_IMAGE ||
         environments_have(renderer->environments, &snapshot->frame, image) ||
         is_unreadable(renderer, image, &problem)) {
         return surround(renderer, snapshot, image, NULL, &problem, err);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "wave.h"
 
-#include <string.h>
 #include <time.h>
 
 /* --- time --- */
@@ -65,15 +64,12 @@ struct round {
 
 static const struct round whole_tile = {.mode = PASS_TILE};
 
-static struct pass_place place_of(const struct wave *w, const struct round *round, int x, int y,
-                                  int z, int last)
+static struct pass_place place_of(const struct wave *w, const struct round *round)
 {
     struct pass_place place = w->tile;
-    const int turn[4] = {x, y, z, last};
 
     place.mode = round->mode;
     place.list = w->targets->lists[round->list];
-    memcpy(place.turn, turn, sizeof turn);
     return place;
 }
 
@@ -84,18 +80,19 @@ static void mark(struct wave *w, const struct round *round, enum frame_stage sta
 
 static void run_field(const struct wave *w, enum program_stage stage, const struct round *round)
 {
-    const struct pass_place place = place_of(w, round, w->sample, 0, 0, !round->follows);
+    const struct pass_place place = place_of(w, round);
 
-    pass_compute(program_pass(w->program, stage), w->gl, &place);
+    pass_compute(
+        program_pass(w->program, stage), w->gl, &place,
+        PASS_ARGS(struct sample_args, .sample_index = w->sample, .first = !round->follows));
 }
 
-/* The last four: `turn` of glsl/frame.glsl. */
 static void run_common(const struct wave *w, enum common_pass pass, const struct round *round,
-                       int x, int y, int z, int last)
+                       struct pass_args args)
 {
-    const struct pass_place place = place_of(w, round, x, y, z, last);
+    const struct pass_place place = place_of(w, round);
 
-    pass_compute(&w->common->passes[pass], w->gl, &place);
+    pass_compute(&w->common->passes[pass], w->gl, &place, args);
 }
 
 static bool is_empty(const struct wave *w, enum target_list list)
@@ -121,7 +118,7 @@ static void find(struct wave *w, const struct round *round)
     const struct ray_set *eye = &w->targets->eye;
 
     targets_bind_common(w->targets, w->gl, eye, eye);
-    run_common(w, COMMON_CAMERA, round, w->sample, 0, 0, 0);
+    run_common(w, COMMON_CAMERA, round, PASS_ARGS(struct sample_args, .sample_index = w->sample));
     if (w->sample == 0) {
         find_coarsely(w);
     }
@@ -147,7 +144,8 @@ static void colour_light(struct wave *w, const struct round *round, int light)
 
     targets_bind_common(targets, w->gl, eye, own);
     targets_begin_list(targets, w->gl, on.list);
-    run_common(w, COMMON_CLEAR, round, 0, light, 0, 0);
+    run_common(w, COMMON_CLEAR, round,
+               PASS_ARGS(struct clear_args, .light = light, .phase = CLEAR_AIM));
     for (int i = 1; i <= w->plan->clear_depth && !is_empty(w, on.list); i++) {
         const enum target_list before = on.list;
 
@@ -156,7 +154,9 @@ static void colour_light(struct wave *w, const struct round *round, int light)
         run_field(w, STAGE_MATTER, &on);
         targets_bind_common(targets, w->gl, own, own);
         targets_begin_list(targets, w->gl, next);
-        run_common(w, COMMON_CLEAR, &on, 0, light, i == w->plan->clear_depth ? 2 : 1, 0);
+        const int phase = i == w->plan->clear_depth ? CLEAR_END : CLEAR_STEP;
+        run_common(w, COMMON_CLEAR, &on,
+                   PASS_ARGS(struct clear_args, .light = light, .phase = phase));
         on.list = next;
         next = before;
     }
@@ -183,8 +183,9 @@ static void add_light(struct wave *w, const struct round *round, bool last)
         mark(w, round, FRAME_VOLUME);
     }
     targets_bind_common(w->targets, w->gl, eye, eye);
-    run_common(w, w->plan->mirrors ? COMMON_SHADE : COMMON_PLAIN, round, 0, last, w->plan->volumes,
-               !round->follows);
+    run_common(w, w->plan->mirrors ? COMMON_SHADE : COMMON_PLAIN, round,
+               PASS_ARGS(struct shade_args, .first = !round->follows, .last = last,
+                         .haze = w->plan->volumes));
     mark(w, round, FRAME_SHADE);
 }
 
@@ -211,7 +212,8 @@ static void follow(struct wave *w)
 static void gather(struct wave *w, const struct round *round)
 {
     targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
-    run_common(w, COMMON_GATHER, round, w->sample, w->linear, 0, 0);
+    run_common(w, COMMON_GATHER, round,
+               PASS_ARGS(struct gather_args, .sample_index = w->sample, .linear = w->linear));
     mark(w, round, FRAME_SHADE);
 }
 
@@ -247,7 +249,8 @@ void wave_find_edges(struct wave *w)
 {
     targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
     targets_begin_list(w->targets, w->gl, LIST_EDGES);
-    run_common(w, COMMON_EDGES, &whole_tile, w->tile.width, w->tile.height, 0, 0);
+    run_common(w, COMMON_EDGES, &whole_tile,
+               PASS_ARGS(struct listing_args, .width = w->tile.width, .height = w->tile.height));
     wave_mark(w, FRAME_RESOLVE);
 }
 
@@ -258,7 +261,9 @@ void wave_resume(struct wave *w, int samples)
     if (w->plan->antialiasing == ANTIALIASING_ADAPTIVE) {
         targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
         targets_begin_list(w->targets, w->gl, LIST_EDGES);
-        run_common(w, COMMON_AGAIN, &whole_tile, w->tile.width, w->tile.height, samples, 0);
+        run_common(w, COMMON_AGAIN, &whole_tile,
+                   PASS_ARGS(struct listing_args, .width = w->tile.width, .height = w->tile.height,
+                             .samples = samples));
         wave_mark(w, FRAME_RESOLVE);
     }
 }
@@ -282,13 +287,12 @@ bool wave_sample_again(struct wave *w, int sample)
 void wave_from_camera(struct wave *w, const struct pass *program)
 {
     const struct gl *gl = w->gl;
-    struct pass_place place = w->tile;
+    const struct pass_place place = w->tile;
 
-    place.turn[1] = w->plan->rays;
     targets_bind_common(w->targets, gl, &w->targets->eye, &w->targets->eye);
     gl->Viewport(0, 0, place.width, place.height);
     gl->BindFramebuffer(GL_FRAMEBUFFER, w->targets->out_buffers[OUT_BYTES]);
-    pass_draw(program, gl, &place);
+    pass_draw(program, gl, &place, PASS_ARGS(struct forward_args, .rays = w->plan->rays));
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     wave_mark(w, FRAME_MARCH);
     gather(w, &whole_tile);

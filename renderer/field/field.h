@@ -122,9 +122,6 @@ enum {
     FIELD_ABSORPTION = 20,
 };
 
-/* As in glsl/surface.glsl. */
-enum field_model { FIELD_PHONG, FIELD_BLINN, FIELD_STANDARD };
-
 /* No nesting needs more: two slots for each level and one for the whole. */
 enum { FIELD_SLOTS_MAX = 2 * LIMIT_NODE_DEPTH + 4 };
 

@@ -8,6 +8,7 @@
 #include "field_code.h"
 #include "protocol/memory.h"
 #include "renderer/code/shades.h"
+#include "renderer/glsl/interface.h"
 
 size_t field_material_slot(const struct scene *scene, const char *name)
 {
@@ -116,11 +117,11 @@ static void put_unlit(float *to, const struct record *record)
 static const struct {
     const char *shader;
     void (*put)(float *to, const struct record *record);
-    enum field_model model;
+    enum surface_model model;
 } rows[] = {
-    {"phong", put_phong, FIELD_PHONG},     {"blinn", put_phong, FIELD_BLINN},
-    {"checker", put_checker, FIELD_PHONG}, {"standard", put_standard, FIELD_STANDARD},
-    {"unlit", put_unlit, FIELD_PHONG},
+    {"phong", put_phong, MODEL_PHONG},     {"blinn", put_phong, MODEL_BLINN},
+    {"checker", put_checker, MODEL_PHONG}, {"standard", put_standard, MODEL_STANDARD},
+    {"unlit", put_unlit, MODEL_PHONG},
 };
 
 static void put_material(float *to, const struct record *record)
@@ -187,7 +188,7 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
     to[FIELD_TRANSMISSION] =
         fmax(surface->transmission, to[FIELD_TRANSMISSION] > 0 ? 1.0 / 255 : 0);
     to[FIELD_IOR] = surface->ior;
-    to[FIELD_MODEL] = FIELD_STANDARD;
+    to[FIELD_MODEL] = MODEL_STANDARD;
 }
 
 static struct builder_painter painter_of(const struct resource *material)

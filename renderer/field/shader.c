@@ -412,6 +412,7 @@ static void write_materials(const struct writer *w)
 
 static void write_map(struct writer *w)
 {
+    fputs("#include \"field.glsl\"\n", w->out);
     write_functions(w);
     fprintf(w->out, "float map(vec3 p0)\n{\n");
     write_slots(w, "vec3", "p", 1, w->field->point_slots);
@@ -423,6 +424,7 @@ static void write_map(struct writer *w)
 static void write_surface(struct writer *w)
 {
     const struct field *field = w->field;
+    fputs("#include \"field.glsl\"\n#include \"mixture.glsl\"\n", w->out);
     write_functions(w);
     write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
     if (field->shader_count > 0) {

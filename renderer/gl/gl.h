@@ -62,7 +62,6 @@
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSTRING, GetString)                                                                        \
     X(GETUNIFORMBLOCKINDEX, GetUniformBlockIndex)                                                  \
-    X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(MAPBUFFERRANGE, MapBufferRange)                                                              \
     X(MEMORYBARRIER, MemoryBarrier)                                                                \
@@ -77,7 +76,7 @@
     X(TEXSTORAGE3D, TexStorage3D)                                                                  \
     X(TEXSUBIMAGE2D, TexSubImage2D)                                                                \
     X(UNIFORM1I, Uniform1i)                                                                        \
-    X(UNIFORM4I, Uniform4i)                                                                        \
+    X(UNIFORM2I, Uniform2i)                                                                        \
     X(UNIFORMBLOCKBINDING, UniformBlockBinding)                                                    \
     X(UNMAPBUFFER, UnmapBuffer)                                                                    \
     X(USEPROGRAM, UseProgram)                                                                      \

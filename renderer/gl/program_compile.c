@@ -5,14 +5,18 @@
 #include "numbers.h"
 #include "program_parts.h"
 #include "protocol/memory.h"
-#include "renderer/draw/frame.h"
-#include "renderer/field/shader.h"
 #include "targets.h"
 
 enum {
     PRELOAD_MAX = 4096, /* vec4s */
     SHARED_MAX = 2048,  /* vec4s in the 32 KiB that OpenGL 4.3 promises to each work group */
-    FILES_MAX = 32,
+};
+
+static const char *const stage_files[STAGE_COUNT] = {
+    [STAGE_MARCH] = "march_pass.glsl",
+    [STAGE_MATTER] = "matter_pass.glsl",
+    [STAGE_SHADOW] = "shadow_pass.glsl",
+    [STAGE_VOLUME] = "volume_pass.glsl",
 };
 
 /* --- one stage --- */
@@ -51,56 +55,30 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
     return text;
 }
 
-static bool link_stage(const struct gl *gl, const struct program *program, bool software,
-                       enum program_stage stage, struct pass *out_pass, struct error *err)
+/* In the calling thread. */
+static bool link_source(const struct gl *gl, const struct program *program, bool software,
+                        bool compute, const char *file, struct pass *out_pass, struct error *err)
 {
-    static const char *const files[STAGE_COUNT][FILES_MAX] = {
-        [STAGE_MARCH] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
-                         "map", "ray_load.glsl", "camera.glsl", "march.glsl", "march_pass.glsl"},
-        [STAGE_MATTER] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", "surface.glsl",
-                          FIELD_GLSL_FILES, "mixture.glsl", "surface", "ray_load.glsl",
-                          "gbuffer.glsl", "matter_pass.glsl"},
-        [STAGE_SHADOW] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
-                          "map", "ray_load.glsl", "lights.glsl", "shadow_store.glsl", "shadow.glsl",
-                          "shadow_pass.glsl"},
-        [STAGE_VOLUME] = {"frame.glsl", "group.glsl", "numbers.glsl", "ray.glsl", FIELD_GLSL_FILES,
-                          "map", "ray_load.glsl", "camera.glsl", "lights.glsl", "sky.glsl",
-                          "volume_store.glsl", "volume.glsl", "volume_pass.glsl"},
-    };
-    char *defines = make_defines(gl, program, software, true);
-    bool ok = pass_init(out_pass, gl,
-                        &(struct pass_source){true, defines, files[stage], program->map_text,
-                                              program->surface_text},
-                        err);
+    const struct glsl_file own[] = {{"field_map.glsl", program->map_text},
+                                    {"field_surface.glsl", program->surface_text},
+                                    {NULL, NULL}};
+    char *defines = make_defines(gl, program, software, compute);
+    const bool ok =
+        pass_init(out_pass, gl, &(struct pass_source){compute, defines, file, own}, err);
+
     free(defines);
     return ok;
 }
 
 const struct pass *program_from_camera(struct program *program, struct error *err)
 {
-    static const char *const files[] = {
-        "frame.glsl",  "numbers.glsl", "ray.glsl",   "surface.glsl", FIELD_GLSL_FILES,
-        "map",         "mixture.glsl", "surface",    "camera.glsl",  "march.glsl",
-        "lights.glsl", "optics.glsl",  "brdf.glsl",  "sky.glsl",     "forward_store.glsl",
-        "shadow.glsl", "fog.glsl",     "shade.glsl", "paths.glsl",   "forward.glsl",
-        NULL};
     const struct program_cache *cache = program->cache;
-    const bool software = cache->egl->software;
+    struct pass *pass = &program->from_camera;
 
-    if (program->from_camera.program == 0) {
-        char *defines = make_defines(cache->gl, program, software, false);
-        const struct pass_source source = {.defines = defines,
-                                           .files = files,
-                                           .map = program->map_text,
-                                           .surface = program->surface_text};
-        const bool ok = pass_init(&program->from_camera, cache->gl, &source, err);
-
-        free(defines);
-        if (!ok) {
-            return NULL;
-        }
-    }
-    return &program->from_camera;
+    return pass->program || link_source(cache->gl, program, cache->egl->software, false,
+                                        "forward.glsl", pass, err)
+               ? pass
+               : NULL;
 }
 
 /* One work group, with nothing in the buffers: the driver finishes its work. */
@@ -108,7 +86,8 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
                     const struct program *program, const struct pass *pass)
 {
     const struct gl *gl = cache->gl;
-    const struct frame_block block = {.size = {1, 1, 1, 1}, .bounds_max = {1, 1, 1, 1}};
+    const struct frame_block block = {
+        .size = {1, 1}, .max_steps = 1, .bounds_max = {1, 1, 1}, .max_distance = 1};
     struct numbers numbers;
     GLuint frame = 0;
 
@@ -117,7 +96,8 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
     numbers_init(&numbers, gl, cache->egl->software, NULL, 0, program->number_count);
     numbers_bind(&numbers, gl);
-    pass_compute(pass, gl, &(struct pass_place){.width = targets->side, .height = targets->side});
+    pass_compute(pass, gl, &(struct pass_place){.width = targets->side, .height = targets->side},
+                 PASS_ARGS(struct sample_args, .sample_index = 0));
     gl->Finish();
     numbers_finish(&numbers, gl);
     gl->DeleteBuffers(1, &frame);
@@ -152,7 +132,7 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
     struct pass pass = {0};
     struct error err = {0};
 
-    if (link_stage(gl, program, cache->egl->software, stage, &pass, &err)) {
+    if (link_source(gl, program, cache->egl->software, true, stage_files[stage], &pass, &err)) {
         warm_up(cache, targets, program, &pass);
     }
     gl->Finish();

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Lists the pixels that had all samples so far, turn.z of them: those that get more. turn.xy: the
- * tile's size. */
+/* Lists the pixels that had all samples so far, those that get more. */
 
-layout(binding = 14) uniform sampler2D counted;
+#include "group.glsl"
+#include "list.glsl"
+
+layout(location = ARGS_LOCATION) uniform ListingArgs args;
+layout(binding = UNIT_COUNTED) uniform sampler2D counted;
 
 void main()
 {
     ivec2 here = group_place();
-    ivec2 last = ivec2(turn.x, turn.y) - 1; /* the tile has a margin of one pixel */
+    ivec2 last = ivec2(args.width, args.height) - 1; /* the tile has a margin of one pixel */
     bool inside = all(greaterThan(here, ivec2(0))) && all(lessThan(here, last));
-    if (inside && texelFetch(counted, here, 0).x >= float(turn.z)) {
+    if (inside && texelFetch(counted, here, 0).x >= float(args.samples)) {
         list_add(here);
     }
 }

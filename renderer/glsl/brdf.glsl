@@ -2,7 +2,9 @@
 /* What a surface throws back of the light that comes to it. A light of colour L makes a white matt
  * surface facing it as bright as L / pi; surroundings as bright as 1 everywhere make it 1. */
 
-#define PI 3.14159265
+#include "constants.glsl"
+#include "optics.glsl"
+#include "surface.glsl"
 
 /* Of a standard surface; of others, that of a highlight as wide as theirs. */
 float roughness(Surface s)

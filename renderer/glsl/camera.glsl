@@ -2,15 +2,18 @@
 /* Rays through pixels. Every number comes from whole pixel coordinates, so that a ray does not
  * depend on the tile it is drawn in. */
 
+#include "frame.glsl"
+#include "ray.glsl"
+
 /* The pinhole's ray through a place of the picture, in pixels from its left top. */
 Ray camera_ray(vec2 at)
 {
-    vec2 place = at / vec2(size.xy);
-    vec3 aside = right.xyz * (2.0 * place.x - 1.0) + up.xyz * (1.0 - 2.0 * place.y);
-    if (eye.w > 0.5) {
-        return Ray(eye.xyz + aside, forward.xyz, 0.0, false, 0.0);
+    vec2 place = at / vec2(frame.size);
+    vec3 aside = frame.right * (2.0 * place.x - 1.0) + frame.up * (1.0 - 2.0 * place.y);
+    if (frame.orthographic != 0) {
+        return Ray(frame.eye + aside, frame.forward, 0.0, false, 0.0);
     }
-    return Ray(eye.xyz, normalize(forward.xyz + aside), 0.0, false, 0.0);
+    return Ray(frame.eye, normalize(frame.forward + aside), 0.0, false, 0.0);
 }
 
 /* Where in its pixel sample i lies, in 0..1: the first in the middle, the others so that any number
@@ -43,10 +46,11 @@ vec2 lens_place(ivec2 pixel, int i, int count)
 Ray camera_sample(ivec2 pixel, int i)
 {
     Ray ray = camera_ray(vec2(pixel) + sample_place(i));
-    if (right.w > 0.0) {
-        vec3 sharp = ray.origin + ray.direction * (up.w / dot(ray.direction, forward.xyz));
-        vec2 lens = right.w * lens_place(pixel, i, counts.z);
-        ray.origin += normalize(right.xyz) * lens.x + normalize(up.xyz) * lens.y;
+    if (frame.lens_radius > 0.0) {
+        float way = frame.focus_distance / dot(ray.direction, frame.forward);
+        vec3 sharp = ray.origin + ray.direction * way;
+        vec2 lens = frame.lens_radius * lens_place(pixel, i, frame.samples);
+        ray.origin += normalize(frame.right) * lens.x + normalize(frame.up) * lens.y;
         ray.direction = normalize(sharp - ray.origin);
     }
     return ray;

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The first rays of a sample. turn.x: which sample of its pixel. */
+/* The first rays of a sample. */
 
-layout(rgba32f, binding = 0) writeonly uniform image2D out_ray_from;
-layout(rgba32f, binding = 1) writeonly uniform image2D out_ray_along;
+#include "camera.glsl"
+#include "group.glsl"
+
+layout(location = ARGS_LOCATION) uniform SampleArgs args;
+layout(rgba32f, binding = IMAGE_RAY_FROM) writeonly uniform image2D out_ray_from;
+layout(rgba32f, binding = IMAGE_RAY_ALONG) writeonly uniform image2D out_ray_along;
 
 void main()
 {
     ivec2 here = group_place();
-    Ray ray = camera_sample(tile.xy + here, turn.x);
+    Ray ray = camera_sample(dispatch.origin + here, args.sample_index);
     imageStore(out_ray_from, here, ray_from(ray));
     imageStore(out_ray_along, here, ray_along(ray));
 }

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* Light on its way through clear things: straight on, dimmed and coloured by each surface and by
  * what is between them. Solid things on the way are shadow.glsl's. Its rays have textures of their
- * own. turn.y: which light; turn.z: 0 before the first march of a ray, 1 after one, 2 after the
- * last. */
+ * own: what is read is of the sample's own ray in CLEAR_AIM, then of the one to the light. */
 
-layout(binding = 0) uniform sampler2D geometry; /* of the light's ray, or (turn.z 0) the sample's */
-layout(binding = 1) uniform usampler2D matter;
-layout(binding = 2) uniform usampler2D more;
-layout(rgba32f, binding = 0) uniform image2D out_ray_from;
-layout(rgba32f, binding = 1) uniform image2D out_ray_along;
-layout(rgba32f, binding = 2) uniform image2D weights; /* w: length left */
-layout(rgba16f, binding = 3) uniform image2D media;
-layout(rgba16f, binding = 5) uniform image2DArray seen;
+#include "gbuffer_load.glsl"
+#include "group.glsl"
+#include "lights.glsl"
+#include "list.glsl"
+#include "optics.glsl"
+#include "ray_load.glsl"
+
+layout(location = ARGS_LOCATION) uniform ClearArgs args;
+layout(rgba32f, binding = IMAGE_RAY_FROM) uniform image2D out_ray_from;
+layout(rgba32f, binding = IMAGE_RAY_ALONG) uniform image2D out_ray_along;
+layout(rgba32f, binding = IMAGE_WEIGHT) uniform image2D weights; /* w: length left */
+layout(rgba16f, binding = IMAGE_MEDIUM) uniform image2D media;
+layout(rgba16f, binding = IMAGE_SEEN) uniform image2DArray seen;
 
 void send(ivec2 here, Ray ray, vec4 weight, vec3 medium)
 {
@@ -27,16 +31,16 @@ void send(ivec2 here, Ray ray, vec4 weight, vec3 medium)
 void aim(ivec2 here, Ray ray, vec4 g)
 {
     float t = abs(g.w);
-    Light light = lights[turn.y];
+    Light light = frame.lights[args.light];
     vec3 p = ray.origin + ray.direction * (t < INFINITY ? t : 0.0);
     Incoming in_light = incoming(light, p);
-    vec2 span = box_span(clear_min.xyz, clear_max.xyz, p, in_light.direction);
-    vec3 arrives = imageLoad(seen, ivec3(here, turn.y)).rgb;
-    bool painted = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0)).painted;
+    vec2 span = box_span(frame.clear_min, frame.clear_max, p, in_light.direction);
+    vec3 arrives = imageLoad(seen, ivec3(here, args.light)).rgb;
+    bool painted = surface_load(here).painted;
     bool leaving = ray.inside && g.w > 0.0 && !painted;
     bool crossed = span.y > max(span.x, 0.0) && span.x < in_light.reach;
     if (t < INFINITY && crossed && !leaving && dot(g.xyz, in_light.direction) > 0.0 &&
-        any(greaterThan(arrives, vec3(0.0))) && int(light.extent.z) != SHADOW_NONE) {
+        any(greaterThan(arrives, vec3(0.0))) && light.shadow != SHADOW_NONE) {
         float off = 2.0 * footprint(ray, t);
         Ray next = Ray(p + g.xyz * off, in_light.direction, ray.way + t, ray.inside, 0.0);
         send(here, next, vec4(1.0, 1.0, 1.0, in_light.reach), vec3(0.0));
@@ -46,7 +50,7 @@ void aim(ivec2 here, Ray ray, vec4 g)
 /* Through what the ray met, or to its end. */
 void pass_on(ivec2 here, Ray ray, vec4 g)
 {
-    Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
+    Surface s = surface_load(here);
     vec4 weight = imageLoad(weights, here);
     vec3 medium = imageLoad(media, here).rgb;
     float t = abs(g.w), left = weight.w;
@@ -55,7 +59,7 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
     bool through_it = reached && !s.painted && (leaving || s.transmission > 0.0);
     float c = max(-dot(ray.direction, g.xyz), 0.0);
 
-    weight.rgb *= exp(-medium * (ray.inside ? min(min(t, left), bounds_max.w) : 0.0));
+    weight.rgb *= exp(-medium * (ray.inside ? min(min(t, left), frame.max_distance) : 0.0));
     if (reached && s.painted) { /* shadow.glsl sees no side of what is clear */
         weight.rgb = vec3(0.0);
     }
@@ -63,13 +67,13 @@ void pass_on(ivec2 here, Ray ray, vec4 g)
         float mirror = interface_mirror(s.ior, c, false); /* it is not bent: c is the one outside */
         weight.rgb *= leaving ? vec3(1.0 - mirror) : (1.0 - mirror) * s.transmission * dye(s);
     }
-    if (through_it && turn.z == 1) {
+    if (through_it && args.phase == CLEAR_STEP) {
         vec3 p = ray.origin + ray.direction * t;
         Ray next = Ray(p, ray.direction, ray.way, !leaving, start_behind(ray, t, -max(c, 0.02)));
         send(here, next, vec4(weight.rgb, left - t), leaving ? vec3(0.0) : s.absorption);
     } else {
-        vec4 arrives = imageLoad(seen, ivec3(here, turn.y));
-        imageStore(seen, ivec3(here, turn.y), vec4(arrives.rgb * weight.rgb, arrives.a));
+        vec4 arrives = imageLoad(seen, ivec3(here, args.light));
+        imageStore(seen, ivec3(here, args.light), vec4(arrives.rgb * weight.rgb, arrives.a));
     }
 }
 
@@ -81,7 +85,7 @@ void main()
     }
     Ray ray = ray_load(here);
     vec4 g = texelFetch(geometry, here, 0);
-    if (turn.z == 0) {
+    if (args.phase == CLEAR_AIM) {
         aim(here, ray, g);
     } else {
         pass_on(here, ray, g);

@@ -2,6 +2,8 @@
 /* What users' code calls (renderer/code/builtins.h): as GLSL's own, but with a meaning for every
  * argument. */
 
+#include "noise.glsl"
+
 #define CODE_TINY 1e-30
 #define CODE_WALL 0.015625 /* how far the walls of patterns are beyond whole numbers */
 #define CODE_OCTAVES 8

@@ -2,9 +2,10 @@
 /* Where a picture of one sample for each pixel has edges: surfaces that end or bend, and changes of
  * colour that nothing of the surface tells of (shadows, patterns, mirror images). */
 
-layout(binding = 0) uniform sampler2D geometry;
-layout(binding = 2) uniform usampler2D more;
-layout(binding = 13) uniform sampler2D pixels;
+#include "camera.glsl"
+#include "gbuffer_load.glsl"
+
+layout(binding = UNIT_PIXELS) uniform sampler2D pixels;
 
 /* 0: the same surface; 1 and more: an edge. Depth is compared with the plane through the pixel. */
 float edge_between(ivec2 here, ivec2 there, vec4 g)
@@ -12,8 +13,9 @@ float edge_between(ivec2 here, ivec2 there, vec4 g)
     vec4 h = texelFetch(geometry, there, 0);
     bool a = g.w < INFINITY, b = h.w < INFINITY;
     float bent = (1.0 - dot(g.xyz, h.xyz)) / 0.08;
-    float slope = max(-dot(g.xyz, camera_ray(vec2(tile.xy + here) + 0.5).direction), 0.05);
-    float apart = abs(h.w - g.w) * slope / (6.0 * forward.w * (eye.w > 0.5 ? 1.0 : g.w));
+    float slope = max(-dot(g.xyz, camera_ray(vec2(dispatch.origin + here) + 0.5).direction), 0.05);
+    float radius = frame.pixel_radius * (frame.orthographic != 0 ? 1.0 : g.w);
+    float apart = abs(h.w - g.w) * slope / (6.0 * radius);
     return a && b ? max(bent, apart) : a == b ? 0.0 : 2.0;
 }
 

@@ -2,8 +2,10 @@
 /* Compute: what falls on a matt surface, for each of its normals: the mean of the environment,
  * weighted by the cosine. Weights are those of the sum, so that an environment of 1 gives 1. */
 
+#include "environment_place.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D out_matt;
+layout(rgba16f, binding = IMAGE_ENVIRONMENT) writeonly uniform image2D out_matt;
 
 #define COLUMNS 64
 #define ROWS 32

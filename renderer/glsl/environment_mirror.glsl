@@ -5,8 +5,10 @@
  * picture holds (Krivanek and Colbert: Real-time shading with filtered importance sampling, EGSR
  * 2008). */
 
+#include "environment_place.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D out_mirror;
+layout(rgba16f, binding = IMAGE_ENVIRONMENT) writeonly uniform image2D out_mirror;
 
 /* The bits of i, mirrored behind the point: van der Corput's sequence. */
 float radical_inverse(int i)
@@ -25,10 +27,10 @@ void main()
 {
     ivec2 here = ivec2(gl_GlobalInvocationID.xy), size = imageSize(out_mirror);
     mat3 around = frame_around(made_direction(here, size));
-    float roughness = float(turn.x + 1) / MIRROR_LEVELS, a2 = pow(roughness, 4.0);
+    float roughness = float(args.level + 1) / float(MIRROR_LEVELS), a2 = pow(roughness, 4.0);
     vec2 texels = vec2(textureSize(sky_picture, 0));
     float texel = 4.0 * PI / (texels.x * texels.y); /* mean solid angle */
-    int samples = 32 << turn.x; /* narrow lobes need fewer */
+    int samples = 32 << args.level; /* narrow lobes need fewer */
     vec3 sum = vec3(0.0);
     float weights = 0.0;
 

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Directions of pictures by longitude and latitude: the other way round than sky_place(). */
+/* What the makers of environments have in common: directions of pictures by longitude and latitude,
+ * the other way round than sky_place(). */
 
-#define HALF_MAX 65504.0
+#include "sky.glsl"
+
+layout(location = ARGS_LOCATION) uniform EnvironmentArgs args;
 
 /* `place`: longitude and latitude, 0 to 1. */
 vec3 place_direction(vec2 place)

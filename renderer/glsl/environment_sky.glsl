@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Compute: the environment without a picture, as a picture. */
 
+#include "environment_place.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D out_picture;
+layout(rgba16f, binding = IMAGE_ENVIRONMENT) writeonly uniform image2D out_picture;
 
 void main()
 {

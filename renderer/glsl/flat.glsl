@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Distance functions of two-dimensional shapes; in C they are in renderer/sdf/flat.c. */
 
+#include "points.glsl"
+#include "shapes.glsl"
+
 #define FLAT_PI 3.14159265
 
 /* Positive where b lies to the left of a. */
@@ -104,6 +107,12 @@ float sd2_arc(vec2 p, float end_x, float end_y, float thickness)
     depth = half_width >= end.x && low < pore ? min(depth, length(q - vec2(0.0, low))) : depth;
     depth = half_width >= end.x && high < -pore ? min(depth, length(q - vec2(0.0, high))) : depth;
     return line > half_width ? line - half_width : -depth;
+}
+
+/* A bowl by its rim: an arc around -Y, turned about Y. */
+float sd_cut_hollow_sphere(vec3 p, float rim_x, float rim_y, float thickness)
+{
+    return sd2_arc(vec2(length(p.xz), -p.y), rim_x, -rim_y, 2.0 * thickness);
 }
 
 /* What two discs have in common, whose centres are `between` apart; at most twice the radius. */

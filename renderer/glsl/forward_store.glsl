@@ -1,11 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* What shadow.glsl, shade.glsl and paths.glsl keep between them, where one program does all. */
 
-vec3 seen_lights[LIGHTS_MAX];
+#include "ray.glsl"
+
+float seen_lights[LIMIT_LIGHTS];
 float seen_open;
-#define OPEN(value) seen_open = value
-#define SEEN(i, value) seen_lights[i] = (value).rgb
-#define SEEN_AT(here, i) seen_lights[i]
+
+void store_openness(float open)
+{
+    seen_open = open;
+}
+
+void store_visibility(int light, float seen, float open)
+{
+    seen_lights[light] = seen;
+}
+
+vec3 visibility_of(ivec2 here, int light)
+{
+    return vec3(seen_lights[light]);
+}
 
 Waiting stacked[STACK_DEPTH];
 int stacked_count;

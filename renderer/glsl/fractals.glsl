@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Fractals, minimal surfaces and landscapes; in C they are in renderer/sdf/fractals.c. */
 
+#include "shapes.glsl"
+
 /* A sponge of two mazes with a wall between them, cut by a box. */
 float sd_gyroid(vec3 p, float period, float thickness, vec3 size)
 {

@@ -15,7 +15,9 @@
  * Parts of n bits are from 0 to 1 in 2^n - 1 steps. A shared exponent (OpenGL 4.3, 8.25) leaves
  * nine bits to each channel: the error is at most 1/500 of the greatest one. */
 
-#define HALF_MAX 65504.0
+#include "constants.glsl"
+#include "surface.glsl"
+
 #define SHARED_MAX 65408.0
 
 /* Nine bits of each channel, then five of an exponent, such that none of the former rounds up to

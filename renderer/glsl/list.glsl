@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The list that the next passes are for; laid out as the one of group.glsl. */
 
-layout(std430, binding = 1) buffer Next {
+#include "interface.glsl"
+
+layout(std430, binding = BINDING_NEXT) buffer Next {
     uint next_groups[3];
     uint next_count;
     uint next_places[];
@@ -11,5 +13,5 @@ void list_add(ivec2 here)
 {
     uint at = atomicAdd(next_count, 1u);
     next_places[at] = uint(here.x) | uint(here.y) << 16;
-    atomicMax(next_groups[0], at / 64u + 1u);
+    atomicMax(next_groups[0], at / uint(GROUP_SIZE) + 1u);
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Where a ray meets the field, and its normal. */
 
+#include "field_map.glsl"
+#include "ray.glsl"
+
 struct Hit {
     bool hit;
     bool solid; /* what it met was looked for alone: in something clear, or close to its surface */
@@ -50,8 +53,8 @@ Hit march(Ray ray, float start, float cone, int most)
     vec2 span = bounds_span(ray.origin, ray.direction);
     bool single = cone == 0.0;
     float t = max(single ? span.x : 0.0, start);
-    float end = single ? min(span.y, bounds_max.w) : bounds_max.w;
-    float widening = eye.w > 0.5 ? 0.0 : cone * forward.w;
+    float end = single ? min(span.y, frame.max_distance) : frame.max_distance;
+    float widening = frame.orthographic != 0 ? 0.0 : cone * frame.pixel_radius;
     float far_off = greatest(ray.origin);
     float ahead = 0.0; /* length of the step being tried */
     float radius = 0.0, root = 0.0, slope = -1.0, grade = -1.0;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* The march of each sample's ray. It runs twice for the first rays: coarsely at first, with a cone
- * for BLOCK x BLOCK pixels, which tells how far all their rays are free. turn.w: 1 for first
- * rays. */
+ * for BLOCK x BLOCK pixels, which tells how far all their rays are free. */
 
-layout(rgba32f, binding = 0) writeonly uniform image2D out_geometry;
-layout(r32f, binding = 3) writeonly uniform image2D out_steps;
-layout(r32f, binding = 4) uniform image2D starts; /* one value for each block */
+#include "camera.glsl"
+#include "field_pass.glsl"
+#include "march.glsl"
 
-#define BLOCK_BITS 3
-#define BLOCK (1 << BLOCK_BITS)
+layout(rgba32f, binding = IMAGE_GEOMETRY) writeonly uniform image2D out_geometry;
+layout(r32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps;
+layout(r32f, binding = IMAGE_STARTS) uniform image2D starts; /* one value for each block */
 
 /* Radius of a block's cone in footprints, which are half a pixel: from the block's middle to its
  * corners. */
@@ -18,15 +18,15 @@ void main()
 {
     preload();
     ivec2 here = group_place();
-    bool coarse = tile.w == PASS_COARSE, first = turn.w == 1 && right.w == 0.0;
-    ivec2 block = ((tile.xy + here) >> BLOCK_BITS) - (tile.xy >> BLOCK_BITS);
-    ivec2 centre = ((tile.xy >> BLOCK_BITS) + here) * BLOCK + BLOCK / 2;
+    bool coarse = dispatch.mode == PASS_COARSE, first = args.first == 1 && frame.lens_radius == 0.0;
+    ivec2 block = ((dispatch.origin + here) >> BLOCK_BITS) - (dispatch.origin >> BLOCK_BITS);
+    ivec2 centre = ((dispatch.origin >> BLOCK_BITS) + here) * BLOCK_SIDE + BLOCK_SIDE / 2;
     Ray ray = ray_load(here);
-    float start = first && !coarse ? imageLoad(starts, block).x : coarse ? bounds_min.w : 0.0;
+    float start = first && !coarse ? imageLoad(starts, block).x : 0.0;
     if (coarse) {
         ray = camera_ray(vec2(centre));
     }
-    Hit found = march(ray, start, coarse ? CONE : 0.0, here.x < 0 ? 0 : size.w);
+    Hit found = march(ray, start, coarse ? CONE : 0.0, here.x < 0 ? 0 : frame.max_steps);
 
     if (coarse) {
         imageStore(starts, here, vec4(found.free));

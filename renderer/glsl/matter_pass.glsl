@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Second pass: what the surface that the march found is made of. */
 
-layout(binding = 0) uniform sampler2D geometry;
-layout(rgba32ui, binding = 1) writeonly uniform uimage2D out_matter;
-layout(rgba32ui, binding = 2) writeonly uniform uimage2D out_more;
+#include "field_pass.glsl"
+#include "field_surface.glsl"
+#include "gbuffer_load.glsl"
+
+layout(rgba32ui, binding = IMAGE_MATTER) writeonly uniform uimage2D out_matter;
+layout(rgba32ui, binding = IMAGE_MORE) writeonly uniform uimage2D out_more;
 
 void main()
 {

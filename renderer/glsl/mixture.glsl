@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* What is known of a surface besides its distance, and how it mixes. */
 
+#include "code.glsl"
+#include "surface.glsl"
+#include "through.glsl"
+
 /* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot). A
  * Mixture knows of its four strongest materials where they lie in the table and how much they
  * count, the strongest first; their numbers are read once, at the end. */

@@ -2,6 +2,8 @@
 /* Modifiers: mod_ changes a distance, dom_ changes the point that the children see. The numbers of
  * dom_ functions are computed in C (renderer/sdf/ tells how, and why bounds hold). */
 
+#include "shapes.glsl"
+
 /* Grows outwards. */
 float mod_round(float d, float radius)
 {

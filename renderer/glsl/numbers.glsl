@@ -8,11 +8,13 @@
  * NUMBERS_SHARED, where it is defined, is how many of them a work group fetches together: from
  * shared memory the same number comes to all lanes at once, from a texture to one after another. */
 
+#include "interface.glsl"
+
 #ifdef NUMBERS_IN_TEXTURE
-layout(binding = 3) uniform sampler2D numbers;
+layout(binding = UNIT_NUMBERS) uniform sampler2D numbers;
 #define N_ANY(i) texelFetch(numbers, ivec2((i) % NUMBERS_ROW, (i) / NUMBERS_ROW), 0)
 #else
-layout(std140, binding = 1) uniform Numbers {
+layout(std140, binding = BINDING_NUMBERS) uniform Numbers {
     vec4 numbers[NUMBERS_COUNT];
 };
 #define N_ANY(i) numbers[i]
@@ -26,7 +28,7 @@ shared vec4 fetched[NUMBERS_SHARED];
 
 void fetch()
 {
-    for (uint i = gl_LocalInvocationIndex; i < uint(NUMBERS_SHARED); i += gl_WorkGroupSize.x) {
+    for (uint i = gl_LocalInvocationIndex; i < uint(NUMBERS_SHARED); i += uint(GROUP_SIZE)) {
         fetched[i] = N_ANY(int(i));
     }
     barrier();

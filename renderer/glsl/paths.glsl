@@ -1,6 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* What the light of a sample's ray adds to the sample, and which rays it goes on with. Where these
- * are kept is for stack.glsl, or forward.glsl. */
+/* What the light of a sample's ray adds to the sample, and which rays it goes on with. */
+
+#include "fog.glsl"
+#include "shade.glsl"
+
+/* The rays of a sample that wait, and the one that it goes on with: stack.glsl or
+ * forward_store.glsl. */
+int stack_count(ivec2 here);
+void stack_set_count(ivec2 here, int count);
+void stack_put(ivec2 here, int i, Waiting ray);
+Waiting stack_get(ivec2 here, int i);
+void ray_go(ivec2 here, Waiting ray);
 
 /* A ray from the surface on: mirrored a little off it, on the way through along its own line. */
 Waiting ray_on(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, vec4 weight,
@@ -58,27 +68,27 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
 {
     float t = abs(g.w);
     bool hit = t < INFINITY, solid = g.w < 0.0 || s.painted;
-    float way = hit ? t : bounds_max.w;
+    float way = hit ? t : frame.max_distance;
     bool leaving = hit && ray.inside && !solid;
     vec3 n = hit ? g.xyz : vec3(0.0, 1.0, 0.0);
     vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
 
     weight.rgb *= exp(-medium * (ray.inside ? way : 0.0));
-    bool deeper = hit && !last && int(weight.w) < effects.y;
-    bool empty = first && !hit && (effects.z & EFFECT_TRANSPARENT) != 0;
+    bool deeper = hit && !last && int(weight.w) < frame.ray_depth;
+    bool empty = first && !hit && (frame.effects & EFFECT_TRANSPARENT) != 0;
     Ways w = ways_at(ray, n, s, leaving, weight.rgb, deeper);
     vec3 around = sky(ray.direction);
     vec3 light = hit ? surface_light(ray, p, n, s, w, leaving, open, here)
                      : empty ? vec3(0.0) : around;
     /* What is far fades into the sky, so that endless ground has no edge. */
-    float far = hit ? smoothstep(0.15, 1.0, (ray.way + t) / bounds_max.w) : 0.0;
+    float far = hit ? smoothstep(0.15, 1.0, (ray.way + t) / frame.max_distance) : 0.0;
     vec4 air = ray.inside ? vec4(0.0, 0.0, 0.0, 1.0) : fog(ray, hit ? t : INFINITY);
     light = (mix(light, around, far) * air.a + air.rgb) * smoke.a + smoke.rgb;
 
     total.rgb += weight.rgb * light;
     total.w = first ? (hit ? 1.0 : 1.0 - air.a * smoke.a) : total.w;
 #ifndef PLAIN
-    if (effects.y > 0) {
+    if (frame.ray_depth > 0) {
         vec3 kept = weight.rgb * ((1.0 - far) * air.a * smoke.a);
         float depth = weight.w + 1.0, sharp = leaving ? 1.0 : mirror_sharpness(s);
         Waiting mirror = ray_on(ray, p, n, w.mirrored, ray.inside, t,

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A list of points is where its first lies and how many there are. */
+
+#include "numbers.glsl"
+
 int points_count(vec2 points)
 {
     return int(points.y);

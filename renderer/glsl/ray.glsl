@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A ray, and how wide the pixel is that it is for. */
 
+#include "frame.glsl"
+
 struct Ray {
     vec3 origin;
     vec3 direction; /* of length 1 */
@@ -35,7 +37,7 @@ vec4 ray_along(Ray ray)
 /* Radius of a pixel's footprint at distance t along the ray. */
 float footprint(Ray ray, float t)
 {
-    return forward.w * (eye.w > 0.5 ? 1.0 : ray.way + t);
+    return frame.pixel_radius * (frame.orthographic != 0 ? 1.0 : ray.way + t);
 }
 
 /* Where a ray looks for other clear things, that came by `ray` to a surface at t and goes through

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The ray that a sample is at. */
 
-layout(binding = 5) uniform sampler2D rays_from;  /* origin, way from the eye to it */
-layout(binding = 6) uniform sampler2D rays_along; /* as Waiting.along */
+#include "ray.glsl"
+
+layout(binding = UNIT_RAY_FROM) uniform sampler2D rays_from;  /* origin, way from the eye to it */
+layout(binding = UNIT_RAY_ALONG) uniform sampler2D rays_along; /* as Waiting.along */
 
 Ray ray_load(ivec2 here)
 {

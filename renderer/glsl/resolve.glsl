@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. turn.z:
- * width of the tile's margin; turn.w: 1 where edges are blended. */
+/* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. */
 
-layout(binding = 14) uniform sampler2D counted;
-layout(binding = 7) uniform sampler2DArray visibility;
-layout(binding = 1) uniform usampler2D matter;
-layout(binding = 12) uniform sampler2D steps;
+#include "edges.glsl"
+#include "gbuffer_load.glsl"
+#include "tone.glsl"
+#include "visibility_load.glsl"
+
+layout(location = ARGS_LOCATION) uniform ResolveArgs args;
+layout(binding = UNIT_COUNTED) uniform sampler2D counted;
+layout(binding = UNIT_STEPS) uniform sampler2D steps;
 #if defined(OUT_ID_RAW)
 layout(location = 0) out uvec4 out_pixel;
 #else
@@ -44,13 +47,12 @@ vec3 id_color(uint id)
 }
 
 #ifdef OUT_STEPS
-/* STEPS_WHITE and STEPS_RAMP are those of protocol/picture.h. */
+/* STEPS_WHITE and the colours are those of protocol/picture.h. */
 vec3 steps_color(float steps)
 {
-    const vec3 ramp[] = STEPS_RAMP;
-    float place = clamp(steps / STEPS_WHITE, 0.0, 1.0) * float(ramp.length() - 1);
-    int i = min(int(place), ramp.length() - 2);
-    return mix(ramp[i], ramp[i + 1], place - float(i));
+    float place = clamp(steps / float(STEPS_WHITE), 0.0, 1.0) * float(STEPS_COLORS - 1);
+    int i = min(int(place), STEPS_COLORS - 2);
+    return mix(steps_colors[i], steps_colors[i + 1], place - float(i));
 }
 #endif
 
@@ -64,9 +66,9 @@ vec3 light_seen(ivec2 here)
 {
     vec3 sum = vec3(0.0);
     float count = 0.0;
-    for (int i = zero; i < modes.x; i++) {
-        bool counts_in = int(lights[i].extent.z) != SHADOW_NONE;
-        sum += counts_in ? texelFetch(visibility, ivec3(here, i), 0).rgb : vec3(0.0);
+    for (int i = zero; i < frame.light_count; i++) {
+        bool counts_in = frame.lights[i].shadow != SHADOW_NONE;
+        sum += counts_in ? visibility_of(here, i) : vec3(0.0);
         count += counts_in ? 1.0 : 0.0;
     }
     return count > 0.0 ? sum / count : vec3(1.0);
@@ -74,16 +76,16 @@ vec3 light_seen(ivec2 here)
 
 void main()
 {
-    ivec2 here = ivec2(gl_FragCoord.xy) + turn.z;
-    ivec2 pixel = tile.xy + here;
+    ivec2 here = ivec2(gl_FragCoord.xy) + args.margin;
+    ivec2 pixel = dispatch.origin + here;
     vec4 g = texelFetch(geometry, here, 0);
     bool hit = g.w < INFINITY;
-    Surface s = surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
+    Surface s = surface_load(here);
     float rough = s.model == MODEL_STANDARD ? s.gloss : sqrt(2.0 / (s.gloss + 2.0));
     vec4 optical = vec4(s.reflectivity, s.ior, 1.0 - s.transmission, rough);
     float dither = (pixel_noise(pixel) - 0.5) * 0.98 / 255.0;
-    vec4 c = turn.w == 1 ? blended(here) : average(here);
-    bool transparent = (effects.z & EFFECT_TRANSPARENT) != 0;
+    vec4 c = args.blend_edges == 1 ? blended(here) : average(here);
+    bool transparent = (frame.effects & EFFECT_TRANSPARENT) != 0;
     float coverage = transparent ? c.a : 1.0;
 
     vec4 none = vec4(0.0);
@@ -125,8 +127,8 @@ void main()
 #elif defined(OUT_SHADOW_RAW)
     out_pixel = vec4(hit ? light_seen(here) : vec3(1.0), 1.0);
 #elif defined(OUT_OCCLUSION)
-    out_pixel = vec4(vec3(hit ? texelFetch(visibility, ivec3(here, 0), 0).a : 1.0), 1.0);
+    out_pixel = vec4(vec3(hit ? openness(here) : 1.0), 1.0);
 #elif defined(OUT_OCCLUSION_RAW)
-    out_pixel = vec4(hit ? texelFetch(visibility, ivec3(here, 0), 0).a : 1.0);
+    out_pixel = vec4(hit ? openness(here) : 1.0);
 #endif
 }

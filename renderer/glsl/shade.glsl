@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Light at the end of a ray, out of what the passes before found; knows nothing of the field.
- * PLAIN: nothing mirrors, and light goes through nothing. What of the lights arrives is read from
- * where shadow_pass.glsl left it, unless SEEN_AT says. */
+ * PLAIN: nothing mirrors, and light goes through nothing. */
 
-#ifndef SEEN_AT
-layout(binding = 7) uniform sampler2DArray visibility;
-#define SEEN_AT(here, i) texelFetch(visibility, ivec3(here, i), 0).rgb
-#endif
+#include "brdf.glsl"
+#include "lights.glsl"
+#include "ray.glsl"
+#include "sky.glsl"
+
+/* Part of a light's colour that arrives: visibility_load.glsl or forward_store.glsl. */
+vec3 visibility_of(ivec2 here, int light);
 
 /* How much of a mirror image rays bring: rough surfaces blur it, so the environment's will do. */
 float mirror_sharpness(Surface s)
@@ -36,11 +38,11 @@ Ways ways_at(Ray ray, vec3 n, Surface s, bool leaving, vec3 weight, bool deeper)
     w.mirror = leaving ? vec3(inner) : outer;
     w.passing = leaving ? vec3(1.0 - inner) : left * s.transmission * dye(s);
 
-    vec3 least = vec3(deeper ? clear_max.w : INFINITY);
+    vec3 least = vec3(deeper ? frame.min_throughput : INFINITY);
     float sharp = leaving ? 1.0 : mirror_sharpness(s);
-    w.mirror_ray = (effects.z & EFFECT_REFLECTIONS) != 0 &&
+    w.mirror_ray = (frame.effects & EFFECT_REFLECTIONS) != 0 &&
                    any(greaterThan(weight * w.mirror * sharp, least));
-    w.passing_ray = (effects.z & EFFECT_REFRACTIONS) != 0 &&
+    w.passing_ray = (frame.effects & EFFECT_REFRACTIONS) != 0 &&
                     any(greaterThan(weight * w.passing, least));
     return w;
 }
@@ -59,9 +61,9 @@ vec3 surface_light(Ray ray, vec3 p, vec3 n, Surface s, Ways w, bool leaving, flo
 #endif
     vec3 sum = s.emission + surroundings(s, n, view, open, sky_irradiance(n), around, traced);
 
-    for (int i = zero; i < modes.x; i++) {
-        Incoming light = incoming(lights[i], p);
-        sum += light.color * reflected(s, n, view, light.direction) * SEEN_AT(here, i);
+    for (int i = zero; i < frame.light_count; i++) {
+        Incoming light = incoming(frame.lights[i], p);
+        sum += light.color * reflected(s, n, view, light.direction) * visibility_of(here, i);
     }
     return passed + (leaving ? w.mirror * around * (1.0 - traced) : sum);
 }

@@ -1,8 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* What of each light, and of the environment's, comes to a place of a surface. Whoever includes
- * this says before where answers go: OPEN(part of the environment's light), then for each light
- * SEEN(light, vec4(part in rgb, unused)). What light goes through throws no shadow here:
- * clear_pass.glsl colours its light. */
+/* What of each light, and of the environment's, comes to a place of a surface. What light goes
+ * through throws no shadow here: clear_pass.glsl colours its light. */
+
+#include "field_map.glsl"
+#include "lights.glsl"
+
+/* Where answers go (shadow_store.glsl, forward_store.glsl): the part of the environment's light,
+ * then that of each light, with the former beside it. */
+void store_openness(float open);
+void store_visibility(int light, float seen, float open);
 
 /* A ray on its way to a light. */
 struct Passage {
@@ -92,8 +98,8 @@ bool soft_step(inout Passage s, float d)
  * surface's rounding. */
 float occlusion_place(int i, float start)
 {
-    float n = float(max(effects.x, 1)), x = float(i);
-    return max(start, ground.w * (x * (x + 1.0) + 1.0 / 3.0) / (n * n));
+    float n = float(max(frame.occlusion_samples, 1)), x = float(i);
+    return max(start, frame.occlusion_reach * (x * (x + 1.0) + 1.0 / 3.0) / (n * n));
 }
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
@@ -104,19 +110,20 @@ void look(vec3 p, vec3 n, float print, bool hit)
     float near = 2.0 * print, lift = 1.5 * print, open = 1.0;
 
     through = FAR;
-    for (int round = zero - 1; round < modes.x; round++) {
+    for (int round = zero - 1; round < frame.light_count; round++) {
         bool outward = round < 0;
-        Light light = lights[max(round, 0)];
+        Light light = frame.lights[max(round, 0)];
         Incoming comes = incoming(light, p);
-        int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
+        int kind = (frame.effects & EFFECT_SHADOWS) != 0 ? light.shadow : SHADOW_NONE;
         float lambert = dot(n, comes.direction);
         vec3 along = outward ? n : comes.direction, base = outward ? p : p + n * lift;
-        float room = kind == SHADOW_SOFT ? bounds_span(base, along).y / light.color.w : 0.0;
-        float leaves = box_span(bounds_min.xyz - room, bounds_max.xyz + room, base, along).y;
-        float far = min(min(comes.reach - light.extent.x, leaves), bounds_max.w);
+        float room = kind == SHADOW_SOFT ? bounds_span(base, along).y / light.sharpness : 0.0;
+        float leaves = box_span(frame.bounds_min - room, frame.bounds_max + room, base, along).y;
+        float far = min(min(comes.reach - light.radius, leaves), frame.max_distance);
         bool lit = lambert > 0.0 && any(greaterThan(comes.color, vec3(0.0)));
-        int steps = outward ? effects.x : lit && kind != SHADOW_NONE && far > near ? modes.w : 0;
-        Passage s = passage(near, far, print, light.color.w, lambert, lift);
+        bool looks = lit && kind != SHADOW_NONE && far > near;
+        int steps = outward ? frame.occlusion_samples : looks ? frame.shadow_steps : 0;
+        Passage s = passage(near, far, print, light.sharpness, lambert, lift);
         float x = outward ? occlusion_place(0, near) : near;
         float dark = 0.0;
 
@@ -135,12 +142,12 @@ void look(vec3 p, vec3 n, float print, bool hit)
             }
         }
         if (outward) {
-            open = max(1.0 - panorama.w * dark / float(max(steps, 1)), 0.0);
-            OPEN(open);
+            open = max(1.0 - frame.occlusion_strength * dark / float(max(steps, 1)), 0.0);
+            store_openness(open);
         } else {
             float seen = kind == SHADOW_HARD ? hard_end(s) : s.seen;
             seen = kind == SHADOW_NONE ? 1.0 : lit ? seen * seen * (3.0 - 2.0 * seen) : 0.0;
-            SEEN(round, vec4(vec3(seen), open));
+            store_visibility(round, seen, open);
         }
     }
 }

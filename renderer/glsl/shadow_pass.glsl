@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* What of lights and environment comes to the surfaces that the samples' rays met. */
 
-layout(binding = 0) uniform sampler2D geometry;
+#include "field_pass.glsl"
+#include "gbuffer_load.glsl"
+#include "shadow.glsl"
+#include "shadow_store.glsl"
 
 void main()
 {

@@ -164,15 +164,6 @@ float sd_cut_sphere(vec3 p, float radius, float height)
     return beside ? length(q - rim) : max(length(q) - radius, height - q.y);
 }
 
-/* In flat.glsl. */
-float sd2_arc(vec2 p, float end_x, float end_y, float thickness);
-
-/* A bowl by its rim: an arc around -Y, turned about Y. */
-float sd_cut_hollow_sphere(vec3 p, float rim_x, float rim_y, float thickness)
-{
-    return sd2_arc(vec2(length(p.xz), -p.y), rim_x, -rim_y, 2.0 * thickness);
-}
-
 /* A ball without another one, centred at x = away, which leaves something of it. */
 float sd_death_star(vec3 p, float radius1, float radius2, float away)
 {

@@ -5,19 +5,20 @@
  * first row is straight up. In those that environment_*.glsl make, first and last row are the poles
  * themselves, so that nothing is pinched there. */
 
-layout(binding = 8) uniform sampler2D sky_picture;  /* what is around the scene */
-layout(binding = 9) uniform sampler2D sky_mirror;   /* mip level i: roughness (i + 1) / levels */
-layout(binding = 10) uniform sampler2D sky_matt;    /* irradiance / pi */
+#include "frame.glsl"
 
-#define PI 3.14159265
-#define MIRROR_LEVELS 4.0
+/* What is around the scene; what mirrors show of it, mip level i for the roughness
+ * (i + 1) / MIRROR_LEVELS; and its irradiance / pi. */
+layout(binding = UNIT_PANORAMA) uniform sampler2D sky_picture;
+layout(binding = UNIT_MIRRORED) uniform sampler2D sky_mirror;
+layout(binding = UNIT_IRRADIANCE) uniform sampler2D sky_matt;
 
 /* From the ground's colour below through the horizon's to the zenith's. */
 vec3 sky_gradient(vec3 direction)
 {
     float y = direction.y;
-    vec3 above = mix(horizon.rgb, zenith.rgb, 1.0 - pow(1.0 - clamp(y, 0.0, 1.0), 2.5));
-    vec3 below = mix(horizon.rgb, ground.rgb, smoothstep(0.0, 0.25, -y));
+    vec3 above = mix(frame.horizon, frame.zenith, 1.0 - pow(1.0 - clamp(y, 0.0, 1.0), 2.5));
+    vec3 below = mix(frame.horizon, frame.ground, smoothstep(0.0, 0.25, -y));
     return y >= 0.0 ? above : below;
 }
 
@@ -25,11 +26,11 @@ vec3 sky_gradient(vec3 direction)
 vec3 sky_sun(vec3 direction, float disc)
 {
     vec3 sum = vec3(0.0);
-    for (int i = zero; i < modes.x; i++) {
-        if (int(lights[i].place.w) == LIGHT_DIRECTIONAL) {
-            float c = max(dot(direction, lights[i].place.xyz), 0.0);
+    for (int i = zero; i < frame.light_count; i++) {
+        if (frame.lights[i].kind == LIGHT_DIRECTIONAL) {
+            float c = max(dot(direction, frame.lights[i].position), 0.0);
             float glow = 0.06 * pow(c, 24.0) + 0.12 * pow(c, 350.0);
-            sum = lights[i].color.rgb * (glow + 4.0 * disc * smoothstep(0.99965, 0.99985, c));
+            sum = frame.lights[i].color * (glow + 4.0 * disc * smoothstep(0.99965, 0.99985, c));
             break;
         }
     }
@@ -39,14 +40,15 @@ vec3 sky_sun(vec3 direction, float disc)
 /* Where there is no picture. */
 vec3 sky_plain(vec3 direction, float disc)
 {
-    vec3 sun = (effects.z & EFFECT_SUN) != 0 ? sky_sun(direction, disc) : vec3(0.0);
-    return modes.y == SKY_GRADIENT ? sky_gradient(direction) + sun : zenith.rgb;
+    vec3 sun = (frame.effects & EFFECT_SUN) != 0 ? sky_sun(direction, disc) : vec3(0.0);
+    return frame.sky_kind == SKY_GRADIENT ? sky_gradient(direction) + sun : frame.zenith;
 }
 
 /* From what is seen to what is in the picture, which may be turned. */
 vec3 sky_turned(vec3 d)
 {
-    return vec3(panorama.x * d.x - panorama.y * d.z, d.y, panorama.y * d.x + panorama.x * d.z);
+    vec2 turn = frame.sky_turn;
+    return vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
 }
 
 /* Longitude and latitude, 0 to 1. */
@@ -68,34 +70,35 @@ vec3 sky_made(sampler2D made, vec3 d, float level)
 /* Without the sun's disc; `blur`: over about this angle, where there is a picture. */
 vec3 sky_blurred(vec3 direction, float blur)
 {
-    if (modes.y != SKY_IMAGE) {
+    if (frame.sky_kind != SKY_IMAGE) {
         return sky_plain(direction, 0.0);
     }
     float texel = PI / float(textureSize(sky_picture, 0).y);
     vec2 place = sky_place(sky_turned(direction));
-    return panorama.z * textureLod(sky_picture, place, log2(max(blur / texel, 1.0))).rgb;
+    return frame.sky_brightness * textureLod(sky_picture, place, log2(max(blur / texel, 1.0))).rgb;
 }
 
 /* The background. */
 vec3 sky(vec3 direction)
 {
-    float pixel = eye.w > 0.5 ? 0.0 : 2.0 * forward.w;
-    return modes.y == SKY_IMAGE ? sky_blurred(direction, pixel) : sky_plain(direction, 1.0);
+    float pixel = frame.orthographic != 0 ? 0.0 : 2.0 * frame.pixel_radius;
+    return frame.sky_kind == SKY_IMAGE ? sky_blurred(direction, pixel) : sky_plain(direction, 1.0);
 }
 
 /* Light that falls on a matt surface, over pi. */
 vec3 sky_irradiance(vec3 n)
 {
-    return horizon.w * panorama.z * sky_made(sky_matt, sky_turned(n), 0.0);
+    return frame.ambient * frame.sky_brightness * sky_made(sky_matt, sky_turned(n), 0.0);
 }
 
 /* What a surface mirrors that looks along `direction`. */
 vec3 sky_mirrored(vec3 direction, float roughness)
 {
-    float level = clamp(roughness, 0.0, 1.0) * MIRROR_LEVELS - 1.0, low = max(floor(level), 0.0);
+    float level = clamp(roughness, 0.0, 1.0) * float(MIRROR_LEVELS) - 1.0;
+    float low = max(floor(level), 0.0), high = min(low + 1.0, float(MIRROR_LEVELS - 1));
     vec3 turned = sky_turned(direction);
     vec3 sharp = sky_blurred(direction, 2.0 * roughness * roughness);
-    vec3 a = panorama.z * sky_made(sky_mirror, turned, low);
-    vec3 b = panorama.z * sky_made(sky_mirror, turned, min(low + 1.0, MIRROR_LEVELS - 1.0));
-    return horizon.w * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));
+    vec3 a = frame.sky_brightness * sky_made(sky_mirror, turned, low);
+    vec3 b = frame.sky_brightness * sky_made(sky_mirror, turned, high);
+    return frame.ambient * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Distance functions of primitives with flat sides; in C they are in renderer/sdf/solids.c. */
 
+#include "shapes.glsl"
+
 /* A rod with six equal sides along Z. */
 float sd_hex_prism(vec3 p, float radius, float height)
 {

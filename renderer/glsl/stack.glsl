@@ -2,12 +2,15 @@
 /* The rays of samples, where passes hand them on: the one that each is at lies in textures, those
  * that wait in a stack. */
 
-layout(rgba32f, binding = 0) writeonly uniform image2D out_ray_from;
-layout(rgba32f, binding = 1) writeonly uniform image2D out_ray_along;
-layout(rgba32f, binding = 2) uniform image2D weights; /* what the ray's light counts; w: depth */
-layout(rgba16f, binding = 3) uniform image2D media;   /* absorption where the ray is */
+#include "list.glsl"
+#include "ray.glsl"
 
-layout(std430, binding = 2) buffer Stack {
+layout(rgba32f, binding = IMAGE_RAY_FROM) writeonly uniform image2D out_ray_from;
+layout(rgba32f, binding = IMAGE_RAY_ALONG) writeonly uniform image2D out_ray_along;
+layout(rgba32f, binding = IMAGE_WEIGHT) uniform image2D weights; /* of the ray's light; w: depth */
+layout(rgba16f, binding = IMAGE_MEDIUM) uniform image2D media;   /* absorption where the ray is */
+
+layout(std430, binding = BINDING_STACK) buffer Stack {
     uint rays;  /* started since the counter was made */
     uint width; /* of the tile */
     uint unused[2];

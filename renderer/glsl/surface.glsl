@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a point of a surface is made of: filled in by surface() of the field's text. */
 
-#define MODEL_PHONG 0    /* highlights by the halfway vector */
-#define MODEL_BLINN 1    /* highlights by the reflected vector */
-#define MODEL_STANDARD 2 /* microfacets */
+#include "interface.glsl"
 
 struct Surface {
     vec3 ambient; /* part of the environment's light taken up */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Light as a screen can show it. */
 
-#define TONE_NONE 0
-#define TONE_REINHARD 1
+#include "frame.glsl"
 
 /* Hill's fit of the ACES reference and output transforms, as matrices and a rational curve (Hill,
  * in the BakingLab of Pettineo and Neubelt, 2016). */
@@ -19,10 +18,10 @@ vec3 aces(vec3 c)
 
 vec3 tone_map(vec3 c)
 {
-    if (modes.z == TONE_NONE) {
+    if (frame.tone_map == TONE_NONE) {
         return clamp(c, 0.0, 1.0);
     }
-    if (modes.z == TONE_REINHARD) {
+    if (frame.tone_map == TONE_REINHARD) {
         return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
     }
     return clamp(aces(c / 0.85), 0.0, 1.0);

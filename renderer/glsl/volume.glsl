@@ -2,6 +2,15 @@
 /* Smoke, clouds and banks of fog: the light that they add along a ray, and the part that they let
  * through. Light is scattered once on its way from a lamp to the eye. */
 
+#include "field_map.glsl"
+#include "lights.glsl"
+#include "noise.glsl"
+#include "ray.glsl"
+#include "sky.glsl"
+
+/* Takes a part of a lamp's light from the surface at the ray's end: volume_store.glsl. */
+void dim_visibility(int light, float part);
+
 /* What is at one place; all but the density is for each unit of it. */
 struct Smoke {
     float density;
@@ -12,12 +21,12 @@ struct Smoke {
 /* Where a ray is inside of a volume: entry and exit; exit < entry where it misses it. */
 vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
 {
-    vec3 from = origin - volume.place.xyz;
-    if (int(volume.place.w) == VOLUME_BOX) {
-        return box_span(-volume.extent.xyz, volume.extent.xyz, from, direction);
+    vec3 from = origin - volume.center;
+    if (volume.kind == VOLUME_BOX) {
+        return box_span(-volume.extent, volume.extent, from, direction);
     }
     /* In lengths of the radii it is the unit ball. */
-    vec3 place = from / volume.extent.xyz, way = direction / volume.extent.xyz;
+    vec3 place = from / volume.extent, way = direction / volume.extent;
     float part = 1.0 / dot(way, way), middle = -dot(place, way) * part;
     vec3 aside = place + middle * way;
     float half_way = (1.0 - dot(aside, aside)) * part;
@@ -28,11 +37,11 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
  * ellipsoid SDF, 2008) and in the middle, and between them something between. */
 float volume_rim(Volume volume, vec3 from)
 {
-    if (int(volume.place.w) == VOLUME_BOX) {
-        vec3 sides = volume.extent.xyz - abs(from);
+    if (volume.kind == VOLUME_BOX) {
+        vec3 sides = volume.extent - abs(from);
         return min(sides.x, min(sides.y, sides.z));
     }
-    vec3 radii = volume.extent.xyz, place = from / radii;
+    vec3 radii = volume.extent, place = from / radii;
     float k = length(place), slope = length(place / radii);
     float least = min(radii.x, min(radii.y, radii.z));
     return (1.0 - k) * (slope > 0.0 ? mix(least, k / slope, min(k, 1.0)) : least);
@@ -56,14 +65,14 @@ float waves_at(vec3 p, int octaves, uint seed)
 /* Density at p, which is d from the scene. */
 float volume_density(Volume volume, vec3 p, float d)
 {
-    vec3 from = p - volume.place.xyz;
+    vec3 from = p - volume.center;
     float rim = volume_rim(volume, from);
-    float density = volume.color.w * smoothstep(0.0, max(volume.extent.w, 1e-6), rim);
-    int source = int(volume.source.x);
-    int octaves = source == DENSITY_NOISE && rim > 0.0 ? int(volume.noise.y) : 0;
-    float waves = waves_at(from * volume.noise.x, octaves, uint(volume.noise.z));
-    float part = source == DENSITY_NOISE   ? smoothstep(0.0, 0.6, waves - volume.noise.w)
-                 : source == DENSITY_FIELD ? exp(-max(d, 0.0) / volume.source.y)
+    float density = volume.density * smoothstep(0.0, max(volume.falloff, 1e-6), rim);
+    int source = volume.source;
+    int octaves = source == DENSITY_NOISE && rim > 0.0 ? volume.octaves : 0;
+    float waves = waves_at(from * volume.frequency, octaves, uint(volume.seed));
+    float part = source == DENSITY_NOISE   ? smoothstep(0.0, 0.6, waves - volume.threshold)
+                 : source == DENSITY_FIELD ? exp(-max(d, 0.0) / volume.reach)
                                            : 1.0;
     return density * part;
 }
@@ -72,12 +81,12 @@ float volume_density(Volume volume, vec3 p, float d)
 Smoke smoke_at(vec3 p, float d)
 {
     Smoke sum = Smoke(0.0, vec3(0.0), vec3(0.0), 0.0);
-    for (int i = zero; i < effects.w; i++) {
-        float density = volume_density(volumes[i], p, d);
+    for (int i = zero; i < frame.volume_count; i++) {
+        float density = volume_density(frame.volumes[i], p, d);
         sum.density += density;
-        sum.color += density * volumes[i].color.rgb;
-        sum.emission += density * volumes[i].emission.rgb;
-        sum.anisotropy += density * volumes[i].emission.w;
+        sum.color += density * frame.volumes[i].color;
+        sum.emission += density * frame.volumes[i].emission;
+        sum.anisotropy += density * frame.volumes[i].anisotropy;
     }
     float part = 1.0 / max(sum.density, 1e-20);
     return Smoke(sum.density, part * sum.color, part * sum.emission, part * sum.anisotropy);
@@ -94,8 +103,8 @@ struct Crossing {
 Crossing crossing(vec3 origin, vec3 direction, float at, float far)
 {
     Crossing c = Crossing(INFINITY, 0.0, 0.0, false);
-    for (int i = zero; i < effects.w; i++) {
-        vec2 span = volume_span(volumes[i], origin, direction);
+    for (int i = zero; i < frame.volume_count; i++) {
+        vec2 span = volume_span(frame.volumes[i], origin, direction);
         bool inside = span.x <= at && at < span.y;
         float edge = inside ? span.y : span.x;
         c.next = span.x < span.y && edge > at ? min(c.next, edge) : c.next;
@@ -125,8 +134,8 @@ struct Walk {
 /* How sharp a lamp's shadows are in the air; 0: it throws none. */
 float shadow_sharpness(Light light)
 {
-    int kind = (effects.z & EFFECT_SHADOWS) != 0 ? int(light.extent.z) : SHADOW_NONE;
-    return kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.color.w;
+    int kind = (frame.effects & EFFECT_SHADOWS) != 0 ? light.shadow : SHADOW_NONE;
+    return kind == SHADOW_NONE ? 0.0 : kind == SHADOW_HARD ? 100.0 : light.sharpness;
 }
 
 Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
@@ -136,35 +145,35 @@ Walk walk_towards(Light light, Incoming lamp, vec3 p, bool on_surface)
     float last = min(smoke.last, lamp.reach), first = smoke.inside ? 0.0 : min(smoke.next, last);
     /* Just inside of the rim the density is that of the inside. */
     float sliver = 1e-4 * (last - first);
-    float free = min(bounds_span(p, lamp.direction).y, bounds_max.w);
+    float free = min(bounds_span(p, lamp.direction).y, frame.max_distance);
 
     Walk walk;
     walk.first = smoke.inside ? 0.0 : first + sliver;
     walk.last = last - sliver;
-    walk.end = sharpness > 0.0 ? max(min(free, lamp.reach - light.extent.x), walk.last) : walk.last;
-    int steps = on_surface ? 3 * counts.y - 2 : counts.y;
+    walk.end = sharpness > 0.0 ? max(min(free, lamp.reach - light.radius), walk.last) : walk.last;
+    int steps = on_surface ? 3 * frame.volume_light_steps - 2 : frame.volume_light_steps;
     walk.longest = (walk.last - walk.first) / float(max(steps, 1));
     walk.sharpness = sharpness;
     return walk;
 }
 
 /* The light of all lamps that is scattered at p into `view`, for a colour of 1, and what is there.
- * On a surface instead: DIMMED(lamp, part of its light that comes through the smoke).
+ * On a surface instead, dim_visibility() is told what comes through the smoke.
  *
  * Each lamp is a walk towards it, whose first step tells what is at p. In smoke its steps are
- * counts.y parts of the way there, or as much less as the scene is near: three times as many in
- * all. On a surface, where there is but one walk, all of them serve the smoke. */
+ * volume_light_steps parts of the way there, or as much less as the scene is near: three times as
+ * many in all. On a surface, where there is but one walk, all of them serve the smoke. */
 vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
 {
     vec3 sum = vec3(0.0);
     here = Smoke(1.0, vec3(0.0), vec3(0.0), 0.0);
-    for (int i = zero; i < max(modes.x, 1) && (on_surface || here.density > 0.0); i++) {
-        Incoming lamp = incoming(lights[i], p);
-        Walk walk = walk_towards(lights[i], lamp, p, on_surface);
-        float end = i < modes.x ? walk.end : -1.0;
+    for (int i = zero; i < max(frame.light_count, 1) && (on_surface || here.density > 0.0); i++) {
+        Incoming lamp = incoming(frame.lights[i], p);
+        Walk walk = walk_towards(frame.lights[i], lamp, p, on_surface);
+        float end = i < frame.light_count ? walk.end : -1.0;
         float at = 0.0, smoky = 0.0, gone = 0.0, depth = 0.0, before = 0.0, open = 1.0;
 
-        for (int k = zero; k <= 3 * counts.y; k++) {
+        for (int k = zero; k <= 3 * frame.volume_light_steps; k++) {
             through = k == 0 ? 0.0 : FAR;
             float d = map(p + lamp.direction * at);
             Smoke smoke = smoke_at(p + lamp.direction * at, d);
@@ -189,10 +198,10 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
         /* Out of steps, as close to a surface: as if all went on as it went. */
         float left = exp(-depth * (gone > 0.0 ? (walk.last - walk.first) / gone : 1.0));
         open = max(open, 0.0);
-        if (on_surface && i < modes.x && shadow_sharpness(lights[i]) > 0.0) {
-            DIMMED(i, left);
+        if (on_surface && i < frame.light_count && shadow_sharpness(frame.lights[i]) > 0.0) {
+            dim_visibility(i, left);
         }
-        sum += i < modes.x ? lamp.color * left * open * open * (3.0 - 2.0 * open) *
+        sum += i < frame.light_count ? lamp.color * left * open * open * (3.0 - 2.0 * open) *
                                  phase(dot(view, lamp.direction), here.anisotropy)
                            : vec3(0.0);
     }
@@ -217,13 +226,13 @@ vec3 sky_mean()
 vec4 haze(Ray ray, float t, float part)
 {
     bool hit = t < INFINITY;
-    float far = ray.inside ? 0.0 : min(t, bounds_max.w), left = 1.0;
+    float far = ray.inside ? 0.0 : min(t, frame.max_distance), left = 1.0;
     vec3 sum = vec3(0.0), around = sky_mean();
     Crossing first = crossing(ray.origin, ray.direction, 0.0, far);
-    float stride = first.whole / float(max(counts.x, 1));
+    float stride = first.whole / float(max(frame.volume_steps, 1));
     float at = first.inside ? 0.0 : first.next, tick = at + part * stride;
 
-    for (int i = zero; i <= counts.x + 3 * effects.w && (at < far || hit); i++) {
+    for (int i = zero; i <= frame.volume_steps + 3 * frame.volume_count && (at < far || hit); i++) {
         Crossing c = crossing(ray.origin, ray.direction, at, far);
         bool on_surface = at >= far, ticks = c.inside && tick < min(c.next, far);
         float end = ticks ? tick : min(c.next, far);

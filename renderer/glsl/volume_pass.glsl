@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* What volumes add to each sample's ray, and how they dim the light at its end. */
 
-layout(binding = 0) uniform sampler2D geometry;
-layout(rgba16f, binding = 6) writeonly uniform image2D out_haze;
+#include "camera.glsl"
+#include "field_pass.glsl"
+#include "gbuffer_load.glsl"
+#include "volume.glsl"
+#include "volume_store.glsl"
+
+layout(rgba16f, binding = IMAGE_HAZE) writeonly uniform image2D out_haze;
 
 void main()
 {
@@ -13,7 +18,7 @@ void main()
     Ray ray = ray_load(here);
     float t = some ? abs(texelFetch(geometry, here, 0).w) : 0.0;
     /* Where slabs begin differs from pixel to pixel, and so none is seen. */
-    float part = fract(pixel_noise(tile.xy + here) + 0.61803399 * float(turn.x));
+    float part = fract(pixel_noise(dispatch.origin + here) + 0.61803399 * float(args.sample_index));
     vec4 found = haze(ray, t, part);
     if (some) {
         imageStore(out_haze, here, vec4(min(found.rgb, 60000.0), found.a));

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Modifiers that bend space or add to the distance; in C they are in renderer/sdf/warps.c. */
 
+#include "noise.glsl"
+#include "shapes.glsl"
+
 /* Turns the section at each height back, inside the children's cylinder (rate, radius, ...). */
 vec3 dom_twist(vec3 p, vec4 twist)
 {

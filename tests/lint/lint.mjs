@@ -71,6 +71,14 @@ function checkIncludes(files) {
     }
 }
 
+// What C and GLSL have in common has a name in renderer/glsl/interface.h.
+function checkBindings(files) {
+    const own = files.filter((file) => /^renderer\/.*\.glsl$/.test(file));
+    search(own, /\b(binding|location) = \d.*\buniform\b/, ([what], file, line) => {
+        report(file, line, 'binding', `${what}: name it in renderer/glsl/interface.h`);
+    });
+}
+
 // protocol/ is pure: it prints only where error.c is handed a stream.
 function checkPurity(files) {
     const own = files.filter((file) => /^protocol\/.*\.c$/.test(file));
@@ -229,6 +237,7 @@ function checkTools(files) {
 
 const files = listFiles().sort();
 checkIncludes(files);
+checkBindings(files);
 checkPurity(files);
 checkImports(files);
 checkFunctionsC(files);

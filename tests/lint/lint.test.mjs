@@ -41,6 +41,8 @@ const BREAKS = [
     ['arrow', 'web/src/link/link.ts', `${TS}import { App } from '../ui/App';\n`],
     ['arrow', 'web/src/link/link.ts', `${TS}import React from 'react';\n`],
     ['arrow', 'web/src/overlay/input.ts', `${TS}export { App } from '../ui/App';\n`],
+    ['binding', 'renderer/glsl/march.glsl', `${C}layout(binding = 3) uniform sampler2D a;\n`],
+    ['binding', 'renderer/glsl/march.glsl', `${C}layout(location = 2) uniform int a;\n`],
     ['pure', 'protocol/scene.c', `${C}void f(void)\n{\n    printf("x");\n}\n`],
     ['pure', 'protocol/scene.c', `${C}void f(void)\n{\n    error_print(0, stderr);\n}\n`],
     ['size', 'renderer/draw/draw.c', longFunction(130)],

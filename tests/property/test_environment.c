@@ -24,6 +24,7 @@ struct question {
 };
 
 static const char questions_glsl[] =
+    "#include \"fog.glsl\"\n#include \"sky.glsl\"\n"
     "layout(local_size_x = 64) in;\n"
     "struct Question { vec4 what, origin, direction; };\n"
     "layout(std430, binding = 3) readonly buffer Questions { Question questions[]; };\n"
@@ -47,11 +48,9 @@ static GLuint buffers[3];
 
 static int set_up(void **state)
 {
-    static const char *const files[] = {"frame.glsl", "ray.glsl", "sky.glsl",
-                                        "fog.glsl",   "map",      NULL};
+    const struct glsl_file own[] = {{"questions.glsl", questions_glsl}, {NULL, NULL}};
     const struct renderer_params params = {.device_index = -1};
-    const struct pass_source source = {
-        .compute = true, .defines = "", .files = files, .map = questions_glsl};
+    const struct pass_source source = {.compute = true, .file = "questions.glsl", .own = own};
     struct error err = {0};
 
     (void)state;
@@ -99,7 +98,6 @@ static void ask(const struct frame_block *block, const struct environment *envir
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, buffers[2]);
     gl.BufferData(GL_SHADER_STORAGE_BUFFER, ASKED_MAX * 16, NULL, GL_STREAM_READ);
     gl.UseProgram(asking.program);
-    gl.Uniform4i(asking.tile, 0, 0, 0, 0);
     gl.DispatchCompute(ASKED_MAX / 64, 1, 1);
     gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)(count * 16), answers);
@@ -116,7 +114,7 @@ static struct environment *get(const struct frame_block *block, const struct ass
                                uint32_t *out_us)
 {
     const char *id = image ? image->id : "";
-    const bool read = block->modes[1] == SKY_IMAGE && !environments_have(environments, block, id);
+    const bool read = block->sky_kind == SKY_IMAGE && !environments_have(environments, block, id);
     struct decoded decoded = {0};
     struct environment *environment;
     struct error err = {0};
@@ -141,10 +139,11 @@ static void ask_one(struct frame_block *block, struct asset *image, struct quest
 
 static struct frame_block plain_block(int kind)
 {
-    return (struct frame_block){.horizon = {0, 0, 0, 1},
-                                .panorama = {1, 0, 1, 0},
-                                .bounds_max = {0, 0, 0, 200},
-                                .modes = {0, kind, 0, 0}};
+    return (struct frame_block){.ambient = 1,
+                                .sky_turn = {1, 0},
+                                .sky_brightness = 1,
+                                .max_distance = 200,
+                                .sky_kind = kind};
 }
 
 static void set3(float *out, float r, float g, float b)
@@ -269,7 +268,7 @@ static void test_half_white(void **state)
         float answer[4];
 
         random_direction(d);
-        block.horizon[3] = 0.5; /* intensity */
+        block.ambient = 0.5;
         ask_one(&block, file, question(ASK_MATT, 0, d[0], d[1], d[2]), answer);
         assert_near(answer[0], (1 + d[0]) / 2, 0.01, "irradiance of a half white sky");
     }
@@ -356,9 +355,9 @@ static void test_sides(void **state)
         if (fabs(d[0]) < 0.15 || fabs(d[1]) < 0.15 || fabs(d[2]) < 0.15) {
             continue; /* between two colours */
         }
-        block.panorama[0] = (float)cos(turn);
-        block.panorama[1] = (float)sin(turn);
-        block.panorama[2] = 3;
+        block.sky_turn[0] = (float)cos(turn);
+        block.sky_turn[1] = (float)sin(turn);
+        block.sky_brightness = 3;
         sides_color(d, rgb);
         ask_one(&block, file,
                 question(ASK_SKY, 0, cos(turn) * d[0] + sin(turn) * d[2], d[1],
@@ -405,19 +404,18 @@ static void test_seams(void **state)
 static void test_sun(void **state)
 {
     struct frame_block block = plain_block(SKY_GRADIENT);
-    const struct frame_light sun = {.place = {0, 0.6f, -0.8f, LIGHT_DIRECTIONAL},
-                                    .color = {1000, 1000, 1000, 8}};
+    const struct frame_light sun = {.position = {0, 0.6f, -0.8f}, .color = {1000, 1000, 1000}};
     float seen[4], mirrored[4], without[4];
 
     (void)state;
-    block.modes[0] = 1;
+    block.light_count = 1;
     block.lights[0] = sun;
-    block.effects[2] = EFFECT_SUN;
+    block.effects = EFFECT_SUN;
     ask_one(&block, NULL, question(ASK_SKY, 0, 0, 0.6, -0.8), seen);
     ask_one(&block, NULL, question(ASK_MIRROR, 0, 0, 0.6, -0.8), mirrored);
     assert_near(seen[0], 4180, 10, "the sun");
     assert_near(mirrored[0], 180, 1, "its glow, mirrored");
-    block.effects[2] = 0;
+    block.effects = 0;
     ask_one(&block, NULL, question(ASK_SKY, 0, 0, 0.6, -0.8), without);
     assert_near(without[0], 0, 1e-6, "without the sun");
 }
@@ -432,7 +430,7 @@ static void test_kept(void **state)
 
     (void)state;
     first = get(&block, file, &us);
-    block.panorama[1] = 0.5f;
+    block.sky_turn[1] = 0.5f;
     block.eye[0] = 7;
     second = get(&block, file, &us);
     assert_ptr_equal(first, second);
@@ -476,12 +474,12 @@ static void test_fog(void **state)
         const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         set3(q.direction, (float)d[0], (float)d[1], (float)d[2]);
         q.origin[1] = (float)(4 * random_one() - 1);
-        block.fog_color[3] = (float)density;
-        block.fog_shape[0] = (float)thinning;
-        block.fog_shape[1] = (float)base;
+        block.fog_density = (float)density;
+        block.fog_thinning = (float)thinning;
+        block.fog_base = (float)base;
         ask_one(&block, NULL, q, answer);
         expected = let_through(density, thinning, base, q.origin[1], d[1] / length,
-                               fmin(way, block.bounds_max[3]));
+                               fmin(way, block.max_distance));
         assert_near(answer[3], expected, 1e-3, "light through fog");
         assert_near(answer[0], 0.5 * (1 - answer[3]), 1e-5, "light of fog");
     }
@@ -498,9 +496,9 @@ static void test_fog_far(void **state)
         struct question q = question(ASK_FOG, INFINITY, 1, slopes[i / 5 % 5], 0);
         float answer[4];
 
-        block.fog_color[3] = 1000;
-        block.fog_shape[0] = i < 25 ? 1e6f : 0.5f;
-        block.bounds_max[3] = 1e6f;
+        block.fog_density = 1000;
+        block.fog_thinning = i < 25 ? 1e6f : 0.5f;
+        block.max_distance = 1e6f;
         q.origin[1] = heights[i % 5];
         ask_one(&block, NULL, q, answer);
         assert_true(answer[3] >= 0 && answer[3] <= 1);

@@ -10,7 +10,7 @@
 
 #include "renderer/gl/egl.h"
 #include "renderer/gl/gl.h"
-#include "tests/support/compute.h"
+#include "renderer/gl/pass.h"
 #include "tests/support/random_scene.h"
 
 enum { SURFACES = 4096, GROUP = 64 };
@@ -25,10 +25,10 @@ struct surface {
     float id[3], unused; /* the bytes of it */
 };
 
-static const char head[] = "#version 430 core\n"
-                           "layout(local_size_x = 64) in;\n"
-                           "layout(std430, binding = 0) buffer Surfaces { vec4 parts[]; };\n";
 static const char body[] =
+    "#include \"gbuffer.glsl\"\n"
+    "layout(local_size_x = 64) in;\n"
+    "layout(std430, binding = 0) buffer Surfaces { vec4 parts[]; };\n"
     "void main()\n{\n"
     "uint i = 6u * gl_GlobalInvocationID.x;\n"
     "vec4 a = parts[i], b = parts[i + 1u], c = parts[i + 2u], d = parts[i + 3u],\n"
@@ -52,7 +52,8 @@ static const char body[] =
 static void round_trip(struct surface surfaces[SURFACES])
 {
     const struct renderer_params params = {.device_index = -1};
-    const char *texts[] = {head, compute_file("surface.glsl"), compute_file("gbuffer.glsl"), body};
+    const struct glsl_file own[] = {{"trip.glsl", body}, {NULL, NULL}};
+    struct pass pass;
     const GLsizeiptr bytes = SURFACES * sizeof *surfaces;
     struct error err = {0};
     struct egl egl;
@@ -60,21 +61,20 @@ static void round_trip(struct surface surfaces[SURFACES])
     GLuint buffer;
     assert_true(egl_init(&egl, &params, &err));
     assert_true(gl_load(&gl, &err));
-    GLuint program = compute_link(&gl, texts, 4, &err);
-    if (program == 0) {
-        fail_msg("%s", err.message);
+    if (!pass_init(&pass, &gl, &(struct pass_source){true, NULL, "trip.glsl", own}, &err)) {
+        fail_msg("%s: %s", err.place, err.message);
     }
     gl.GenBuffers(1, &buffer);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
     gl.BufferData(GL_SHADER_STORAGE_BUFFER, bytes, surfaces, GL_STREAM_READ);
-    gl.UseProgram(program);
+    gl.UseProgram(pass.program);
     gl.DispatchCompute(SURFACES / GROUP, 1, 1);
     gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     memcpy(surfaces, gl.MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, bytes, GL_MAP_READ_BIT),
            (size_t)bytes);
     gl.UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
     gl.DeleteBuffers(1, &buffer);
-    gl.DeleteProgram(program);
+    pass_finish(&pass, &gl);
     egl_finish(&egl);
 }
 

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/kinds.h"
 #include "tests/support/formula.h"
 
 enum { ANGLES = 100 };
@@ -38,8 +39,6 @@ static void assert_near(double got, double want, double room, const char *what, 
 
 /* --- two media --- */
 
-static const char *const optics[] = {"optics.glsl", "map", NULL};
-
 /* Of incidence, in the middles of equal parts of a quarter turn. */
 static double angle_at(int i)
 {
@@ -58,7 +57,8 @@ static void bends_as_snell_says(void **state)
             rows[i] = (struct formula_row){.a = {(float)sin(angle), -(float)cos(angle), 0, 0},
                                            .b = {(float)ratios[r]}};
         }
-        formula_run(&formula, optics,
+        formula_run(&formula,
+                    "#include \"optics.glsl\"\n"
                     "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n    vec3 bent;\n"
                     "    bool goes = bend(a.xyz, vec3(0.0, 1.0, 0.0), b.x, bent);\n"
                     "    return vec4(bent, goes ? 1.0 : 0.0);\n}\n",
@@ -100,7 +100,8 @@ static void mirrors_as_fresnel_says(void **state)
         rows[i] = (struct formula_row){
             .a = {(float)cos(angle_at(i)), (float)ior, (float)f0, (float)(1 - f0)}};
     }
-    formula_run(&formula, optics,
+    formula_run(&formula,
+                "#include \"optics.glsl\"\n"
                 "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
                 "    vec3 f = fresnel(vec3(a.z, a.w, 1.0), a.x);\n"
                 "    return vec4(f.xy, interface_mirror(a.y, a.x, false),\n"
@@ -121,17 +122,18 @@ static void mirrors_as_fresnel_says(void **state)
 
 /* --- lamps --- */
 
-static const char *const lights[] = {"frame.glsl", "lights.glsl", "map", NULL};
-
 /* A lamp at the origin that shines down. b: type, radius, range; c: cosines of rim and fade. */
 static const char ask_lamp[] =
+    "#include \"lights.glsl\"\n"
     "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
-    "    Light light = Light(vec4(0.0, 0.0, 0.0, b.x), vec4(1.0, 2.0, 3.0, 8.0),\n"
-    "                        vec4(b.y, b.z, 0.0, c.x), vec4(0.0, -1.0, 0.0, c.y));\n"
+    "    Light light;\n"
+    "    light.position = vec3(0.0);\n    light.kind = int(b.x);\n"
+    "    light.color = vec3(1.0, 2.0, 3.0);\n"
+    "    light.radius = b.y;\n    light.range = b.z;\n"
+    "    light.axis = vec3(0.0, -1.0, 0.0);\n"
+    "    light.rim_cosine = c.x;\n    light.fade_cosine = c.y;\n"
     "    Incoming i = incoming(light, a.xyz);\n"
     "    return vec4(i.color.r, i.color.b, dot(i.direction, a.xyz), i.reach);\n}\n";
-
-enum { POINT = 1, SPOT = 2 }; /* of glsl/frame.glsl */
 
 static void points_fade_by_the_square(void **state)
 {
@@ -142,9 +144,9 @@ static void points_fade_by_the_square(void **state)
     for (int i = 0; i < 2 * ANGLES; i++) {
         const float r = 0.1f + 0.08f * (float)(i / 2);
         rows[i] = (struct formula_row){.a = {0.6f * r, 0, -0.8f * r, 0},
-                                       .b = {POINT, (float)radius, i % 2 ? (float)range : 0}};
+                                       .b = {LIGHT_POINT, (float)radius, i % 2 ? (float)range : 0}};
     }
-    formula_run(&formula, lights, ask_lamp, rows, 2 * ANGLES);
+    formula_run(&formula, ask_lamp, rows, 2 * ANGLES);
     for (int i = 0; i < 2 * ANGLES; i++) {
         const double r = 0.1 + 0.08 * (i / 2);
         const double square = r < radius ? 1 / (radius * radius) : 1 / (r * r);
@@ -169,10 +171,10 @@ static void spots_end_at_their_rim(void **state)
         for (int i = 0; i < ANGLES; i++) {
             const double off = angle_at(i);
             rows[i] = (struct formula_row){.a = {(float)(2 * sin(off)), -(float)(2 * cos(off)), 0},
-                                           .b = {SPOT, 0.1f, 0},
+                                           .b = {LIGHT_SPOT, 0.1f, 0},
                                            .c = {(float)rim, (float)fade}};
         }
-        formula_run(&formula, lights, ask_lamp, rows, ANGLES);
+        formula_run(&formula, ask_lamp, rows, ANGLES);
         for (int i = 0; i < ANGLES; i++) {
             const double off = angle_at(i);
             double x = softnesses[s] > 0 ? (cos(off) - rim) / (fade - rim) : off < angle;

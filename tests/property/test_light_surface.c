@@ -10,16 +10,13 @@
 
 #include <cmocka.h>
 
+#include "renderer/glsl/interface.h"
 #include "tests/support/formula.h"
 #include "tests/support/random_scene.h"
 
-enum { PHONG, BLINN, STANDARD }; /* MODEL_... of glsl/surface.glsl */
-
-static const char *const files[] = {"frame.glsl", "surface.glsl", "optics.glsl",
-                                    "brdf.glsl",  "map",          NULL};
-
 /* A surface around +Z. c: diffuse, specular, gloss, model. */
 #define SURFACE                                                                                    \
+    "#include \"brdf.glsl\"\n"                                                                     \
     "Surface made(vec4 c)\n{\n"                                                                    \
     "    Surface s;\n"                                                                             \
     "    s.ambient = vec3(1.0);\n"                                                                 \
@@ -70,15 +67,15 @@ static void light_may_go_either_way(void **state)
     (void)state;
     for (int i = 0; i < ROWS; i++) {
         const int model = i % 3;
-        const double gloss =
-            model == STANDARD ? random_between(&random, 0, 1) : random_between(&random, 1, 200);
+        const double gloss = model == MODEL_STANDARD ? random_between(&random, 0, 1)
+                                                     : random_between(&random, 1, 200);
         rows[i] = (struct formula_row){.c = {(float)random_between(&random, 0, 1),
                                              (float)random_between(&random, 0, 1), (float)gloss,
                                              (float)model}};
         set_above(&random, rows[i].a);
         set_above(&random, rows[i].b);
     }
-    formula_run(&formula, files,
+    formula_run(&formula,
                 SURFACE "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
                         "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
                         "    Surface s = made(c);\n"
@@ -130,11 +127,11 @@ static void ask_standard(struct formula_row rows[ROUGH * COSINES], double diffus
 {
     for (int i = 0; i < ROUGH * COSINES; i++) {
         const double rough = 0.2 + 0.1 * (i / COSINES), cosine = 0.1 + 0.1 * (i % COSINES);
-        rows[i] =
-            (struct formula_row){.a = {(float)fmin(cosine, 0.9999)},
-                                 .c = {(float)diffuse, (float)specular, (float)rough, STANDARD}};
+        rows[i] = (struct formula_row){
+            .a = {(float)fmin(cosine, 0.9999)},
+            .c = {(float)diffuse, (float)specular, (float)rough, MODEL_STANDARD}};
     }
-    formula_run(&formula, files, ask_all, rows, (size_t)ROUGH * COSINES);
+    formula_run(&formula, ask_all, rows, (size_t)ROUGH * COSINES);
 }
 
 static void white_standard_loses_nothing(void **state)
@@ -213,9 +210,9 @@ static void matt_phong_is_lambert(void **state)
     (void)state;
     for (int i = 0; i < 2 * COSINES; i++) {
         rows[i] = (struct formula_row){.a = {(float)(0.1 + 0.0899 * (i % COSINES))},
-                                       .c = {0.8f, 0, 32, i < COSINES ? PHONG : BLINN}};
+                                       .c = {0.8f, 0, 32, i < COSINES ? MODEL_PHONG : MODEL_BLINN}};
     }
-    formula_run(&formula, files, ask_all, rows, 2 * COSINES);
+    formula_run(&formula, ask_all, rows, 2 * COSINES);
     for (int i = 0; i < 2 * COSINES; i++) {
         assert_true(fabs(rows[i].out[0] - 0.8) < 0.005);
         assert_true(fabs(rows[i].out[1] - 0.8) < 0.002);

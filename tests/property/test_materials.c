@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "protocol/scene.h"
+#include "renderer/glsl/interface.h"
 #include "tests/support/compiled.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
@@ -140,7 +141,7 @@ static void a_blend_of_models_has_one_of_them(void **state)
         struct field_surface at = field_surface(pair.field, p, NULL);
         bool left = p[0] < 0;
         assert_true(at.material[FIELD_GLOSS] == (left ? 0.25 : 100));
-        assert_true(at.material[FIELD_MODEL] == (left ? FIELD_STANDARD : FIELD_PHONG));
+        assert_true(at.material[FIELD_MODEL] == (left ? MODEL_STANDARD : MODEL_PHONG));
         assert_true(at.material[FIELD_IOR] > 1.6 && at.material[FIELD_IOR] < 2.4);
     }
     pair_finish(&pair);

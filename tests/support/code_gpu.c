@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "protocol/limits.h"
-#include "tests/support/compute.h"
+#include "renderer/gl/pass.h"
 
 enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED };
 
@@ -42,7 +42,8 @@ struct code_shading code_gpu_shading(const double p[3])
 }
 
 static const char head[] =
-    "#version 430 core\n#define GROUP %d\n#define POINTS %d\n"
+    "#include \"code.glsl\"\n#include \"surface.glsl\"\n"
+    "#define GROUP %d\n#define POINTS %d\n"
     "layout(local_size_x = GROUP) in;\n"
     "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
     "layout(std430, binding = 1) readonly buffer Numbers { float numbers[]; };\n"
@@ -80,13 +81,11 @@ static char *write_program(const struct code_gpu_job *jobs, size_t count)
         abort();
     }
     fprintf(out, head, GROUP, CODE_GPU_POINTS);
-    fprintf(out, "#line 1 1\n%s%s#line 1 2\n%s", compute_file("surface.glsl"),
-            compute_file("noise.glsl"), compute_file("code.glsl"));
     for (size_t i = 0; i < count; i++) {
         snprintf(name, sizeof name, "job_%zu", i);
         code_write(jobs[i].code, name, 1000 + (int)i, out);
     }
-    fprintf(out, "#line 1 3\n%s%s", digest, body);
+    fprintf(out, "%s%s", digest, body);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "values[%zu * POINTS + i] = digest(job_%zu(%s", i, i,
                 jobs[i].use == CODE_SHADE ? "s" : "p");
@@ -129,15 +128,17 @@ bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t 
     const struct gl *gl = &gpu->gl;
     size_t bytes = count * CODE_GPU_POINTS * sizeof *out;
     char *text = write_program(jobs, count);
-    GLuint program = compute_link(gl, (const char *const *)&text, 1, err);
+    const struct glsl_file own[] = {{"jobs.glsl", text}, {NULL, NULL}};
+    struct pass pass;
+    const bool ok = pass_init(&pass, gl, &(struct pass_source){true, NULL, "jobs.glsl", own}, err);
     free(text);
-    if (program == 0) {
+    if (!ok) {
         return false;
     }
     set_buffer(gpu, 0, points, CODE_GPU_POINTS * sizeof *points);
     set_buffer(gpu, 1, numbers, NUMBERS * sizeof *numbers);
     set_buffer(gpu, 2, NULL, bytes);
-    gl->UseProgram(program);
+    gl->UseProgram(pass.program);
     gl->DispatchCompute(CODE_GPU_POINTS / GROUP, 1, 1);
     gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     void *values =
@@ -146,6 +147,6 @@ bool code_gpu_run(struct code_gpu *gpu, const struct code_gpu_job *jobs, size_t 
         memcpy(out, values, bytes);
         gl->UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
     }
-    gl->DeleteProgram(program);
+    pass_finish(&pass, gl);
     return gl_check(gl, "running code", err);
 }

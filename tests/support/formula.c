@@ -37,8 +37,7 @@ void formula_finish(struct formula *formula)
     egl_finish(&formula->egl);
 }
 
-void formula_run(struct formula *formula, const char *const *files, const char *text,
-                 struct formula_row *rows, size_t count)
+void formula_run(struct formula *formula, const char *text, struct formula_row *rows, size_t count)
 {
     const struct gl *gl = &formula->gl;
     const GLsizeiptr bytes = (GLsizeiptr)(count * sizeof *rows);
@@ -48,7 +47,8 @@ void formula_run(struct formula *formula, const char *const *files, const char *
     GLuint buffer;
 
     assert_true(asprintf(&whole, "%s%s", text, tail) > 0);
-    if (!pass_init(&pass, gl, &(struct pass_source){true, "", files, whole, NULL}, &err)) {
+    const struct glsl_file own[] = {{"ask.glsl", whole}, {NULL, NULL}};
+    if (!pass_init(&pass, gl, &(struct pass_source){true, NULL, "ask.glsl", own}, &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }
     free(whole);

@@ -21,9 +21,7 @@ struct formula_row {
 void formula_init(struct formula *formula);
 void formula_finish(struct formula *formula);
 
-/* `files`: names in renderer/glsl/, NULL at the end, with "map" last, where `text` goes, which has
- * `vec4 ask(vec4 a, vec4 b, vec4 c)`. */
-void formula_run(struct formula *formula, const char *const *files, const char *text,
-                 struct formula_row *rows, size_t count);
+/* `text` has `vec4 ask(vec4 a, vec4 b, vec4 c)`, and includes what that calls. */
+void formula_run(struct formula *formula, const char *text, struct formula_row *rows, size_t count);
 
 #endif

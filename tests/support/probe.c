@@ -8,7 +8,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/field/shader.h"
-#include "tests/support/compute.h"
+#include "renderer/gl/pass.h"
 
 enum { POINTS, NUMBERS, ANSWERS, GROUP = 64, ANSWER_VEC4S = 1 + FIELD_MATERIAL_VEC4S };
 
@@ -42,13 +42,14 @@ static const char head_block[] =
     "#define AT(i) numbers[i]\n";
 static const char head_texture[] = "layout(binding = 1) uniform samplerBuffer numbers;\n"
                                    "#define AT(i) texelFetch(numbers, i)\n";
+static const char head_access[] = "int first_number;\n"
+                                  "#define N_ANY(i) AT(first_number + (i))\n"
+                                  "#define N(i) AT(FIRST + (i))\n";
 static const char head[] =
+    "#include \"field.glsl\"\n#include \"mixture.glsl\"\n"
     "layout(local_size_x = GROUP) in;\n"
     "layout(binding = 0) uniform samplerBuffer points;\n"
-    "layout(std430, binding = 0) writeonly buffer Answers { vec4 answers[]; };\n"
-    "int first_number;\n"
-    "#define N_ANY(i) AT(first_number + (i))\n"
-    "#define N(i) AT(FIRST + (i))\n";
+    "layout(std430, binding = 0) writeonly buffer Answers { vec4 answers[]; };\n";
 
 /* The functions of one field, with its place in the list at the end of their names. */
 static void write_field(FILE *out, const struct field *field, size_t index, size_t first,
@@ -83,26 +84,15 @@ static void write_question(FILE *out, size_t index, size_t first, bool surface)
     fprintf(out, "at += %du * count;\n", ANSWER_VEC4S);
 }
 
-static char *program_text(struct field *const *fields, size_t count, bool surface, bool in_block,
-                          float through)
+static char *program_text(struct field *const *fields, size_t count, bool surface, float through)
 {
-    static const char *const files[] = {"surface.glsl", FIELD_GLSL_FILES, "mixture.glsl"};
     char *text;
-    size_t length, numbers = 0;
-    bool shaders = false;
+    size_t length, numbers;
     FILE *out = open_memstream(&text, &length);
     if (!out) {
         abort();
     }
-    for (size_t i = 0; i < count; i++) {
-        numbers += fields[i]->vec4_count;
-        shaders = shaders || fields[i]->shader_count > 0;
-    }
-    fprintf(out, "#version 430 core\n#define GROUP %d\n#define COUNT %zu\n%s%s%s", GROUP, numbers,
-            shaders ? "#define USER_SHADERS\n" : "", in_block ? head_block : head_texture, head);
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        fputs(compute_file(files[i]), out);
-    }
+    fputs(head, out);
     numbers = 0;
     for (size_t i = 0; i < count; i++) {
         write_field(out, fields[i], i, numbers, surface);
@@ -128,17 +118,40 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
 
 /* --- the program --- */
 
+static char *make_defines(struct field *const *fields, size_t count)
+{
+    size_t numbers = 0;
+    bool shaders = false;
+    char *text;
+    for (size_t i = 0; i < count; i++) {
+        numbers += fields[i]->vec4_count;
+        shaders = shaders || fields[i]->shader_count > 0;
+    }
+    if (asprintf(&text, "#define GROUP %d\n#define COUNT %zu\n%s", GROUP, numbers,
+                 shaders ? "#define USER_SHADERS\n" : "") < 0) {
+        abort();
+    }
+    return text;
+}
+
 bool probe_program_init(struct probe_program *program, const struct probe *probe,
                         struct field *const *fields, size_t count, bool surface, bool in_block,
                         struct error *err)
 {
-    char *text = program_text(fields, count, surface, in_block, probe->through);
-    *program = (struct probe_program){
-        .program = compute_link(&probe->gl, (const char *const *)&text, 1, err),
-        .surface = surface,
-    };
+    char *defines = make_defines(fields, count), *numbers;
+    char *text = program_text(fields, count, surface, probe->through);
+    struct pass pass = {0};
+    if (asprintf(&numbers, "%s%s", in_block ? head_block : head_texture, head_access) < 0) {
+        abort();
+    }
+    const struct glsl_file own[] = {{"probe.glsl", text}, {"numbers.glsl", numbers}, {NULL, NULL}};
+    const struct pass_source source = {true, defines, "probe.glsl", own};
+    const bool ok = pass_init(&pass, &probe->gl, &source, err);
+    *program = (struct probe_program){.program = pass.program, .surface = surface};
+    free(numbers);
     free(text);
-    return program->program != 0;
+    free(defines);
+    return ok;
 }
 
 void probe_program_finish(struct probe_program *program, const struct probe *probe)

@@ -639,10 +639,10 @@ static void test_loop_budget(void **state)
     assert_non_null(newest);
     if (renderer->info.software) {
         const long each = 1 + (long)newest->field->loop_trips;
-        assert_true((long)newest->frame.size[3] * each <= 65535);
-        assert_int_equal(newest->fewer_steps, newest->frame.size[3] < 1024);
+        assert_true((long)newest->frame.max_steps * each <= 65535);
+        assert_int_equal(newest->fewer_steps, newest->frame.max_steps < 1024);
     } else {
-        assert_int_equal(newest->frame.size[3], 1024);
+        assert_int_equal(newest->frame.max_steps, 1024);
     }
     resident_destroy(resident);
 }

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* What the text of a field calls (renderer/field/shader.c). */
+
+#include "code.glsl"
+#include "flat.glsl"
+#include "fractals.glsl"
+#include "guard.glsl"
+#include "modifiers.glsl"
+#include "operations.glsl"
+#include "shapes.glsl"
+#include "solids.glsl"
+#include "through.glsl"
+#include "user.glsl"
+#include "warps.glsl"

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: MIT */
+/* What C and GLSL have in common. Each fact stands once, in a list here: C makes its enums and
+ * structs of it, and interface_write the text that shaders include as "interface.glsl".
+ *
+ * A struct is a list of X(type, name) with types of GLSL. Its members lie as std140 wants them
+ * (OpenGL 4.3, 7.6.2.2), because C aligns each as much; a struct begins with a vec3, so that it is
+ * itself aligned by 16 bytes. tests/property/test_interface.c asks the driver. */
+#ifndef RENDERER_INTERFACE_H
+#define RENDERER_INTERFACE_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "protocol/kinds.h"
+#include "protocol/limits.h"
+
+/* --- kinds --- */
+
+#define SURFACE_MODELS(X)                                                                          \
+    X(MODEL_PHONG)    /* highlights by the halfway vector */                                       \
+    X(MODEL_BLINN)    /* highlights by the reflected vector */                                     \
+    X(MODEL_STANDARD) /* microfacets */
+/* Bits of frame.effects. */
+#define FRAME_EFFECTS(X)                                                                           \
+    X(EFFECT_SHADOWS, 1)                                                                           \
+    X(EFFECT_REFLECTIONS, 2)                                                                       \
+    X(EFFECT_REFRACTIONS, 4)                                                                       \
+    X(EFFECT_SUN, 8)                                                                               \
+    X(EFFECT_TRANSPARENT, 16)
+/* The samples that a dispatch is for. */
+#define PASS_MODES(X)                                                                              \
+    X(PASS_TILE)   /* all of the tile's */                                                         \
+    X(PASS_COARSE) /* one for each block: march alone */                                           \
+    X(PASS_LIST)   /* those of a list: group.glsl */
+/* What a ray through clear things does next: clear_pass.glsl. */
+#define CLEAR_PHASES(X)                                                                            \
+    X(CLEAR_AIM)  /* it is sent towards the light */                                               \
+    X(CLEAR_STEP) /* through the surface that it met */                                            \
+    X(CLEAR_END)  /* the same for the last time */
+
+/* --- bindings --- */
+
+#define UNIFORM_BLOCKS(X) X(BINDING_FRAME) X(BINDING_NUMBERS)
+#define STORAGE_BLOCKS(X) X(BINDING_LIST) X(BINDING_NEXT) X(BINDING_STACK)
+/* Textures that are read. */
+#define TEXTURE_UNITS(X)                                                                           \
+    X(UNIT_GEOMETRY)                                                                               \
+    X(UNIT_MATTER)                                                                                 \
+    X(UNIT_MORE)                                                                                   \
+    X(UNIT_NUMBERS)                                                                                \
+    X(UNIT_TOTAL)                                                                                  \
+    X(UNIT_RAY_FROM)                                                                               \
+    X(UNIT_RAY_ALONG)                                                                              \
+    X(UNIT_VISIBILITY)                                                                             \
+    X(UNIT_PANORAMA)                                                                               \
+    X(UNIT_MIRRORED)                                                                               \
+    X(UNIT_IRRADIANCE)                                                                             \
+    X(UNIT_HAZE)                                                                                   \
+    X(UNIT_STEPS)                                                                                  \
+    X(UNIT_PIXELS)                                                                                 \
+    X(UNIT_COUNTED)
+/* Images that are written. There may be but eight at once, so the passes with a field in them, the
+ * others, and those that make environments have sets of their own. */
+#define FIELD_IMAGES(X)                                                                            \
+    X(IMAGE_GEOMETRY)                                                                              \
+    X(IMAGE_MATTER)                                                                                \
+    X(IMAGE_MORE)                                                                                  \
+    X(IMAGE_STEPS)                                                                                 \
+    X(IMAGE_STARTS)                                                                                \
+    X(IMAGE_VISIBILITY)                                                                            \
+    X(IMAGE_HAZE)
+#define COMMON_IMAGES(X)                                                                           \
+    X(IMAGE_RAY_FROM)                                                                              \
+    X(IMAGE_RAY_ALONG)                                                                             \
+    X(IMAGE_WEIGHT)                                                                                \
+    X(IMAGE_MEDIUM)                                                                                \
+    X(IMAGE_TOTAL)                                                                                 \
+    X(IMAGE_SEEN) /* visibility */                                                                 \
+    X(IMAGE_PIXELS)                                                                                \
+    X(IMAGE_COUNTED)
+#define ENVIRONMENT_IMAGES(X) X(IMAGE_ENVIRONMENT)
+
+/* --- the uniform block of a picture --- */
+
+#define LIGHT_MEMBERS(X)                                                                           \
+    X(vec3, position)   /* of a directional one: the direction towards it */                       \
+    X(int, kind)        /* LIGHT_... */                                                            \
+    X(vec3, color)      /* times intensity */                                                      \
+    X(int, shadow)      /* SHADOW_... */                                                           \
+    X(vec3, axis)       /* of a cone, away from the light, of length 1 */                          \
+    X(float, radius)    /* nearer it does not grow by the inverse square */                        \
+    X(float, range)     /* where it ends; 0: nowhere */                                            \
+    X(float, sharpness) /* of the soft shadow */                                                   \
+    X(float, rim_cosine)                                                                           \
+    X(float, fade_cosine) /* where light begins to fade to the rim */
+
+#define VOLUME_MEMBERS(X)                                                                          \
+    X(vec3, center)                                                                                \
+    X(int, kind)    /* VOLUME_BOX or VOLUME_ELLIPSOID */                                           \
+    X(vec3, extent) /* half lengths, or radii */                                                   \
+    X(float, falloff)                                                                              \
+    X(vec3, color)                                                                                 \
+    X(float, density)                                                                              \
+    X(vec3, emission)                                                                              \
+    X(float, anisotropy)                                                                           \
+    X(int, source) /* DENSITY_... */                                                               \
+    X(int, octaves)                                                                                \
+    X(int, seed)                                                                                   \
+    X(float, frequency)                                                                            \
+    X(float, threshold) /* height of waves above which noise fills it */                           \
+    X(float, reach)     /* of a density by the field */
+
+#define FRAME_MEMBERS(X)                                                                           \
+    X(vec3, eye)                                                                                   \
+    X(int, orthographic)                                                                           \
+    X(vec3, forward)                                                                               \
+    X(float, pixel_radius) /* per unit of distance, or absolute if orthographic */                 \
+    X(vec3, right)         /* half the picture's width, at distance 1 if perspective */            \
+    X(float, lens_radius)                                                                          \
+    X(vec3, up) /* half the picture's height */                                                    \
+    X(float, focus_distance)                                                                       \
+    X(vec3, bounds_min) /* nothing is outside of these */                                          \
+    X(float, exposure)                                                                             \
+    X(vec3, bounds_max)                                                                            \
+    X(float, max_distance) /* along a ray */                                                       \
+    X(vec3, clear_min)     /* what light goes through is inside of these */                        \
+    X(int, has_clear)                                                                              \
+    X(vec3, clear_max)                                                                             \
+    X(float, min_throughput) /* what a mirrored or broken ray adds at least */                     \
+    X(vec3, zenith)          /* the colour of a solid environment */                               \
+    X(float, ambient)        /* intensity of the environment's light */                            \
+    X(vec3, horizon)                                                                               \
+    X(float, occlusion_reach)                                                                      \
+    X(vec3, ground)                                                                                \
+    X(float, occlusion_strength)                                                                   \
+    X(vec3, fog_color)                                                                             \
+    X(float, fog_density)                                                                          \
+    X(vec2, sky_turn) /* cosine and sine of the picture's rotation */                              \
+    X(float, sky_brightness)                                                                       \
+    X(float, fog_thinning) /* 1 / height; 0: it does not thin */                                   \
+    X(ivec2, size)         /* of the picture, in pixels */                                         \
+    X(float, fog_base)                                                                             \
+    X(int, samples) /* of a pixel */                                                               \
+    X(int, max_steps)                                                                              \
+    X(int, shadow_steps)                                                                           \
+    X(int, occlusion_samples)                                                                      \
+    X(int, ray_depth)                                                                              \
+    X(int, volume_steps)                                                                           \
+    X(int, volume_light_steps)                                                                     \
+    X(int, effects)  /* EFFECT_... bits */                                                         \
+    X(int, sky_kind) /* SKY_... */                                                                 \
+    X(int, tone_map) /* TONE_... */                                                                \
+    X(int, light_count)                                                                            \
+    X(int, volume_count)
+
+/* --- what a dispatch is told --- */
+
+#define DISPATCH_MEMBERS(X)                                                                        \
+    X(ivec2, origin) /* first pixel of the tile, with its margin */                                \
+    X(int, mode)     /* PASS_... */                                                                \
+    X(int, zero)     /* always 0, so that loops starting there are not unrolled */
+
+/* Of each pass: what it is told besides, all of it whole numbers. X(name). */
+#define SAMPLE_ARGS(X)                                                                             \
+    X(sample_index) /* of its pixel */                                                             \
+    X(first)        /* the rays come from the camera */
+#define CLEAR_ARGS(X)                                                                              \
+    X(light)                                                                                       \
+    X(phase) /* CLEAR_... */
+#define SHADE_ARGS(X)                                                                              \
+    X(first)                                                                                       \
+    X(last) /* no rays follow */                                                                   \
+    X(haze) /* there are volumes */
+#define GATHER_ARGS(X)                                                                             \
+    X(sample_index)                                                                                \
+    X(linear) /* light is asked for as it is */
+#define LISTING_ARGS(X)                                                                            \
+    X(width)                                                                                       \
+    X(height)  /* of the tile with its margin */                                                   \
+    X(samples) /* that a listed pixel has had */
+#define RESOLVE_ARGS(X)                                                                            \
+    X(margin)                                                                                      \
+    X(blend_edges)
+#define FORWARD_ARGS(X)                                                                            \
+    X(sample_index)                                                                                \
+    X(rays)                          /* after the first */
+#define ENVIRONMENT_ARGS(X) X(level) /* of the mip map */
+
+/* --- the same in C --- */
+
+#define INTERFACE_vec2(name) _Alignas(8) float name[2];
+#define INTERFACE_vec3(name) _Alignas(16) float name[3];
+#define INTERFACE_float(name) float name;
+#define INTERFACE_int(name) int32_t name;
+#define INTERFACE_ivec2(name) _Alignas(8) int32_t name[2];
+#define INTERFACE_MEMBER(type, name) INTERFACE_##type(name)
+#define INTERFACE_NAME(name) name,
+#define INTERFACE_VALUE(name, value) name = (value),
+#define INTERFACE_ARG(name) int32_t name;
+
+enum surface_model { SURFACE_MODELS(INTERFACE_NAME) };
+enum { FRAME_EFFECTS(INTERFACE_VALUE) };
+enum pass_mode { PASS_MODES(INTERFACE_NAME) };
+enum { CLEAR_PHASES(INTERFACE_NAME) };
+enum { UNIFORM_BLOCKS(INTERFACE_NAME) };
+enum { STORAGE_BLOCKS(INTERFACE_NAME) };
+enum { TEXTURE_UNITS(INTERFACE_NAME) UNIT_COUNT };
+enum { FIELD_IMAGES(INTERFACE_NAME) };
+enum { COMMON_IMAGES(INTERFACE_NAME) };
+enum { ENVIRONMENT_IMAGES(INTERFACE_NAME) };
+enum {
+    GROUP_SIZE = 64, /* of a work group: GROUP_SIDE x GROUP_SIDE samples */
+    GROUP_SIDE = 8,  /* samples that one work group covers: group.glsl */
+    BLOCK_BITS = 3,
+    BLOCK_SIDE = 1 << BLOCK_BITS, /* pixels that share a start: march_pass.glsl */
+    STACK_DEPTH = 8,              /* rays of a sample that wait: stack.glsl */
+    MIRROR_LEVELS = 4,            /* of roughness, in the environment as mirrors show it */
+    ARGS_LOCATION = 4,            /* of a pass's args; those of the dispatch begin at 0 */
+};
+
+struct frame_light {
+    LIGHT_MEMBERS(INTERFACE_MEMBER)
+};
+struct frame_volume {
+    VOLUME_MEMBERS(INTERFACE_MEMBER)
+};
+struct frame_block {
+    FRAME_MEMBERS(INTERFACE_MEMBER)
+    struct frame_light lights[LIMIT_LIGHTS];
+    struct frame_volume volumes[LIMIT_VOLUMES];
+};
+
+struct sample_args {
+    SAMPLE_ARGS(INTERFACE_ARG)
+};
+struct clear_args {
+    CLEAR_ARGS(INTERFACE_ARG)
+};
+struct shade_args {
+    SHADE_ARGS(INTERFACE_ARG)
+};
+struct gather_args {
+    GATHER_ARGS(INTERFACE_ARG)
+};
+struct listing_args {
+    LISTING_ARGS(INTERFACE_ARG)
+};
+struct resolve_args {
+    RESOLVE_ARGS(INTERFACE_ARG)
+};
+struct forward_args {
+    FORWARD_ARGS(INTERFACE_ARG)
+};
+struct environment_args {
+    ENVIRONMENT_ARGS(INTERFACE_ARG)
+};
+
+/* The text of "interface.glsl". */
+void interface_write(FILE *out);
+
+#endif
