@@ -3,7 +3,7 @@
 # Writes C that embeds files in the program: the shader files, the page, the examples. The bytes are
 # taken in by the assembler, which is much faster than arrays in C.
 #
-#   embed.sh glsl FILE...          glsl_files[] of renderer/glsl.h
+#   embed.sh glsl FILE...          glsl_files[] of renderer/glsl/files.h
 #   embed.sh embedded SOURCE WORK  page_table[] (SOURCE/web/dist), examples_table[] and
 #                                  cards_table[] (SOURCE/protocol/examples), example_files_table[]
 #                                  (SOURCE/protocol/examples/assets), references_table[]
@@ -21,7 +21,7 @@ C
 }
 
 glsl() {
-    echo '#include "renderer/glsl.h"'
+    echo '#include "renderer/glsl/files.h"'
     n=0
     for file; do
         n=$((n + 1))

@@ -44,7 +44,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
 
     renderer->params = *params;
     renderer->sink = (struct gl_sink){params->log, params->log_data};
-    if (!egl_init(&renderer->egl, params, err) || !gl_load(&renderer->gl, err)) {
+    if (!egl_init(&renderer->egl, &params->device, err) || !gl_load(&renderer->gl, err)) {
         goto fail;
     }
     gl_debug(&renderer->gl, &renderer->sink);
@@ -92,7 +92,7 @@ const struct renderer_info *renderer_info(const struct renderer *renderer)
     return &renderer->info;
 }
 
-size_t renderer_devices(const struct renderer_params *params, struct device_report *out, size_t max)
+size_t renderer_devices(const struct device_params *params, struct device_report *out, size_t max)
 {
     return egl_report(params, out, max);
 }

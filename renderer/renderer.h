@@ -15,20 +15,18 @@
 #include "protocol/limits.h"
 #include "protocol/picture.h"
 #include "protocol/scene.h"
+#include "renderer/gl/device.h"
+#include "renderer/image/image.h"
 
 struct renderer; /* a GL context on a device */
 struct resident; /* a scene held ready for drawing, at a revision */
 struct job;      /* one picture being drawn, tile by tile */
 
-enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_SOFTWARE };
-
 struct renderer_params {
-    enum device_kind device; /* DEVICE_GPU: an error where there is only software */
-    int device_index;        /* among renderer_devices(); -1: the best */
-    int tile_side;           /* pixels, a multiple of 8; 0: what is good for the device */
-    int code_ms, tile_ms;    /* that compiling code, drawing the smallest tile may take of the
+    struct device_params device;
+    int tile_side;        /* pixels, a multiple of 8; 0: what is good for the device */
+    int code_ms, tile_ms; /* that compiling code, drawing the smallest tile may take of the
                               * processors; 0: what limits.h says */
-    const char *cache_dir;   /* for Mesa's shader cache; NULL: the driver's default */
     void (*log)(void *data, const char *line);
     void *log_data;
     /* Called before a program with code of users is compiled, which waits until this returns, with
@@ -45,20 +43,12 @@ struct renderer_info {
     int max_texture;
 };
 
-/* What `doctor` shows: one line per EGL device, why it was or was not chosen. */
-struct device_report {
-    char name[192];
-    char verdict[192];
-    bool software, usable, chosen;
-};
-
 /* Loads GL, makes the context; NULL and `err` below GL 4.3 core or without a device. */
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err);
 void renderer_destroy(struct renderer *renderer);
 const struct renderer_info *renderer_info(const struct renderer *renderer);
 /* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */
-size_t renderer_devices(const struct renderer_params *params, struct device_report *out,
-                        size_t max);
+size_t renderer_devices(const struct device_params *params, struct device_report *out, size_t max);
 
 struct renderer_counters {
     uint64_t compilations; /* programs compiled and linked since the start */
@@ -194,17 +184,6 @@ struct picture_rounds {
 struct picture_rounds job_rounds(const struct job *job);
 void job_destroy(struct job *job); /* at any time: cancels */
 
-/* Rows from the top, no padding. PIXEL_RGBA8 has four bytes for each pixel also with 3 channels:
- * the fourth means nothing then. */
-enum pixel_format { PIXEL_RGBA8, PIXEL_GRAY16, PIXEL_FLOAT, PIXEL_UINT32 };
-struct image {
-    int width, height;
-    int channels;
-    enum pixel_format format;
-    void *pixels; /* owned */
-    size_t bytes;
-};
-void image_finish(struct image *image);
 /* In state JOB_ROWS: the next rows of an output, full width, as an image of so many rows. A job
  * holds one row of tiles at a time, so that the size of a picture is not bounded by memory. When
  * all outputs' rows were taken, job_step goes on. */
@@ -214,37 +193,5 @@ struct image job_image_shape(const struct job *job, enum aov aov);
 /* create + poll + step until done; for the command line and tests. One output. */
 bool renderer_render(struct resident *resident, const struct job_desc *desc,
                      struct image *out_image, struct error *err);
-
-enum image_format { IMAGE_PNG, IMAGE_JPEG, IMAGE_NPY };
-int image_format_find(const char *name); /* "png" "jpg" "jpeg" "npy"; -1: none */
-const char *image_format_name(enum image_format format);
-const char *image_format_mime(enum image_format format);
-struct encode_params {
-    enum image_format format;
-    int quality;        /* JPEG 1..100; 0: 90 */
-    bool chroma_halved; /* JPEG 4:2:0 */
-    bool fast;          /* PNG level 1, filter SUB: for streaming; the pixels are the same */
-    bool zipped;        /* a ZIP also of one output */
-    size_t limit_bytes; /* of the file; 0: none */
-};
-/* `*out_bytes` is malloc'ed. */
-bool image_encode(const struct image *image, const struct encode_params *params,
-                  uint8_t **out_bytes, size_t *out_length, struct error *err);
-
-/* The file of a picture, written as its rows come: one output in its format, several in a ZIP of
- * color.png, depth.png and so on; they wait in temporary files meanwhile. Any thread, one at a
- * time. */
-struct picture_file;
-/* `shapes`: those of job_image_shape. `out` stays the caller's. NULL and `err` where the format
- * cannot hold them. */
-struct picture_file *picture_file_create(const struct image shapes[AOV_COUNT],
-                                         const struct encode_params *params, FILE *out,
-                                         struct error *err);
-const char *picture_file_mime(const struct picture_file *file);
-bool picture_file_add(struct picture_file *file, enum aov aov, const struct image *rows,
-                      struct error *err);
-/* When all rows of all outputs were added. */
-bool picture_file_end(struct picture_file *file, struct error *err);
-void picture_file_destroy(struct picture_file *file);
 
 #endif

@@ -8,6 +8,7 @@
 #include "pace.h"
 #include "pictures.h"
 #include "renderer/gl/egl.h"
+#include "renderer/renderer.h"
 #include "snapshot.h"
 
 struct renderer {

@@ -11,6 +11,7 @@
 #include "renderer/gl/numbers.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
+#include "renderer/renderer.h"
 
 enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
 

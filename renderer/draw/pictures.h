@@ -4,7 +4,7 @@
 #ifndef RENDERER_PICTURES_H
 #define RENDERER_PICTURES_H
 
-#include "renderer/asset.h"
+#include "asset.h"
 #include "renderer/image/decode.h"
 
 struct pictures;

@@ -224,21 +224,21 @@ fail:
 }
 
 /* What speaks against a working device, or NULL. */
-static const char *objection(const struct egl *egl, int index, const struct renderer_params *params)
+static const char *objection(const struct egl *egl, int index, const struct device_params *params)
 {
-    if (params->device_index >= 0 && index != params->device_index) {
+    if (params->index >= 0 && index != params->index) {
         return "works; another device was asked for by number";
     }
-    if (params->device == DEVICE_GPU && egl->software) {
+    if (params->kind == DEVICE_GPU && egl->software) {
         return "works, but it is software and a GPU was asked for";
     }
-    if (params->device == DEVICE_SOFTWARE && !egl->software) {
+    if (params->kind == DEVICE_SOFTWARE && !egl->software) {
         return "works, but it is a GPU and software was asked for";
     }
     return NULL;
 }
 
-static void prepare_environment(const struct renderer_params *params)
+static void prepare_environment(const struct device_params *params)
 {
     if (params->cache_dir) {
         setenv("MESA_SHADER_CACHE_DIR", params->cache_dir, 1);
@@ -246,8 +246,8 @@ static void prepare_environment(const struct renderer_params *params)
 }
 
 /* GPUs first, in the driver's order; the best stays open in `*out`. Rows may be NULL. */
-static bool choose(struct egl *out, const struct renderer_params *params,
-                   struct device_report *rows, size_t max_rows, size_t *out_count)
+static bool choose(struct egl *out, const struct device_params *params, struct device_report *rows,
+                   size_t max_rows, size_t *out_count)
 {
     struct candidate candidates[EGL_DEVICES_MAX + 1];
     const size_t count = list_candidates(candidates);
@@ -263,7 +263,7 @@ static bool choose(struct egl *out, const struct renderer_params *params,
         const char *why;
 
         snprintf(row.name, sizeof row.name, "%s", candidates[i].name);
-        if (!open_candidate(&egl, &candidates[i], params->log != NULL, name, sizeof name, &err)) {
+        if (!open_candidate(&egl, &candidates[i], params->debug, name, sizeof name, &err)) {
             snprintf(row.verdict, sizeof row.verdict, "%.190s", err.message);
         } else {
             row.usable = true;
@@ -294,12 +294,12 @@ static bool choose(struct egl *out, const struct renderer_params *params,
     return found;
 }
 
-static bool refuse(const struct renderer_params *params, const struct device_report *rows,
+static bool refuse(const struct device_params *params, const struct device_report *rows,
                    size_t count, struct error *err)
 {
-    const char *asked = params->device == DEVICE_GPU        ? "a GPU was asked for, but "
-                        : params->device == DEVICE_SOFTWARE ? "software was asked for, but "
-                                                            : "";
+    const char *asked = params->kind == DEVICE_GPU        ? "a GPU was asked for, but "
+                        : params->kind == DEVICE_SOFTWARE ? "software was asked for, but "
+                                                          : "";
     size_t length;
 
     if (count == 0) {
@@ -317,7 +317,7 @@ static bool refuse(const struct renderer_params *params, const struct device_rep
     return false;
 }
 
-bool egl_init(struct egl *out_egl, const struct renderer_params *params, struct error *err)
+bool egl_init(struct egl *out_egl, const struct device_params *params, struct error *err)
 {
     struct device_report rows[EGL_DEVICES_MAX + 1];
     size_t count = 0;
@@ -360,7 +360,7 @@ bool egl_bind(const struct egl *egl, EGLContext context, struct error *err)
     return true;
 }
 
-size_t egl_report(const struct renderer_params *params, struct device_report *out, size_t max)
+size_t egl_report(const struct device_params *params, struct device_report *out, size_t max)
 {
     struct egl egl;
     size_t count;

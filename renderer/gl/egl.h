@@ -5,7 +5,8 @@
 
 #include <EGL/egl.h>
 
-#include "renderer/renderer.h"
+#include "device.h"
+#include "protocol/error.h"
 
 enum { EGL_DEVICES_MAX = 32 };
 
@@ -21,13 +22,13 @@ struct egl {
 
 /* Opens the device that `params` asks for and makes the draw context current. Sets
  * MESA_SHADER_CACHE_DIR, so call it before other threads run. The debug output of the driver comes
- * only where `params->log` is set. */
-bool egl_init(struct egl *out_egl, const struct renderer_params *params, struct error *err);
+ * only where `debug` is set. */
+bool egl_init(struct egl *out_egl, const struct device_params *params, struct error *err);
 void egl_finish(struct egl *egl);
 /* Makes a context current in the calling thread; EGL_NO_CONTEXT releases it. */
 bool egl_bind(const struct egl *egl, EGLContext context, struct error *err);
-/* renderer_devices() of renderer.h. */
-size_t egl_report(const struct renderer_params *params, struct device_report *out, size_t max);
+/* Tries every device as egl_init would; writes at most `max` rows, returns how many. */
+size_t egl_report(const struct device_params *params, struct device_report *out, size_t max);
 const char *egl_error_name(EGLint error);
 
 #endif

@@ -9,7 +9,7 @@
 #define RENDERER_INCLUDE_H
 
 #include "protocol/error.h"
-#include "renderer/glsl.h"
+#include "renderer/glsl/files.h"
 
 enum { INCLUDE_FILES_MAX = 64 };
 

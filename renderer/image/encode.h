@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The encoders behind image_encode and picture_file of renderer.h: rows in, bytes of a file out.
+/* The encoders behind image_encode and picture_file of image.h: rows in, bytes of a file out.
  * They touch no GL and may run in any thread, each in one at a time. */
 #ifndef RENDERER_ENCODE_H
 #define RENDERER_ENCODE_H
 
-#include "renderer/renderer.h"
+#include "image.h"
 
 /* A file format. `begin` takes the kinds of pixels that the format knows, else ERROR_INVALID; its
  * result is what the others work on, and must go to `destroy` also after a failure. */

@@ -169,7 +169,7 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
     }
     struct renderer_params fresh = *task->params;
     struct task in_fresh = {&fresh, task->example, 1};
-    fresh.cache_dir = cache;
+    fresh.device.cache_dir = cache;
     cJSON *cold = in_child(measure_first, &in_fresh, err);
     cJSON *warm = cold ? in_child(measure_first, &in_fresh, err) : NULL;
     cJSON *row = NULL;

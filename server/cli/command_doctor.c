@@ -41,7 +41,7 @@ static int say(enum verdict verdict, const char *what, const char *format, ...)
 
 /* --- drawing --- */
 
-static void list_devices(const struct renderer_params *params)
+static void list_devices(const struct device_params *params)
 {
     struct device_report rows[DEVICES_MAX];
     size_t count = renderer_devices(params, rows, DEVICES_MAX);
@@ -78,7 +78,7 @@ static int check_drawing(const struct options *options)
     struct error err = {0};
     struct renderer_params params;
     drawing_params(options, &params);
-    list_devices(&params);
+    list_devices(&params.device);
     struct renderer *renderer = renderer_create(&params, &err);
     if (!renderer) {
         say(BAD, "drawing", "%s%s%s", err.place, *err.place ? ": " : "", err.message);
@@ -92,11 +92,11 @@ static int check_drawing(const struct options *options)
         explain_software();
     }
     renderer_destroy(renderer);
-    if (!params.cache_dir) {
+    if (!params.device.cache_dir) {
         say(WARNING, "cache", "compiled shaders are not kept");
         return 0;
     }
-    return say(GOOD, "cache", "%s", params.cache_dir);
+    return say(GOOD, "cache", "%s", params.device.cache_dir);
 }
 
 /* --- the machine --- */

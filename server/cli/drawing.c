@@ -28,9 +28,10 @@ void drawing_params(const struct options *options, struct renderer_params *out)
         cache = NULL;
     }
     *out = (struct renderer_params){
-        .device = (enum device_kind)option_int(options, OPTION_DEVICE),
-        .device_index = option_int(options, OPTION_DEVICE_INDEX),
-        .cache_dir = cache,
+        .device = {.kind = (enum device_kind)option_int(options, OPTION_DEVICE),
+                   .index = option_int(options, OPTION_DEVICE_INDEX),
+                   .cache_dir = cache,
+                   .debug = true},
         .log = print_line,
     };
 }

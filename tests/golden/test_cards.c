@@ -125,7 +125,7 @@ static int start(void **state)
 {
     struct error err = {0};
     const struct renderer_params params = {
-        .device = DEVICE_AUTO, .device_index = -1, .cache_dir = getenv("FIELDCAST_CACHE")};
+        .device = {.index = -1, .cache_dir = getenv("FIELDCAST_CACHE")}};
 
     (void)state;
     renderer = renderer_create(&params, &err);

@@ -314,7 +314,7 @@ static void test_registry_is_covered(void **state)
 
 static int set_up(void **state)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct renderer_params params = {.device = {.index = -1}};
     struct error err = {0};
 
     (void)state;

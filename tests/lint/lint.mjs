@@ -43,14 +43,24 @@ function search(files, pattern, see) {
 
 // --- the arrows of the house ---
 
-// protocol <- renderer <- server. What a layer may include besides its own headers ("name.h" in the
-// same folder, "server/live/room.h" in another) and, where nothing is said of the system's, <any>.
+// protocol <- renderer <- server, and the folders of renderer/ among themselves. What the files of a
+// folder may include besides its own headers ("name.h" in the same folder, "server/live/room.h" in
+// another) and, where nothing is said of the system's, <any>.
 const LAYERS = {
     protocol: {
         others: [],
         system: /^(cjson\/cJSON|assert|ctype|errno|float|inttypes|limits|math|search|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\.h$/,
     },
     renderer: { others: [/^protocol\//] },
+    'renderer/sdf': { others: [/^protocol\//] },
+    'renderer/image': { others: [/^protocol\//] },
+    'renderer/glsl': { others: [/^protocol\//] },
+    'renderer/code': { others: [/^protocol\//, /^renderer\/sdf\//] },
+    'renderer/field': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl)\//] },
+    'renderer/gl': { others: [/^protocol\//, /^renderer\/(glsl\/|vigil\.h$)/] },
+    'renderer/draw': {
+        others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|gl|image)\//, /^renderer\/renderer\.h$/],
+    },
     server: { others: [/^protocol\//, /^renderer\/(renderer|worker|pick)\.h$/] },
 };
 

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "renderer/asset.h"
+#include "renderer/draw/asset.h"
 #include "renderer/draw/environment.h"
 #include "renderer/gl/egl.h"
 #include "renderer/gl/pass.h"
@@ -49,7 +49,7 @@ static GLuint buffers[3];
 static int set_up(void **state)
 {
     const struct glsl_file own[] = {{"questions.glsl", questions_glsl}, {NULL, NULL}};
-    const struct renderer_params params = {.device_index = -1};
+    const struct device_params params = {.index = -1};
     const struct pass_source source = {.compute = true, .file = "questions.glsl", .own = own};
     struct error err = {0};
 

@@ -51,7 +51,7 @@ static const char body[] =
 /* Packs and unpacks all of them in place. */
 static void round_trip(struct surface surfaces[SURFACES])
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct device_params params = {.index = -1};
     const struct glsl_file own[] = {{"trip.glsl", body}, {NULL, NULL}};
     struct pass pass;
     const GLsizeiptr bytes = SURFACES * sizeof *surfaces;

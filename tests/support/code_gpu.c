@@ -13,7 +13,7 @@ enum { GROUP = 64, NUMBERS = 4 * LIMIT_DECLARED };
 
 bool code_gpu_init(struct code_gpu *gpu, struct error *err)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct device_params params = {.index = -1};
     *gpu = (struct code_gpu){0};
     if (!egl_init(&gpu->egl, &params, err)) {
         return false;

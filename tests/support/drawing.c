@@ -14,7 +14,7 @@
 struct renderer *drawing_renderer(int tile_side)
 {
     const struct renderer_params params = {
-        .device_index = -1, .tile_side = tile_side, .cache_dir = getenv("FIELDCAST_CACHE")};
+        .device = {.index = -1, .cache_dir = getenv("FIELDCAST_CACHE")}, .tile_side = tile_side};
     struct error err = {0};
     struct renderer *renderer = renderer_create(&params, &err);
 

@@ -23,7 +23,7 @@ static const char tail[] = "\nlayout(local_size_x = 8) in;\n"
 
 void formula_init(struct formula *formula)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct device_params params = {.index = -1};
     struct error err = {0};
 
     *formula = (struct formula){0};

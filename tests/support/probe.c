@@ -14,7 +14,7 @@ enum { POINTS, NUMBERS, ANSWERS, GROUP = 64, ANSWER_VEC4S = 1 + FIELD_MATERIAL_V
 
 bool probe_init(struct probe *probe, struct error *err)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct device_params params = {.index = -1};
     *probe = (struct probe){0};
     if (!egl_init(&probe->egl, &params, err)) {
         return false;

@@ -13,7 +13,7 @@
 
 #include "protocol/nodes.h"
 #include "protocol/reference.h"
-#include "renderer/glsl.h"
+#include "renderer/glsl/files.h"
 #include "renderer/sdf/sdf.h"
 #include "server/rest/embedded.h"
 #include "tests/support/text_file.h"

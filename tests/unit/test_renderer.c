@@ -697,11 +697,11 @@ static void test_too_many_shapes(void **state)
 
 static void test_gpu_asked_for(void **state)
 {
-    struct renderer_params params = {.device = DEVICE_GPU, .device_index = -1};
+    struct renderer_params params = {.device = {DEVICE_GPU, .index = -1}};
     struct device_report rows[8];
     struct error err = {0};
     struct renderer *gpu = renderer_create(&params, &err);
-    const size_t count = renderer_devices(&params, rows, 8);
+    const size_t count = renderer_devices(&params.device, rows, 8);
 
     (void)state;
     if (gpu) {
@@ -719,7 +719,7 @@ static void test_gpu_asked_for(void **state)
 
 static int set_up(void **state)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct renderer_params params = {.device = {.index = -1}};
     struct error err = {0};
 
     (void)state;

@@ -211,7 +211,7 @@ static void test_ready(void **state)
 /* The same document, drawn in this process. */
 static void draw_here(const char *ops, struct picture *out)
 {
-    const struct renderer_params params = {.device_index = -1};
+    const struct renderer_params params = {.device = {.index = -1}};
     struct renderer *renderer = renderer_create(&params, NULL);
     const struct job_desc desc = {
         .width = 80, .height = 60, .level = -1, .samples = 1, .transparent = -1, .exact = true};
@@ -641,7 +641,7 @@ int main(int argc, char **argv)
     };
 
     if (argc > 1 && strcmp(argv[1], "--worker") == 0) {
-        return worker_run(WORKER_FD, &(struct worker_params){.renderer = {.device_index = -1},
+        return worker_run(WORKER_FD, &(struct worker_params){.renderer = {.device = {.index = -1}},
                                                              .pulse_fd = WORKER_PULSE_FD});
     }
     return cmocka_run_group_tests_name("worker", tests, NULL, NULL);
