@@ -36,7 +36,7 @@ static bool fill(struct error *err, enum error_kind kind, const char *place, con
     }
     memcpy(err->message, text, sizeof text);
     err->line = err->column = 0;
-    err->measured_ms = err->limit_ms = err->retry_ms = 0;
+    err->measured_ms = err->limit_ms = err->retry_ms = err->position = 0;
     return false;
 }
 

@@ -42,6 +42,7 @@ struct error {
     int line, column;          /* in the text at `place`, from 1; 0: not in a text */
     int measured_ms, limit_ms; /* ERROR_TOO_SLOW: time of the processors; else 0 */
     int retry_ms;              /* when to ask again; 0: not known */
+    int position;              /* that it would have in the queue which is full; else 0 */
 };
 
 /* Fills `err` (which may be NULL) and returns false, so that `return error_set(...)` reads well.

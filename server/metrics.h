@@ -27,6 +27,9 @@
     X(RENDERS, "renders_total", "counter", "Pictures asked of the worker")                         \
     X(RENDERS_FAILED, "renders_failed_total", "counter", "Pictures that the worker refused")       \
     X(RENDER_QUEUE, "render_queue", "gauge", "Pictures asked and not yet there")                   \
+    X(IMAGES_WAITING, "images_waiting", "gauge", "Pictures of REST asked and not yet there")       \
+    X(DOCUMENTS_WAITING, "documents_waiting", "gauge",                                             \
+      "Requests and live messages about documents that wait or are worked on")                     \
     X(IMAGES_OVER_SHARE, "images_over_share_total", "counter",                                     \
       "Pictures refused because their client had its share of the queue")                          \
     X(IMAGES_OVER_QUEUE, "images_over_queue_total", "counter",                                     \
@@ -65,6 +68,11 @@ static inline void metric_add(struct metrics *metrics, enum metric metric, int64
 static inline void metric_set(struct metrics *metrics, enum metric metric, int64_t value)
 {
     atomic_store_explicit(&metrics->value[metric], value, memory_order_relaxed);
+}
+
+static inline int64_t metric_get(const struct metrics *metrics, enum metric metric)
+{
+    return atomic_load_explicit(&metrics->value[metric], memory_order_relaxed);
 }
 
 static inline void metric_add_stage(struct metrics *metrics, enum frame_stage stage, int64_t us)

@@ -493,7 +493,8 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     uploads_add_embedded(&hub->uploads);
     if (!hub->store || !store_list(hub->store, add_to_catalog, &hub->catalog, err) ||
         !store_list_assets(hub->store, uploads_add, &hub->uploads, err) ||
-        !(hub->picker = picker_create(hub, err)) || !(hub->tasks = tasks_create(err))) {
+        !(hub->picker = picker_create(hub, err)) ||
+        !(hub->tasks = tasks_create(&hub->metrics, err))) {
         hub_destroy(hub);
         return NULL;
     }

@@ -7,28 +7,18 @@
 #include <string.h>
 
 #include "hub.h"
+#include "image_queue.h"
 #include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
+#include "renders_parts.h"
 #include "room.h"
 #include "room_worker.h"
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
-
-struct render {
-    struct render *next;
-    uint32_t id;
-    struct render_order order;
-    char *document; /* a copy of order.document */
-    char *account;  /* a copy of order.account */
-    int64_t asked;  /* clock_ms */
-    int deaths;     /* workers lost while this was asked and belongs to no room */
-    bool sent;
-    int64_t deadline;
-};
 
 void renders_init(struct renders *renders)
 {
@@ -57,7 +47,7 @@ static void detach(struct hub *hub, struct render *render)
     if (!render->next) {
         renders->end = link;
     }
-    renders->images -= render->order.priority == RENDER_IMAGE;
+    metric_add(&hub->metrics, METRIC_IMAGES_WAITING, -(render->order.priority == RENDER_IMAGE));
     metric_add(&hub->metrics, METRIC_RENDER_QUEUE, -1);
 }
 
@@ -126,7 +116,7 @@ static void send_scene(struct hub *hub, const struct render *render)
     send_and_delete(hub, packet);
 }
 
-static struct render_demand demand_of(const struct render *render)
+struct render_demand render_demand_of(const struct render *render)
 {
     const int width = (int)json_member_number(render->order.fields, "width", 0);
     const int height = (int)json_member_number(render->order.fields, "height", 0);
@@ -137,7 +127,7 @@ static struct render_demand demand_of(const struct render *render)
 /* Asks for as much as the picture that a worker was lost with. */
 static bool is_fatal(const struct render *render)
 {
-    const struct render_demand demand = demand_of(render);
+    const struct render_demand demand = render_demand_of(render);
     const struct render_demand *fatal = &render->order.room->fatal;
 
     return demand.priority >= fatal->priority && demand.pixels >= fatal->pixels;
@@ -205,47 +195,15 @@ static void dispatch(struct hub *hub)
 
 /* --- who may ask --- */
 
-static int images_of(const struct renders *renders, const char *account)
-{
-    int count = 0;
-
-    for (const struct render *render = renders->first; render; render = render->next) {
-        count += render->order.priority == RENDER_IMAGE && strcmp(render->account, account) == 0;
-    }
-    return count;
-}
-
-/* `waiting` pictures above `limit`: how long until one of them is there, as far as known. */
-static bool refuse_image(const struct renders *renders, enum error_kind kind, int waiting,
-                         int limit, struct error *err)
-{
-    const int64_t each_ms = renders->image_ms > 0 ? renders->image_ms : 1000;
-
-    error_set(err, kind, "", "%d pictures%s wait already; the limit is %d", waiting,
-              kind == ERROR_SHARE ? " of this client" : "", limit);
-    err->retry_ms = (int)(each_ms < RENDER_DEADLINE_MS ? each_ms : RENDER_DEADLINE_MS);
-    return false;
-}
-
 static bool admits_image(struct hub *hub, const struct render_order *order, struct error *err)
 {
-    const struct renders *renders = &hub->renders;
     const struct room *room = order->room;
-    const int own = images_of(renders, order->account);
 
     if (room && room->problem.kind != ERROR_NONE && room->problem_revision == room->revision) {
         *err = room->problem; /* an older state would be the wrong picture */
         return false;
     }
-    if (own >= LIMIT_IMAGE_SHARE) {
-        metric_add(&hub->metrics, METRIC_IMAGES_OVER_SHARE, 1);
-        return refuse_image(renders, ERROR_SHARE, own, LIMIT_IMAGE_SHARE, err);
-    }
-    if (renders->images >= LIMIT_IMAGE_QUEUE) {
-        metric_add(&hub->metrics, METRIC_IMAGES_OVER_QUEUE, 1);
-        return refuse_image(renders, ERROR_UNAVAILABLE, renders->images, LIMIT_IMAGE_QUEUE, err);
-    }
-    return true;
+    return image_queue_admits(hub, order, err);
 }
 
 static bool admits(struct hub *hub, const struct render_order *order, struct error *err)
@@ -278,7 +236,7 @@ uint32_t renders_submit(struct hub *hub, const struct render_order *order, struc
     render->deadline = render->asked + RENDER_DEADLINE_MS;
     *renders->end = render;
     renders->end = &render->next;
-    renders->images += order->priority == RENDER_IMAGE;
+    metric_add(&hub->metrics, METRIC_IMAGES_WAITING, order->priority == RENDER_IMAGE);
     metric_add(&hub->metrics, METRIC_RENDERS, 1);
     metric_add(&hub->metrics, METRIC_RENDER_QUEUE, 1);
     dispatch(hub);
@@ -536,7 +494,7 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
         }
         const struct render *drawn = find(&hub->renders, hub->quarantine.drawn.job);
 
-        room->fatal = drawn ? demand_of(drawn) : (struct render_demand){0};
+        room->fatal = drawn ? render_demand_of(drawn) : (struct render_demand){0};
         if (++room->deaths >= RENDER_DEATHS) {
             struct error why = {0};
 

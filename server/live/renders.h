@@ -35,7 +35,6 @@ struct render_demand {
 struct renders {
     struct render *first, **end; /* in order of asking */
     uint32_t last_id;
-    int images;         /* with priority RENDER_IMAGE */
     int64_t image_done; /* clock_ms when the last of these was there */
     int64_t image_ms;   /* running mean of what one of these takes; 0: none yet */
     bool ready;         /* a worker is there */

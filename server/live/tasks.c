@@ -19,7 +19,8 @@ struct task {
 };
 
 struct tasks {
-    pthread_mutex_t lock; /* taken after any other */
+    struct metrics *metrics; /* NULL: none */
+    pthread_mutex_t lock;    /* taken after any other */
     pthread_cond_t news;
     pthread_t threads[THREADS];
     int started;
@@ -118,6 +119,13 @@ static bool admits(const struct tasks *tasks, const struct task_order *order, st
     return false;
 }
 
+static void count(struct tasks *tasks, int by)
+{
+    if (tasks->metrics) {
+        metric_add(tasks->metrics, METRIC_DOCUMENTS_WAITING, by);
+    }
+}
+
 bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error *err)
 {
     pthread_mutex_lock(&tasks->lock);
@@ -129,25 +137,11 @@ bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error
         task->scene = memory_text(order->scene);
         task->account = memory_text(order->account);
         insert(tasks, task);
+        count(tasks, 1);
         pthread_cond_broadcast(&tasks->news);
     }
     pthread_mutex_unlock(&tasks->lock);
     return ok;
-}
-
-size_t tasks_count(struct tasks *tasks)
-{
-    size_t count = 0;
-
-    pthread_mutex_lock(&tasks->lock);
-    for (const struct task *task = tasks->first; task; task = task->next) {
-        count++;
-    }
-    for (int i = 0; i < THREADS; i++) {
-        count += tasks->current[i] != NULL;
-    }
-    pthread_mutex_unlock(&tasks->lock);
-    return count;
 }
 
 /* --- threads --- */
@@ -177,6 +171,7 @@ static void *run(void *data)
         task->order.run(task->order.data, false);
         pthread_mutex_lock(&tasks->lock);
         tasks->current[thread] = NULL;
+        count(tasks, -1);
         task_destroy(task);
         pthread_cond_broadcast(&tasks->news); /* others of its scene may go */
     }
@@ -184,10 +179,11 @@ static void *run(void *data)
     return NULL;
 }
 
-struct tasks *tasks_create(struct error *err)
+struct tasks *tasks_create(struct metrics *metrics, struct error *err)
 {
     struct tasks *tasks = memory_alloc(1, sizeof(*tasks));
 
+    tasks->metrics = metrics;
     pthread_mutex_init(&tasks->lock, NULL);
     pthread_cond_init(&tasks->news, NULL);
     while (tasks->started < THREADS) {
@@ -221,6 +217,7 @@ void tasks_stop(struct tasks *tasks)
 
         left = task->next;
         task->order.run(task->order.data, true);
+        count(tasks, -1);
         task_destroy(task);
     }
 }

@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "protocol/error.h"
+#include "server/metrics.h"
 
 struct tasks;
 
@@ -28,11 +29,10 @@ struct task_order {
     void *data;
 };
 
-struct tasks *tasks_create(struct error *err);
+/* `metrics` may be NULL. */
+struct tasks *tasks_create(struct metrics *metrics, struct error *err);
 /* Any thread, locks held or not. False: refused, `run` is not called. */
 bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error *err);
-/* How many wait or are being done. */
-size_t tasks_count(struct tasks *tasks);
 /* Ends what is being done, drops the rest and what still comes. */
 void tasks_stop(struct tasks *tasks);
 void tasks_destroy(struct tasks *tasks);

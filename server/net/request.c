@@ -236,6 +236,9 @@ static struct response problem(int status, const char *code, const struct error 
         cJSON_AddNumberToObject(json, "measured", err->measured_ms);
         cJSON_AddNumberToObject(json, "limit", err->limit_ms);
     }
+    if (err->position > 0) {
+        cJSON_AddNumberToObject(json, "position", err->position);
+    }
     struct response response = response_json(status, json);
     response.type = "application/problem+json";
     if (status == 503 || status == 429) {

@@ -11,6 +11,7 @@
 #include "protocol/messages.h"
 #include "routes.h"
 #include "server/live/hub.h"
+#include "server/live/image_queue.h"
 #include "server/live/room.h"
 #include "wish.h"
 
@@ -264,4 +265,35 @@ void images_render(struct request *request)
     }
     wish_finish(&wish);
     cJSON_Delete(json);
+}
+
+static void add_place(void *data, const struct image_place *place)
+{
+    cJSON *item = cJSON_CreateObject();
+
+    cJSON_AddItemToObject(item, "scene",
+                          place->scene ? cJSON_CreateString(place->scene) : cJSON_CreateNull());
+    cJSON_AddNumberToObject(item, "width", place->width);
+    cJSON_AddNumberToObject(item, "height", place->height);
+    cJSON_AddNumberToObject(item, "position", place->position);
+    cJSON_AddNumberToObject(item, "waited_ms", (double)place->waited_ms);
+    cJSON_AddNumberToObject(item, "expected_ms", (double)place->expected_ms);
+    cJSON_AddItemToArray(data, item);
+}
+
+/* Where the pictures of this client stand. */
+void images_queue(struct request *request)
+{
+    struct hub *hub = request->hub;
+    cJSON *json = cJSON_CreateObject();
+
+    hub_lock(hub);
+    cJSON_AddNumberToObject(json, "waiting",
+                            (double)metric_get(&hub->metrics, METRIC_IMAGES_WAITING));
+    cJSON_AddNumberToObject(json, "limit", LIMIT_IMAGE_QUEUE);
+    cJSON_AddNumberToObject(json, "clients", image_queue_clients(hub));
+    cJSON_AddNumberToObject(json, "own_limit", LIMIT_IMAGE_SHARE);
+    image_queue_each(hub, request->client, add_place, cJSON_AddArrayToObject(json, "own"));
+    hub_unlock(hub);
+    request_reply_json(request, 200, json);
 }

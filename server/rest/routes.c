@@ -19,6 +19,7 @@ static const struct route table[] = {
     {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED, SCENE_NONE},
     {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
+    {"GET", "/v1/queue", images_queue, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples", pages_examples, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}", pages_example, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, GUARDED, SCENE_NONE},

@@ -49,6 +49,7 @@ void assets_delete(struct request *request);
 void images_of_scene(struct request *request);
 void images_of_example(struct request *request);
 void images_render(struct request *request);
+void images_queue(struct request *request);
 void pages_app(struct request *request);
 void pages_asset(struct request *request);
 void pages_examples(struct request *request);

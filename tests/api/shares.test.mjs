@@ -2,6 +2,7 @@
 // Nobody waits for another's pictures: drawing time is shared by client. Counted in tiles, each of
 // which takes as long as every other, so that no clock decides.
 import assert from 'node:assert/strict';
+import http from 'node:http';
 import { after, before, test } from 'node:test';
 import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
@@ -105,10 +106,47 @@ test('a client has a quarter of the queue, and is told when to ask again', async
     const problem = await refused.json();
     assert.equal(problem.code, 'share');
     assert.match(problem.detail, new RegExp(`^${SHARE} pictures of this client wait already; the limit is ${SHARE}$`));
+    assert.equal(problem.position, SHARE + 1);
     assert.equal(await counter(daemon, 'images_over_share_total'), 1);
     gone.abort();
     await Promise.all(large);
     await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+});
+
+/** What a client at another address is told. */
+const askFrom = (localAddress, at) =>
+    new Promise((done, fail) => {
+        const request = http.get(`${daemon.url}${at}`, { localAddress }, (answer) => {
+            let text = '';
+            answer.on('data', (bytes) => (text += bytes));
+            answer.on('end', () => done(text));
+        });
+        request.on('error', (error) => (request.destroyed ? done(null) : fail(error)));
+        leaving.push(() => request.destroy() && done(null));
+    });
+const leaving = [];
+
+test('pictures that wait have a position: clients take turns, small ones of one client go first', async () => {
+    const waits = (count) => until(async () => (await counter(daemon, 'images_waiting')) === count, `${count} to wait`);
+    const pictures = [];
+    for (const [address, side] of [['127.0.0.2', 16000], ['127.0.0.2', 15000], ['127.0.0.3', 16001], ['127.0.0.2', 14000]]) {
+        pictures.push(askFrom(address, `/v1/scenes/one/image.png?width=${side}&height=${side}`));
+        await waits(pictures.length);
+    }
+    const second = JSON.parse(await askFrom('127.0.0.2', '/v1/queue'));
+    assert.deepEqual([second.waiting, second.limit, second.clients, second.own_limit], [4, 64, 2, SHARE]);
+    assert.deepEqual(second.own.map(({ scene, width, height, position }) => [scene, width, height, position]), [
+        ['one', 16000, 16000, 4],
+        ['one', 15000, 15000, 3],
+        ['one', 14000, 14000, 2],
+    ]);
+    const third = JSON.parse(await askFrom('127.0.0.3', '/v1/queue'));
+    assert.deepEqual(third.own.map(({ width, position }) => [width, position]), [[16001, 1]]);
+    assert.ok(third.own.every(({ waited_ms, expected_ms }) => waited_ms >= 0 && expected_ms >= 0));
+    assert.deepEqual(JSON.parse(await askFrom('127.0.0.4', '/v1/queue')).own, []);
+    leaving.splice(0).forEach((leave) => leave());
+    await Promise.all(pictures);
+    await waits(0);
 });
 
 test('one who sends large edits without end leaves half of the time to others', async (t) => {

@@ -80,7 +80,7 @@ static void light_passes_heavy(void **state)
 {
     struct diary diary;
     sem_t go;
-    struct tasks *tasks = tasks_create(NULL);
+    struct tasks *tasks = tasks_create(NULL, NULL);
     struct errand heavy = {open_diary(&diary), 'H', NULL, &go}, next = {&diary, 'h', NULL, NULL},
                   light = {&diary, 'l', NULL, NULL};
 
@@ -101,7 +101,7 @@ static void one_scene_is_in_order(void **state)
 {
     struct diary diary;
     sem_t go;
-    struct tasks *tasks = tasks_create(NULL);
+    struct tasks *tasks = tasks_create(NULL, NULL);
     struct errand heavy = {open_diary(&diary), 'H', NULL, &go}, same = {&diary, 's', NULL, NULL},
                   other = {&diary, 'o', NULL, NULL};
 
@@ -121,7 +121,7 @@ static void clients_take_turns(void **state)
 {
     struct diary diary;
     sem_t begun, go;
-    struct tasks *tasks = tasks_create(NULL);
+    struct tasks *tasks = tasks_create(NULL, NULL);
     struct errand first = {open_diary(&diary), 'H', &begun, &go}, many = {&diary, 'm', NULL, NULL},
                   other = {&diary, 'o', NULL, NULL};
 
@@ -146,7 +146,7 @@ static void heavy_ones_are_bounded(void **state)
     struct diary diary;
     sem_t begun, go;
     struct error err = {0};
-    struct tasks *tasks = tasks_create(NULL);
+    struct tasks *tasks = tasks_create(NULL, NULL);
     struct errand first = {open_diary(&diary), 'H', &begun, &go}, many = {&diary, 'm', NULL, NULL};
 
     (void)state;
@@ -173,7 +173,8 @@ static void what_waits_is_dropped_at_the_end(void **state)
     struct diary diary;
     sem_t begun, go;
     struct error err = {0};
-    struct tasks *tasks = tasks_create(NULL);
+    struct metrics metrics = {0};
+    struct tasks *tasks = tasks_create(&metrics, NULL);
     struct errand first = {open_diary(&diary), 'H', &begun, &go}, next = {&diary, 'h', NULL, NULL};
 
     (void)state;
@@ -182,11 +183,12 @@ static void what_waits_is_dropped_at_the_end(void **state)
     assert_true(add(tasks, &first, "a", "one", true));
     sem_wait(&begun);
     assert_true(add(tasks, &next, "a", "one", true));
-    assert_int_equal(tasks_count(tasks), 2);
+    assert_int_equal(metric_get(&metrics, METRIC_DOCUMENTS_WAITING), 2);
     sem_post(&go);
     tasks_stop(tasks);
     wait_for(&diary, 2);
     assert_string_equal(diary.done, "Hh");
+    assert_int_equal(metric_get(&metrics, METRIC_DOCUMENTS_WAITING), 0);
     assert_false(tasks_add(tasks, &(struct task_order){.scene = "", .account = ""}, &err));
     assert_int_equal(err.kind, ERROR_UNAVAILABLE);
     tasks_destroy(tasks);
