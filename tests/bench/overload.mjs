@@ -78,7 +78,7 @@ function pictures() {
     let going = true;
     const each = async (k) => {
         for (let i = 0; going; i += 1) {
-            const answer = await fetch(`${daemon.url}/v1/scenes/one/image.jpg?width=320&height=240&camera.fov=${30 + ((i * PICTURES + k) % 997) / 50}`);
+            const answer = await fetch(`${daemon.url}/v1/scenes/one/image.jpg?width=64&height=48&camera.fov=${30 + ((i * PICTURES + k) % 997) / 50}`);
             await answer.arrayBuffer();
             got.pictures += answer.ok;
             got.refused += answer.status === 429 || answer.status === 503;
@@ -87,24 +87,27 @@ function pictures() {
         }
     };
     const all = Array.from({ length: PICTURES }, (_, k) => each(k));
-    return async () => {
-        going = false;
-        await Promise.all(all);
-        return got;
+    return {
+        begin: () => Object.assign(got, { pictures: 0, refused: 0, position: 0 }),
+        async end() {
+            const { pictures: there } = got;
+            going = false;
+            await Promise.all(all);
+            return { ...got, pictures: there };
+        },
     };
 }
 
 /** So many viewers, each with so many views a second (0: as quickly as it gets pictures). */
 async function load(count, perSecond) {
     const viewers = await Promise.all(Array.from({ length: count }, (_, i) => viewer(i, perSecond > 0 ? 1000 / perSecond : 0)));
-    const stop = pictures();
+    const guest = pictures();
     await sleep(1500); // sizes settle
-    viewers.forEach((one) => one.begin());
+    [...viewers, guest].forEach((one) => one.begin());
     const start = Date.now();
     await sleep(1000 * SECONDS);
     const seconds = (Date.now() - start) / 1000;
-    const seen = await Promise.all(viewers.map((one) => one.end()));
-    const rest = await stop();
+    const [rest, ...seen] = await Promise.all([guest, ...viewers].map((one) => one.end()));
     const frames = seen.map((one) => one.frames);
     return {
         asked: count * perSecond,
