@@ -41,6 +41,8 @@
     X(CODE_BYTES, "code_bytes", 16384, "bytes", "code of a primitive, shader or node")             \
     X(CODE_DEPTH, "code_depth", 64, "levels", "nesting of code, and of its calls")                 \
     X(CODE_SIZE, "code_size", 4096, "operations", "code, with every call written out")             \
+    X(DRAWN_CODE, "drawn_code", 16384, "operations",                                               \
+      "code of a scene, once for each visible shape and each shader")                              \
     X(CODE_TRIPS, "code_trips", 256, "iterations", "all loops of one call of code")                \
     X(CODE_WORK, "code_work", 65536, "operations", "one call of code, with its loops run through") \
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \

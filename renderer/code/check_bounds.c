@@ -2,6 +2,7 @@
 /* How large code is when every call is written out, as drivers do: a few lines of functions that
  * call each other twice keep a compiler busy for minutes. */
 #include "check.h"
+#include "check_loads.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -97,37 +98,7 @@ static bool walk_call(struct bounds_walk *walk, struct cost *cost, const struct 
 
 /* --- expressions --- */
 
-static long work_of_builtin(const struct expr *expr)
-{
-    long count = most(type_components(expr->type), type_components(expr->args->type));
-    return expr->builtin->weight > 0 ? count * expr->builtin->weight : count;
-}
-
-/* What it takes to compile beyond that. */
-static long load_of_builtin(const struct expr *expr)
-{
-    const struct builtin *builtin = expr->builtin;
-    long work = work_of_builtin(expr);
-    return builtin->load > 0 ? work / most(builtin->weight, 1) * builtin->load - work : 0;
-}
-
-/* Drivers spread an index that is not constant over all that it may mean: each component of a
- * number, and of vectors and matrices each with each. Measured as loads of builtins.c. */
-static long load_of_index(const struct expr *expr, bool written)
-{
-    enum { EACH = 3, PAIRS = 16 };
-    long whole = type_components(expr->a->type), pairs = 0;
-    if (expr->b->value) {
-        return 0;
-    }
-    if (type_components(expr->type) > 1) {
-        pairs = EACH * whole * whole / PAIRS;
-    }
-    return most(EACH * whole, pairs) * (written ? 2 : 1);
-}
-
-/* Of the expression itself, without what is in it. Drivers make much of whole numbers' divisions,
- * and of indices that are not constant. */
+/* Of the expression itself, without what is in it. */
 static long size_of(const struct expr *expr)
 {
     enum { HEAVY = 8 };
@@ -154,43 +125,9 @@ static long size_of(const struct expr *expr)
     case EXPR_ASSIGN:
         return divides ? HEAVY * count : expr->op == OP_NONE ? count : 2 * count;
     case EXPR_BUILTIN:
-        return work_of_builtin(expr);
+        return check_work_of_builtin(expr);
     default:
         return count;
-    }
-}
-
-static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct expr *expr);
-
-/* What an index into it costs when it is assigned to, beyond reading it. */
-static bool walk_written(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
-{
-    for (; expr && !expr->value; expr = expr->a) {
-        if (expr->kind == EXPR_INDEX &&
-            !spend_size(walk, cost, load_of_index(expr, true) - load_of_index(expr, false),
-                        expr->at)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* What is compiled and does not run. */
-static bool walk_load(struct bounds_walk *walk, struct cost *cost, const struct expr *expr)
-{
-    if (expr->value) {
-        return true;
-    }
-    switch (expr->kind) {
-    case EXPR_BUILTIN:
-        return spend_size(walk, cost, load_of_builtin(expr), expr->at);
-    case EXPR_INDEX:
-        return spend_size(walk, cost, load_of_index(expr, false), expr->at);
-    case EXPR_ASSIGN:
-    case EXPR_STEP:
-        return walk_written(walk, cost, expr->a);
-    default:
-        return true;
     }
 }
 
@@ -199,7 +136,7 @@ static bool walk_expr(struct bounds_walk *walk, struct cost *cost, const struct 
     if (!expr) {
         return true;
     }
-    if (!walk_load(walk, cost, expr)) {
+    if (!spend_size(walk, cost, check_load(expr), expr->at)) {
         return false;
     }
     if (!expr->value) {
@@ -265,9 +202,27 @@ static bool walk_variable(struct bounds_walk *walk, struct cost *cost,
                                             spend_bytes(walk, cost, COMPONENT_BYTES * count, at));
 }
 
+static const struct stmt *last_of(const struct stmt *list)
+{
+    while (list && list->next) {
+        list = list->next;
+    }
+    return list;
+}
+
+/* A return at the end leaves nothing out. */
+static bool is_last(const struct function *function, const struct stmt *stmt)
+{
+    return stmt->kind == STMT_RETURN && stmt == last_of(function->body->body);
+}
+
 static bool walk_statement(struct bounds_walk *walk, struct cost *cost, const struct stmt *stmt)
 {
     const struct variable *variable = stmt->variable;
+    if (!is_last(walk->function, stmt) &&
+        !spend_size(walk, cost, check_load_of_statement(stmt), stmt->at)) {
+        return false;
+    }
     switch (stmt->kind) {
     case STMT_EMPTY:
         return true;

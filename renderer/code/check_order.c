@@ -3,6 +3,8 @@
  * GLSL names no order, and drivers have several. */
 #include "check.h"
 
+#include <string.h>
+
 /* What is assigned to, in the end. */
 static const struct variable *root_of(const struct expr *place)
 {
@@ -63,12 +65,72 @@ static bool clash(struct checker *checker, struct at at, const struct expr *one,
                        variable->name->text);
 }
 
+/* The part of its variable that a place begins with; the variable itself where it is all of it. */
+static const struct expr *first_part(const struct expr *place)
+{
+    while (place->kind != EXPR_VARIABLE && place->a->kind != EXPR_VARIABLE) {
+        place = place->a;
+    }
+    return place;
+}
+
+static bool share_components(const struct expr *one, const struct expr *two)
+{
+    for (int i = 0; i < one->swizzle_count; i++) {
+        if (memchr(two->swizzle, one->swizzle[i], two->swizzle_count)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether two places surely are the same in part: of indices only constants are known. */
+static bool overlap(const struct expr *one, const struct expr *two)
+{
+    if (root_of(one) != root_of(two)) {
+        return false;
+    }
+    one = first_part(one);
+    two = first_part(two);
+    if (one->kind != two->kind || one->kind == EXPR_VARIABLE) {
+        return true;
+    }
+    switch (one->kind) {
+    case EXPR_SWIZZLE:
+        return share_components(one, two);
+    case EXPR_INDEX:
+        return one->b->value && two->b->value && *one->b->value == *two->b->value;
+    default:
+        return one->field == two->field;
+    }
+}
+
+/* A call writes its results back in an order that GLSL does not say. */
+static bool check_results(struct checker *checker, const struct expr *call)
+{
+    const struct variable *p = call->function->parameters, *q;
+    for (const struct expr *one = call->args; one; one = one->next, p = p->next) {
+        q = p->next;
+        for (const struct expr *two = one->next; two; two = two->next, q = q->next) {
+            if (p->direction != DIRECTION_IN && q->direction != DIRECTION_IN && overlap(one, two)) {
+                return CHECK_FAIL(checker, two->at,
+                                  "%.40s gets two results of one call; give it two variables",
+                                  root_of(two)->name->text);
+            }
+        }
+    }
+    return true;
+}
+
 bool check_order(struct checker *checker, const struct expr *expr)
 {
     bool ordered = expr->kind == EXPR_COMMA || expr->kind == EXPR_CHOICE ||
                    (expr->kind == EXPR_BINARY && (expr->op == OP_AND || expr->op == OP_OR));
     if (!expr->effects || ordered) {
         return true;
+    }
+    if (expr->kind == EXPR_CALL && !check_results(checker, expr)) {
+        return false;
     }
     for (const struct expr *one = expr->args; one; one = one->next) {
         for (const struct expr *two = one->next; two; two = two->next) {

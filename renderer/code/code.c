@@ -59,6 +59,11 @@ int code_trips(const struct code *code)
     return (int)code->tree.entry->trips;
 }
 
+int code_size(const struct code *code)
+{
+    return (int)code->tree.entry->size;
+}
+
 int code_work(const struct code *code)
 {
     return (int)code->tree.entry->work;

@@ -47,6 +47,9 @@ void code_write(const struct code *code, const char *name, int source_number, FI
 
 /* Loop iterations of one call, at most. */
 int code_trips(const struct code *code);
+/* How large it is for drivers: operations with every call written out, those that take long to
+ * compile counted for more. At most LIMIT_CODE_SIZE. */
+int code_size(const struct code *code);
 /* Operations of one call, at most. */
 int code_work(const struct code *code);
 

@@ -81,7 +81,8 @@ static void write_for(struct writer *w, const struct stmt *stmt)
     int n = variable->number;
     type_name(variable->type, name);
     begin_line(w, stmt->at);
-    PUT(w, "for (int %s_n%d = 0; %s_n%d < %d; %s_n%d++) {", w->name, n, w->name, n, stmt->trips,
+    /* zero of glsl/frame.glsl: drivers write out loops from a constant on, and take long for it. */
+    PUT(w, "for (int %s_n%d = zero; %s_n%d < %d; %s_n%d++) {", w->name, n, w->name, n, stmt->trips,
         w->name, n);
     end_line(w);
     begin_line(w, stmt->at);

@@ -76,6 +76,7 @@ static struct program *get_program(struct renderer *renderer, const struct field
                                                          .user_code = field->user_code != NULL,
                                                          .volumes = volumes,
                                                          .shape_count = field->shape_count,
+                                                         .code_size = field->code_size,
                                                          .patience = verdict ? verdict->times : 1,
                                                          .map_count = field->material_base});
     free(map);

@@ -161,6 +161,7 @@ struct field {
     struct field_leaf *leaves; /* ascending */
     size_t leaf_count;
     size_t shape_count; /* FIELD_SHAPEs */
+    size_t code_size;   /* of users' code: code_size() for each shape and each shader */
     uint64_t *members;  /* hashes of the nodes that stand in the program, ascending */
     size_t member_count;
     int point_slots, distance_slots;

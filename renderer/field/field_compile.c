@@ -53,6 +53,22 @@ static const struct field_code *find_user_code(const struct field *field)
     return NULL;
 }
 
+/* Compilers write out each call. */
+static size_t sum_code(const struct field *field)
+{
+    size_t size = 0;
+    for (size_t i = 0; i < field->instruction_count; i++) {
+        const struct field_instruction *in = &field->instructions[i];
+        if (in->op == FIELD_SHAPE && !in->sdf) {
+            size += (size_t)code_size(field->codes[in->choices].code);
+        }
+    }
+    for (size_t i = 0; i < field->shader_count; i++) {
+        size += field->shaders[i].own ? 0 : (size_t)code_size(field->shaders[i].code);
+    }
+    return size;
+}
+
 /* The environment's endless ground, united with the scene if there is any, which is in slot 0. */
 static void add_floor(struct builder *b, struct result *whole)
 {
@@ -129,24 +145,37 @@ struct field *field_compile_as(const struct scene *scene, const struct field_wis
     field->clear_bounds = whole.clear_box;
     field->clear = whole.clear;
     field->user_code = find_user_code(field);
+    field->code_size = sum_code(field);
     field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;
 }
 
-/* Compilers need about the square of the shapes: half a minute for as many as are allowed, on a
- * CPU. */
+static bool refuse_size(const struct scene *scene, const struct field *field, struct error *err)
+{
+    char place[ERROR_PLACE_BYTES];
+    if (field->shape_count > LIMIT_DRAWN_SHAPES) {
+        return error_set(err, ERROR_LIMIT, error_place(place, "/nodes", scene->root->id),
+                         "%zu visible shapes are above the maximum %d that can be drawn",
+                         field->shape_count, LIMIT_DRAWN_SHAPES);
+    }
+    return error_set(err, ERROR_LIMIT, field->user_code->place,
+                     "%zu operations of code, counted for each shape that calls it, are above the "
+                     "maximum %d (drawn_code)",
+                     field->code_size, LIMIT_DRAWN_CODE);
+}
+
+/* Compilers need about the square of the shapes, and of the code: half a minute for as many as are
+ * allowed, on a CPU. */
 struct field *field_drawable(const struct scene *scene, const struct field_wish *wish,
                              struct error *err)
 {
     struct field *field = field_compile_as(scene, wish, err);
-    char place[ERROR_PLACE_BYTES];
-    if (!field || field->shape_count <= LIMIT_DRAWN_SHAPES) {
+    if (!field ||
+        (field->shape_count <= LIMIT_DRAWN_SHAPES && field->code_size <= LIMIT_DRAWN_CODE)) {
         return field;
     }
-    error_set(err, ERROR_LIMIT, error_place(place, "/nodes", scene->root->id),
-              "%zu visible shapes are above the maximum %d that can be drawn", field->shape_count,
-              LIMIT_DRAWN_SHAPES);
+    refuse_size(scene, field, err);
     field_unref(field);
     return NULL;
 }

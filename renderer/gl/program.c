@@ -152,6 +152,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->number_count = source->number_count;
     program->map_count = source->map_count;
     program->shape_count = source->shape_count;
+    program->code_size = source->code_size;
     program->patience = source->patience > 0 ? source->patience : 1;
     program->user_shaders = source->user_shaders;
     program->user_code = source->user_code;

@@ -29,6 +29,7 @@ struct program_source {
     bool user_code;                      /* it waits for program_cache_allow */
     bool volumes;                        /* STAGE_VOLUME is wanted */
     size_t shape_count;
+    size_t code_size; /* of users' code, as field.h has it */
     size_t map_count; /* the first so many are those that the map reads */
     int patience;     /* times the usual bound on compiling; 0: once */
 };

@@ -9,6 +9,7 @@ enum {
      * llvmpipe without a cache. It grows with their square. */
     ONE_SHAPE_MS = 900,
     ALL_SHAPES_MS = 29000,
+    ONE_CODE_MS = 450, /* of LIMIT_CODE_SIZE; as much again times how often that is there */
 };
 
 int64_t program_usual_ms(const struct program *program)
@@ -16,7 +17,10 @@ int64_t program_usual_ms(const struct program *program)
     const int64_t most = LIMIT_DRAWN_SHAPES, shapes = (int64_t)program->shape_count;
     const int64_t counted = shapes < most ? shapes : most;
 
-    return ONE_SHAPE_MS + ALL_SHAPES_MS * counted * counted / (most * most);
+    const int64_t whole = LIMIT_CODE_SIZE, code = (int64_t)program->code_size;
+
+    return ONE_SHAPE_MS + ALL_SHAPES_MS * counted * counted / (most * most) +
+           ONE_CODE_MS * code * (whole + code) / (whole * whole);
 }
 
 static bool is_waiting(const struct program *program)

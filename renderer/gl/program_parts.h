@@ -16,7 +16,7 @@ struct program {
     struct program *next; /* in the cache's list */
     uint64_t shape_hash;
     char *map_text, *surface_text;
-    size_t number_count, map_count, shape_count;
+    size_t number_count, map_count, shape_count, code_size;
     bool user_shaders, user_code;
     int stages;       /* how many there are */
     bool allowed;     /* of those with user_code */

@@ -382,6 +382,15 @@ void f() { }} void main() { }
 float sdf(vec3 p) { int i = 1; int j = i++ + i; return 1.0; }
 //! 1:34 i is used and changed
 float sdf(vec3 p) { int i = 1; i = i++; return 1.0; }
+//! 2:41 a gets two results of one call; give it two variables
+void f(inout float x, out float y) { y = x; x = 1.0; }
+float sdf(vec3 p) { float a = 0.0; f(a, a); return a; }
+//! 2:31 p gets two results of one call
+void f(inout vec2 x, inout vec2 y) { x += y; y += x; }
+float sdf(vec3 p) { f(p.xy, p.yz); return p.x; }
+//! 2:53 m gets two results of one call
+void f(out vec2 x, out float y) { x = vec2(1.0); y = 2.0; }
+float sdf(vec3 p) { mat2 m = mat2(1.0); f(m[0], m[0][1]); return m[0][0]; }
 //! 1:72 x is used and changed
 float f(out float x) { return x; } float sdf(vec3 p) { float x; return max(x, f(x)); }
 //! shade 2:7 Surface has no member gloss

@@ -44,7 +44,7 @@ struct code_shading code_gpu_shading(const double p[3])
 static const char head[] =
     "#include \"code.glsl\"\n#include \"surface.glsl\"\n"
     "#define GROUP %d\n#define POINTS %d\n"
-    "layout(local_size_x = GROUP) in;\n"
+    "#define zero 0\nlayout(local_size_x = GROUP) in;\n"
     "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
     "layout(std430, binding = 1) readonly buffer Numbers { float numbers[]; };\n"
     "layout(std430, binding = 2) writeonly buffer Values { vec4 values[]; };\n";

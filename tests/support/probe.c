@@ -47,7 +47,7 @@ static const char head_access[] = "int first_number;\n"
                                   "#define N(i) AT(FIRST + (i))\n";
 static const char head[] =
     "#include \"field.glsl\"\n#include \"mixture.glsl\"\n"
-    "layout(local_size_x = GROUP) in;\n"
+    "#define zero 0\nlayout(local_size_x = GROUP) in;\n"
     "layout(binding = 0) uniform samplerBuffer points;\n"
     "layout(std430, binding = 0) writeonly buffer Answers { vec4 answers[]; };\n";
 

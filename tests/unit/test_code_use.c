@@ -202,7 +202,7 @@ static void written_text_is_guarded(void **state)
         {"float a; vec2 b[2]; return a;", "vec2[2] user_7_v2 = vec2[2](vec2(0.0, 0.0), vec2(0.0"},
         {"vec3 a; return a.x;", "vec3 user_7_v1 = vec3(0.0, 0.0, 0.0);"},
         {"for (int i = 4; i > 0; i -= 2) p.x += 1.0; return p.x;",
-         "for (int user_7_n1 = 0; user_7_n1 < 2; user_7_n1++) {"},
+         "for (int user_7_n1 = zero; user_7_n1 < 2; user_7_n1++) {"},
         {"float texture = 1e-10; return -texture;", "user_7_v1 = 1e-10;"},
     };
     (void)state;

@@ -13,6 +13,7 @@
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "renderer/code/code.h"
 #include "renderer/draw/context.h"
 #include "renderer/pick.h"
 #include "tests/support/drawing.h"
@@ -695,6 +696,53 @@ static void test_too_many_shapes(void **state)
     resident_destroy(resident);
 }
 
+/* Balls whose distance is this code. */
+static struct scene *shapes_with_code(const char *code, int count)
+{
+    char *text = NULL;
+    size_t length;
+    struct error err = {0};
+    FILE *out = open_memstream(&text, &length);
+
+    assert_non_null(out);
+    fprintf(out,
+            "{\"format\":\"fieldcast/1\",\"primitives\":{\"p\":{\"code\":\"%s\"}},"
+            "\"root\":{\"type\":\"union\",\"children\":[",
+            code);
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s{\"type\":\"field\",\"params\":{\"primitive\":\"p\"}}", i ? "," : "");
+    }
+    fprintf(out, "]}}");
+    assert_int_equal(fclose(out), 0);
+    struct scene *scene = scene_parse(text, length, &err);
+    assert_non_null(scene);
+    free(text);
+    return scene;
+}
+
+/* Compilers write it out for each shape. */
+static void test_too_much_code(void **state)
+{
+    static const struct param nothing[] = {{.name = NULL}};
+    const char *code = "float sdf(vec3 p) { return length(p) - 0.5 + 0.01 * sin(cos(p.x)); }";
+    struct code *alone = code_compile(&(struct code_source){CODE_DISTANCE, code, nothing}, NULL);
+    const int most = LIMIT_DRAWN_CODE / code_size(alone);
+    struct scene *enough = shapes_with_code(code, most);
+    struct scene *too_much = shapes_with_code(code, most + 1);
+    struct error warning, err = {0};
+
+    (void)state;
+    assert_true(most > 20);
+    assert_true(renderer_check(enough, &warning, &err));
+    assert_false(renderer_check(too_much, &warning, &err));
+    assert_int_equal(err.kind, ERROR_LIMIT);
+    assert_string_equal(err.place, "/primitives/p/code");
+    assert_non_null(strstr(err.message, "(drawn_code)"));
+    code_destroy(alone);
+    scene_destroy(enough);
+    scene_destroy(too_much);
+}
+
 static void test_gpu_asked_for(void **state)
 {
     struct renderer_params params = {.device = {DEVICE_GPU, .index = -1}};
@@ -759,6 +807,7 @@ int main(void)
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_loop_budget),
         cmocka_unit_test(test_too_many_shapes),
+        cmocka_unit_test(test_too_much_code),
         cmocka_unit_test(test_gpu_asked_for),
     };
 
