@@ -326,7 +326,7 @@ static bool log_edit(struct logged *entry, struct random *random, struct scene *
         history_depth(steps, entry->author, &entry->undo, &entry->redo);
         entry->group = random_below(random, 2) ? "g" : "";
         entry->inverse = cJSON_Duplicate(inverse, true);
-        asprintf(&entry->label, "label %zu", (size_t)random_below(random, 1000));
+        assert_true(asprintf(&entry->label, "label %zu", random_below(random, 1000)) > 0);
         history_record(steps, &(struct history_entry){.author = entry->author,
                                                       .group = entry->group,
                                                       .label = entry->label,
