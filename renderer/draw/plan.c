@@ -108,6 +108,7 @@ static void set_effects(struct draw_plan *plan, struct frame_block *block,
 {
     const bool rays =
         plan->mirrors && (is_on(render, "reflections") || is_on(render, "refractions"));
+    const bool pictured = plan->mirrors && block->sky_kind == SKY_IMAGE;
     const int depth = q->ray_depth ? own_or(render, "ray_depth", q->ray_depth) : 0;
 
     block->occlusion_samples =
@@ -117,7 +118,7 @@ static void set_effects(struct draw_plan *plan, struct frame_block *block,
                      (is_on(render, "shadows") ? EFFECT_SHADOWS : 0) |
                      (is_on(render, "reflections") ? EFFECT_REFLECTIONS : 0) |
                      (is_on(render, "refractions") ? EFFECT_REFRACTIONS : 0) |
-                     (transparent ? EFFECT_TRANSPARENT : 0);
+                     (transparent ? EFFECT_TRANSPARENT : 0) | (pictured ? EFFECT_CURVATURE : 0);
     block->min_throughput = (float)q->ray_least;
     plan->rays = block->ray_depth ? q->rays : 0;
     plan->clear_depth = is_on(render, "shadows") ? q->clear_depth : 0;

@@ -22,13 +22,13 @@ static const struct {
         {offsetof(struct targets, name.matter), GL_RGBA32UI},                                      \
         {offsetof(struct targets, name.more), GL_RGBA32UI},                                        \
         {offsetof(struct targets, name.weight), GL_RGBA32F},                                       \
+        {offsetof(struct targets, name.medium), GL_RGBA16F},                                       \
     {                                                                                              \
-        offsetof(struct targets, name.medium), GL_RGBA16F                                          \
+        offsetof(struct targets, name.steps), GL_RG32F                                             \
     }
     SET(eye),
     SET(light),
 #undef SET
-    {offsetof(struct targets, steps), GL_R32F},
     {offsetof(struct targets, haze), GL_RGBA16F},
     {offsetof(struct targets, total), GL_RGBA32F},
     {offsetof(struct targets, pixels), GL_RGBA32F},
@@ -191,7 +191,6 @@ void targets_bind(const struct targets *targets, const struct gl *gl)
     gl->BindVertexArray(targets->vertices);
     bind_unit(gl, UNIT_TOTAL, targets->total);
     bind_unit(gl, UNIT_HAZE, targets->haze);
-    bind_unit(gl, UNIT_STEPS, targets->steps);
     bind_unit(gl, UNIT_PIXELS, targets->pixels);
     bind_unit(gl, UNIT_COUNTED, targets->counted);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_VISIBILITY);
@@ -208,6 +207,7 @@ static void bind_set(const struct gl *gl, const struct ray_set *set)
     bind_unit(gl, UNIT_GEOMETRY, set->geometry);
     bind_unit(gl, UNIT_MATTER, set->matter);
     bind_unit(gl, UNIT_MORE, set->more);
+    bind_unit(gl, UNIT_STEPS, set->steps);
 }
 
 void targets_bind_field(const struct targets *targets, const struct gl *gl,
@@ -217,7 +217,7 @@ void targets_bind_field(const struct targets *targets, const struct gl *gl,
     bind_image(gl, IMAGE_GEOMETRY, set->geometry, GL_RGBA32F);
     bind_image(gl, IMAGE_MATTER, set->matter, GL_RGBA32UI);
     bind_image(gl, IMAGE_MORE, set->more, GL_RGBA32UI);
-    bind_image(gl, IMAGE_STEPS, targets->steps, GL_R32F);
+    bind_image(gl, IMAGE_STEPS, set->steps, GL_RG32F);
     bind_image(gl, IMAGE_STARTS, targets->starts, GL_R32F);
     bind_image(gl, IMAGE_VISIBILITY, targets->visibility, GL_RGBA16F);
     bind_image(gl, IMAGE_HAZE, targets->haze, GL_RGBA16F);

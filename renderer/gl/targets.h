@@ -15,6 +15,7 @@ struct ray_set {
     GLuint from, along;            /* rgba32f: glsl/ray_load.glsl */
     GLuint geometry, matter, more; /* rgba32f, rgba32ui twice: glsl/gbuffer.glsl */
     GLuint weight, medium;         /* rgba32f, rgba16f: glsl/stack.glsl, glsl/clear_pass.glsl */
+    GLuint steps;                  /* rg32f: of the march, and the surface's curvature */
 };
 
 /* Lists of samples. */
@@ -31,7 +32,6 @@ struct targets {
     int side;             /* in samples; a multiple of GROUP_SIDE */
     struct ray_set eye;   /* rays that end in the eye */
     struct ray_set light; /* rays to lights, through clear things */
-    GLuint steps;         /* r32f */
     GLuint starts;        /* r32f, one texel for each block of march_pass.glsl */
     GLuint visibility;    /* rgba16f, a layer for each light */
     GLuint haze;          /* rgba16f */

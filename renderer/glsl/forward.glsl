@@ -31,8 +31,8 @@ void main()
         look(p, found.normal, footprint(ray, t), found.hit);
         has_next = false;
         vec4 g = vec4(found.normal, found.solid ? -max(found.t, 1e-30) : found.t);
-        add_light(here, ray, g, s, seen_open, vec4(0.0, 0.0, 0.0, 1.0), i == 0, i == args.rays,
-                  weight, medium, total);
+        add_light(here, ray, g, found.curvature, s, seen_open, vec4(0.0, 0.0, 0.0, 1.0), i == 0,
+                  i == args.rays, weight, medium, total);
         ray = ray_of(next_ray.from, next_ray.along);
         weight = next_ray.weight;
         medium = next_ray.medium.rgb;

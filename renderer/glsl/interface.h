@@ -26,7 +26,8 @@
     X(EFFECT_REFLECTIONS, 2)                                                                       \
     X(EFFECT_REFRACTIONS, 4)                                                                       \
     X(EFFECT_SUN, 8)                                                                               \
-    X(EFFECT_TRANSPARENT, 16)
+    X(EFFECT_TRANSPARENT, 16)                                                                      \
+    X(EFFECT_CURVATURE, 32) /* of surfaces is wanted */
 /* The samples that a dispatch is for. */
 #define PASS_MODES(X)                                                                              \
     X(PASS_TILE)   /* all of the tile's */                                                         \

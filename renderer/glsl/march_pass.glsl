@@ -7,7 +7,7 @@
 #include "march.glsl"
 
 layout(rgba32f, binding = IMAGE_GEOMETRY) writeonly uniform image2D out_geometry;
-layout(r32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps;
+layout(rg32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps; /* y: curvature */
 layout(r32f, binding = IMAGE_STARTS) uniform image2D starts; /* one value for each block */
 
 /* Radius of a block's cone in footprints, which are half a pixel: from the block's middle to its
@@ -33,6 +33,6 @@ void main()
     } else {
         float t = found.solid ? -max(found.t, 1e-30) : found.t;
         imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), t));
-        imageStore(out_steps, here, vec4(float(found.steps)));
+        imageStore(out_steps, here, vec4(float(found.steps), found.curvature, 0.0, 0.0));
     }
 }

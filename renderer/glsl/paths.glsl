@@ -25,7 +25,7 @@ Waiting ray_on(Ray ray, vec3 p, vec3 n, vec3 direction, bool inside, float t, ve
 /* What stands for a ray that is not followed. */
 vec3 guess(Waiting ray)
 {
-    return ray.weight.rgb * sky_mirrored(ray.along.xyz, 0.0);
+    return ray.weight.rgb * sky_mirrored(ray.along.xyz, 0.0, cone_spread(ray.weight.w));
 }
 
 /* The sample's next ray: one of those wanted here, else one that waited. `last`: none is followed.
@@ -60,11 +60,11 @@ vec3 go_on(ivec2 here, Waiting mirror, bool has_mirror, Waiting passing, bool ha
     return guessed;
 }
 
-/* `g`: normal and distance as march_pass.glsl left them; `open`: how little is in the way of the
- * environment's light; `smoke`: light added on the way, and the part let through. Where the ray is
- * the first, `total` is nothing. */
-void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, bool first,
-               bool last, vec4 weight, vec3 medium, inout vec4 total)
+/* `g`, `curve`: normal and distance, and curvature, as march_pass.glsl left them; `open`: how
+ * little is in the way of the environment's light; `smoke`: light added on the way, and the part
+ * let through. Where the ray is the first, `total` is nothing. */
+void add_light(ivec2 here, Ray ray, vec4 g, float curve, Surface s, float open, vec4 smoke,
+               bool first, bool last, vec4 weight, vec3 medium, inout vec4 total)
 {
     float t = abs(g.w);
     bool hit = t < INFINITY, solid = g.w < 0.0 || s.painted;
@@ -74,10 +74,13 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
     vec3 p = ray.origin + ray.direction * (hit ? t : 0.0);
 
     weight.rgb *= exp(-medium * (ray.inside ? way : 0.0));
-    bool deeper = hit && !last && int(weight.w) < frame.ray_depth;
+    int depth = first ? 0 : cone_depth(weight.w);
+    float spread = first ? eye_spread() : cone_spread(weight.w);
+    bool deeper = hit && !last && depth < frame.ray_depth;
     bool empty = first && !hit && (frame.effects & EFFECT_TRANSPARENT) != 0;
     Ways w = ways_at(ray, n, s, leaving, weight.rgb, deeper);
-    vec3 around = sky(ray.direction);
+    spread_ways(w, ray, n, s, leaving, spread, curve * cone_width(ray, hit ? t : 0.0, spread));
+    vec3 around = sky(ray.direction, spread);
     vec3 light = hit ? surface_light(ray, p, n, s, w, leaving, open, here)
                      : empty ? vec3(0.0) : around;
     /* What is far fades into the sky, so that endless ground has no edge. */
@@ -90,10 +93,13 @@ void add_light(ivec2 here, Ray ray, vec4 g, Surface s, float open, vec4 smoke, b
 #ifndef PLAIN
     if (frame.ray_depth > 0) {
         vec3 kept = weight.rgb * ((1.0 - far) * air.a * smoke.a);
-        float depth = weight.w + 1.0, sharp = leaving ? 1.0 : mirror_sharpness(s);
+        float sharp = leaving ? 1.0 : mirror_sharpness(s);
+        float rough = leaving || s.model != MODEL_STANDARD ? 0.0 : s.gloss;
+        float mirrored = cone_pack(depth + 1, rough_spread(w.mirrored_spread, rough));
+        float passed = cone_pack(depth + 1, w.passed_spread);
         Waiting mirror = ray_on(ray, p, n, w.mirrored, ray.inside, t,
-                                vec4(kept * w.mirror * sharp, depth), medium);
-        Waiting passing = ray_on(ray, p, n, w.passed, !leaving, t, vec4(kept * w.passing, depth),
+                                vec4(kept * w.mirror * sharp, mirrored), medium);
+        Waiting passing = ray_on(ray, p, n, w.passed, !leaving, t, vec4(kept * w.passing, passed),
                                  leaving ? vec3(0.0) : s.absorption);
         total.rgb += go_on(here, mirror, hit && w.mirror_ray, passing, hit && w.passing_ray, first,
                            last);

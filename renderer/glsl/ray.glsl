@@ -15,7 +15,7 @@ struct Ray {
 struct Waiting {
     vec4 from;   /* origin, way */
     vec4 along;  /* direction, start; below 0 outside */
-    vec4 weight; /* what its light counts; w: how often it was mirrored or broken */
+    vec4 weight; /* what its light counts; w: cone_pack() */
     vec4 medium; /* rgb: absorption where it is */
 };
 
@@ -38,6 +38,36 @@ vec4 ray_along(Ray ray)
 float footprint(Ray ray, float t)
 {
     return frame.pixel_radius * (frame.orthographic != 0 ? 1.0 : ray.way + t);
+}
+
+/* A ray stands for a cone: `spread` is how much wider it gets, in diameter, over a unit of way;
+ * below 0 it narrows (Akenine-Moeller et al.: Texture level of detail strategies for real-time ray
+ * tracing, Ray Tracing Gems, 2019, ch. 20). That of the eye's rays is a pixel's. */
+float eye_spread()
+{
+    return frame.orthographic != 0 ? 0.0 : 2.0 * frame.pixel_radius;
+}
+
+/* Diameter of the cone at t, as if it had been the eye's until the ray's origin. */
+float cone_width(Ray ray, float t, float spread)
+{
+    return 2.0 * footprint(ray, t) + (spread - eye_spread()) * t;
+}
+
+/* How often a ray was mirrored or broken, and its spread, in one number. */
+float cone_pack(int depth, float spread)
+{
+    return float(depth) + 0.5 + 0.4 * clamp(spread, -1.0, 1.0);
+}
+
+int cone_depth(float word)
+{
+    return int(word);
+}
+
+float cone_spread(float word)
+{
+    return (fract(word) - 0.5) / 0.4;
 }
 
 /* Where a ray looks for other clear things, that came by `ray` to a surface at t and goes through

@@ -20,10 +20,20 @@ float mirror_sharpness(Surface s)
 /* The ways by which light may have come to a surface and on along the ray: mirrored, and passing
  * through. */
 struct Ways {
-    vec3 mirrored, passed;       /* directions */
-    vec3 mirror, passing;        /* what light from there counts */
+    vec3 mirrored, passed;        /* directions */
+    vec3 mirror, passing;         /* what light from there counts */
     bool mirror_ray, passing_ray; /* whether rays bring it, else the environment stands in */
+    float mirrored_spread, passed_spread; /* of the cones along them */
 };
+
+/* The cone that leaves a curved surface: its normals differ by `turn` over the cone's width. The
+ * mean of the change across the plane of incidence and along it; of a way through, across it. */
+void spread_ways(inout Ways w, Ray ray, vec3 n, Surface s, bool leaving, float spread, float turn)
+{
+    float ratio = leaving ? s.ior : 1.0 / s.ior, c = dot(n, ray.direction);
+    w.mirrored_spread = spread + 2.0 * turn;
+    w.passed_spread = ratio * spread + (dot(n, w.passed) - ratio * c) * turn;
+}
 
 /* `leaving`: the surface is the way out for a ray inside. `weight` is the ray's. */
 Ways ways_at(Ray ray, vec3 n, Surface s, bool leaving, vec3 weight, bool deeper)
@@ -55,9 +65,10 @@ vec3 surface_light(Ray ray, vec3 p, vec3 n, Surface s, Ways w, bool leaving, flo
     vec3 passed = vec3(0.0), around = vec3(0.0);
     float traced = 0.0;
 #else
-    vec3 passed = w.passing_ray ? vec3(0.0) : w.passing * sky_mirrored(ray.direction, 0.0);
+    vec3 passed = w.passing * sky_mirrored(ray.direction, 0.0, w.passed_spread);
+    passed = w.passing_ray ? vec3(0.0) : passed;
     float traced = w.mirror_ray ? (leaving ? 1.0 : mirror_sharpness(s)) : 0.0;
-    vec3 around = sky_mirrored(w.mirrored, leaving ? 0.0 : roughness(s));
+    vec3 around = sky_mirrored(w.mirrored, leaving ? 0.0 : roughness(s), w.mirrored_spread);
 #endif
     vec3 sum = s.emission + surroundings(s, n, view, open, sky_irradiance(n), around, traced);
 

@@ -75,14 +75,14 @@ vec3 sky_blurred(vec3 direction, float blur)
     }
     float texel = PI / float(textureSize(sky_picture, 0).y);
     vec2 place = sky_place(sky_turned(direction));
-    return frame.sky_brightness * textureLod(sky_picture, place, log2(max(blur / texel, 1.0))).rgb;
+    float level = log2(max(abs(blur) / texel, 1.0));
+    return frame.sky_brightness * textureLod(sky_picture, place, level).rgb;
 }
 
-/* The background. */
-vec3 sky(vec3 direction)
+/* What a ray sees that hits nothing. */
+vec3 sky(vec3 direction, float spread)
 {
-    float pixel = frame.orthographic != 0 ? 0.0 : 2.0 * frame.pixel_radius;
-    return frame.sky_kind == SKY_IMAGE ? sky_blurred(direction, pixel) : sky_plain(direction, 1.0);
+    return frame.sky_kind == SKY_IMAGE ? sky_blurred(direction, spread) : sky_plain(direction, 1.0);
 }
 
 /* Light that falls on a matt surface, over pi. */
@@ -91,13 +91,20 @@ vec3 sky_irradiance(vec3 n)
     return frame.ambient * frame.sky_brightness * sky_made(sky_matt, sky_turned(n), 0.0);
 }
 
-/* What a surface mirrors that looks along `direction`. */
-vec3 sky_mirrored(vec3 direction, float roughness)
+/* Spread of a cone that something rough mirrored: ray.glsl. */
+float rough_spread(float spread, float roughness)
+{
+    float lobe = 2.0 * roughness * roughness;
+    return (spread < 0.0 ? -1.0 : 1.0) * length(vec2(spread, lobe));
+}
+
+/* What a surface mirrors that looks along `direction`, by a cone of `spread`. */
+vec3 sky_mirrored(vec3 direction, float roughness, float spread)
 {
     float level = clamp(roughness, 0.0, 1.0) * float(MIRROR_LEVELS) - 1.0;
     float low = max(floor(level), 0.0), high = min(low + 1.0, float(MIRROR_LEVELS - 1));
     vec3 turned = sky_turned(direction);
-    vec3 sharp = sky_blurred(direction, 2.0 * roughness * roughness);
+    vec3 sharp = sky_blurred(direction, rough_spread(spread, roughness));
     vec3 a = frame.sky_brightness * sky_made(sky_mirror, turned, low);
     vec3 b = frame.sky_brightness * sky_made(sky_mirror, turned, high);
     return frame.ambient * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));

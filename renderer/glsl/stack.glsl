@@ -7,7 +7,7 @@
 
 layout(rgba32f, binding = IMAGE_RAY_FROM) writeonly uniform image2D out_ray_from;
 layout(rgba32f, binding = IMAGE_RAY_ALONG) writeonly uniform image2D out_ray_along;
-layout(rgba32f, binding = IMAGE_WEIGHT) uniform image2D weights; /* of the ray's light; w: depth */
+layout(rgba32f, binding = IMAGE_WEIGHT) uniform image2D weights; /* as Waiting.weight */
 layout(rgba16f, binding = IMAGE_MEDIUM) uniform image2D media;   /* absorption where the ray is */
 
 layout(std430, binding = BINDING_STACK) buffer Stack {

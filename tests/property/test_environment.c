@@ -36,8 +36,9 @@ static const char questions_glsl[] =
     "    int what = int(q.what.x);\n"
     "    Ray ray = Ray(q.origin.xyz, d, 0.0, false, 0.0);\n"
     "    answers[gl_GlobalInvocationID.x] =\n"
-    "        what == 0 ? vec4(sky(d), 0.0) : what == 1 ? vec4(sky_irradiance(d), 0.0)\n"
-    "        : what == 2 ? vec4(sky_mirrored(d, q.what.y), 0.0) : fog(ray, q.what.y);\n"
+    "        what == 0 ? vec4(sky(d, eye_spread()), 0.0)\n"
+    "        : what == 1 ? vec4(sky_irradiance(d), 0.0)\n"
+    "        : what == 2 ? vec4(sky_mirrored(d, q.what.y, 0.0), 0.0) : fog(ray, q.what.y);\n"
     "}\n";
 
 static struct egl egl;
