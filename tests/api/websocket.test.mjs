@@ -363,13 +363,22 @@ describe('closing', () => {
         await isCut(peer, 1000);
     });
 
-    test('7.1.6 behind edits that are not yet durable', async () => {
-        const peer = await Peer.open(daemon, 's');
-        const edits = Array.from({ length: 200 }, (_, i) =>
-            frame(TEXT, JSON.stringify({ type: 'edit', edit: i + 1, ops: [{ op: 'set', at: '/name', value: `edit ${i}` }] })));
+    // Large ones are worked on apart, and their client rests behind them: the small ones wait unread.
+    test('7.1.6 behind edits that are still worked on', async () => {
+        const children = Array.from({ length: 2000 }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 }));
+        await ask(daemon, 'POST', '/v1/scenes?id=many', { format: 'fieldcast/1', root: { id: 'root', type: 'union', children } });
+        const peer = await Peer.open(daemon, 'many', false);
+        await peer.say({ type: 'hello', client: 'peer-with-large-edits' });
+        const edits = Array.from({ length: 60 }, (_, i) => {
+            const large = children.map(({ id }) => ({ op: 'set', at: `/nodes/${id}/params/radius`, value: 0.5 + i / 100 }));
+            const small = { op: 'set', at: '/name', value: `edit ${i}` };
+            return frame(TEXT, JSON.stringify({ type: 'edit', edit: i + 1, ops: i % 20 === 0 ? [...large, small] : [small] }));
+        });
         await peer.send(Buffer.concat([...edits, frame(CLOSE, reason(1000))]));
         await isClosed(peer, 1000);
-        assert.equal((await ask(daemon, 'GET', '/v1/scenes/s')).name, 'edit 199');
+        assert.equal((await ask(daemon, 'GET', '/v1/scenes/many')).name, 'edit 59');
+        const { scenes } = await ask(daemon, 'GET', '/v1/scenes');
+        assert.equal(scenes.find(({ id }) => id === 'many').revision, 1 + edits.length);
     });
 
     cases('7.3.1', 'without a code', async (peer, cut) => {
