@@ -93,6 +93,12 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
  * that drawing names. `*out_warning` as resident_warning. Any thread, no renderer. */
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
+/* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */
+const char *renderer_stage_name(size_t stage);
+/* The GLSL of one of them for a scene, as a GPU gets it. Any thread, no renderer. Caller frees;
+ * NULL and `err` where the scene cannot be drawn. */
+char *renderer_shader(const struct scene *scene, size_t stage, struct error *err);
+
 /* --- scenes --- */
 
 /* Takes `scene`. Compiling starts in the background. */

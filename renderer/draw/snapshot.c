@@ -39,6 +39,44 @@ static bool refuse(const struct field *field, const struct scene *scene,
                      "compiling this %s ended the render process", code ? "code" : "scene");
 }
 
+/* `map` and `surface`: texts of the field. */
+static struct program_source source_of(const struct field *field, const struct scene *scene,
+                                       const char *map, const char *surface)
+{
+    return (struct program_source){
+        .map_text = map,
+        .surface_text = surface,
+        .number_count = number_capacity(field),
+        .user_shaders = field->shader_count > 0,
+        .user_code = field->user_code != NULL,
+        .volumes = scene->volumes.count > 0,
+        .shape_count = field->shape_count,
+        .code_size = field->code_size,
+        .map_count = field->material_base,
+    };
+}
+
+const char *renderer_stage_name(size_t stage)
+{
+    return stage < STAGE_COUNT ? program_stage_names[stage] : NULL;
+}
+
+char *renderer_shader(const struct scene *scene, size_t stage, struct error *err)
+{
+    struct field *field = field_drawable(scene, &(struct field_wish){.drawn = NULL}, err);
+
+    if (!field) {
+        return NULL;
+    }
+    char *map = shader_map(field), *surface = shader_surface(field);
+    const struct program_source source = source_of(field, scene, map, surface);
+    char *text = program_text(&source, (enum program_stage)stage, err);
+    free(map);
+    free(surface);
+    field_unref(field);
+    return text;
+}
+
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
@@ -67,18 +105,10 @@ static struct program *get_program(struct renderer *renderer, const struct field
     }
     map = shader_map(field);
     surface = shader_surface(field);
-    program = program_cache_add(renderer->programs,
-                                &(struct program_source){.shape_hash = key,
-                                                         .map_text = map,
-                                                         .surface_text = surface,
-                                                         .number_count = capacity,
-                                                         .user_shaders = field->shader_count > 0,
-                                                         .user_code = field->user_code != NULL,
-                                                         .volumes = volumes,
-                                                         .shape_count = field->shape_count,
-                                                         .code_size = field->code_size,
-                                                         .patience = verdict ? verdict->times : 1,
-                                                         .map_count = field->material_base});
+    struct program_source source = source_of(field, scene, map, surface);
+    source.shape_hash = key;
+    source.patience = verdict ? verdict->times : 1;
+    program = program_cache_add(renderer->programs, &source);
     free(map);
     free(surface);
     return program;

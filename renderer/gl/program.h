@@ -18,6 +18,9 @@ enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 /* What is compiled for each shape: glsl/NAME_pass.glsl. The last only where there are volumes. */
 enum program_stage { STAGE_MARCH, STAGE_MATTER, STAGE_SHADOW, STAGE_VOLUME, STAGE_COUNT };
 
+/* "march", of march_pass.glsl. */
+extern const char *const program_stage_names[STAGE_COUNT];
+
 struct program; /* reference counted */
 struct program_cache;
 
@@ -33,6 +36,11 @@ struct program_source {
     size_t map_count; /* the first so many are those that the map reads */
     int patience;     /* times the usual bound on compiling; 0: once */
 };
+
+/* The GLSL of a stage as a GPU gets it, with all that it includes. Caller frees; NULL and `err`
+ * where a file is missing. No GL. */
+char *program_text(const struct program_source *source, enum program_stage stage,
+                   struct error *err);
 
 /* The compile contexts of `egl` belong to the cache until program_cache_destroy. */
 struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,

@@ -12,12 +12,17 @@ enum {
     SHARED_MAX = 2048,  /* vec4s in the 32 KiB that OpenGL 4.3 promises to each work group */
 };
 
-static const char *const stage_files[STAGE_COUNT] = {
-    [STAGE_MARCH] = "march_pass.glsl",
-    [STAGE_MATTER] = "matter_pass.glsl",
-    [STAGE_SHADOW] = "shadow_pass.glsl",
-    [STAGE_VOLUME] = "volume_pass.glsl",
-};
+const char *const program_stage_names[STAGE_COUNT] = {[STAGE_MARCH] = "march",
+                                                      [STAGE_MATTER] = "matter",
+                                                      [STAGE_SHADOW] = "shadow",
+                                                      [STAGE_VOLUME] = "volume"};
+
+enum { FILE_NAME_BYTES = 32 };
+
+static void write_file_name(enum program_stage stage, char out[FILE_NAME_BYTES])
+{
+    snprintf(out, FILE_NAME_BYTES, "%s_pass.glsl", program_stage_names[stage]);
+}
 
 /* --- one stage --- */
 
@@ -81,6 +86,20 @@ const struct pass *program_from_camera(struct program *program, struct error *er
                : NULL;
 }
 
+char *program_text(const struct program_source *source, enum program_stage stage, struct error *err)
+{
+    const struct glsl_file own[] = {{"field_map.glsl", source->map_text},
+                                    {"field_surface.glsl", source->surface_text},
+                                    {NULL, NULL}};
+    struct shader_text text;
+    char file[FILE_NAME_BYTES], head[128];
+
+    write_file_name(stage, file);
+    snprintf(head, sizeof head, "#version 430 core\n#define NUMBERS_COUNT %zu\n%s",
+             source->number_count, source->user_shaders ? "#define USER_SHADERS\n" : "");
+    return include_resolve(&text, head, file, own, err) ? text.text : NULL;
+}
+
 /* One work group, with nothing in the buffers: the driver finishes its work. */
 static void warm_up(const struct program_cache *cache, const struct targets *targets,
                     const struct program *program, const struct pass *pass)
@@ -131,8 +150,10 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
     const struct gl *gl = cache->gl;
     struct pass pass = {0};
     struct error err = {0};
+    char file[FILE_NAME_BYTES];
 
-    if (link_source(gl, program, cache->egl->software, true, stage_files[stage], &pass, &err)) {
+    write_file_name(stage, file);
+    if (link_source(gl, program, cache->egl->software, true, file, &pass, &err)) {
         warm_up(cache, targets, program, &pass);
     }
     gl->Finish();

@@ -19,6 +19,10 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Check documents, with their code and the limits of drawing.",
         .more = "Prints `file: place: what is wrong` for each that breaks a rule or cannot be "
                 "drawn, and fails if one does. Needs no GPU."},
+    [COMMAND_SHADER] = {"shader", .operands = "SCENE.json", .run = command_shader,
+        .doc = "Print the GLSL that a scene is drawn with.",
+        .more = "All of one pass as a GPU gets it, with every file that it includes; numbers of "
+                "the scene stand in a buffer, N(i). Needs no GPU."},
     [COMMAND_IMPORT] = {"import", .operands = "DIR", .run = command_import,
         .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
         .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "

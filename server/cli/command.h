@@ -12,6 +12,7 @@ enum command_id {
     COMMAND_SERVE,
     COMMAND_RENDER,
     COMMAND_CHECK,
+    COMMAND_SHADER,
     COMMAND_IMPORT,
     COMMAND_SCHEMA,
     COMMAND_DOCTOR,
@@ -42,6 +43,7 @@ int command_main(int argc, char **argv);
 int command_serve(const struct options *options);
 int command_render(const struct options *options);
 int command_check(const struct options *options);
+int command_shader(const struct options *options);
 int command_import(const struct options *options);
 int command_schema(const struct options *options);
 int command_doctor(const struct options *options);

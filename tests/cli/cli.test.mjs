@@ -57,7 +57,7 @@ const pngSize = (bytes) => {
 test('version and help', () => {
     assert.match(succeed(['--version']).out, /^fieldcast \d+\.\d+\.\d+\n$/);
     const help = succeed(['--help']).out;
-    for (const command of ['serve', 'render', 'check', 'import', 'schema', 'doctor', 'bench']) {
+    for (const command of ['serve', 'render', 'check', 'shader', 'import', 'schema', 'doctor', 'bench']) {
         assert.match(help, new RegExp(`^  ${command} `, 'm'));
         assert.match(succeed([command, '--help']).out, new RegExp(`^Usage: fieldcast ${command}`));
         assert.equal(succeed(['help', command]).out, succeed([command, '--help']).out);
@@ -241,6 +241,20 @@ test('import names file, line, column and what was expected', () => {
     assert.equal(fs.existsSync(path.join(folder, 'y.json')), false);
     assert.match(run(['import', 'nowhere', '-o', 'y.json']).err, /nowhere: No such file/);
     assert.equal(run(['import', 'two']).status, 2);
+});
+
+test('shader prints the GLSL of a pass, whole', () => {
+    const text = succeed(['shader', 'example:snowman']).out;
+    assert.match(text, /^#version 430 core\n/);
+    assert.match(text, /float map\(vec3 p0\)\n\{[^}]*sd_sphere\(/);
+    assert.match(text, /void main\(\)/);
+    assert.doesNotMatch(text, /#include/);
+    assert.doesNotMatch(text, /void surface\(/);
+    assert.match(succeed(['shader', '--pass', 'matter', 'example:snowman']).out, /void surface\(/);
+    const sphere = succeed(['shader', write('sphere.json', SPHERE)]).out;
+    assert.notEqual(sphere, text);
+    assert.equal(run(['shader', '--pass', 'colour', 'example:snowman']).status, 2);
+    assert.equal(run(['shader', write('none.json', '{}')]).status, 1);
 });
 
 test('schema is JSON with the registry in it', () => {
