@@ -226,6 +226,44 @@ static void want_all(struct match *match, struct type type)
     match->result = type;
 }
 
+/* Those that take vectors of certain lengths alone. */
+static bool match_lengths(const struct builtin *row, const struct expr *args, enum base base,
+                          int rows, struct match *match)
+{
+    switch (row->family) {
+    case FAMILY_CROSS:
+        want_all(match, type_vector(BASE_FLOAT, 3));
+        return base != BASE_VOID && rows == 3;
+    case FAMILY_PLACE:
+        want_all(match, type_vector(BASE_FLOAT, 3));
+        match->result.rows = 1;
+        return base != BASE_VOID && rows == 3;
+    case FAMILY_OCTAVES:
+        want_all(match, type_vector(BASE_FLOAT, 3));
+        match->wanted[1] = type_vector(BASE_INT, 1);
+        match->result.rows = 1;
+        return args->type.rows == 3 && args->next->type.base == BASE_INT &&
+               type_is_scalar(args->next->type);
+    case FAMILY_COMPARE:
+    case FAMILY_EQUAL:
+        base = args->type.base == BASE_BOOL && row->family == FAMILY_EQUAL ? BASE_BOOL : base;
+        want_all(match, type_vector(base, rows));
+        match->result.base = BASE_BOOL;
+        return base != BASE_VOID && rows > 1;
+    case FAMILY_OUTER:
+        want_all(match, type_vector(BASE_FLOAT, rows));
+        match->result = type_matrix(rows);
+        return base != BASE_VOID && rows > 1 && args->type.rows == args->next->type.rows;
+    case FAMILY_LOGIC:
+    case FAMILY_COUNT:
+        want_all(match, type_vector(BASE_BOOL, rows));
+        match->result.rows = row->family == FAMILY_COUNT ? 1 : (uint8_t)rows;
+        return args->type.base == BASE_BOOL && rows > 1;
+    default:
+        return false;
+    }
+}
+
 static bool match_vectors(const struct builtin *row, const struct expr *args, struct match *match)
 {
     int rows;
@@ -257,40 +295,12 @@ static bool match_vectors(const struct builtin *row, const struct expr *args, st
         want_all(match, type_vector(BASE_FLOAT, rows));
         match->result.rows = 1;
         return base != BASE_VOID;
-    case FAMILY_CROSS:
-        want_all(match, type_vector(BASE_FLOAT, 3));
-        return base != BASE_VOID && rows == 3;
-    case FAMILY_PLACE:
-        want_all(match, type_vector(BASE_FLOAT, 3));
-        match->result.rows = 1;
-        return base != BASE_VOID && rows == 3;
-    case FAMILY_OCTAVES:
-        want_all(match, type_vector(BASE_FLOAT, 3));
-        match->wanted[1] = type_vector(BASE_INT, 1);
-        match->result.rows = 1;
-        return args->type.rows == 3 && args->next->type.base == BASE_INT &&
-               type_is_scalar(args->next->type);
     case FAMILY_REFRACT:
         want_all(match, type_vector(BASE_FLOAT, rows));
         match->wanted[2].rows = 1;
         return base != BASE_VOID && type_is_scalar(args->next->next->type);
-    case FAMILY_COMPARE:
-    case FAMILY_EQUAL:
-        base = args->type.base == BASE_BOOL && row->family == FAMILY_EQUAL ? BASE_BOOL : base;
-        want_all(match, type_vector(base, rows));
-        match->result.base = BASE_BOOL;
-        return base != BASE_VOID && rows > 1;
-    case FAMILY_OUTER:
-        want_all(match, type_vector(BASE_FLOAT, rows));
-        match->result = type_matrix(rows);
-        return base != BASE_VOID && rows > 1 && args->type.rows == args->next->type.rows;
-    case FAMILY_LOGIC:
-    case FAMILY_COUNT:
-        want_all(match, type_vector(BASE_BOOL, rows));
-        match->result.rows = row->family == FAMILY_COUNT ? 1 : (uint8_t)rows;
-        return args->type.base == BASE_BOOL && rows > 1;
     default:
-        return false;
+        return match_lengths(row, args, base, rows, match);
     }
 }
 

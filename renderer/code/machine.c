@@ -212,13 +212,31 @@ static void watch(const struct step *s, const struct origin *origin, double *out
 #define B b[i * step_b]
 #define C c[i * step_c]
 
+static void call(const struct step *s, double *frame)
+{
+    const struct builtin *builtin = &builtin_table[s->extra];
+    double *out = frame + s->out;
+    const double *a = frame + s->a, *b = frame + s->b, *c = frame + s->c;
+    int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B),
+        step_c = !(s->flags & SPREAD_C);
+    switch ((enum step_kind)s->kind) {
+    case STEP_ONE:
+        EACH(builtin->one(A));
+    case STEP_TWO:
+        EACH(builtin->two(A, B));
+    case STEP_THREE:
+        EACH(builtin->three(A, B, C));
+    default:
+        builtin->whole(out, (const double *const[]){a, b, c}, s->n);
+    }
+}
+
 /* What computes; jumps are run by machine_run. */
 static void compute(const struct step *s, double *frame)
 {
     double *out = frame + s->out;
-    const double *a = frame + s->a, *b = frame + s->b, *c;
-    const struct builtin *builtin;
-    int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B), step_c;
+    const double *a = frame + s->a, *b = frame + s->b;
+    int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
     switch ((enum step_kind)s->kind) {
     case STEP_MOVE:
         move(s, out, a);
@@ -257,25 +275,16 @@ static void compute(const struct step *s, double *frame)
         multiply_matrices(s, out, a, b);
         break;
     case STEP_ONE:
-        builtin = &builtin_table[s->extra];
-        EACH(builtin->one(A));
     case STEP_TWO:
-        builtin = &builtin_table[s->extra];
-        EACH(builtin->two(A, B));
     case STEP_THREE:
-        builtin = &builtin_table[s->extra];
-        c = frame + s->c;
-        step_c = !(s->flags & SPREAD_C);
-        EACH(builtin->three(A, B, C));
     case STEP_TOGETHER:
-        builtin_table[s->extra].whole(out, (const double *const[]){a, b, frame + s->c}, s->n);
+        call(s, frame);
         break;
     case STEP_INDEX:
         out[0] = index_of(a[0], s->c) * s->n + (s->b == MACHINE_NOWHERE ? 0 : b[0]);
         break;
     case STEP_LOAD:
-        a += (int)b[0];
-        EACH(a[i]);
+        EACH(a[(int)b[0] + i]);
     case STEP_STORE:
         out += (int)b[0];
         EACH(A);

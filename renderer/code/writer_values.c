@@ -244,6 +244,34 @@ static void write_field(struct writer *w, const struct expr *expr)
     PUT(w, "%s_s.%s", w->name, expr->name->text); /* one of five names, which are ours */
 }
 
+/* What names a place or a part of one. */
+static void write_place(struct writer *w, const struct expr *expr)
+{
+    switch (expr->kind) {
+    case EXPR_VARIABLE:
+        writer_variable(w, expr->variable);
+        break;
+    case EXPR_INDEX:
+        write_index(w, expr);
+        break;
+    case EXPR_SWIZZLE:
+        write_swizzle(w, expr);
+        break;
+    case EXPR_FIELD:
+        write_field(w, expr);
+        break;
+    case EXPR_PART:
+        writer_expr(w, expr->a);
+        PUT(w, ".%s", surface_members[expr->field].name);
+        break;
+    case EXPR_DATA:
+        PUT(w, "%s_data", w->name);
+        break;
+    default:
+        assert(!"an expression that was checked");
+    }
+}
+
 void writer_expr(struct writer *w, const struct expr *expr)
 {
     if (expr->value) {
@@ -251,9 +279,6 @@ void writer_expr(struct writer *w, const struct expr *expr)
         return;
     }
     switch (expr->kind) {
-    case EXPR_VARIABLE:
-        writer_variable(w, expr->variable);
-        break;
     case EXPR_UNARY:
         PUT(w, "(%s", tree_op_text(expr->op));
         writer_expr(w, expr->a);
@@ -296,23 +321,7 @@ void writer_expr(struct writer *w, const struct expr *expr)
     case EXPR_CONSTRUCT:
         write_construct(w, expr);
         break;
-    case EXPR_INDEX:
-        write_index(w, expr);
-        break;
-    case EXPR_SWIZZLE:
-        write_swizzle(w, expr);
-        break;
-    case EXPR_FIELD:
-        write_field(w, expr);
-        break;
-    case EXPR_PART:
-        writer_expr(w, expr->a);
-        PUT(w, ".%s", surface_members[expr->field].name);
-        break;
-    case EXPR_DATA:
-        PUT(w, "%s_data", w->name);
-        break;
     default:
-        assert(!"an expression that was checked");
+        write_place(w, expr);
     }
 }

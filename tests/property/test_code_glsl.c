@@ -203,12 +203,62 @@ static void add_products(struct code_batch *batch, const struct builtin *row, in
     }
 }
 
+/* Rows of vectors of several components. */
+static void add_vectors(struct code_batch *batch, const struct builtin *row, int rows)
+{
+    const struct shape b = {"bool", rows};
+    switch (row->family) {
+    case FAMILY_EQUAL:
+        add_same(batch, row, "bool", rows, b);
+        /* fall through */
+    case FAMILY_COMPARE:
+        add_same(batch, row, "float", rows, b);
+        add_same(batch, row, "int", rows, b);
+        add_same(batch, row, "uint", rows, b);
+        break;
+    case FAMILY_LOGIC:
+        add_same(batch, row, "bool", rows, b);
+        break;
+    case FAMILY_COUNT:
+        add_same(batch, row, "bool", rows, (struct shape){"bool", 1});
+        break;
+    case FAMILY_MATRIX:
+    case FAMILY_DETERMINANT:
+    case FAMILY_OUTER:
+        add_matrices(batch, row, rows);
+        break;
+    case FAMILY_PRODUCT:
+        add_products(batch, row, rows);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Rows of three components. */
+static void add_three(struct code_batch *batch, const struct builtin *row)
+{
+    const struct shape one = {"float", 1}, octaves[] = {{"float", 3}, {"int", 1}};
+    switch (row->family) {
+    case FAMILY_CROSS:
+        add_same(batch, row, "float", 3, octaves[0]);
+        break;
+    case FAMILY_PLACE:
+        add_same(batch, row, "float", 3, one);
+        break;
+    case FAMILY_OCTAVES:
+        add_call(batch, row, octaves, one);
+        break;
+    default:
+        break;
+    }
+}
+
 /* All shapes and bases that the row takes. */
 static void add_row(struct code_batch *batch, const struct builtin *row, int rows)
 {
     const struct shape f = {"float", rows}, one = {"float", 1}, b = {"bool", rows};
     const struct shape select[] = {f, f, b}, refract[] = {f, f, one}, wide[] = {one, f, f};
-    const struct shape octaves[] = {f, {"int", 1}};
     switch (row->family) {
     case FAMILY_NUMBER:
         add_same(batch, row, "uint", rows, (struct shape){"uint", rows});
@@ -231,58 +281,19 @@ static void add_row(struct code_batch *batch, const struct builtin *row, int row
     case FAMILY_TEST:
         add_same(batch, row, "float", rows, b);
         break;
-    case FAMILY_EQUAL:
-        if (rows > 1) {
-            add_same(batch, row, "bool", rows, b);
-        }
-        /* fall through */
-    case FAMILY_COMPARE:
-        if (rows > 1) {
-            add_same(batch, row, "float", rows, b);
-            add_same(batch, row, "int", rows, b);
-            add_same(batch, row, "uint", rows, b);
-        }
-        break;
-    case FAMILY_LOGIC:
-    case FAMILY_COUNT:
-        if (rows > 1) {
-            add_same(batch, row, "bool", rows,
-                     row->family == FAMILY_LOGIC ? b : (struct shape){"bool", 1});
-        }
-        break;
     case FAMILY_SCALAR:
         add_same(batch, row, "float", rows, one);
         break;
     case FAMILY_REFRACT:
         add_call(batch, row, refract, f);
         break;
-    case FAMILY_CROSS:
-        if (rows == 3) {
-            add_same(batch, row, "float", rows, f);
-        }
-        break;
-    case FAMILY_PLACE:
-        if (rows == 3) {
-            add_same(batch, row, "float", rows, one);
-        }
-        break;
-    case FAMILY_OCTAVES:
-        if (rows == 3) {
-            add_call(batch, row, octaves, one);
-        }
-        break;
-    case FAMILY_MATRIX:
-    case FAMILY_DETERMINANT:
-    case FAMILY_OUTER:
+    default:
         if (rows > 1) {
-            add_matrices(batch, row, rows);
+            add_vectors(batch, row, rows);
         }
-        break;
-    case FAMILY_PRODUCT:
-        if (rows > 1) {
-            add_products(batch, row, rows);
+        if (rows == 3) {
+            add_three(batch, row);
         }
-        break;
     }
 }
 

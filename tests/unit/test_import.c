@@ -600,83 +600,84 @@ static void test_commas_and_line_breaks(void **state)
 #define NODE ONE_NODE
 #define SPHERE "\"type\": \"Primitives/Sphere\""
 
+static const struct {
+    const char *text;
+    int line, column;
+    const char *message;
+} refused[] = {
+    {"", 1, 1, "the file ends here, expected an object"},
+    {"[]", 1, 1, "expected an object"},
+    {"{\"scene\": [}", 1, 12, "expected a value, not '}'"},
+    {"{\n\"scene\": [],\n}", 3, 1, "expected the name of a member in quotes, not '}'"},
+    {"{\"scene\": [1,]}", 1, 14, "expected a value, not ']'"},
+    {"{\"scene\": []", 1, 13, "the file ends here, expected ',' or '}'"},
+    {"{\"scene\": []} x", 1, 15, "expected the end of the file, not 'x'"},
+    {"{\"scene\" []}", 1, 10, "expected ':'"},
+    {"{\"name\": \"x\n\n", 1, 10, "the text that begins here does not end"},
+    {"{\"name\": \"\\x\"}", 1, 11, "no escape of JSON"},
+    {"{\"name\": \"\\ud800\"}", 1, 11, "no escape of JSON"},
+    {"{\"name\": \"\x01\"}", 1, 11, "a control character"},
+    {"{\"name\": \"\xff\"}", 1, 11, "not UTF-8"},
+    {"{\"scene\": 01}", 1, 11, "expected a number"},
+    {"{\"scene\": .5}", 1, 11, "expected a value, not '.'"},
+    {"{\"scene\": 1e999}", 1, 11, "this number is too large"},
+    {"{\"scene\": [], \"scene\": []}", 1, 24, "stands in the object already"},
+    {"{\"scene\": [1, \"a\": 2]}", 1, 18, "expected ',' or ']', not ':'"},
+    {"{\"other\": 1}", 1, 1, "neither a scene"},
+    {"{\"scene\": {}}", 1, 11, "scene: expected a list"},
+    {"{\"scene\": [], \"nmae\": 1}", 1, 23, "did you mean \"name\"?"},
+    {NODE("1"), 1, 12, "expected a node"},
+    {NODE("{}"), 1, 12, "expected one member type"},
+    {NODE("{\"type\": \"Sphere\"}"), 1, 21, "is no type"},
+    {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "no file has the primitive"},
+    {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "did you mean \"Primitives/Sphere\"?"},
+    {NODE("{\"type\": \"Modifiers/Twists\"}"), 1, 21, "did you mean \"Modifiers/Twist\"?"},
+    {NODE("{\"type\": \"Modifiers/Union\"}"), 1, 21, "is no type"},
+    {NODE("{\"type\": \"Primitives/RoundBox\", \"data\": [1, 1]}"), 1, 52,
+     "data: expected 3 numbers for RoundBox"},
+    {NODE("{\"type\": \"Primitives/CappedTorus\", \"data\": [1, 1, 1, 1, 1, 1, 1, 1, 1]}"), 1, 80,
+     "data: more than 8 numbers"},
+    {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 2]}"), 1, 49,
+     "data: expected 3 numbers for count, and 1 is left"},
+    {NODE("{\"type\": \"Modifiers/Mirror\", \"data\": [1, 2, 0]}"), 1, 49,
+     "data: expected 0 or 1 for each axis for axes"},
+    {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 0.5, 1, 1]}"), 1, 12,
+     "count: 0.5 (x) is not a whole number"},
+    {NODE("{\"type\": \"Operations/SmoothUnion\", \"data\": [1, 99]}"), 1, 55,
+     "data: expected the place of one of its choices, from 0 for kernel"},
+    {NODE("{\"type\": \"Primitives/Polygon\", \"data\": [1, 0, 0, 1, 0, 0, 1]}"), 1, 51,
+     "data: expected x and y of each point for points"},
+    {NODE("{\"type\": \"Operations/Union\", \"data\": [1]}"), 1, 49,
+     "data: expected 0 numbers for Union"},
+    {NODE("{\"type\": \"Operations/Unoin\"}"), 1, 21, "did you mean \"Operations/Union\"?"},
+    {NODE("{\"type\": \"Models/Nobody\"}"), 1, 21, "no file has the model \"Nobody\""},
+    {NODE("{" SPHERE ", \"data\": []}"), 1, 50, "data: expected 1 number for Sphere"},
+    {NODE("{" SPHERE ", \"data\": [\"1\"]}"), 1, 51, "data: expected a number"},
+    {NODE("{" SPHERE ", \"data\": [1,2,3,4,5,6,7,8,9]}"), 1, 67, "more than 8 numbers"},
+    {NODE("{" SPHERE ",\n\"data\": [-1]}"), 1, 12, "radius: -1 is "},
+    {NODE("{" SPHERE ", \"material_id\": 0}"), 1, 57, "material_id: 0 is none of the 0"},
+    {NODE("{" SPHERE ", \"transform\": {\"pos\": 1}}"), 1, 63, "no member \"pos\" here"},
+    {NODE("{" SPHERE ", \"transform\": {\"scale\": {\"x\": 0}}}"), 1, 12, "scale: 0 (x)"},
+    {NODE("{" SPHERE ", \"transform\": {\"position\": [1]}}"), 1, 68, "expected an object"},
+    {"{\"id\": 31, \"code\": \"\"}", 1, 8, "id: expected a whole number of at least 32"},
+    {"{\"id\": 33, \"code\": 1}", 1, 20, "code: expected a text in quotes"},
+    {"{\"properties\": [\"_A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
+    {"{\"properties\": [\"[half] _A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
+    {"{\"properties\": [\"[float] [Range(0)] _A\"], \"code\": \"\"}", 1, 17, "[Range(0, 1)]"},
+    {"{\"base_shader\": \"x\"}", 1, 17, "no file has the shader \"x\""},
+};
+
 static void test_refused(void **state)
 {
-    static const struct {
-        const char *text;
-        int line, column;
-        const char *message;
-    } rows[] = {
-        {"", 1, 1, "the file ends here, expected an object"},
-        {"[]", 1, 1, "expected an object"},
-        {"{\"scene\": [}", 1, 12, "expected a value, not '}'"},
-        {"{\n\"scene\": [],\n}", 3, 1, "expected the name of a member in quotes, not '}'"},
-        {"{\"scene\": [1,]}", 1, 14, "expected a value, not ']'"},
-        {"{\"scene\": []", 1, 13, "the file ends here, expected ',' or '}'"},
-        {"{\"scene\": []} x", 1, 15, "expected the end of the file, not 'x'"},
-        {"{\"scene\" []}", 1, 10, "expected ':'"},
-        {"{\"name\": \"x\n\n", 1, 10, "the text that begins here does not end"},
-        {"{\"name\": \"\\x\"}", 1, 11, "no escape of JSON"},
-        {"{\"name\": \"\\ud800\"}", 1, 11, "no escape of JSON"},
-        {"{\"name\": \"\x01\"}", 1, 11, "a control character"},
-        {"{\"name\": \"\xff\"}", 1, 11, "not UTF-8"},
-        {"{\"scene\": 01}", 1, 11, "expected a number"},
-        {"{\"scene\": .5}", 1, 11, "expected a value, not '.'"},
-        {"{\"scene\": 1e999}", 1, 11, "this number is too large"},
-        {"{\"scene\": [], \"scene\": []}", 1, 24, "stands in the object already"},
-        {"{\"scene\": [1, \"a\": 2]}", 1, 18, "expected ',' or ']', not ':'"},
-        {"{\"other\": 1}", 1, 1, "neither a scene"},
-        {"{\"scene\": {}}", 1, 11, "scene: expected a list"},
-        {"{\"scene\": [], \"nmae\": 1}", 1, 23, "did you mean \"name\"?"},
-        {NODE("1"), 1, 12, "expected a node"},
-        {NODE("{}"), 1, 12, "expected one member type"},
-        {NODE("{\"type\": \"Sphere\"}"), 1, 21, "is no type"},
-        {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "no file has the primitive"},
-        {NODE("{\"type\": \"Primitives/Sphera\"}"), 1, 21, "did you mean \"Primitives/Sphere\"?"},
-        {NODE("{\"type\": \"Modifiers/Twists\"}"), 1, 21, "did you mean \"Modifiers/Twist\"?"},
-        {NODE("{\"type\": \"Modifiers/Union\"}"), 1, 21, "is no type"},
-        {NODE("{\"type\": \"Primitives/RoundBox\", \"data\": [1, 1]}"), 1, 52,
-         "data: expected 3 numbers for RoundBox"},
-        {NODE("{\"type\": \"Primitives/CappedTorus\", \"data\": [1, 1, 1, 1, 1, 1, 1, 1, 1]}"), 1,
-         80, "data: more than 8 numbers"},
-        {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 2]}"), 1, 49,
-         "data: expected 3 numbers for count, and 1 is left"},
-        {NODE("{\"type\": \"Modifiers/Mirror\", \"data\": [1, 2, 0]}"), 1, 49,
-         "data: expected 0 or 1 for each axis for axes"},
-        {NODE("{\"type\": \"Modifiers/Repeat\", \"data\": [1, 1, 1, 0.5, 1, 1]}"), 1, 12,
-         "count: 0.5 (x) is not a whole number"},
-        {NODE("{\"type\": \"Operations/SmoothUnion\", \"data\": [1, 99]}"), 1, 55,
-         "data: expected the place of one of its choices, from 0 for kernel"},
-        {NODE("{\"type\": \"Primitives/Polygon\", \"data\": [1, 0, 0, 1, 0, 0, 1]}"), 1, 51,
-         "data: expected x and y of each point for points"},
-        {NODE("{\"type\": \"Operations/Union\", \"data\": [1]}"), 1, 49,
-         "data: expected 0 numbers for Union"},
-        {NODE("{\"type\": \"Operations/Unoin\"}"), 1, 21, "did you mean \"Operations/Union\"?"},
-        {NODE("{\"type\": \"Models/Nobody\"}"), 1, 21, "no file has the model \"Nobody\""},
-        {NODE("{" SPHERE ", \"data\": []}"), 1, 50, "data: expected 1 number for Sphere"},
-        {NODE("{" SPHERE ", \"data\": [\"1\"]}"), 1, 51, "data: expected a number"},
-        {NODE("{" SPHERE ", \"data\": [1,2,3,4,5,6,7,8,9]}"), 1, 67, "more than 8 numbers"},
-        {NODE("{" SPHERE ",\n\"data\": [-1]}"), 1, 12, "radius: -1 is "},
-        {NODE("{" SPHERE ", \"material_id\": 0}"), 1, 57, "material_id: 0 is none of the 0"},
-        {NODE("{" SPHERE ", \"transform\": {\"pos\": 1}}"), 1, 63, "no member \"pos\" here"},
-        {NODE("{" SPHERE ", \"transform\": {\"scale\": {\"x\": 0}}}"), 1, 12, "scale: 0 (x)"},
-        {NODE("{" SPHERE ", \"transform\": {\"position\": [1]}}"), 1, 68, "expected an object"},
-        {"{\"id\": 31, \"code\": \"\"}", 1, 8, "id: expected a whole number of at least 32"},
-        {"{\"id\": 33, \"code\": 1}", 1, 20, "code: expected a text in quotes"},
-        {"{\"properties\": [\"_A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
-        {"{\"properties\": [\"[half] _A\"], \"code\": \"\"}", 1, 17, "expected a property as"},
-        {"{\"properties\": [\"[float] [Range(0)] _A\"], \"code\": \"\"}", 1, 17, "[Range(0, 1)]"},
-        {"{\"base_shader\": \"x\"}", 1, 17, "no file has the shader \"x\""},
-    };
-
     (void)state;
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        struct scene *scene = import_texts("f/s.json", rows[i].text, NULL);
+    for (size_t i = 0; i < COUNT(refused); i++) {
+        struct scene *scene = import_texts("f/s.json", refused[i].text, NULL);
 
-        if (scene || strcmp(err.place, "f/s.json") != 0 || err.line != rows[i].line ||
-            err.column != rows[i].column || !strstr(err.message, rows[i].message)) {
-            fail_msg("%s\n  expected %d:%d: %s\n  got %s:%d:%d: %s", rows[i].text, rows[i].line,
-                     rows[i].column, rows[i].message, err.place, err.line, err.column, err.message);
+        if (scene || strcmp(err.place, "f/s.json") != 0 || err.line != refused[i].line ||
+            err.column != refused[i].column || !strstr(err.message, refused[i].message)) {
+            fail_msg("%s\n  expected %d:%d: %s\n  got %s:%d:%d: %s", refused[i].text,
+                     refused[i].line, refused[i].column, refused[i].message, err.place, err.line,
+                     err.column, err.message);
         }
     }
 }
