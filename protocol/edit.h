@@ -28,6 +28,7 @@ bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
  * A step knows the values that its edits left. Where there is another one now, somebody else has
  * set it, and undo and redo leave it alone. */
 struct history;
+struct step;
 
 enum history_kind { HISTORY_EDIT, HISTORY_UNDO, HISTORY_REDO };
 
@@ -40,6 +41,7 @@ struct history_entry {
     const cJSON *applied;
     cJSON *inverse;    /* taken */
     size_t undo, redo; /* steps that the author had before it */
+    struct step *step; /* of an edit, by history_prepare; taken; NULL: it is made of the others */
 };
 
 struct history *history_create(void);
@@ -49,6 +51,8 @@ void history_forget(struct history *history, const char *author);
 /* Edits of one author with the same non-empty group join in one step; of several sets of one place
  * in a group only the oldest value is kept. An undo or redo moves a step without applying it. */
 void history_record(struct history *history, const struct history_entry *entry);
+/* What is long about recording an edit, without the history; takes the inverse. */
+struct step *history_prepare(const struct history_entry *entry);
 
 /* What an undo or redo did. */
 struct history_move {

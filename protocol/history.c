@@ -132,9 +132,14 @@ void history_forget(struct history *history, const char *author_name)
     }
 }
 
+struct step *history_prepare(const struct history_entry *entry)
+{
+    return step_create(entry->group, entry->label, entry->applied, entry->inverse);
+}
+
 static void record_edit(struct author *author, const struct history_entry *entry)
 {
-    struct step *step = step_create(entry->group, entry->label, entry->applied, entry->inverse);
+    struct step *step = entry->step ? entry->step : history_prepare(entry);
     struct stack *undo = &author->undo;
     struct step *newest = undo->count > 0 ? undo->items[undo->count - 1] : NULL;
     clear(&author->redo);

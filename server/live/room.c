@@ -309,7 +309,7 @@ static struct store_step record_step(struct room *room, const struct room_change
                                                           .group = step.group,
                                                           .label = step.label,
                                                           .applied = work->applied,
-                                                          .inverse = work->inverse,
+                                                          .step = work->step,
                                                           .undo = step.undo,
                                                           .redo = step.redo});
     return step;
@@ -326,7 +326,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     }
     fallback_before_edit(room, ops);
     if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
-        !room_apply(room, ops, &work, err)) {
+        !room_apply(room, change, ops, &work, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }

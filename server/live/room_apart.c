@@ -120,24 +120,29 @@ void room_snapshot_soon(struct room *room)
 
 /* --- many operations --- */
 
-static bool apply(struct scene *scene, const cJSON *ops, struct room_work *out, struct error *err)
+static bool apply(struct scene *scene, const struct room_change *change, const cJSON *ops,
+                  struct room_work *out, struct error *err)
 {
     if (!edit_apply(scene, ops, &out->applied, &out->inverse, err)) {
         return false;
     }
     out->applied_text = json_print(out->applied, false);
     out->inverse_text = json_print(out->inverse, false);
+    out->step = history_prepare(&(struct history_entry){.group = change->group,
+                                                        .label = change->label,
+                                                        .applied = out->applied,
+                                                        .inverse = out->inverse});
     return true;
 }
 
 /* Others may still read the document when the copy is to take its place. */
-static bool apply_to_copy(struct room *room, const cJSON *ops, struct room_work *out,
-                          struct error *err)
+static bool apply_to_copy(struct room *room, const struct room_change *change, const cJSON *ops,
+                          struct room_work *out, struct error *err)
 {
     room_hold(room);
     hub_unlock(room->hub);
     struct scene *copy = scene_copy(room->scene);
-    const bool ok = apply(copy, ops, out, err);
+    const bool ok = apply(copy, change, ops, out, err);
     if (!ok) {
         scene_destroy(copy);
     }
@@ -153,11 +158,12 @@ static bool apply_to_copy(struct room *room, const cJSON *ops, struct room_work 
     return ok;
 }
 
-bool room_apply(struct room *room, const cJSON *ops, struct room_work *out, struct error *err)
+bool room_apply(struct room *room, const struct room_change *change, const cJSON *ops,
+                struct room_work *out, struct error *err)
 {
     const bool ok = cJSON_GetArraySize(ops) > ROOM_LIGHT_OPERATIONS
-                        ? apply_to_copy(room, ops, out, err)
-                        : apply(room->scene, ops, out, err);
+                        ? apply_to_copy(room, change, ops, out, err)
+                        : apply(room->scene, change, ops, out, err);
 
     if (ok) {
         room_forget_text(room);

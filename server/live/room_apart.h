@@ -11,13 +11,15 @@ enum { ROOM_LIGHT_OPERATIONS = 256 }; /* of an edit; more are applied to a copy 
 
 /* What an edit made. */
 struct room_work {
-    cJSON *applied, *inverse;
+    cJSON *applied, *inverse; /* `inverse` is the step's */
+    struct step *step;
     char *applied_text, *inverse_text;
     struct scene *before; /* that the copy took the place of; NULL: none did */
 };
 
 /* Nobody may hold the room. With many operations it lets go of the lock. */
-bool room_apply(struct room *room, const cJSON *ops, struct room_work *out, struct error *err);
+bool room_apply(struct room *room, const struct room_change *change, const cJSON *ops,
+                struct room_work *out, struct error *err);
 /* Frees what nobody has taken; lets go of the lock if that takes long. */
 void room_work_finish(struct room *room, struct room_work *work);
 /* `text` is what the document prints as now; kept where printing takes long. */

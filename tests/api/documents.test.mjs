@@ -3,7 +3,7 @@
 // clock decides: what matters is who is answered before whom.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { ask, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
 import { largeDocument } from '../support/large.mjs';
 import { Live } from '../support/live.mjs';
 
@@ -149,9 +149,10 @@ test('an edit that was received is applied, though its client has left', async (
 
 test('one client has no more than its share of large documents waiting', async () => {
     const body = fatDocument();
-    const first = put('a', largeDocument(NODES));
+    const first = put('largest', largeDocument(3 * NODES));
+    await until(async () => (await counter(daemon, 'documents_waiting')) === 1, 'the first to be read');
     const answers = await Promise.all(Array.from({ length: SHARE + 8 }, (_, i) => put(`fat-${i}`, body)));
-    assert.equal((await first).status, 200);
+    assert.equal((await first).status, 201);
     const refused = answers.filter(({ status }) => status === 429);
     assert.ok(refused.length > 0, `${answers.map(({ status }) => status)}`);
     assert.ok(answers.every(({ status }) => status === 429 || status === 201));
