@@ -42,6 +42,9 @@ struct node_type {
     /* Largest gradient length of the raw function; the renderer divides by it. 0 means that a rule
      * computed from parameters and bounds gives it (twist, terrain). */
     double lipschitz;
+    /* It has creases within every pixel, however near the eye is. So a pixel's normal is that of
+     * some place in it, and its depth is right to two pixels' width. */
+    bool creased;
     const char *glsl;   /* name of the GLSL function */
     const char *words;  /* search synonyms for the palette: "donut ring" */
     const char *source; /* where the formula comes from */

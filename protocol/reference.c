@@ -96,6 +96,11 @@ static void add_node(struct page *page, const struct node_type *type)
     if (measured) {
         add(page, type->exactness == EXACT ? " Exact distance." : " A bound of the distance.");
     }
+    if (type->creased) {
+        add(page,
+            " It has creases within every pixel: a normal is that of some place in the pixel, "
+            "and a depth is right to two pixels' width.");
+    }
     add(page, "\n\n");
     add_params(page, &type->record);
     add(page, "Source: %s\n\n", type->source);

@@ -25,7 +25,7 @@ const struct node_type node_fractals[] = {
          .doc = "By how much a turn about the origin is multiplied."},
         {"iterations", COUNT, .min = 1, .max = 12, .def = {8}, .doc = "Steps of an orbit."})},
      .number = 71, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
-     .glsl = "sd_mandelbulb", .words = "fractal mandelbrot broccoli",
+     .creased = true, .glsl = "sd_mandelbulb", .words = "fractal mandelbrot broccoli",
      .source = "Daniel White and Paul Nylander, The unravelling of the real 3D Mandelbulb, "
                "skytopia.com/project/fractal/mandelbulb.html"},
     {.record = {"menger", "A cube without its middle, and so on in each of the cubes left over.",
@@ -43,7 +43,7 @@ const struct node_type node_fractals[] = {
          .step = 0.02, .main = true, .doc = "What is added in each step; its first is real."},
         {"iterations", COUNT, .min = 1, .max = 20, .def = {10}, .doc = "Steps of an orbit."})},
      .number = 73, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
-     .glsl = "sd_julia", .words = "fractal quaternion",
+     .creased = true, .glsl = "sd_julia", .words = "fractal quaternion",
      .source = "Hart, Sandin and Kauffman, Ray tracing deterministic 3-D fractals, SIGGRAPH 1989"},
     {.record = {"terrain", "A landscape on a rectangle. Hills are as wide as a quarter of the "
                 "greater horizontal size; each octave adds some half as wide and half as high.",

@@ -31,8 +31,11 @@ enum { WIDTH = 128, HEIGHT = 96, CASES_MAX = 200, BATCH = 4 };
 
 static const struct oracle_bounds smooth_bounds = {
     .overlap = 0.995, .depths = 0.005, .normals = 0.02, .ids = 0.01};
-static const struct oracle_bounds rough_bounds = {
-    .overlap = 0.985, .depths = 1, .normals = 1, .ids = 0.01};
+/* Of creased types (protocol/nodes.h): depths to CREASED_ROOM, normals to CREASED_DEGREES. */
+static const struct oracle_bounds creased_bounds = {
+    .overlap = 0.99, .depths = 0.02, .normals = 0.15, .ids = 0.01};
+#define CREASED_ROOM 4 /* half pixels */
+#define CREASED_DEGREES 90
 
 /* Changes the camera of a scene, which looks at what is around the origin, about 1 in radius. */
 struct view {
@@ -51,10 +54,6 @@ static const struct view views[] = {
     {"parallel x10", .scale = 10, .from = {0.7, -1.4, 1.9}, .height = 2.2},
 };
 enum { VIEWS = sizeof views / sizeof views[0] };
-
-/* Fractals have creases within every pixel: depth and normal are those of a place that floats do
- * not tell, and rays between their threads do not always find one. */
-static const char *const rough[] = {"julia", "mandelbulb"};
 
 static struct renderer *renderer;
 static bool wordy;
@@ -229,32 +228,33 @@ static bool is_near(const struct oracle_found *found, double depth, double footp
     return fabs(depth - found->t) <= DEPTH_ROOM * scale_now;
 }
 
+static bool is_near_creases(const struct oracle_found *found, double depth, double footprint)
+{
+    return fabs(depth - found->t) <= CREASED_ROOM * footprint;
+}
+
+static bool is_creased(const struct seen_case *it)
+{
+    return it->type && it->type->creased;
+}
+
 static struct oracle *ask_oracle(const struct seen_case *it, const struct view *view)
 {
     struct scene *scene = scene_of(it, view, false);
-    struct oracle *oracle =
-        oracle_create(scene, &(struct oracle_params){.width = WIDTH,
-                                                     .height = HEIGHT,
-                                                     .every = 1,
-                                                     .tolerance = TOLERANCE * view->scale,
-                                                     .gradient = GRADIENT * view->scale,
-                                                     .end_of_sight = 0.9,
-                                                     .degrees = 5,
-                                                     .inner_only = true,
-                                                     .is_near = is_near});
+    const bool creased = is_creased(it);
+    struct oracle *oracle = oracle_create(
+        scene, &(struct oracle_params){.width = WIDTH,
+                                       .height = HEIGHT,
+                                       .every = 1,
+                                       .tolerance = TOLERANCE * view->scale,
+                                       .gradient = GRADIENT * view->scale,
+                                       .end_of_sight = 0.9,
+                                       .degrees = creased ? CREASED_DEGREES : 5,
+                                       .inner_only = true,
+                                       .is_near = creased ? is_near_creases : is_near});
     scale_now = view->scale;
     scene_destroy(scene);
     return oracle;
-}
-
-static bool is_rough(const struct seen_case *it)
-{
-    for (size_t i = 0; it->type && i < sizeof rough / sizeof rough[0]; i++) {
-        if (strcmp(it->name, rough[i]) == 0) {
-            return true;
-        }
-    }
-    return false;
 }
 
 /* Whether the picture of one is what the oracle says of the other, mostly the same. */
@@ -270,7 +270,7 @@ static bool is_seen_as(const struct seen_case *drawn, const struct seen_case *as
     if (tally.either < WIDTH * HEIGHT / 400) {
         fail_msg("%s: only %d pixels are covered", name, tally.either);
     }
-    return oracle_agrees(name, &tally, is_rough(drawn) ? &rough_bounds : &smooth_bounds, wordy);
+    return oracle_agrees(name, &tally, is_creased(asked) ? &creased_bounds : &smooth_bounds, wordy);
 }
 
 static void test_case(void **state)
