@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Privileges. Files are in confine_files.c, calls of the kernel in confine_calls.c. */
 #include "confine.h"
 
 #include <linux/capability.h>
@@ -15,7 +16,7 @@ static void drop_capabilities(void)
     syscall(SYS_capset, &head, none);
 }
 
-void confine(void)
+void confine_privileges(void)
 {
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     drop_capabilities();

@@ -15,7 +15,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "confine.h"
 #include "protocol/messages.h"
 #include "worker_parts.h"
 
@@ -194,6 +193,17 @@ static void finish(struct worker *w)
     }
 }
 
+/* Threads that the driver and `w` have by now are confined too. */
+static bool seal(struct worker *w, enum confine_mode mode, struct error *err)
+{
+    if (mode != CONFINE_OFF) {
+        confine_calls(&w->confined);
+    }
+    return mode != CONFINE_STRICT || (w->confined.files && w->confined.calls) ||
+           error_set(err, ERROR_INTERNAL, "", "the render process cannot be confined: %s",
+                     w->confined.why);
+}
+
 int worker_run(int fd, const struct worker_params *params)
 {
     struct worker w = {.fd = fd, .status = -1};
@@ -201,7 +211,10 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    confine();
+    confine_privileges();
+    if (params->confine != CONFINE_OFF) {
+        confine_files(&w.confined, renderer.cache_dir);
+    }
     signal(SIGINT, SIG_IGN); /* a Ctrl-C at the terminal is for the front */
     w.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     renderer.on_compile = worker_on_compile;
@@ -209,7 +222,7 @@ int worker_run(int fd, const struct worker_params *params)
     renderer.on_compile_data = &w;
     w.renderer = renderer_create(&renderer, &err);
     w.encoder = w.renderer ? encoder_create(w.wake_fd, &err) : NULL;
-    if (w.wake_fd < 0 || !w.encoder) {
+    if (w.wake_fd < 0 || !w.encoder || !seal(&w, params->confine, &err)) {
         if (params->renderer.log) {
             params->renderer.log(params->renderer.log_data, err.message);
         }

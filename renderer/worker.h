@@ -8,7 +8,7 @@
  *
  * front -> worker                                     worker -> front
  *   asset  {asset} + payload, before a scene names it
- *   scene  {scene, revision, document}                  ready    {renderer{...}}
+ *   scene  {scene, revision, document}                  ready    {renderer{...}, confined{...}}
  *   edit   {scene, revision, ops}                       shown    {scene, revision}  (compiled)
  *   drop   {scene}                                      broken   {scene, revision, ERROR}
  *   judge  {shapes: [{shape | asset, code?, measured?,  warned   {scene, revision, ERROR}
@@ -44,7 +44,7 @@
  * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
  * `newest` is false where the picture is older than the scene because its shader still compiles.
- * Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
+ * `confined` is struct confinement. Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
  * priority number goes first, so a viewer's frame interrupts a long picture between two tiles. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H
@@ -52,6 +52,7 @@
 #include <cjson/cJSON.h>
 #include <stdint.h>
 
+#include "confine.h"
 #include "renderer.h"
 #include "vigil.h"
 
@@ -61,10 +62,15 @@ struct worker_params {
     struct renderer_params renderer;
     int pulse_fd;              /* for pings; -1: there are none */
     size_t memory_limit_bytes; /* RLIMIT_AS above what the driver needs; 0: none */
+    enum confine_mode confine;
 };
 
 /* The whole life of the render process; returns its exit status. */
 int worker_run(int fd, const struct worker_params *params);
+
+/* Loads the driver in a process of its own, confined as the render process is. False: it cannot
+ * draw there, and `err` says why. Before any other thread runs. */
+bool worker_try(const struct worker_params *params, struct confinement *out, struct error *err);
 
 /* --- packets, used by both ends --- */
 

@@ -192,6 +192,10 @@ void worker_send_ready(struct worker *w)
     cJSON_AddStringToObject(renderer, "version", info->version);
     cJSON_AddStringToObject(renderer, "device", info->device);
     cJSON_AddBoolToObject(renderer, "software", info->software);
+    cJSON *confined = cJSON_AddObjectToObject(json, "confined");
+    cJSON_AddBoolToObject(confined, "files", w->confined.files);
+    cJSON_AddBoolToObject(confined, "calls", w->confined.calls);
+    cJSON_AddStringToObject(confined, "why", w->confined.why);
     worker_send(w, json, NULL, 0);
 }
 

@@ -50,7 +50,8 @@ struct worker {
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
     uint64_t told_job;        /* that the front thinks is drawn; 0: none */
-    int status;               /* -1 while running */
+    struct confinement confined;
+    int status; /* -1 while running */
 };
 
 enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front starts another */

@@ -41,6 +41,10 @@
     X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \
     X(FRAME_BYTES, "frame_bytes_total", "counter", "Payload bytes of frames sent")                 \
     X(WORKER_UP, "worker_up", "gauge", "1 while the worker is ready")                              \
+    X(WORKER_FILES_CONFINED, "worker_files_confined", "gauge",                                     \
+      "1 where the kernel keeps the worker from files that are not its own")                       \
+    X(WORKER_CALLS_CONFINED, "worker_calls_confined", "gauge",                                     \
+      "1 where the kernel keeps the worker from sockets, programs and processes")                  \
     X(WORKER_RESTARTS, "worker_restarts_total", "counter", "Workers replaced")                     \
     X(COMPILATIONS, "shader_compilations_total", "counter", "Shader programs compiled")            \
     X(CACHE_HITS, "shader_cache_hits_total", "counter", "Scenes whose program was there already")  \

@@ -25,7 +25,7 @@ const LEFT_IDLE_SECONDS = 4;
 const LEFT_BUSY_SECONDS = 30;
 const TICKS = 100; // of /proc, in a second
 const LOG_LINES = 200; // shown of a suite that failed
-const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'e2e'];
+const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'fault', 'e2e'];
 const ALONE = ['api', 'kill'];
 const NOT_SUITES = ['bench', 'support', 'bad'];
 

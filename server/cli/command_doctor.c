@@ -15,6 +15,7 @@
 #include "command.h"
 #include "drawing.h"
 #include "protocol/memory.h"
+#include "renderer/worker.h"
 #include "server/rest/embedded.h"
 #include "server/store/store.h"
 
@@ -97,6 +98,34 @@ static int check_drawing(const struct options *options)
         return 0;
     }
     return say(GOOD, "cache", "%s", params.device.cache_dir);
+}
+
+/* Before any thread runs, as it starts a process. */
+static int check_confinement(const struct options *options)
+{
+    struct worker_params params = {
+        .confine = (enum confine_mode)option_int(options, OPTION_CONFINE),
+    };
+    struct confinement confined = {0};
+    struct error err = {0};
+    drawing_params(options, &params.renderer);
+    fflush(stdout);
+    bool draws = worker_try(&params, &confined, &err);
+    if (params.confine == CONFINE_OFF) {
+        return say(WARNING, "confinement", "off (--confine)");
+    }
+    if (!draws) {
+        return say(BAD, "confinement",
+                   "the driver does not start in a confined process: %s; if it does here, "
+                   "serve with --confine off",
+                   err.message);
+    }
+    if (!confined.files || !confined.calls) {
+        return say(params.confine == CONFINE_STRICT ? BAD : WARNING, "confinement", "%s",
+                   confined.why);
+    }
+    return say(GOOD, "confinement",
+               "the render process writes to its cache alone, opens no socket, starts no program");
 }
 
 /* --- the machine --- */
@@ -211,7 +240,8 @@ static int check_page(void)
 int command_doctor(const struct options *options)
 {
     puts("fieldcast " FIELDCAST_VERSION);
-    int bad = check_drawing(options);
+    int bad = check_confinement(options);
+    bad += check_drawing(options);
     bad += check_data(option_text(options, OPTION_DATA));
     bad += check_store(option_text(options, OPTION_DATA));
     bad += check_port(option_text(options, OPTION_HOST), option_text(options, OPTION_PORT));

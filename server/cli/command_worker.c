@@ -15,6 +15,7 @@ int command_worker(const struct options *options)
     struct worker_params params = {
         .pulse_fd = WORKER_PULSE_FD,
         .memory_limit_bytes = (size_t)option_int(options, OPTION_WORKER_MEMORY) << 20,
+        .confine = (enum confine_mode)option_int(options, OPTION_CONFINE),
     };
     drawing_params(options, &params.renderer);
     params.renderer.code_ms = option_int(options, OPTION_CODE_TIME);

@@ -11,6 +11,7 @@
 #include "command.h"
 #include "protocol/memory.h"
 #include "renderer/renderer.h"
+#include "renderer/worker.h"
 
 #define FOR(command) (1U << COMMAND_##command)
 
@@ -41,6 +42,13 @@ static const char *device_choice(size_t index)
 {
     static const char *const words[] = {
         [DEVICE_AUTO] = "auto", [DEVICE_GPU] = "gpu", [DEVICE_SOFTWARE] = "software"};
+    return word_of(words, 3, index);
+}
+
+static const char *confine_choice(size_t index)
+{
+    static const char *const words[] = {
+        [CONFINE_AUTO] = "auto", [CONFINE_STRICT] = "strict", [CONFINE_OFF] = "off"};
     return word_of(words, 3, index);
 }
 
@@ -118,6 +126,12 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_WORKER_MEMORY] = {"worker-memory", 0, "MIB", OPTION_INT, .fallback = "0",
         .min = 0, .max = 1048576, .commands = FOR(SERVE) | FOR(WORKER), .stored = true,
         .doc = "Memory that the render process may take besides the driver's; 0 sets no limit."},
+    [OPTION_CONFINE] = {"confine", 0, "WORD", OPTION_CHOICE, .choice = confine_choice,
+        .fallback = "auto", .commands = FOR(SERVE) | FOR(DOCTOR) | FOR(WORKER), .stored = true,
+        .doc = "Whether the kernel keeps the render process to its work: it writes only beneath "
+               "--cache, reads only there and where drivers are, opens no socket, starts no "
+               "program and reaches no other process. `auto` goes on where the kernel can do only "
+               "a part of that; `strict` does not; `off` is for drivers that need more."},
     [OPTION_DEVICE] = {"device", 0, "KIND", OPTION_CHOICE, .choice = device_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
         .doc = "What draws. `auto` prefers a GPU; `gpu` fails where there is none."},

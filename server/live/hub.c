@@ -261,6 +261,26 @@ static void copy_text(char *out, size_t size, const cJSON *object, const char *m
     snprintf(out, size, "%s", json_member_text(object, member, ""));
 }
 
+/* What keeps the worker from the rest of the machine. */
+static void tell_confinement(struct hub *hub, const cJSON *confined)
+{
+    const bool files = json_member_bool(confined, "files", false);
+    const bool calls = json_member_bool(confined, "calls", false);
+    const char *why = json_member_text(confined, "why", "");
+
+    metric_set(&hub->metrics, METRIC_WORKER_FILES_CONFINED, files);
+    metric_set(&hub->metrics, METRIC_WORKER_CALLS_CONFINED, calls);
+    if (files && calls) {
+        log_info("worker", "confined: files, system calls");
+    } else {
+        log_warning("worker", "confined: %s; %s",
+                    files   ? "files alone"
+                    : calls ? "system calls alone"
+                            : "nothing",
+                    *why ? why : "--confine is off");
+    }
+}
+
 static void on_ready(void *data, const cJSON *ready)
 {
     struct hub *hub = data;
@@ -273,6 +293,7 @@ static void on_ready(void *data, const cJSON *ready)
     copy_text(info->device, sizeof(info->device), renderer, "device");
     info->software = json_member_bool(renderer, "software", false);
     log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
+    tell_confinement(hub, cJSON_GetObjectItemCaseSensitive(ready, "confined"));
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->told_lost) {
             room->told_lost = false;

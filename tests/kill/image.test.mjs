@@ -61,7 +61,7 @@ async function start(driver) {
     process.env.LD_PRELOAD = driver ? `${driver} ${LD_PRELOAD}` : LD_PRELOAD;
     process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
     process.env.HOSTILE_COUNT = path.join(counts, 'processes');
-    daemon = await startDaemon({ tileMs: 5 });
+    daemon = await startDaemon({ tileMs: 5, args: ['--cache', counts] });
     delete process.env.LD_PRELOAD;
     await ask(daemon, 'POST', '/v1/scenes?id=other', scene());
     viewer = await Live.open(daemon, 'other');

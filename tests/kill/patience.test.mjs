@@ -52,7 +52,7 @@ async function start(...args) {
     process.env.LD_PRELOAD = `${driver} ${nothing}`;
     process.env.HOSTILE_COUNT = path.join(folder, `count-${daemons.length}`);
     process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
-    const daemon = await startDaemon({ args });
+    const daemon = await startDaemon({ args: ['--cache', folder, ...args] });
     delete process.env.LD_PRELOAD;
     daemons.push(daemon);
     return daemon;

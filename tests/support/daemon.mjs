@@ -73,22 +73,29 @@ export function cpuSecondsOf(pid) {
 
 const driverFile = (name) => path.join(path.dirname(program), `tests/support/drivers/${name}_driver.so`);
 
-/** What a program needs in its environment to have a driver in front of its own (support/drivers). */
-export const driverEnvironment = (name) => ({
-    LD_PRELOAD: driverFile(name),
+/** What a program needs in its environment to have drivers in front of its own (support/drivers). */
+export const driverEnvironment = (...names) => ({
+    LD_PRELOAD: names.map(driverFile).join(' '),
     ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`,
 });
 
 /**
  * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
  * directory is a fresh one, removed by stop(), unless one is given. `driver: 'null'` draws nothing
- * that anybody could look at, at once or with `tileMs` for each tile.
+ * that anybody could look at, at once or with `tileMs` for each tile; several are loaded in front of
+ * each other.
  */
 export async function startDaemon(options = {}) {
-    const { data, args = [], ready = true, limits = '', driver = null, tileMs = 0 } = options;
+    const { data, args = [], ready = true, limits = '', driver = [], tileMs = 0, environment = {} } = options;
     const directory = data ?? makeDirectory();
     const all = ['serve', '--port', '0', '--data', directory, ...args];
-    const env = { ...process.env, ...(driver && driverEnvironment(driver)), NULL_DRIVER_TILE_MS: String(tileMs) };
+    const drivers = [driver].flat();
+    const env = {
+        ...process.env,
+        ...(drivers.length > 0 && driverEnvironment(...drivers)),
+        NULL_DRIVER_TILE_MS: String(tileMs),
+        ...environment,
+    };
     // AddressSanitizer would keep freed memory for a while, and with it what tests measure.
     env.ASAN_OPTIONS = `${env.ASAN_OPTIONS ?? ''}:quarantine_size_mb=1`;
     const child = limits
