@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "encode.h"
 #include "protocol/memory.h"
@@ -46,10 +47,18 @@ static bool check_length(const struct picture_file *file, struct error *err)
                      file->params.limit_bytes);
 }
 
+/* What has a limit goes into memory: the render process may write no other files. */
+static FILE *open_temporary(const struct encode_params *params)
+{
+    const int fd = params->limit_bytes > 0 ? memfd_create("picture", MFD_CLOEXEC) : -1;
+
+    return params->limit_bytes > 0 ? (fd < 0 ? NULL : fdopen(fd, "w+")) : tmpfile();
+}
+
 static bool open_part(struct picture_file *file, int aov, const struct image *shape,
                       struct error *err)
 {
-    file->parts[aov] = file->zipped ? tmpfile() : file->out;
+    file->parts[aov] = file->zipped ? open_temporary(&file->params) : file->out;
     if (!file->parts[aov]) {
         return error_set(err, ERROR_UNAVAILABLE, "", "no temporary file: %s", strerror(errno));
     }
