@@ -2,6 +2,7 @@
 /* Whole files. */
 #include "files.h"
 #include "protocol/memory.h"
+#include "server/directory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -145,7 +146,11 @@ bool directory_make(const char *path, struct error *err)
         }
         char kept = *end;
         *end = '\0';
-        ok = mkdir(copy, 0700) == 0 || errno == EEXIST || errno == EISDIR;
+        if (mkdir(copy, 0700) == 0) {
+            directory_sync_parent(copy);
+        } else {
+            ok = errno == EEXIST || errno == EISDIR;
+        }
         *end = kept;
         if (kept == '\0') {
             break;

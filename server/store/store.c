@@ -13,6 +13,7 @@
 
 #include "protocol/memory.h"
 #include "server/clock.h"
+#include "server/directory.h"
 #include "server/log.h"
 #include "store_sqlite.h"
 
@@ -136,7 +137,9 @@ static bool take_directory(struct store *store, const char *directory, struct er
 {
     char path[4096];
 
-    if (mkdir(directory, 0700) != 0 && errno != EEXIST) {
+    if (mkdir(directory, 0700) == 0) {
+        directory_sync_parent(directory);
+    } else if (errno != EEXIST) {
         return error_set(err, ERROR_UNAVAILABLE, directory, "cannot be made: %s", strerror(errno));
     }
     if (snprintf(path, sizeof(path), "%s/lock", directory) >= (int)sizeof(path)) {

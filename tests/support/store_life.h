@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* The life of a store that is written to, opened twice in it, and what must be there afterwards. For
+ * tests of disks: programs that are run with drivers/disk_driver.so in front of libc. */
+#ifndef TESTS_SUPPORT_STORE_LIFE_H
+#define TESTS_SUPPORT_STORE_LIFE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tests/support/drivers/disk_driver.h"
+
+enum { STORE_LIFE_REFUSED = 3, STORE_LIFE_SILENT = 4, STORE_LIFE_ASSET = 1000 };
+
+extern disk_arm_function *disk_arm;
+extern disk_count_function *disk_count;
+extern disk_record_function *disk_record;
+extern disk_note_function *disk_note;
+
+/* Starts this program again behind the driver, if it is not. The first thing in main. */
+void store_life_load_disk(char **argv);
+
+/* A directory for a test, in memory where there is such: nobody waits for a disk there. */
+void store_life_make_base(char *out, size_t size, const char *name);
+
+/* Makes the directory, writes, closes, opens, writes, closes. What is told durable is noted (a
+ * revision, or STORE_LIFE_ASSET) and written to `told_fd` as int64_t. The exit status: 0, or
+ * STORE_LIFE_REFUSED where the store was not opened and said why, STORE_LIFE_SILENT where it did not. */
+int store_life(const char *directory, int told_fd);
+
+/* What is wrong with what the directory holds, where so much was told durable; NULL: nothing. */
+const char *store_life_fault(const char *directory, int64_t revision, bool asset);
+
+#endif
