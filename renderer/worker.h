@@ -44,7 +44,8 @@
  * A render `in_rounds` is answered by a frame for each round of samples; the last one's `more` is
  * false. A render of a scene that is not known, or a malformed packet, is answered by `failed`.
  * `newest` is false where the picture is older than the scene because its shader still compiles.
- * `confined` is struct confinement. Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
+ * `confined` is struct confinement.
+ * Jobs run tile by tile. Scenes take turns by drawing time (turns.h); in one scene the lowest
  * priority number goes first, so a viewer's frame interrupts a long picture between two tiles. */
 #ifndef RENDERER_WORKER_H
 #define RENDERER_WORKER_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A loss of power: the life of a store is recorded, then what the disk may hold is made for each
- * moment before a sync and behind an acknowledgement, and opened. What was told durable is there. */
+/* A loss of power: the life of a store is recorded. What the disk may hold at each moment before a
+ * sync and behind an acknowledgement is made of it, and opened: what was told durable is there. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The life of a store that is written to, opened twice in it, and what must be there afterwards. For
- * tests of disks: programs that are run with drivers/disk_driver.so in front of libc. */
+/* The life of a store that is written to, and opened twice in it, and what must be there
+ * afterwards. For tests of what goes wrong beneath it (drivers/disk_driver.c). */
 #ifndef TESTS_SUPPORT_STORE_LIFE_H
 #define TESTS_SUPPORT_STORE_LIFE_H
 
@@ -25,7 +25,8 @@ void store_life_make_base(char *out, size_t size, const char *name);
 
 /* Makes the directory, writes, closes, opens, writes, closes. What is told durable is noted (a
  * revision, or STORE_LIFE_ASSET) and written to `told_fd` as int64_t. The exit status: 0, or
- * STORE_LIFE_REFUSED where the store was not opened and said why, STORE_LIFE_SILENT where it did not. */
+ * STORE_LIFE_REFUSED where the store was not opened and said why, STORE_LIFE_SILENT where it did
+ * not. */
 int store_life(const char *directory, int told_fd);
 
 /* What is wrong with what the directory holds, where so much was told durable; NULL: nothing. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a driver in the wrong hands would try: loaded in front of another (LD_PRELOAD), it tries when
- * the first picture is drawn to reach the rest of the machine, on the thread that draws and on one
- * that was started with the driver. Each act is a line of ESCAPE_REPORT: thread, act, errno.
+/* What a driver in the wrong hands would try: loaded in front of another (LD_PRELOAD), it tries to
+ * reach the rest of the machine when the first picture is drawn, on the thread that draws and on
+ * one that was started with the driver. Each act is a line of ESCAPE_REPORT: thread, act, errno.
  *
  * ESCAPE_DATA: a directory that is none of its business, with files `secret` and `spare`.
  * ESCAPE_WITHOUT: `landlock` or `seccomp`, which the kernel is said not to have. */
