@@ -213,7 +213,7 @@ int worker_run(int fd, const struct worker_params *params)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     confine_privileges();
     if (params->confine != CONFINE_OFF) {
-        confine_files(&w.confined, renderer.cache_dir);
+        confine_files(&w.confined, renderer.device.cache_dir);
     }
     signal(SIGINT, SIG_IGN); /* a Ctrl-C at the terminal is for the front */
     w.wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);

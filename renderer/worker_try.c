@@ -18,7 +18,7 @@ static void try_here(const struct worker_params *params, struct outcome *out)
 {
     confine_privileges();
     if (params->confine != CONFINE_OFF) {
-        confine_files(&out->confined, params->renderer.cache_dir);
+        confine_files(&out->confined, params->renderer.device.cache_dir);
     }
     struct renderer *renderer = renderer_create(&params->renderer, &out->err);
     if (params->confine != CONFINE_OFF) {
