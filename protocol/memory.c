@@ -2,6 +2,7 @@
 /* Allocation that never fails. */
 #include "memory.h"
 
+#include <cjson/cJSON.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,17 @@ void *memory_resize(void *block, size_t count, size_t size)
         abort();
     }
     return resized;
+}
+
+static void *alloc_for_json(size_t size)
+{
+    return memory_alloc(size, 1);
+}
+
+/* Without memory cJSON would leave out members, or take a good text for a bad one. */
+__attribute__((constructor)) static void serve_json(void)
+{
+    cJSON_InitHooks(&(cJSON_Hooks){.malloc_fn = alloc_for_json, .free_fn = free});
 }
 
 char *memory_text(const char *text)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Allocation that never fails: without memory the program aborts and its supervisor starts a new
- * one. Everything given out here is freed with free(). */
+/* Allocation that never fails, for cJSON too: without memory the program aborts and its supervisor
+ * starts a new one. Everything given out here is freed with free(). */
 #ifndef PROTOCOL_MEMORY_H
 #define PROTOCOL_MEMORY_H
 

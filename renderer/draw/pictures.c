@@ -161,13 +161,14 @@ static bool wait_for_it(struct pictures *pictures, int wait_ms)
     struct timespec until;
     bool worked;
 
-    clock_gettime(CLOCK_REALTIME, &until);
+    clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_nsec += (long)(wait_ms % 1000) * 1000000;
     until.tv_sec += wait_ms / 1000 + until.tv_nsec / 1000000000;
     until.tv_nsec %= 1000000000;
     pthread_mutex_lock(&pictures->lock);
     while (wait_ms > 0 && !pictures->worked &&
-           pthread_cond_timedwait(&pictures->change, &pictures->lock, &until) == 0) {
+           pthread_cond_clockwait(&pictures->change, &pictures->lock, CLOCK_MONOTONIC, &until) ==
+               0) {
     }
     worked = pictures->worked;
     pthread_mutex_unlock(&pictures->lock);

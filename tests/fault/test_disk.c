@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +18,8 @@
 
 #include "server/cli/files.h"
 #include "server/store/store.h"
+#include "tests/support/drivers/disk_driver.h"
+#include "tests/support/preload.h"
 #include "tests/support/store_life.h"
 
 static char base[64];
@@ -23,36 +27,14 @@ static char directory[100]; /* two levels below */
 
 /* What a life came to. */
 struct life {
-    int status;       /* of its end; -1: by a signal */
-    int64_t revision; /* the newest that was told durable; 0: none */
-    bool asset;
+    int status; /* of its end; -1: by a signal */
+    struct store_told told;
     int counts[DISK_CALLS_COUNT];
 };
 
-static void read_told(int fd, struct life *out)
-{
-    int64_t number;
-
-    while (read(fd, &number, sizeof number) == sizeof number) {
-        if (number < 0) { /* calls, counted */
-            out->counts[-number % 100] = (int)(-number / 100);
-        } else if (number == STORE_LIFE_ASSET) {
-            out->asset = true;
-        } else {
-            out->revision = number;
-        }
-    }
-}
-
-static void tell_counts(int fd)
-{
-    for (int call = 0; call < DISK_CALLS_COUNT; call++) {
-        const int64_t number = -(100LL * disk_count((enum disk_call)call) + call);
-        if (number != 0 && write(fd, &number, sizeof number) != sizeof number) {
-            abort();
-        }
-    }
-}
+static disk_arm_function *disk_arm;
+static disk_count_function *disk_count;
+static int *counts; /* shared with the process that lives */
 
 static struct life live(enum disk_call call, int nth, int error)
 {
@@ -66,14 +48,17 @@ static struct life live(enum disk_call call, int nth, int error)
         freopen("/dev/null", "w", stderr);
         disk_arm(base, call, nth, error);
         const int result = store_life(directory, ends[1]);
-        tell_counts(ends[1]);
+        for (int i = 0; i < DISK_CALLS_COUNT; i++) {
+            counts[i] = disk_count((enum disk_call)i);
+        }
         _exit(result);
     }
     close(ends[1]);
-    read_told(ends[0], &life);
+    store_life_read_told(ends[0], &life.told);
     close(ends[0]);
     assert_int_equal(waitpid(child, &status, 0), child);
     life.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    memcpy(life.counts, counts, sizeof life.counts);
     return life;
 }
 
@@ -87,7 +72,7 @@ static void remove_directory(void)
 
 static void check_life(const struct life *life, enum disk_call call, int nth, int error)
 {
-    const char *fault = store_life_fault(directory, life->revision, life->asset);
+    const char *fault = store_life_fault(directory, &life->told);
 
     if (life->status != 0 && life->status != STORE_LIFE_REFUSED &&
         life->status != STORE_EXIT_STATUS) {
@@ -95,7 +80,7 @@ static void check_life(const struct life *life, enum disk_call call, int nth, in
     }
     if (fault) {
         fail_msg("call %d number %d error %d: revision %lld was told durable: %s", call, nth, error,
-                 (long long)life->revision, fault);
+                 (long long)life->told.revision, fault);
     }
     remove_directory();
 }
@@ -116,7 +101,7 @@ static void test_each_call_fails_once(void **state)
 
     (void)state;
     assert_int_equal(whole.status, 0);
-    assert_true(whole.revision > 0 && whole.asset);
+    assert_true(whole.told.revision > 0 && whole.told.asset);
     check_life(&whole, DISK_OPEN, 0, 0);
     for (int call = 0; call < DISK_CALLS_COUNT; call++) {
         int ways = 0;
@@ -157,6 +142,10 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_call_fails_once)};
 
     (void)argc;
-    store_life_load_disk(argv);
+    preload(argv, "disk_driver");
+    disk_arm = (disk_arm_function *)preload_symbol("disk_arm");
+    disk_count = (disk_count_function *)preload_symbol("disk_count");
+    counts = mmap(NULL, sizeof(int) * DISK_CALLS_COUNT, PROT_READ | PROT_WRITE,
+                  MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     return cmocka_run_group_tests(tests, make_base, remove_base);
 }

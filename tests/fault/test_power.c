@@ -17,7 +17,9 @@
 
 #include "server/cli/files.h"
 #include "server/store/store.h"
+#include "tests/support/drivers/disk_driver.h"
 #include "tests/support/power.h"
+#include "tests/support/preload.h"
 #include "tests/support/store_life.h"
 
 static char base[64];
@@ -43,8 +45,9 @@ static int record_life(void **state)
     assert_int_equal(mkdir(beneath("disk"), 0700), 0);
     const pid_t child = fork();
     if (child == 0) {
-        disk_record(open(beneath("record"), O_WRONLY | O_CREAT, 0600));
-        disk_arm(beneath("disk"), DISK_OPEN, 0, 0);
+        ((disk_record_function *)preload_symbol("disk_record"))(
+            open(beneath("record"), O_WRONLY | O_CREAT, 0600));
+        ((disk_arm_function *)preload_symbol("disk_arm"))(beneath("disk"), DISK_OPEN, 0, 0);
         _exit(store_life(beneath("disk/a/data"), told[1]));
     }
     assert_int_equal(waitpid(child, &status, 0), child);
@@ -62,15 +65,15 @@ static int forget(void **state)
     return 0;
 }
 
-static void check_moment(size_t event, int64_t revision, bool asset)
+static void check_moment(size_t event, const struct store_told *durable)
 {
     for (int luck = 0; luck < POWER_LUCKS; luck++) {
         assert_int_equal(mkdir(beneath("image"), 0700), 0);
         power_image(&record, event, luck, beneath("disk"), beneath("image"));
-        const char *fault = store_life_fault(beneath("image/a/data"), revision, asset);
+        const char *fault = store_life_fault(beneath("image/a/data"), durable);
         if (fault) {
             fail_msg("event %zu of %zu, luck %d: revision %lld was told durable: %s", event,
-                     record.count, luck, (long long)revision, fault);
+                     record.count, luck, (long long)durable->revision, fault);
         }
         directory_remove(beneath("image"));
     }
@@ -78,24 +81,23 @@ static void check_moment(size_t event, int64_t revision, bool asset)
 
 static void test_what_was_told_is_there(void **state)
 {
-    int64_t revision = 0;
-    bool asset = false;
+    struct store_told durable = {0};
     int moments = 0, told = 0;
 
     (void)state;
     for (size_t i = 0; i < record.count; i++) {
         const struct power_event *event = &record.events[i];
         if (event->call == DISK_NOTE) {
-            asset = asset || event->at == STORE_LIFE_ASSET;
-            revision = event->at == STORE_LIFE_ASSET ? revision : event->at;
+            durable.asset = durable.asset || event->at == STORE_LIFE_ASSET;
+            durable.revision = event->at == STORE_LIFE_ASSET ? durable.revision : event->at;
             told++;
         }
         if (event->call == DISK_NOTE || event->call == DISK_SYNC) {
-            check_moment(event->call == DISK_NOTE ? i + 1 : i, revision, asset);
+            check_moment(event->call == DISK_NOTE ? i + 1 : i, &durable);
             moments++;
         }
     }
-    check_moment(record.count, revision, asset);
+    check_moment(record.count, &durable);
     printf("# %d moments, %d states of the disk each, %d acknowledgements\n", moments + 1,
            POWER_LUCKS, told);
     assert_true(told > 5 && moments > 2 * told);
@@ -106,6 +108,6 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_what_was_told_is_there)};
 
     (void)argc;
-    store_life_load_disk(argv);
+    preload(argv, "disk_driver");
     return cmocka_run_group_tests(tests, record_life, forget);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "store_life.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,41 +9,15 @@
 #include "protocol/memory.h"
 #include "server/cli/files.h"
 #include "server/store/store.h"
+#include "tests/support/drivers/disk_driver.h"
+#include "tests/support/preload.h"
 
 enum { FIRST_LIFE = 3, REVISIONS = 8, SNAPSHOT_AT = 6, PADDING = 2000 };
 
-disk_arm_function *disk_arm;
-disk_count_function *disk_count;
-disk_record_function *disk_record;
-disk_note_function *disk_note;
-
+static disk_note_function *note; /* NULL: the disk remembers nothing */
 static struct metrics metrics;
 static int told;
 static const char asset_id[] = "00000000000000000000000000000000000000000000000000000000000000aa";
-
-void store_life_load_disk(char **argv)
-{
-    char path[4096], options[4096];
-
-    disk_arm = (disk_arm_function *)dlsym(RTLD_DEFAULT, "disk_arm");
-    disk_count = (disk_count_function *)dlsym(RTLD_DEFAULT, "disk_count");
-    disk_record = (disk_record_function *)dlsym(RTLD_DEFAULT, "disk_record");
-    disk_note = (disk_note_function *)dlsym(RTLD_DEFAULT, "disk_note");
-    if (disk_arm) {
-        return;
-    }
-    const char *end = strrchr(argv[0], '/'), *before = getenv("ASAN_OPTIONS");
-    snprintf(path, sizeof path, "%.*s/../support/drivers/disk_driver.so",
-             end ? (int)(end - argv[0]) : 0, argv[0]);
-    snprintf(options, sizeof options, "%s:verify_asan_link_order=0", before ? before : "");
-    if (getenv("LD_PRELOAD") || setenv("LD_PRELOAD", path, 1) != 0 ||
-        setenv("ASAN_OPTIONS", options, 1) != 0) {
-        printf("Bail out! %s cannot be loaded\n", path);
-        exit(1);
-    }
-    execv("/proc/self/exe", argv);
-    exit(1);
-}
 
 void store_life_make_base(char *out, size_t size, const char *name)
 {
@@ -67,7 +40,9 @@ static char *text_of(const char *what, uint64_t revision)
 
 static void tell(int64_t number)
 {
-    disk_note(number);
+    if (note) {
+        note(number);
+    }
     if (write(told, &number, sizeof number) != sizeof number) {
         abort();
     }
@@ -133,6 +108,7 @@ int store_life(const char *directory, int told_fd)
     struct error err = {0};
 
     told = told_fd;
+    note = (disk_note_function *)preload_symbol("disk_note");
     if (!directory_make(directory, &err)) {
         return *err.message ? STORE_LIFE_REFUSED : STORE_LIFE_SILENT;
     }
@@ -149,6 +125,20 @@ int store_life(const char *directory, int told_fd)
         store_close(store);
     }
     return 0;
+}
+
+void store_life_read_told(int fd, struct store_told *out)
+{
+    int64_t number;
+
+    *out = (struct store_told){0};
+    while (read(fd, &number, sizeof number) == sizeof number) {
+        if (number == STORE_LIFE_ASSET) {
+            out->asset = true;
+        } else {
+            out->revision = number;
+        }
+    }
 }
 
 static bool is_text_of(const char *text, const char *what, uint64_t revision)
@@ -189,7 +179,7 @@ static const char *fault_of_asset(struct store *store)
     return same ? NULL : "another file";
 }
 
-const char *store_life_fault(const char *directory, int64_t revision, bool asset)
+const char *store_life_fault(const char *directory, const struct store_told *durable)
 {
     static char why[600];
     struct error err = {0};
@@ -197,7 +187,7 @@ const char *store_life_fault(const char *directory, int64_t revision, bool asset
     const char *fault = NULL;
 
     if (access(directory, F_OK) != 0) {
-        return revision > 0 ? "the directory is lost" : NULL;
+        return durable->revision > 0 ? "the directory is lost" : NULL;
     }
     struct store *store = store_open(directory, &metrics, &err);
     if (!store) {
@@ -208,13 +198,13 @@ const char *store_life_fault(const char *directory, int64_t revision, bool asset
         snprintf(why, sizeof why, "damaged: %s", store_damage(store));
         fault = why;
     } else if (store_load(store, "s", &loaded, &err)) {
-        fault = fault_of(&loaded, revision);
+        fault = fault_of(&loaded, durable->revision);
         store_loaded_finish(&loaded);
-    } else if (revision > 0) {
+    } else if (durable->revision > 0) {
         snprintf(why, sizeof why, "not loaded: %s", err.message);
         fault = why;
     }
-    if (!fault && asset) {
+    if (!fault && durable->asset) {
         fault = fault_of_asset(store);
     }
     store_close(store);

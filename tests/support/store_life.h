@@ -8,17 +8,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "tests/support/drivers/disk_driver.h"
-
 enum { STORE_LIFE_REFUSED = 3, STORE_LIFE_SILENT = 4, STORE_LIFE_ASSET = 1000 };
 
-extern disk_arm_function *disk_arm;
-extern disk_count_function *disk_count;
-extern disk_record_function *disk_record;
-extern disk_note_function *disk_note;
-
-/* Starts this program again behind the driver, if it is not. The first thing in main. */
-void store_life_load_disk(char **argv);
+/* What was told durable. */
+struct store_told {
+    int64_t revision; /* the newest; 0: none */
+    bool asset;
+};
 
 /* A directory for a test, in memory where there is such: nobody waits for a disk there. */
 void store_life_make_base(char *out, size_t size, const char *name);
@@ -29,7 +25,9 @@ void store_life_make_base(char *out, size_t size, const char *name);
  * not. */
 int store_life(const char *directory, int told_fd);
 
+/* What was written there, to its end. */
+void store_life_read_told(int fd, struct store_told *out);
 /* What is wrong with what the directory holds, where so much was told durable; NULL: nothing. */
-const char *store_life_fault(const char *directory, int64_t revision, bool asset);
+const char *store_life_fault(const char *directory, const struct store_told *durable);
 
 #endif
