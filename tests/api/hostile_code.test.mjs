@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Texts of code by families (support/hostile_code.mjs), each sent as a live edit by one author: what
 // shall be refused is refused with its place, all else is accepted, and what another viewer sees goes
-// on after each. Nothing is drawn here: what the driver gets is left to api/hostile, to kill/ and to
-// `node tests/bench/hostile.mjs`.
+// on after each. Nothing is drawn here: what the driver gets is left to api/hostile and to kill/.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
