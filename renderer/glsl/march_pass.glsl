@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The march of each sample's ray. It runs twice for the first rays: coarsely at first, with a cone
- * for BLOCK x BLOCK pixels, which tells how far all their rays are free. */
+ * for BLOCK_SIDE x BLOCK_SIDE pixels, which tells how far all their rays are free. */
 
 #include "camera.glsl"
 #include "field_pass.glsl"

@@ -16,22 +16,6 @@
 #include "renderer/gl/pass.h"
 #include "tests/support/formula.h"
 
-static struct formula formula;
-
-static int start(void **state)
-{
-    (void)state;
-    formula_init(&formula);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    formula_finish(&formula);
-    return 0;
-}
-
 /* --- places --- */
 
 struct member {
@@ -78,7 +62,7 @@ static void members_lie_where_the_driver_reads_them(void **state)
     struct error err = {0};
 
     (void)state;
-    if (!pass_init(&pass, &formula.gl, &(struct pass_source){true, NULL, "layout.glsl", own},
+    if (!pass_init(&pass, formula_gl(), &(struct pass_source){true, NULL, "layout.glsl", own},
                    &err)) {
         fail_msg("%s: %s", err.place, err.message);
     }
@@ -89,7 +73,7 @@ static void members_lie_where_the_driver_reads_them(void **state)
                      offset);
         }
     }
-    pass_finish(&pass, &formula.gl);
+    pass_finish(&pass, formula_gl());
 }
 
 /* --- rows --- */
@@ -137,7 +121,7 @@ static void every_type_of_light_gives_light(void **state)
         assert_int_equal(light->kind, count);
         memcpy(row.a, light->position, sizeof light->position);
         row.a[3] = (float)light->kind;
-        formula_run(&formula, ask, &row, 1);
+        formula_run(ask, &row, 1);
         if (row.out[0] != 1) {
             fail_msg("a %s light gives %g at the distance 1", light_types[count].name, row.out[0]);
         }
@@ -204,10 +188,10 @@ static void each_file_is_whole_by_itself(void **state)
         struct error err = {0};
 
         if (!main && !strstr(file->name, "group.glsl") &&
-            !pass_init(&linked, &formula.gl, &source, &err)) {
+            !pass_init(&linked, formula_gl(), &source, &err)) {
             fail_msg("%s alone: %s: %s", file->name, err.place, err.message);
         }
-        pass_finish(&linked, &formula.gl);
+        pass_finish(&linked, formula_gl());
     }
 }
 
@@ -250,5 +234,5 @@ int main(void)
         cmocka_unit_test(an_unknown_file_is_told),
         cmocka_unit_test(lines_keep_their_numbers),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

@@ -14,22 +14,6 @@
 
 enum { ANGLES = 100 };
 
-static struct formula formula;
-
-static int start(void **state)
-{
-    (void)state;
-    formula_init(&formula);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    formula_finish(&formula);
-    return 0;
-}
-
 static void assert_near(double got, double want, double room, const char *what, double where)
 {
     if (!(fabs(got - want) <= room)) {
@@ -57,8 +41,7 @@ static void bends_as_snell_says(void **state)
             rows[i] = (struct formula_row){.a = {(float)sin(angle), -(float)cos(angle), 0, 0},
                                            .b = {(float)ratios[r]}};
         }
-        formula_run(&formula,
-                    "#include \"optics.glsl\"\n"
+        formula_run("#include \"optics.glsl\"\n"
                     "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n    vec3 bent;\n"
                     "    bool goes = bend(a.xyz, vec3(0.0, 1.0, 0.0), b.x, bent);\n"
                     "    return vec4(bent, goes ? 1.0 : 0.0);\n}\n",
@@ -100,8 +83,7 @@ static void mirrors_as_fresnel_says(void **state)
         rows[i] = (struct formula_row){
             .a = {(float)cos(angle_at(i)), (float)ior, (float)f0, (float)(1 - f0)}};
     }
-    formula_run(&formula,
-                "#include \"optics.glsl\"\n"
+    formula_run("#include \"optics.glsl\"\n"
                 "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
                 "    vec3 f = fresnel(vec3(a.z, a.w, 1.0), a.x);\n"
                 "    return vec4(f.xy, interface_mirror(a.y, a.x, false),\n"
@@ -146,7 +128,7 @@ static void points_fade_by_the_square(void **state)
         rows[i] = (struct formula_row){.a = {0.6f * r, 0, -0.8f * r, 0},
                                        .b = {LIGHT_POINT, (float)radius, i % 2 ? (float)range : 0}};
     }
-    formula_run(&formula, ask_lamp, rows, 2 * ANGLES);
+    formula_run(ask_lamp, rows, 2 * ANGLES);
     for (int i = 0; i < 2 * ANGLES; i++) {
         const double r = 0.1 + 0.08 * (i / 2);
         const double square = r < radius ? 1 / (radius * radius) : 1 / (r * r);
@@ -174,7 +156,7 @@ static void spots_end_at_their_rim(void **state)
                                            .b = {LIGHT_SPOT, 0.1f, 0},
                                            .c = {(float)rim, (float)fade}};
         }
-        formula_run(&formula, ask_lamp, rows, ANGLES);
+        formula_run(ask_lamp, rows, ANGLES);
         for (int i = 0; i < ANGLES; i++) {
             const double off = angle_at(i);
             double x = softnesses[s] > 0 ? (cos(off) - rim) / (fade - rim) : off < angle;
@@ -192,5 +174,5 @@ int main(void)
         cmocka_unit_test(points_fade_by_the_square),
         cmocka_unit_test(spots_end_at_their_rim),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

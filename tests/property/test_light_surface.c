@@ -32,22 +32,6 @@
     "    s.id = 1u;\n"                                                                             \
     "    return s;\n}\n"
 
-static struct formula formula;
-
-static int start(void **state)
-{
-    (void)state;
-    formula_init(&formula);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    formula_finish(&formula);
-    return 0;
-}
-
 /* A direction at least 6 degrees above the surface. */
 static void set_above(struct random *random, float out[4])
 {
@@ -75,8 +59,7 @@ static void light_may_go_either_way(void **state)
         set_above(&random, rows[i].a);
         set_above(&random, rows[i].b);
     }
-    formula_run(&formula,
-                SURFACE "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
+    formula_run(SURFACE "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
                         "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
                         "    Surface s = made(c);\n"
                         "    return vec4(reflected(s, n, a.xyz, b.xyz).x / b.z,\n"
@@ -131,7 +114,7 @@ static void ask_standard(struct formula_row rows[ROUGH * COSINES], double diffus
             .a = {(float)fmin(cosine, 0.9999)},
             .c = {(float)diffuse, (float)specular, (float)rough, MODEL_STANDARD}};
     }
-    formula_run(&formula, ask_all, rows, (size_t)ROUGH * COSINES);
+    formula_run(ask_all, rows, (size_t)ROUGH * COSINES);
 }
 
 static void white_standard_loses_nothing(void **state)
@@ -212,7 +195,7 @@ static void matt_phong_is_lambert(void **state)
         rows[i] = (struct formula_row){.a = {(float)(0.1 + 0.0899 * (i % COSINES))},
                                        .c = {0.8f, 0, 32, i < COSINES ? MODEL_PHONG : MODEL_BLINN}};
     }
-    formula_run(&formula, ask_all, rows, 2 * COSINES);
+    formula_run(ask_all, rows, 2 * COSINES);
     for (int i = 0; i < 2 * COSINES; i++) {
         assert_true(fabs(rows[i].out[0] - 0.8) < 0.005);
         assert_true(fabs(rows[i].out[1] - 0.8) < 0.002);
@@ -230,5 +213,5 @@ int main(void)
         cmocka_unit_test(what_mirrors_nothing_head_on_mirrors_nothing),
         cmocka_unit_test(matt_phong_is_lambert),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, formula_start, formula_end);
 }

@@ -8,9 +8,13 @@
 
 #include <cmocka.h>
 
+#include "renderer/gl/egl.h"
 #include "renderer/gl/pass.h"
 
 enum { GROUP = 8 };
+
+static struct egl egl;
+static struct gl gl_functions;
 
 static const char tail[] = "\nlayout(local_size_x = 8) in;\n"
                            "struct Row { vec4 a, b, c, answer; };\n"
@@ -21,25 +25,34 @@ static const char tail[] = "\nlayout(local_size_x = 8) in;\n"
                            "        rows[i].answer = ask(rows[i].a, rows[i].b, rows[i].c);\n"
                            "    }\n}\n";
 
-void formula_init(struct formula *formula)
+int formula_start(void **state)
 {
     const struct device_params params = {.index = -1};
     struct error err = {0};
 
-    *formula = (struct formula){0};
-    if (!egl_init(&formula->egl, &params, &err) || !gl_load(&formula->gl, &err)) {
-        fail_msg("%s", err.message);
+    (void)state;
+    if (!egl_init(&egl, &params, &err) || !gl_load(&gl_functions, &err)) {
+        error_print(&err, stderr);
+        return -1;
     }
+    return 0;
 }
 
-void formula_finish(struct formula *formula)
+int formula_end(void **state)
 {
-    egl_finish(&formula->egl);
+    (void)state;
+    egl_finish(&egl);
+    return 0;
 }
 
-void formula_run(struct formula *formula, const char *text, struct formula_row *rows, size_t count)
+const struct gl *formula_gl(void)
 {
-    const struct gl *gl = &formula->gl;
+    return &gl_functions;
+}
+
+void formula_run(const char *text, struct formula_row *rows, size_t count)
+{
+    const struct gl *gl = &gl_functions;
     const GLsizeiptr bytes = (GLsizeiptr)(count * sizeof *rows);
     struct error err = {0};
     struct pass pass;

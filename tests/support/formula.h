@@ -4,13 +4,7 @@
 #ifndef TESTS_SUPPORT_FORMULA_H
 #define TESTS_SUPPORT_FORMULA_H
 
-#include "renderer/gl/egl.h"
 #include "renderer/gl/gl.h"
-
-struct formula {
-    struct egl egl;
-    struct gl gl;
-};
 
 /* A question and its answer. */
 struct formula_row {
@@ -18,10 +12,13 @@ struct formula_row {
     float out[4];
 };
 
-void formula_init(struct formula *formula);
-void formula_finish(struct formula *formula);
+/* Around a group of tests. */
+int formula_start(void **state);
+int formula_end(void **state);
+/* Between the two. */
+const struct gl *formula_gl(void);
 
 /* `text` has `vec4 ask(vec4 a, vec4 b, vec4 c)`, and includes what that calls. */
-void formula_run(struct formula *formula, const char *text, struct formula_row *rows, size_t count);
+void formula_run(const char *text, struct formula_row *rows, size_t count);
 
 #endif
