@@ -23,6 +23,10 @@ enum {
     LEAST_PIXELS = 10000, /* of a moving picture with one of the other scales */
 };
 
+/* Who has not acknowledged a frame yet shares one client's drawing time with all others of these:
+ * however many come at once, those who are there keep most of it. */
+#define NEWCOMERS "newcomers"
+
 struct quality_rule {
     double target_ms; /* what a moving picture may take */
     int last_step;    /* how far it may shrink */
@@ -262,23 +266,26 @@ void frames_acknowledge(struct session *session, uint32_t number)
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
         if (frames->flight[i].number && frames->flight[i].number <= number) {
             frames->flight[i].number = 0;
+            frames->reads = true;
         }
     }
     supervisor_wake(session->hub->supervisor);
 }
 
+/* Who never acknowledged a frame may be one who reads none. */
 static bool has_credit(const struct frames *frames, int64_t now_ms)
 {
-    bool free_slot = false;
+    int left = frames->reads ? LIMIT_FRAMES_IN_FLIGHT : 1;
 
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
-        if (!frames->flight[i].number) {
-            free_slot = true;
-        } else if (now_ms - frames->flight[i].sent_ms > FRAMES_STALL_MS) {
-            return false;
+        if (frames->flight[i].number) {
+            left--;
+            if (now_ms - frames->flight[i].sent_ms > FRAMES_STALL_MS) {
+                return false;
+            }
         }
     }
-    return free_slot;
+    return left > 0;
 }
 
 /* While a frame waits to be written, only a moving picture in its place is worth its time: a
@@ -324,8 +331,8 @@ static bool is_too_large(const struct session *session, const struct frames_view
 {
     const double target_ms = quality_rules[view->quality].target_ms;
 
-    if (ns_per_pixel(session) == 0) {
-        return pixels_of(view, step) > FIRST_PIXELS;
+    if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
+        return pixels_of(view, step) > FIRST_PIXELS / (1 + renders_moving(&session->hub->renders));
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >
@@ -522,7 +529,7 @@ static void ask(struct session *session, enum frames_level level)
         .room = session->room,
         .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
-        .account = session->id,
+        .account = frames->reads ? session->id : NEWCOMERS,
         .on_done = on_picture,
         .on_more = on_round,
         .data = session,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* When a session gets a picture, and how good a one. One picture of a session is asked of the
  * worker at a time, always of the newest view; at most LIMIT_FRAMES_IN_FLIGHT are on their way
- * without an acknowledgement.
+ * without an acknowledgement, one until the first comes.
  *
  *   changed --> moving pictures, scaled so that each takes about 50 ms
  *           --100 ms rest--> one larger, where full size takes long, then one still in full size
@@ -59,6 +59,7 @@ struct frames {
     int64_t job_pixels;
 
     uint32_t last_number;
+    bool reads; /* has acknowledged a frame */
     struct {
         uint32_t number; /* 0: free */
         int64_t sent_ms;

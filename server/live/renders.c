@@ -325,6 +325,16 @@ bool renders_has_room(const struct renders *renders, const struct room *room)
     return render != NULL;
 }
 
+int renders_moving(const struct renders *renders)
+{
+    int count = 0;
+
+    for (const struct render *render = renders->first; render; render = render->next) {
+        count += render->order.priority == RENDER_MOVING;
+    }
+    return count;
+}
+
 /* Several are drawn by turns: what counts is how soon one follows another. */
 static void learn_image(struct renders *renders, const struct render *render)
 {

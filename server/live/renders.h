@@ -63,6 +63,8 @@ uint32_t renders_submit(struct hub *hub, const struct render_order *order, struc
 void renders_cancel(struct hub *hub, uint32_t id);
 /* Answers every order of the room with ERROR_NOT_FOUND. */
 void renders_cancel_room(struct hub *hub, const struct room *room);
+/* Moving pictures that are asked and not yet there. */
+int renders_moving(const struct renders *renders);
 bool renders_has_room(const struct renders *renders, const struct room *room);
 /* Answers every order with ERROR_UNAVAILABLE. */
 void renders_fail_all(struct hub *hub, const char *why);

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
-import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, sleep, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const TILE_MS = 10;
@@ -12,6 +12,10 @@ const LARGE = { width: 4096, height: 4096 };
 const PICTURES = 40;
 const BETWEEN = 8; // tiles of others between a question and its answer: a question takes as long as a few
 const EDITS = 10;
+const VIEWS = 40; // of one who acknowledges nothing
+const NEWCOMERS = 40;
+const COMING = 10;
+const REST_MS = 600; // after which a picture at rest would have come
 const SHARE = 16; // pictures of one client in the queue
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
@@ -166,6 +170,64 @@ test('one who sends large edits without end leaves half of the time to others', 
     assert.ok(small >= 4 * EDITS, `${small} small edits`);
     assert.ok((await counter(daemon, 'connection_rests_total')) >= EDITS - 1);
     await Promise.all([guest.close(), other.close()]);
+});
+
+/** As many as look before the first of them has a picture, and acknowledge none. */
+async function comeAtOnce(count) {
+    const scene = `looked-at-by-${count}`;
+    await ask(daemon, 'POST', `/v1/scenes?id=${scene}`, ball);
+    const all = await Promise.all(Array.from({ length: count }, () => Live.open(daemon, scene, { ack: false })));
+    const before = await counter(daemon, 'renders_total');
+    const worker = daemon.worker();
+    process.kill(worker, 'SIGSTOP');
+    all.forEach((live, i) => live.look({ width: 1024, height: 768, ...from(i) }));
+    await until(async () => (await counter(daemon, 'renders_total')) === before + count, 'a picture for each');
+    process.kill(worker, 'SIGCONT');
+    await Promise.all(all.map((live) => live.nextFrame()));
+    return all;
+}
+
+test('who acknowledges nothing gets one picture, however often it looks elsewhere', async () => {
+    const all = await comeAtOnce(10);
+    const before = await counter(daemon, 'renders_total');
+    all.forEach((live) => live.stopReading());
+    for (let i = 1; i <= VIEWS; i += 1) {
+        all.forEach((live) => live.look({ width: 1024, height: 768, ...from(i) }));
+        await sleep(TILE_MS);
+    }
+    await sleep(REST_MS);
+    assert.equal((await counter(daemon, 'renders_total')) - before, 0);
+    all.forEach((live) => live.socket.destroy());
+});
+
+test('of many who come at once the first pictures share what one would get', async (t) => {
+    const all = await comeAtOnce(8);
+    const pixels = all.map(({ frames: [first] }) => first.width * first.height);
+    t.diagnostic(`pixels of the first pictures: ${pixels.join(' ')}`);
+    const most = Math.max(...pixels);
+    const sum = pixels.reduce((a, b) => a + b);
+    assert.ok(sum <= 4 * most, `${sum} pixels, ${most} of the first`);
+    await Promise.all(all.map((live) => live.close()));
+});
+
+test('who comes does not slow those who are there, however many come', async (t) => {
+    const live = await Live.open(daemon, 'two');
+    live.look(from(-1));
+    await live.nextFrame();
+    const newcomers = await Promise.all(Array.from({ length: NEWCOMERS }, () => Live.open(daemon, 'one', { ack: false })));
+    newcomers.forEach((one, i) => one.look({ ...LARGE, ...from(i), quality: 'sharp' }));
+    await until(async () => (await counter(daemon, 'render_queue')) >= NEWCOMERS, 'all to wait');
+    const start = await tiles();
+    for (let i = 0; i < COMING; i += 1) {
+        const seq = live.look(from(i));
+        await live.nextFrame((frame) => frame.seq === seq);
+    }
+    const drawn = (await tiles()) - start;
+    t.diagnostic(`${drawn} tiles while ${COMING} pictures of one tile were asked for beside ${NEWCOMERS} newcomers`);
+    assert.ok(drawn >= COMING && drawn <= COMING * (1 + BETWEEN), `${drawn} tiles`);
+    newcomers.forEach((one) => one.socket.destroy());
+    await live.close();
+    await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
 });
 
 test('nothing more is drawn for one whose line takes no more', async () => {

@@ -62,6 +62,7 @@ const picture = (daemon, body) =>
 
 const GUESTS = {
     'ten viewers that never read': (daemon) => several(10, () => viewer(daemon, 'other', { width: 1024, height: 768 }, { reads: false })),
+    'fifty viewers that never read': (daemon) => several(50, () => viewer(daemon, 'other', { width: 1024, height: 768 }, { reads: false })),
     'ten viewers that read': (daemon) => several(10, () => viewer(daemon, 'other', VIEW)),
     'a view of 4096 by 4096': (daemon) => viewer(daemon, 'other', LARGE),
     'twenty pictures of 16384 by 16384': (daemon) => {

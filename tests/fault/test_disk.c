@@ -45,7 +45,9 @@ static struct life live(enum disk_call call, int nth, int error)
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        freopen("/dev/null", "w", stderr);
+        if (!freopen("/dev/null", "w", stderr)) {
+            _exit(1);
+        }
         disk_arm(base, call, nth, error);
         const int result = store_life(directory, ends[1]);
         for (int i = 0; i < DISK_CALLS_COUNT; i++) {
