@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "edit.h"
+#include "id_set.h"
 #include "json.h"
 #include "limits.h"
 #include "nearest.h"
@@ -198,26 +199,10 @@ static bool check_key(const cJSON *json, const char *place, struct error *err)
 
 static bool check_nodes(const cJSON *json, const char *place, struct error *err)
 {
-    const cJSON *id;
-    int index = 0;
-    if (!cJSON_IsArray(json)) {
-        return error_set(err, ERROR_SYNTAX, place, "expected a list of ids");
-    }
-    cJSON_ArrayForEach(id, json)
-    {
-        if (index == LIMIT_ISOLATED) {
-            return error_set(err, ERROR_LIMIT, place, "%d ids are above the maximum %d",
-                             cJSON_GetArraySize(json), LIMIT_ISOLATED);
-        }
-        if (!cJSON_IsString(id) || !record_name_valid(id->valuestring)) {
-            char item[ERROR_PLACE_BYTES], number[16];
-            snprintf(number, sizeof number, "%d", index);
-            error_place(item, place, number);
-            return error_set(err, ERROR_INVALID, item, "expected the id of a node");
-        }
-        index++;
-    }
-    return true;
+    struct id_set ids = {0};
+    bool ok = id_set_read(&ids, json, place, err);
+    id_set_finish(&ids);
+    return ok;
 }
 
 static bool check_field(const struct field *field, const cJSON *json, const char *place,

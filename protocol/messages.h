@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "codec.h"
 #include "picture.h"
 #include "record.h"
 
@@ -44,8 +45,6 @@ bool json_member_bool(const cJSON *object, const char *name, bool fallback);
 
 enum { FRAME_HEADER_BYTES = 40 + 4 * FRAME_STAGES, FRAME_PART_HEADER_BYTES = 8 };
 
-enum frame_codec { FRAME_JPEG = 1, FRAME_PNG = 2 };
-
 enum frame_flag {
     FRAME_KEY = 1,      /* decodes without earlier frames */
     FRAME_STILL = 2,    /* full resolution, the view rests */
@@ -54,7 +53,7 @@ enum frame_flag {
 };
 
 struct frame_header {
-    uint8_t codec;
+    enum codec codec;
     uint8_t flags;
     uint32_t number;        /* 1, 2, 3... on this connection */
     uint32_t payload_bytes; /* of the whole frame, over all its parts */

@@ -174,9 +174,9 @@ int quality_find(const char *name)
 /* clang-format off */
 const struct record_type picture_type = {"picture", "What is asked of a picture.",
     (const struct param[]){
-    {"width", PARAM_INT, .min = 1, .max = LIMIT_IMAGE_SIDE,
+    {"width", PARAM_INT, .def = {PICTURE_WIDTH}, .min = 1, .max = LIMIT_IMAGE_SIDE,
      .doc = "Pixels of the whole picture; absent: 1280."},
-    {"height", PARAM_INT, .min = 1, .max = LIMIT_IMAGE_SIDE,
+    {"height", PARAM_INT, .def = {PICTURE_HEIGHT}, .min = 1, .max = LIMIT_IMAGE_SIDE,
      .doc = "Pixels of the whole picture; absent: 720."},
     {"region", PARAM_VEC4, .min = 0, .max = LIMIT_IMAGE_SIDE,
      .doc = "x, y, width, height: the pixels of the picture that are wanted; absent: all."},
@@ -188,7 +188,8 @@ const struct record_type picture_type = {"picture", "What is asked of a picture.
      .doc = "Samples for each pixel along one axis; absent: the level's or the scene's."},
     {"transparent", PARAM_BOOL,
      .doc = "Whether the background is left out; absent: as the scene says."},
-    {"quality", PARAM_INT, .min = 1, .max = 100, .doc = "Quality of a JPEG; absent: 90."},
+    {"quality", PARAM_INT, .def = {90}, .min = 1, .max = 100,
+     .doc = "Quality of a JPEG; absent: 90."},
     {.name = NULL}}};
 /* clang-format on */
 

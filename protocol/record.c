@@ -88,6 +88,25 @@ void record_copy(struct record *to, const struct record *from)
     }
 }
 
+bool record_equal(const struct record *a, const struct record *b)
+{
+    int i = 0;
+    while (a->type->params[i].name && param_value_equal(&a->values[i], &b->values[i])) {
+        i++;
+    }
+    return !a->type->params[i].name;
+}
+
+void record_merge(struct record *record, const struct record *changes)
+{
+    for (int i = 0; record->type->params[i].name; i++) {
+        if (changes->values[i].set) {
+            param_value_finish(&record->values[i]);
+            param_value_copy(&record->values[i], &changes->values[i]);
+        }
+    }
+}
+
 /* --- setting --- */
 
 bool record_set(struct record *record, int index, const cJSON *json, const char *place,
@@ -151,7 +170,7 @@ void record_print(const struct record *record, cJSON *object)
     }
 }
 
-static const struct value *named_value(const struct record *record, const char *name)
+static struct value *named_value(const struct record *record, const char *name)
 {
     int index = record_type_find(record->type, name);
     assert(index >= 0);
@@ -171,6 +190,35 @@ const double *record_vector(const struct record *record, const char *name)
 const char *record_text(const struct record *record, const char *name)
 {
     return named_value(record, name)->text;
+}
+
+bool record_is_set(const struct record *record, const char *name)
+{
+    return named_value(record, name)->set;
+}
+
+bool record_is_empty(const struct record *record)
+{
+    int i = 0;
+    while (record->type->params[i].name && !record->values[i].set) {
+        i++;
+    }
+    return !record->type->params[i].name;
+}
+
+void record_put(struct record *record, const char *name, double number)
+{
+    struct value *value = named_value(record, name);
+    value->number[0] = number;
+    value->set = true;
+}
+
+void record_put_text(struct record *record, const char *name, const char *text)
+{
+    struct value *value = named_value(record, name);
+    free(value->text);
+    value->text = memory_text(text);
+    value->set = true;
 }
 
 bool record_is(const struct record *record, const char *name, const char *choice)

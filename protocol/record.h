@@ -35,6 +35,9 @@ bool record_type_unknown(const struct record_type *type, const char *name, const
 void record_init(struct record *record, const struct record_type *type);
 void record_finish(struct record *record);
 void record_copy(struct record *to, const struct record *from);
+bool record_equal(const struct record *a, const struct record *b); /* of one type */
+/* What is set in `changes`, of the same type, is set in `record` too. */
+void record_merge(struct record *record, const struct record *changes);
 
 /* Sets value `index` from JSON; JSON null restores the default. On failure nothing has changed
  * and `err` names `place` and the limit. */
@@ -57,6 +60,11 @@ void record_print(const struct record *record, cJSON *object);
 double record_number(const struct record *record, const char *name);
 const double *record_vector(const struct record *record, const char *name);
 const char *record_text(const struct record *record, const char *name);
+bool record_is_set(const struct record *record, const char *name);
+bool record_is_empty(const struct record *record); /* nothing is set */
+/* Sets a value that its row accepts: a number, an enum's index, a switch; or a text. */
+void record_put(struct record *record, const char *name, double number);
+void record_put_text(struct record *record, const char *name, const char *text);
 /* Whether an enum holds this choice. */
 bool record_is(const struct record *record, const char *name, const char *choice);
 

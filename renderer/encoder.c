@@ -232,7 +232,7 @@ struct encoding *encoder_begin(struct encoder *encoder, const struct image shape
         encoding_destroy(&work->result);
         return NULL;
     }
-    work->result.mime = picture_file_mime(work->file);
+    work->result.codec = picture_file_codec(work->file);
     work->result.priority = priority;
     work->result.data = data;
     pthread_mutex_lock(&encoder->lock);

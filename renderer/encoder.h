@@ -12,7 +12,7 @@ struct encoder;
 struct encoding {
     int priority; /* the lowest goes first, then the oldest */
     void *data;   /* the owner's */
-    const char *mime;
+    enum codec codec;
     bool ok; /* else `error` says why, or nobody wanted it */
     uint8_t *bytes;
     size_t length;

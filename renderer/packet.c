@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Packets between front and worker: two lengths, JSON, payload. */
+/* Packets between front and worker as bytes: kind, two lengths, JSON, payload. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "worker.h"
+#include "worker_protocol.h"
+
+struct head {
+    uint32_t kind, json_length, payload_length;
+};
 
 enum {
-    HEAD_BYTES = 8,
     JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES,     /* a document, printed anew, in its envelope */
     PAYLOAD_MAX = LIMIT_IMAGE_BYTES + 65536, /* a picture, in a ZIP */
     READER_KEEPS = 1 << 20,                  /* capacity kept between packets */
@@ -16,28 +19,33 @@ enum {
 
 void packet_finish(struct packet *packet)
 {
+    if (packet->request) {
+        render_request_finish(packet->request);
+        free(packet->request);
+    }
     cJSON_Delete(packet->json);
     free(packet->payload);
     *packet = (struct packet){0};
 }
 
-uint8_t *packet_pack(const cJSON *json, const void *payload, size_t payload_length,
-                     size_t *out_length)
+uint8_t *packet_pack(enum packet_way way, const struct packet *packet, size_t *out_length)
 {
+    cJSON *json = packet_print(way, packet);
     char *text = json_print(json, false);
-    const uint32_t lengths[2] = {(uint32_t)strlen(text), (uint32_t)payload_length};
-    uint8_t *bytes = memory_alloc(HEAD_BYTES + lengths[0] + payload_length, 1);
+    const struct head head = {(uint32_t)packet->kind, (uint32_t)strlen(text),
+                              (uint32_t)packet->payload_length};
+    uint8_t *bytes = memory_alloc(sizeof head + head.json_length + head.payload_length, 1);
 
-    memcpy(bytes, lengths, HEAD_BYTES);
-    memcpy(bytes + HEAD_BYTES, text, lengths[0]);
-    if (payload_length > 0) {
-        memcpy(bytes + HEAD_BYTES + lengths[0], payload, payload_length);
+    memcpy(bytes, &head, sizeof head);
+    memcpy(bytes + sizeof head, text, head.json_length);
+    if (head.payload_length > 0) {
+        memcpy(bytes + sizeof head + head.json_length, packet->payload, head.payload_length);
     }
     free(text);
-    *out_length = HEAD_BYTES + lengths[0] + payload_length;
+    cJSON_Delete(json);
+    *out_length = sizeof head + head.json_length + head.payload_length;
     return bytes;
 }
-
 void packet_reader_finish(struct packet_reader *reader)
 {
     free(reader->bytes);
@@ -67,36 +75,43 @@ static void take(struct packet_reader *reader, size_t length)
     }
 }
 
-int packet_reader_next(struct packet_reader *reader, struct packet *out)
+/* Both ends are ours, so the strict reading of strangers' JSON is left out. */
+static bool read_packet(const struct head *head, const uint8_t *bytes, enum packet_way way,
+                        struct packet *out)
 {
-    uint32_t lengths[2];
-    struct packet packet = {0};
+    *out = (struct packet){.kind = (int)head->kind, .payload_length = head->payload_length};
+    out->json = cJSON_ParseWithLength((const char *)bytes, (size_t)head->json_length);
+    if (!cJSON_IsObject(out->json) || !packet_unpack(way, out) ||
+        (head->payload_length > 0 && !packet_has_payload(way, out->kind))) {
+        packet_finish(out);
+        return false;
+    }
+    if (head->payload_length > 0) {
+        out->payload = memory_alloc(head->payload_length, 1);
+        memcpy(out->payload, bytes + head->json_length, head->payload_length);
+    }
+    return true;
+}
+
+int packet_reader_next(struct packet_reader *reader, enum packet_way way, struct packet *out)
+{
+    struct head head;
     size_t whole;
 
-    if (reader->length < HEAD_BYTES) {
+    if (reader->length < sizeof head) {
         return 0;
     }
-    memcpy(lengths, reader->bytes, HEAD_BYTES);
-    if (lengths[0] > JSON_MAX || lengths[1] > PAYLOAD_MAX) {
+    memcpy(&head, reader->bytes, sizeof head);
+    if (head.json_length > JSON_MAX || head.payload_length > PAYLOAD_MAX) {
         return -1;
     }
-    whole = HEAD_BYTES + (size_t)lengths[0] + lengths[1];
+    whole = sizeof head + head.json_length + head.payload_length;
     if (reader->length < whole) {
         return 0;
     }
-    /* Both ends are ours, so the strict reading of strangers' JSON is left out. */
-    packet.json =
-        cJSON_ParseWithLength((const char *)reader->bytes + HEAD_BYTES, (size_t)lengths[0]);
-    if (!cJSON_IsObject(packet.json)) {
-        cJSON_Delete(packet.json);
+    if (!read_packet(&head, reader->bytes + sizeof head, way, out)) {
         return -1;
     }
-    if (lengths[1] > 0) {
-        packet.payload = memory_alloc(lengths[1], 1);
-        memcpy(packet.payload, reader->bytes + HEAD_BYTES + lengths[0], lengths[1]);
-        packet.payload_length = lengths[1];
-    }
     take(reader, whole);
-    *out = packet;
     return 1;
 }

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "protocol/memory.h"
-#include "protocol/messages.h"
 #include "worker.h"
 
 struct pulse {
@@ -37,43 +36,26 @@ static uint64_t resident_bytes(void)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-static cJSON *describe(struct pulse *pulse, const cJSON *ping)
-{
-    cJSON *json = cJSON_CreateObject();
-    struct pulse_news news;
-    uint64_t steps;
-
-    pthread_mutex_lock(&pulse->lock);
-    news = pulse->news;
-    steps = pulse->steps;
-    pthread_mutex_unlock(&pulse->lock);
-    cJSON_AddStringToObject(json, "type", "pong");
-    cJSON_AddNumberToObject(json, "ping", json_member_number(ping, "ping", 0));
-    cJSON_AddNumberToObject(json, "steps", (double)steps);
-    cJSON_AddBoolToObject(json, "idle", news.idle);
-    cJSON_AddNumberToObject(json, "compilations", (double)news.counters.compilations);
-    cJSON_AddNumberToObject(json, "cache_hits", (double)news.counters.cache_hits);
-    cJSON_AddNumberToObject(json, "tiles", (double)news.counters.tiles);
-    cJSON_AddNumberToObject(json, "pictures", (double)news.counters.pictures);
-    cJSON_AddNumberToObject(json, "resident_bytes", (double)resident_bytes());
-    cJSON_AddNumberToObject(json, "pace", news.pace);
-    return json;
-}
-
 /* Waits until it is sent; the front reads all the time. */
-static void answer(struct pulse *pulse, const cJSON *ping)
+static void answer(struct pulse *pulse, int64_t ping)
 {
-    cJSON *json = describe(pulse, ping);
+    struct packet pong = {.kind = TO_FRONT_PONG, .pong = {.ping = ping}};
     size_t length, sent = 0;
-    uint8_t *bytes = packet_pack(json, NULL, 0, &length);
     ssize_t got = 0;
 
+    pthread_mutex_lock(&pulse->lock);
+    pong.pong.steps = pulse->steps;
+    pong.pong.idle = pulse->news.idle;
+    pong.pong.counters = pulse->news.counters;
+    pong.pong.pace = pulse->news.pace;
+    pthread_mutex_unlock(&pulse->lock);
+    pong.pong.resident_bytes = resident_bytes();
+    uint8_t *bytes = packet_pack(PACKET_TO_FRONT, &pong, &length);
     while (sent < length && got >= 0) {
         got = send(pulse->fd, bytes + sent, length - sent, MSG_NOSIGNAL);
         sent += got > 0 ? (size_t)got : 0;
     }
     free(bytes);
-    cJSON_Delete(json);
 }
 
 /* False: the front is gone, or talks nonsense. */
@@ -88,8 +70,8 @@ static bool receive(struct pulse *pulse)
         return false;
     }
     packet_reader_add(&pulse->in, bytes, (size_t)got);
-    while ((state = packet_reader_next(&pulse->in, &packet)) == 1) {
-        answer(pulse, packet.json);
+    while ((state = packet_reader_next(&pulse->in, PACKET_TO_WORKER, &packet)) == 1) {
+        answer(pulse, packet.ping.ping);
         packet_finish(&packet);
     }
     return state == 0;

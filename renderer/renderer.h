@@ -14,6 +14,7 @@
 #include "protocol/asset.h"
 #include "protocol/limits.h"
 #include "protocol/picture.h"
+#include "protocol/render_request.h"
 #include "protocol/scene.h"
 #include "renderer/gl/device.h"
 #include "renderer/image/image.h"
@@ -90,7 +91,7 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
 
 /* Whether the scene can be drawn, as far as that can be told without a device: its code is read,
  * checked, bounded and run in C, and every limit of drawing holds. False and `err` with the place
- * that drawing names. `*out_warning` as resident_warning. Any thread, no renderer. */
+ * that drawing names. `*out_warning` is a WARNING_LIPSCHITZ. Any thread, no renderer. */
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
 /* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */
@@ -120,8 +121,16 @@ const struct error *resident_error(const struct resident *resident);
 uint64_t resident_shape(const struct resident *resident);
 /* The same where it is refused; else 0. */
 uint64_t resident_refused_shape(const struct resident *resident);
-/* What is not right with the newest state, and yet drawn; kind ERROR_NONE: nothing. */
-const struct error *resident_warning(const struct resident *resident);
+enum warning_kind {
+    WARNING_LIPSCHITZ, /* a function of a user is steeper than it says */
+    WARNING_ASSET,     /* the picture around the scene is not there, or is none */
+};
+/* What is not right with the newest state, and yet drawn; ERROR_NONE: nothing. */
+struct warning {
+    enum warning_kind kind;
+    struct error error;
+};
+const struct warning *resident_warning(const struct resident *resident);
 /* Takes finished compilations over; true when some resident can show something newer. `wait_ms`
  * > 0 blocks at most that long for one. Call it between tiles. */
 bool renderer_poll(struct renderer *renderer, int wait_ms);
@@ -152,6 +161,11 @@ struct job_desc {
     const char *const *isolated;
     size_t isolated_count;
 };
+
+/* The picture that is asked for; the result points into the request. `careful` and `patience` are
+ * not the request's. */
+struct job_desc job_desc_of(const struct render_request *request);
+struct encode_params encode_params_of(const struct render_request *request);
 
 enum job_state {
     JOB_WAITING, /* for a compilation */

@@ -15,7 +15,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "protocol/messages.h"
 #include "worker_parts.h"
 
 enum {
@@ -41,43 +40,47 @@ static bool is_compiling(const struct worker *w)
     return renderer_is_reading(w->renderer);
 }
 
-static void on_stop(struct worker *w, const cJSON *packet)
+static void on_asset(struct worker *w, const struct packet *packet)
 {
-    (void)packet;
-    w->status = 0;
+    if (packet->payload) {
+        renderer_asset(w->renderer, packet->asset.asset, packet->payload, packet->payload_length);
+    }
 }
 
-static void on_packet(struct worker *w, const struct packet *whole)
+static void on_packet(struct worker *w, const struct packet *packet)
 {
-    static const struct {
-        const char *type;
-        void (*handle)(struct worker *w, const cJSON *packet);
-    } rows[] = {
-        {"scene", worker_on_scene},
-        {"edit", worker_on_edit},
-        {"drop", worker_on_drop},
-        {"render", worker_on_render},
-        {"cancel", worker_on_cancel},
-        {"judge", worker_on_judge},
-        {"stop", on_stop},
-    };
-    const cJSON *packet = whole->json;
-    const char *type = json_member_text(packet, "type", "");
-    struct error err = {0};
-
-    if (strcmp(type, "asset") == 0 && whole->payload) {
-        renderer_asset(w->renderer, json_member_text(packet, "asset", ""), whole->payload,
-                       whole->payload_length);
-        return;
+    switch ((enum packet_to_worker)packet->kind) {
+    case TO_WORKER_ASSET:
+        on_asset(w, packet);
+        break;
+    case TO_WORKER_SCENE:
+        worker_on_scene(w, &packet->scene);
+        break;
+    case TO_WORKER_EDIT:
+        worker_on_edit(w, &packet->edit);
+        break;
+    case TO_WORKER_DROP:
+        worker_on_drop(w, packet->state.scene);
+        break;
+    case TO_WORKER_JUDGE:
+        worker_on_judge(w, &packet->judge);
+        break;
+    case TO_WORKER_PACE:
+        renderer_set_pace(w->renderer, packet->pace.pace);
+        break;
+    case TO_WORKER_RENDER:
+        worker_on_render(w, &packet->render, &packet->malformed);
+        break;
+    case TO_WORKER_CANCEL:
+        worker_on_cancel(w, packet->job.job);
+        break;
+    case TO_WORKER_STOP:
+        w->status = 0;
+        break;
+    case TO_WORKER_PING: /* pulse.h */
+    case TO_WORKER_COUNT:
+        break;
     }
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (strcmp(rows[i].type, type) == 0) {
-            rows[i].handle(w, packet);
-            return;
-        }
-    }
-    error_set(&err, ERROR_INVALID, "type", "\"%s\" is no packet to a worker", type);
-    worker_send_failed(w, (uint64_t)json_member_number(packet, "job", 0), &err);
 }
 
 static void receive(struct worker *w)
@@ -94,11 +97,11 @@ static void receive(struct worker *w)
         w->status = 0; /* the front is gone */
         return;
     }
-    while (w->status < 0 && (state = packet_reader_next(&w->in, &packet)) != 0) {
+    while (w->status < 0 && (state = packet_reader_next(&w->in, PACKET_TO_WORKER, &packet)) != 0) {
         if (state < 0) {
             struct error err = {0};
             error_set(&err, ERROR_SYNTAX, "", "a malformed packet");
-            worker_send_failed(w, 0, &err);
+            worker_send_failed(w, 0, &err, false);
             w->status = 1; /* where the next packet begins is not known */
             return;
         }

@@ -19,7 +19,7 @@ struct held {
 
 /* A picture that was asked for. */
 struct task {
-    uint64_t number; /* the front's */
+    uint32_t number; /* the front's */
     char *scene;
     int priority;
     struct turn *turn; /* its account's */
@@ -49,7 +49,7 @@ struct worker {
     struct task *tasks;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
-    uint64_t told_job;        /* that the front thinks is drawn; 0: none */
+    uint32_t told_job;        /* that the front thinks is drawn; 0: none */
     struct confinement confined;
     int status; /* -1 while running */
 };
@@ -62,26 +62,20 @@ enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front s
 void worker_flush(struct worker *w);
 /* Waits until the front has all that was answered: what comes next may end the process. */
 void worker_flush_all(struct worker *w);
-cJSON *worker_answer(const char *type);
-/* Queues a packet; takes `json`. */
-void worker_send(struct worker *w, cJSON *json, const void *payload, size_t payload_length);
-void worker_send_failed(struct worker *w, uint64_t job, const struct error *err);
-/* The same of a picture that was begun. */
-void worker_send_undrawn(struct worker *w, uint64_t job, const struct error *err);
-/* `broken` or `warned`. `shape`: the one that is refused; 0: none. */
-void worker_send_fault(struct worker *w, const char *type, const char *scene, uint64_t revision,
-                       const struct error *err, uint64_t shape);
+/* Queues a packet. */
+void worker_send(struct worker *w, const struct packet *packet);
+/* `begun`: some of the picture was drawn. */
+void worker_send_failed(struct worker *w, uint32_t job, const struct error *err, bool begun);
+/* `shape`: the one that is refused; 0: none. */
+void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
+                        const struct error *err, uint64_t shape);
 void worker_send_ready(struct worker *w);
-void worker_send_progress(struct worker *w, const struct task *task);
 void worker_send_frame(struct worker *w, const struct task *task);
 /* A compiler may never end, and this process will. */
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
-/* Whose code is compiled from here on; scene "": nobody's. */
-void worker_send_compiling(struct worker *w, const char *scene, uint64_t revision, uint64_t shape);
-/* Whose picture is read from here on; `image` "": nobody's. */
-void worker_send_reading(struct worker *w, const struct held *held, const char *image);
-/* What is drawn from here on; NULL: nothing. */
-void worker_send_drawing(struct worker *w, const struct task *task);
+/* What is compiled, read or drawn from here on, and may end this process. */
+void worker_send_suspect(struct worker *w, enum packet_to_front kind,
+                         const struct packet_suspect *suspect);
 
 /* --- worker_scenes.c --- */
 
@@ -97,10 +91,10 @@ void worker_announce(struct worker *w);
 void worker_on_compile(void *data, uint64_t shape);
 /* The same of renderer_params.on_read. */
 void worker_on_read(void *data, const char *image);
-void worker_on_scene(struct worker *w, const cJSON *packet);
-void worker_on_edit(struct worker *w, const cJSON *packet);
-void worker_on_drop(struct worker *w, const cJSON *packet);
-void worker_on_judge(struct worker *w, const cJSON *packet);
+void worker_on_scene(struct worker *w, const struct packet_scene *packet);
+void worker_on_edit(struct worker *w, const struct packet_edit *packet);
+void worker_on_drop(struct worker *w, const char *scene);
+void worker_on_judge(struct worker *w, const struct packet_judge *packet);
 
 /* --- worker_pictures.c --- */
 
@@ -110,12 +104,9 @@ struct task *worker_choose_task(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
 void worker_step(struct worker *w, struct task *task);
 void worker_collect_encodings(struct worker *w);
-void worker_on_render(struct worker *w, const cJSON *packet);
-void worker_on_cancel(struct worker *w, const cJSON *packet);
-/* `*out` is a record of camera_type; it stays the default where the packet has no camera. */
-bool worker_read_camera(const cJSON *packet, struct record *out, bool *out_given,
-                        struct error *err);
-/* A whole number of the packet; -1 where it does not fit an int. */
-int worker_read_int(const cJSON *packet, const char *name, int fallback);
+/* `malformed`: what is wrong with its members, if anything. */
+void worker_on_render(struct worker *w, const struct packet_render *packet,
+                      const struct error *malformed);
+void worker_on_cancel(struct worker *w, uint32_t job);
 
 #endif

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "protocol/memory.h"
-#include "protocol/messages.h"
 #include "worker_parts.h"
 
 enum {
@@ -33,124 +32,6 @@ void worker_drop_task(struct worker *w, struct task **at)
     free(gone);
 }
 
-static bool read_format(const cJSON *packet, struct encode_params *out, struct error *err)
-{
-    const int format = image_format_find(json_member_text(packet, "format", "png"));
-
-    if (format < 0) {
-        return error_set(err, ERROR_INVALID, "format", "\"%s\" is not png, jpg or npy",
-                         json_member_text(packet, "format", ""));
-    }
-    *out = (struct encode_params){
-        .format = (enum image_format)format,
-        .quality = (int)json_member_number(packet, "quality", 0),
-        .chroma_halved = json_member_bool(packet, "chroma_halved", false),
-        .fast = json_member_bool(packet, "fast", false),
-        .zipped = json_member_bool(packet, "zipped", false),
-        .limit_bytes = LIMIT_IMAGE_BYTES,
-    };
-    return true;
-}
-
-bool worker_read_camera(const cJSON *packet, struct record *out, bool *out_given, struct error *err)
-{
-    const cJSON *camera = cJSON_GetObjectItemCaseSensitive(packet, "camera");
-
-    *out_given = camera != NULL;
-    return !camera || record_read(out, camera, "/camera", err);
-}
-
-int worker_read_int(const cJSON *packet, const char *name, int fallback)
-{
-    const double value = json_member_number(packet, name, fallback);
-
-    return value >= 0 && value < 1e9 ? (int)value : -1;
-}
-
-/* The member's value in the packet: a region of so many whole numbers. */
-static bool read_region(const cJSON *packet, struct job_region *out, struct error *err)
-{
-    const cJSON *region = cJSON_GetObjectItemCaseSensitive(packet, "region");
-    int numbers[4] = {0};
-
-    for (int i = 0; region && i < 4; i++) {
-        const cJSON *number = cJSON_GetArrayItem(region, i);
-
-        if (!cJSON_IsNumber(number)) {
-            return error_set(err, ERROR_INVALID, "region", "is not x, y, width, height");
-        }
-        numbers[i] = number->valueint;
-    }
-    *out = (struct job_region){numbers[0], numbers[1], numbers[2], numbers[3]};
-    return true;
-}
-
-static bool read_level(const cJSON *packet, int *out, struct error *err)
-{
-    const char *name = json_member_text(packet, "level", NULL);
-
-    *out = name ? quality_find(name) : -1;
-    return !name || *out >= 0 || error_set(err, ERROR_INVALID, "level", "\"%s\" is unknown", name);
-}
-
-/* All but the camera. */
-static bool read_desc(const cJSON *packet, bool as_floats, struct job_desc *out, struct error *err)
-{
-    *out = (struct job_desc){
-        .width = worker_read_int(packet, "width", 0),
-        .height = worker_read_int(packet, "height", 0),
-        .samples = worker_read_int(packet, "samples", 0),
-        .transparent = json_member_bool(packet, "transparent", false),
-        .exact = json_member_bool(packet, "exact", false),
-        .in_rounds = json_member_bool(packet, "in_rounds", false),
-        .careful = json_member_bool(packet, "careful", false),
-        .patience = worker_read_int(packet, "patience", 1),
-        .as_floats = as_floats,
-    };
-    if (!cJSON_HasObjectItem(packet, "transparent")) {
-        out->transparent = -1;
-    }
-    return aovs_read(json_member_text(packet, "aov", "color"), out->aovs, "aov", err) &&
-           read_level(packet, &out->level, err) && read_region(packet, &out->region, err);
-}
-
-/* The ids are borrowed from the packet. */
-static bool read_isolated(const cJSON *packet, const char *out_ids[LIMIT_ISOLATED],
-                          struct job_desc *desc, struct error *err)
-{
-    const cJSON *list = cJSON_GetObjectItemCaseSensitive(packet, "isolate"), *id;
-
-    desc->isolated = out_ids;
-    cJSON_ArrayForEach(id, list)
-    {
-        if (!cJSON_IsString(id) || desc->isolated_count == LIMIT_ISOLATED) {
-            return error_set(err, ERROR_INVALID, "isolate", "is not a list of at most %d ids",
-                             LIMIT_ISOLATED);
-        }
-        out_ids[desc->isolated_count++] = id->valuestring;
-    }
-    return true;
-}
-
-static struct job *make_job(struct resident *resident, const cJSON *packet, bool as_floats,
-                            struct error *err)
-{
-    struct record camera;
-    struct job_desc desc;
-    const char *isolated[LIMIT_ISOLATED];
-    struct job *job = NULL;
-    bool given;
-
-    record_init(&camera, &camera_type);
-    if (worker_read_camera(packet, &camera, &given, err) &&
-        read_desc(packet, as_floats, &desc, err) && read_isolated(packet, isolated, &desc, err)) {
-        desc.camera = given ? &camera : NULL;
-        job = job_create(resident, &desc, err);
-    }
-    record_finish(&camera);
-    return job;
-}
-
 static bool begin_encoding(struct worker *w, struct task *task, struct error *err)
 {
     struct image shapes[AOV_COUNT];
@@ -165,17 +46,20 @@ static bool begin_encoding(struct worker *w, struct task *task, struct error *er
 }
 
 /* The picture's job and its encoding. */
-static bool begin_task(struct worker *w, const cJSON *packet, struct task *task, struct error *err)
+static bool begin_task(struct worker *w, const struct packet_render *packet, struct task *task,
+                       struct error *err)
 {
     const struct held *held = *worker_find_scene(w, task->scene);
+    struct job_desc desc = job_desc_of(packet->request);
 
     if (!held) {
         return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
     }
-    if (!read_format(packet, &task->encode, err)) {
-        return false;
-    }
-    task->job = make_job(held->resident, packet, task->encode.format == IMAGE_NPY, err);
+    desc.careful = packet->careful;
+    desc.patience = packet->patience;
+    task->encode = encode_params_of(packet->request);
+    task->encode.limit_bytes = LIMIT_IMAGE_BYTES;
+    task->job = job_create(held->resident, &desc, err);
     if (!task->job) {
         return false;
     }
@@ -195,19 +79,20 @@ static bool has_company(const struct worker *w, const struct turn *turn)
     return task;
 }
 
-void worker_on_render(struct worker *w, const cJSON *packet)
+void worker_on_render(struct worker *w, const struct packet_render *packet,
+                      const struct error *malformed)
 {
     struct task *task = memory_alloc(1, sizeof *task);
     struct task **last = &w->tasks;
-    struct error err = {0};
+    struct error err = *malformed;
 
-    task->number = (uint64_t)json_member_number(packet, "job", 0);
-    task->scene = memory_text(json_member_text(packet, "scene", ""));
-    task->turn = turns_join(&w->turns, json_member_text(packet, "account", task->scene));
-    task->priority = (int)json_member_number(packet, "priority", 0);
+    task->number = packet->job;
+    task->scene = memory_text(packet->scene);
+    task->turn = turns_join(&w->turns, *packet->account ? packet->account : packet->scene);
+    task->priority = packet->priority;
     task->received_us = task->told_us = now_us();
-    if (!begin_task(w, packet, task, &err)) {
-        worker_send_failed(w, task->number, &err);
+    if (err.kind != ERROR_NONE || !begin_task(w, packet, task, &err)) {
+        worker_send_failed(w, task->number, &err, false);
         worker_drop_task(w, &task);
         return;
     }
@@ -231,12 +116,10 @@ static void give_up(struct worker *w, struct task *task)
     }
 }
 
-void worker_on_cancel(struct worker *w, const cJSON *packet)
+void worker_on_cancel(struct worker *w, uint32_t job)
 {
-    const uint64_t number = (uint64_t)json_member_number(packet, "job", 0);
-
     for (struct task *task = w->tasks; task; task = task->next) {
-        if (task->number == number) {
+        if (task->number == job) {
             give_up(w, task);
             return;
         }
@@ -295,7 +178,7 @@ static void hand_rows_over(struct worker *w, struct task *task)
     }
     if (now_us() - task->told_us > PROGRESS_US) {
         task->told_us = now_us();
-        worker_send_progress(w, task);
+        worker_send(w, &(struct packet){.kind = TO_FRONT_PROGRESS, .job = {task->number}});
     }
 }
 
@@ -325,13 +208,14 @@ static void finish_drawing(struct worker *w, struct task *task)
 /* What is drawn from here on, if anything: the front knows it should this be the end. */
 static void tell_drawing(struct worker *w, const struct task *task)
 {
-    const uint64_t job = task ? task->number : 0;
+    const uint32_t job = task ? task->number : 0;
 
     if (job == w->told_job) {
         return;
     }
     w->told_job = job;
-    worker_send_drawing(w, task);
+    worker_send_suspect(w, TO_FRONT_DRAWING,
+                        &(struct packet_suspect){.scene = task ? task->scene : "", .job = job});
     if (task) {
         worker_flush_all(w);
     }
@@ -382,7 +266,7 @@ void worker_step(struct worker *w, struct task *task)
         finish_drawing(w, task);
         break;
     case JOB_FAILED:
-        worker_send_undrawn(w, task->number, job_error(task->job));
+        worker_send_failed(w, task->number, job_error(task->job), true);
         if (job_error(task->job)->kind == ERROR_UNAVAILABLE) {
             w->status = WORKER_DEVICE_LOST;
         }
@@ -406,7 +290,7 @@ static bool answer(struct worker *w, struct task *task)
             return task->between;
         }
     }
-    worker_send_failed(w, task->number, &err);
+    worker_send_failed(w, task->number, &err, false);
     return false;
 }
 

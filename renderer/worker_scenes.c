@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "protocol/memory.h"
-#include "protocol/messages.h"
 #include "worker_parts.h"
 
 struct held **worker_find_scene(struct worker *w, const char *name)
@@ -50,14 +49,19 @@ void worker_drop_scene(struct held **at)
 
 static void announce_warning(struct worker *w, struct held *held)
 {
-    const struct error *warning = resident_warning(held->resident);
-    const bool known = strcmp(warning->place, held->told_warning.place) == 0 &&
-                       strcmp(warning->message, held->told_warning.message) == 0;
+    const struct warning *warning = resident_warning(held->resident);
+    const struct error *err = &warning->error;
+    const bool known = strcmp(err->place, held->told_warning.place) == 0 &&
+                       strcmp(err->message, held->told_warning.message) == 0;
 
-    if (warning->kind != ERROR_NONE && !known) {
-        worker_send_fault(w, "warned", held->name, resident_revision(held->resident), warning, 0);
+    if (err->kind != ERROR_NONE && !known) {
+        worker_send(w, &(struct packet){.kind = TO_FRONT_WARNED,
+                                        .state = {.scene = held->name,
+                                                  .revision = resident_revision(held->resident),
+                                                  .warning = warning->kind,
+                                                  .error = *err}});
     }
-    held->told_warning = *warning;
+    held->told_warning = *err;
 }
 
 void worker_announce(struct worker *w)
@@ -68,15 +72,13 @@ void worker_announce(struct worker *w)
         const struct error *err = resident_error(held->resident);
 
         if (shown != held->told_shown) {
-            cJSON *json = worker_answer("shown");
-            cJSON_AddStringToObject(json, "scene", held->name);
-            cJSON_AddNumberToObject(json, "revision", (double)shown);
-            worker_send(w, json, NULL, 0);
+            worker_send(w, &(struct packet){.kind = TO_FRONT_SHOWN,
+                                            .state = {.scene = held->name, .revision = shown}});
             held->told_shown = shown;
         }
         if (err->kind != ERROR_NONE && held->told_broken != revision) {
-            worker_send_fault(w, "broken", held->name, revision, err,
-                              resident_refused_shape(held->resident));
+            worker_send_broken(w, held->name, revision, err,
+                               resident_refused_shape(held->resident));
             held->told_broken = revision;
         }
         announce_warning(w, held);
@@ -97,96 +99,83 @@ void worker_on_compile(void *data, uint64_t shape)
         task = task->next;
     }
     if (shape == 0 || (!held && !task)) {
-        worker_send_compiling(w, "", 0, 0);
-    } else {
-        worker_send_compiling(w, held ? held->name : task->scene,
-                              held ? resident_revision(held->resident) : task->revision, shape);
-        worker_flush_all(w);
+        worker_send_suspect(w, TO_FRONT_COMPILING, &(struct packet_suspect){0});
+        return;
     }
+    worker_send_suspect(w, TO_FRONT_COMPILING,
+                        &(struct packet_suspect){
+                            .scene = held ? held->name : task->scene,
+                            .revision = held ? resident_revision(held->resident) : task->revision,
+                            .shape = shape});
+    worker_flush_all(w);
 }
 
 void worker_on_read(void *data, const char *image)
 {
     struct worker *w = data;
+    const struct held *held = *image ? worker_find_image(w, image) : NULL;
 
-    worker_send_reading(w, *image ? worker_find_image(w, image) : NULL, image);
+    worker_send_suspect(
+        w, TO_FRONT_READING,
+        &(struct packet_suspect){.scene = held ? held->name : "",
+                                 .revision = held ? resident_revision(held->resident) : 0,
+                                 .asset = image});
     if (*image) {
         worker_flush_all(w);
     }
 }
 
-void worker_on_scene(struct worker *w, const cJSON *packet)
+void worker_on_scene(struct worker *w, const struct packet_scene *packet)
 {
-    const char *name = json_member_text(packet, "scene", "");
-    const uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
-    struct held *held = *worker_find_scene(w, name);
+    struct held *held = *worker_find_scene(w, packet->scene);
     struct error err = {0};
-    struct scene *scene = scene_read(cJSON_GetObjectItemCaseSensitive(packet, "document"), &err);
+    struct scene *scene = scene_read(packet->document, &err);
 
     if (!scene) {
-        worker_send_fault(w, "broken", name, revision, &err, 0);
+        worker_send_broken(w, packet->scene, packet->revision, &err, 0);
     } else if (held) {
-        resident_replace(held->resident, scene, revision);
+        resident_replace(held->resident, scene, packet->revision);
     } else {
         held = memory_alloc(1, sizeof *held);
-        held->name = memory_text(name);
-        held->resident = resident_create(w->renderer, scene, revision);
+        held->name = memory_text(packet->scene);
+        held->resident = resident_create(w->renderer, scene, packet->revision);
         held->next = w->scenes;
         w->scenes = held;
     }
 }
 
-void worker_on_edit(struct worker *w, const cJSON *packet)
+void worker_on_edit(struct worker *w, const struct packet_edit *packet)
 {
-    const char *name = json_member_text(packet, "scene", "");
-    const uint64_t revision = (uint64_t)json_member_number(packet, "revision", 0);
-    const cJSON *ops = cJSON_GetObjectItemCaseSensitive(packet, "ops");
-    struct held *held = *worker_find_scene(w, name);
+    struct held *held = *worker_find_scene(w, packet->scene);
     struct error err = {0};
 
     if (!held) {
-        error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", name);
+        error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", packet->scene);
     }
-    if (!held || !resident_edit(held->resident, ops, revision, &err)) {
-        worker_send_fault(w, "broken", name, revision, &err, 0);
+    if (!held || !resident_edit(held->resident, packet->ops, packet->revision, &err)) {
+        worker_send_broken(w, packet->scene, packet->revision, &err, 0);
     }
 }
 
-void worker_on_drop(struct worker *w, const cJSON *packet)
+void worker_on_drop(struct worker *w, const char *scene)
 {
-    struct held **at = worker_find_scene(w, json_member_text(packet, "scene", ""));
+    struct held **at = worker_find_scene(w, scene);
 
     if (*at) {
         worker_drop_scene(at);
     }
 }
 
-/* Empty or unknown: none. */
-static enum error_kind read_kind(const char *code)
+void worker_on_judge(struct worker *w, const struct packet_judge *packet)
 {
-    return strcmp(code, error_kind_name(ERROR_TOO_SLOW)) == 0  ? ERROR_TOO_SLOW
-           : strcmp(code, error_kind_name(ERROR_CRASHED)) == 0 ? ERROR_CRASHED
-                                                               : ERROR_NONE;
-}
+    struct renderer_verdict verdict = {
+        .shape = packet->shape,
+        .refused = packet->refused,
+        .measured_ms = packet->measured_ms,
+        .limit_ms = packet->limit_ms,
+        .times = packet->times,
+    };
 
-void worker_on_judge(struct worker *w, const cJSON *packet)
-{
-    const double pace = json_member_number(packet, "pace", 0);
-    const cJSON *row;
-
-    if (pace > 0) {
-        renderer_set_pace(w->renderer, pace);
-    }
-    cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(packet, "shapes"))
-    {
-        struct renderer_verdict verdict = {
-            .shape = strtoull(json_member_text(row, "shape", ""), NULL, 16),
-            .refused = read_kind(json_member_text(row, "code", "")),
-            .measured_ms = (int)json_member_number(row, "measured", 0),
-            .limit_ms = (int)json_member_number(row, "limit", 0),
-            .times = (int)json_member_number(row, "times", 1),
-        };
-        snprintf(verdict.image, sizeof verdict.image, "%s", json_member_text(row, "asset", ""));
-        renderer_judge(w->renderer, &verdict);
-    }
+    snprintf(verdict.image, sizeof verdict.image, "%s", packet->asset);
+    renderer_judge(w->renderer, &verdict);
 }

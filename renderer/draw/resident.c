@@ -154,9 +154,9 @@ const struct error *resident_error(const struct resident *resident)
     return &resident->error;
 }
 
-const struct error *resident_warning(const struct resident *resident)
+const struct warning *resident_warning(const struct resident *resident)
 {
-    static const struct error none;
+    static const struct warning none;
 
     return resident->newest ? &resident->newest->warning : &none;
 }

@@ -207,8 +207,8 @@ static bool surround(struct renderer *renderer, struct snapshot *snapshot, const
     if (problem->kind != ERROR_NONE) {
         environment_leave_out(&snapshot->frame);
     }
-    if (snapshot->warning.kind == ERROR_NONE) {
-        snapshot->warning = *problem;
+    if (snapshot->warning.error.kind == ERROR_NONE) {
+        snapshot->warning = (struct warning){WARNING_ASSET, *problem};
     }
     snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
                                              decoded, &snapshot->environment_us, err);
@@ -291,7 +291,7 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->revision = revision;
     snapshot->field = field;
     snapshot->program = program;
-    snapshot->warning = warning;
+    snapshot->warning.error = warning;
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent = extent_of(renderer, field, &scene->camera);

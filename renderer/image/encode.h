@@ -9,7 +9,6 @@
 /* A file format. `begin` takes the kinds of pixels that the format knows, else ERROR_INVALID; its
  * result is what the others work on, and must go to `destroy` also after a failure. */
 struct encoder_class {
-    const char *name, *mime;
     void *(*begin)(const struct image *shape, const struct encode_params *params, FILE *out,
                    struct error *err);
     bool (*add)(void *state, const struct image *rows, struct error *err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Formats by name, and the way of rows into files. */
+/* The way of rows into files. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,33 +7,12 @@
 #include "encode.h"
 
 static const struct encoder_class *const classes[] = {
-    [IMAGE_PNG] = &png_class, [IMAGE_JPEG] = &jpeg_class, [IMAGE_NPY] = &npy_class};
-enum { FORMAT_COUNT = sizeof classes / sizeof classes[0] };
+    [CODEC_PNG] = &png_class, [CODEC_JPEG] = &jpeg_class, [CODEC_NPY] = &npy_class};
 
 void image_finish(struct image *image)
 {
     free(image->pixels);
     *image = (struct image){0};
-}
-
-int image_format_find(const char *name)
-{
-    for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (strcmp(classes[i]->name, name) == 0) {
-            return i;
-        }
-    }
-    return strcmp(name, "jpeg") == 0 ? IMAGE_JPEG : -1;
-}
-
-const char *image_format_name(enum image_format format)
-{
-    return classes[format]->name;
-}
-
-const char *image_format_mime(enum image_format format)
-{
-    return classes[format]->mime;
 }
 
 bool encode_flush(FILE *out, struct error *err)
@@ -46,7 +25,7 @@ bool encode_flush(FILE *out, struct error *err)
 bool image_encoder_begin(struct image_encoder *encoder, const struct image *shape,
                          const struct encode_params *params, FILE *out, struct error *err)
 {
-    if ((int)params->format < 0 || (int)params->format >= FORMAT_COUNT) {
+    if ((size_t)params->format >= sizeof classes / sizeof *classes || !classes[params->format]) {
         return error_set(err, ERROR_INVALID, "format", "unknown");
     }
     encoder->class = classes[params->format];

@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "protocol/codec.h"
 #include "protocol/error.h"
 #include "protocol/limits.h"
 #include "protocol/picture.h"
@@ -24,12 +25,8 @@ struct image {
 };
 void image_finish(struct image *image);
 
-enum image_format { IMAGE_PNG, IMAGE_JPEG, IMAGE_NPY };
-int image_format_find(const char *name); /* "png" "jpg" "jpeg" "npy"; -1: none */
-const char *image_format_name(enum image_format format);
-const char *image_format_mime(enum image_format format);
 struct encode_params {
-    enum image_format format;
+    enum codec format;  /* one that codec_find gives */
     int quality;        /* JPEG 1..100; 0: 90 */
     bool chroma_halved; /* JPEG 4:2:0 */
     bool fast;          /* PNG level 1, filter SUB: for streaming; the pixels are the same */
@@ -49,7 +46,7 @@ struct picture_file;
 struct picture_file *picture_file_create(const struct image shapes[AOV_COUNT],
                                          const struct encode_params *params, FILE *out,
                                          struct error *err);
-const char *picture_file_mime(const struct picture_file *file);
+enum codec picture_file_codec(const struct picture_file *file);
 bool picture_file_add(struct picture_file *file, enum aov aov, const struct image *rows,
                       struct error *err);
 /* When all rows of all outputs were added. */

@@ -142,4 +142,4 @@ static bool end(void *state, struct error *err)
     return true;
 }
 
-const struct encoder_class jpeg_class = {"jpg", "image/jpeg", begin, add, end, destroy};
+const struct encoder_class jpeg_class = {begin, add, end, destroy};

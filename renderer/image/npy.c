@@ -65,4 +65,4 @@ static void destroy(void *state)
     (void)state;
 }
 
-const struct encoder_class npy_class = {"npy", "application/x-npy", begin, add, end, destroy};
+const struct encoder_class npy_class = {begin, add, end, destroy};

@@ -26,7 +26,7 @@ static bool check_raw(const struct image shapes[AOV_COUNT], const struct encode_
     for (int i = 0; i < AOV_COUNT; i++) {
         bytes += shapes[i].bytes;
     }
-    return params->format != IMAGE_NPY || params->limit_bytes == 0 ||
+    return params->format != CODEC_NPY || params->limit_bytes == 0 ||
            bytes <= params->limit_bytes ||
            error_set(err, ERROR_LIMIT, "", "%" PRIu64 " bytes of values are above the maximum %zu",
                      bytes, params->limit_bytes);
@@ -91,9 +91,9 @@ struct picture_file *picture_file_create(const struct image shapes[AOV_COUNT],
     return file;
 }
 
-const char *picture_file_mime(const struct picture_file *file)
+enum codec picture_file_codec(const struct picture_file *file)
 {
-    return file->zipped ? "application/zip" : image_format_mime(file->params.format);
+    return file->zipped ? CODEC_ZIP : file->params.format;
 }
 
 bool picture_file_add(struct picture_file *file, enum aov aov, const struct image *rows,
@@ -115,7 +115,7 @@ bool picture_file_end(struct picture_file *file, struct error *err)
             return false;
         }
         snprintf(parts[count].name, sizeof parts[count].name, "%s.%s", aov_name((enum aov)i),
-                 image_format_name(file->params.format));
+                 codec_name(file->params.format));
         parts[count++].file = file->parts[i];
     }
     return check_length(file, err) && (!file->zipped || zip_write(parts, count, file->out, err)) &&

@@ -119,4 +119,4 @@ static bool end(void *state, struct error *err)
     return true;
 }
 
-const struct encoder_class png_class = {"png", "image/png", begin, add, end, destroy};
+const struct encoder_class png_class = {begin, add, end, destroy};

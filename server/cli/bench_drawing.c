@@ -25,10 +25,10 @@ static const struct {
     const char *name;
     struct encode_params params;
 } codecs[] = {
-    {"jpeg moving", {.format = IMAGE_JPEG, .quality = 75, .chroma_halved = true, .fast = true}},
-    {"jpeg still", {.format = IMAGE_JPEG, .quality = 90}},
-    {"png live", {.format = IMAGE_PNG, .fast = true}},
-    {"png file", {.format = IMAGE_PNG}},
+    {"jpeg moving", {.format = CODEC_JPEG, .quality = 75, .chroma_halved = true, .fast = true}},
+    {"jpeg still", {.format = CODEC_JPEG, .quality = 90}},
+    {"png live", {.format = CODEC_PNG, .fast = true}},
+    {"png file", {.format = CODEC_PNG}},
 };
 
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes };

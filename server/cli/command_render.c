@@ -10,13 +10,13 @@
 enum { PATIENCE_MS = 50 };
 
 /* What --format says, else the extension of the output. */
-static bool choose_format(const struct options *options, struct encode_params *out,
+static bool choose_format(const struct options *options, struct render_request *out,
                           struct error *err)
 {
     static const struct {
         const char *extension;
-        enum image_format inside;
-    } archives[] = {{"zip", IMAGE_PNG}, {"npz", IMAGE_NPY}};
+        enum codec inside;
+    } archives[] = {{"zip", CODEC_PNG}, {"npz", CODEC_NPY}};
     const char *name = option_text(options, OPTION_FORMAT);
     const char *output = option_text(options, OPTION_OUTPUT);
     if (!output) {
@@ -24,99 +24,50 @@ static bool choose_format(const struct options *options, struct encode_params *o
     }
     const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
     const char *extension = dot ? dot + 1 : "";
-    int format = image_format_find(name ? name : extension);
-    *out = (struct encode_params){.quality = option_int(options, OPTION_QUALITY)};
+    bool zipped = false;
+    out->codec = codec_find(name ? name : extension);
     for (size_t i = 0; i < sizeof archives / sizeof *archives; i++) {
         if (strcmp(archives[i].extension, extension) == 0) {
-            out->zipped = true;
-            format = name ? format : (int)archives[i].inside;
+            zipped = true;
+            out->codec = name ? out->codec : archives[i].inside;
         }
     }
-    if (format < 0) {
+    if (!out->codec) {
         return error_set(err, ERROR_INVALID, "--output",
                          "%s has no known extension; --format png, jpg or npy says what to write",
                          output);
     }
     int outputs = option_int(options, OPTION_AOV);
-    if ((outputs & (outputs - 1)) && dot && !out->zipped) {
+    if ((outputs & (outputs - 1)) && dot && !zipped) {
         return error_set(err, ERROR_INVALID, "--output",
                          "%s holds one picture; several go into a .zip or .npz", output);
     }
-    out->format = (enum image_format)format;
+    record_put(&out->delivery, "zipped", zipped);
     return true;
 }
 
-static cJSON *option_json(const struct options *options, enum option option)
-{
-    const double *value = option_vector(options, option);
-    switch (option_row(option)->type) {
-    case OPTION_CHOICE:
-        return cJSON_CreateString(option_text(options, option));
-    case OPTION_VECTOR:
-        return cJSON_CreateDoubleArray(value, 3);
-    default:
-        return cJSON_CreateNumber(*value);
-    }
-}
-
-/* Sets the member that the option is named after, where the user gave it. */
-static bool set_camera(struct record *camera, const struct options *options, enum option option,
-                       struct error *err)
-{
-    static const char prefix[] = "camera-";
-    const char *name = option_row(option)->name;
-    char place[32];
-    if (!option_vector(options, option)) {
-        return true;
-    }
-    snprintf(place, sizeof place, "--%s", name);
-    cJSON *json = option_json(options, option);
-    int index = record_type_find(camera->type, name + sizeof prefix - 1);
-    bool ok = record_set(camera, index, json, place, err);
-    cJSON_Delete(json);
-    return ok;
-}
-
-static bool read_camera(struct record *camera, const struct options *options, struct error *err)
+/* Each member has an option called `prefix` and its name, which the user may have given. */
+static bool read_members(const struct options *options, const struct record_type *type,
+                         const char *prefix, struct render_request *out, struct error *err)
 {
     bool ok = true;
-    for (int i = OPTION_CAMERA_TYPE; i <= OPTION_CAMERA_FOCUS; i++) {
-        ok = ok && set_camera(camera, options, (enum option)i, err);
+    for (const struct param *param = type->params; ok && param->name; param++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", prefix, param->name);
+        enum option option = option_find(name);
+        const char *text = option == OPTION_COUNT ? NULL : option_text(options, option);
+        ok = !text || render_request_set_text(out, REQUEST_OPTION, name, text, err);
     }
     return ok;
 }
 
-/* -1 where the option was not given. */
-static int choice_or_none(const struct options *options, enum option option)
+static bool read_request(const struct options *options, struct render_request *out,
+                         struct error *err)
 {
-    return option_text(options, option) ? option_int(options, option) : -1;
-}
-
-static int switch_or_none(const struct options *options, enum option option)
-{
-    const char *word = option_text(options, option);
-    return word ? switch_find(word) : -1;
-}
-
-static void read_desc(const struct options *options, const struct record *camera,
-                      enum image_format format, struct job_desc *out)
-{
-    const double *region = option_vector(options, OPTION_REGION);
-    *out = (struct job_desc){.width = option_int(options, OPTION_WIDTH),
-                             .height = option_int(options, OPTION_HEIGHT),
-                             .camera = camera,
-                             .level = choice_or_none(options, OPTION_LEVEL),
-                             .samples = option_int(options, OPTION_SAMPLES),
-                             .transparent = switch_or_none(options, OPTION_TRANSPARENT),
-                             .exact = true,
-                             .as_floats = format == IMAGE_NPY};
-    for (int i = 0; i < AOV_COUNT; i++) {
-        out->aovs[i] = option_int(options, OPTION_AOV) >> i & 1;
-    }
-    if (region) {
-        out->region =
-            (struct job_region){(int)region[0], (int)region[1], (int)region[2], (int)region[3]};
-    }
+    record_put(&out->delivery, "exact", true);
+    return choose_format(options, out, err) && read_members(options, &picture_type, "", out, err) &&
+           read_members(options, &camera_type, "camera-", out, err) &&
+           render_request_check(out, REQUEST_OPTION, err);
 }
 
 static bool add_rows(struct job *job, struct picture_file *file, struct error *err)
@@ -151,8 +102,9 @@ static bool draw_rows(struct renderer *renderer, struct job *job, struct picture
 
 /* The picture goes to the file as it is drawn, however large it is. */
 static bool write_picture(struct renderer *renderer, struct job *job,
-                          const struct encode_params *params, const char *path, struct error *err)
+                          const struct render_request *request, const char *path, struct error *err)
 {
+    const struct encode_params params = encode_params_of(request);
     struct image shapes[AOV_COUNT];
     struct file_writer writer;
     for (int i = 0; i < AOV_COUNT; i++) {
@@ -161,59 +113,55 @@ static bool write_picture(struct renderer *renderer, struct job *job,
     if (!file_writer_open(&writer, path, err)) {
         return false;
     }
-    struct picture_file *file = picture_file_create(shapes, params, writer.file, err);
+    struct picture_file *file = picture_file_create(shapes, &params, writer.file, err);
     bool ok = file && draw_rows(renderer, job, file, err);
     picture_file_destroy(file);
     return file_writer_close(&writer, ok, err);
 }
 
 /* Takes `scene`. */
-static bool draw(struct scene *scene, const struct options *options,
-                 const struct encode_params *params, struct error *err)
+static bool draw(struct scene *scene, const struct options *options, struct render_request *request,
+                 struct error *err)
 {
-    struct record camera = {0};
-    struct renderer *renderer = NULL;
     struct resident *resident = NULL;
     struct job *job = NULL;
     struct renderer_params device;
-    struct job_desc desc;
-    record_copy(&camera, &scene->camera);
-    if (read_camera(&camera, options, err)) {
-        drawing_params(options, &device);
-        renderer = renderer_create(&device, err);
-    }
+    drawing_params(options, &device);
+    struct renderer *renderer = renderer_create(&device, err);
+    render_request_see_from(request, &scene->camera);
     if (renderer && drawing_give_files(renderer, scene, options, err)) {
+        const struct job_desc desc = job_desc_of(request);
         resident = resident_create(renderer, scene, 1);
         scene = NULL;
-        read_desc(options, &camera, params->format, &desc);
         job = job_create(resident, &desc, err);
     }
-    bool ok = job && write_picture(renderer, job, params, option_text(options, OPTION_OUTPUT), err);
-    if (ok && resident_warning(resident)->kind != ERROR_NONE) {
+    bool ok =
+        job && write_picture(renderer, job, request, option_text(options, OPTION_OUTPUT), err);
+    if (ok && resident_warning(resident)->error.kind != ERROR_NONE) {
         fputs("fieldcast: warning: ", stderr);
-        error_print(resident_warning(resident), stderr);
+        error_print(&resident_warning(resident)->error, stderr);
     }
     job_destroy(job);
     resident_destroy(resident);
     renderer_destroy(renderer);
     scene_destroy(scene);
-    record_finish(&camera);
     return ok;
 }
 
 int command_render(const struct options *options)
 {
     struct error err = {0};
-    struct encode_params params;
+    struct render_request request;
     int status = EXIT_USAGE;
-    if (choose_format(options, &params, &err)) {
-        status = EXIT_FAILED;
+    render_request_init(&request);
+    if (read_request(options, &request, &err)) {
         struct scene *scene = scene_open(options->operands[0], &err);
-        if (scene && draw(scene, options, &params, &err)) {
-            return EXIT_OK;
-        }
+        status = scene && draw(scene, options, &request, &err) ? EXIT_OK : EXIT_FAILED;
     }
-    fputs("fieldcast: ", stderr);
-    error_print(&err, stderr);
+    render_request_finish(&request);
+    if (status != EXIT_OK) {
+        fputs("fieldcast: ", stderr);
+        error_print(&err, stderr);
+    }
     return status;
 }

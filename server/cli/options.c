@@ -165,9 +165,9 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Quality level; by default the scene's."},
     [OPTION_ASSET] = {"asset", 0, "FILE", OPTION_FILES, .commands = FOR(RENDER),
         .doc = "A file that the scene names by its SHA-256; may be given several times."},
-    [OPTION_SAMPLES] = {"samples", 0, "N", OPTION_INT, .fallback = "0", .min = 0, .max = 4,
+    [OPTION_SAMPLES] = {"samples", 0, "N", OPTION_INT, .min = 1, .max = 4,
         .commands = FOR(RENDER),
-        .doc = "Samples per pixel along each axis; 0 takes the level's or the scene's."},
+        .doc = "Samples per pixel along each axis; by default the level's or the scene's."},
     [OPTION_TRANSPARENT] = {"transparent", 0, "WORD", OPTION_CHOICE, .choice = switch_choice,
         .commands = FOR(RENDER),
         .doc = "Whether the background is left out; by default as the scene says."},
@@ -222,6 +222,15 @@ static const struct option_row table[OPTION_COUNT] = {
 const struct option_row *option_row(enum option option)
 {
     return &table[option];
+}
+
+enum option option_find(const char *name)
+{
+    int i = 0;
+    while (i < OPTION_COUNT && strcmp(table[i].name, name) != 0) {
+        i++;
+    }
+    return (enum option)i;
 }
 
 void option_variable(const struct option_row *row, char *out, size_t size)

@@ -96,6 +96,8 @@ struct option_row {
 };
 
 const struct option_row *option_row(enum option option);
+/* OPTION_COUNT: none. */
+enum option option_find(const char *name);
 /* "FIELDCAST_TOKEN_FILE" for "token-file". */
 void option_variable(const struct option_row *row, char *out, size_t size);
 /* The default with its base directory resolved; malloc'ed, NULL where there is none. */

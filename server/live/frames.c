@@ -7,9 +7,7 @@
 
 #include "hub.h"
 #include "poster.h"
-#include "protocol/json.h"
-#include "protocol/memory.h"
-#include "protocol/nodes.h"
+#include "protocol/messages.h"
 #include "room.h"
 #include "server/clock.h"
 #include "session.h"
@@ -40,21 +38,22 @@ static const struct quality_rule quality_rules[] = {
 
 /* How each picture is drawn and encoded. */
 struct level_rule {
-    const char *level; /* of quality; NULL: the scene's */
-    const char *format;
+    int level; /* of quality; -1: the scene's */
+    enum codec codec;
     int priority, quality;
-    bool chroma_halved, fast, exact;
+    bool chroma_halved, exact;
     int after_ms; /* rest of the view before it is due */
     uint8_t flags;
 };
 
 static const struct level_rule level_rules[] = {
-    [FRAMES_MOVING] = {"interactive", "jpg", RENDER_MOVING, 60, true, true, false, 0, FRAME_KEY},
-    [FRAMES_LARGER] = {"interactive", "jpg", RENDER_STILL, 80, true, true, false, FRAMES_STILL_MS,
+    [FRAMES_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0,
                        FRAME_KEY},
-    [FRAMES_STILL] = {"interactive", "jpg", RENDER_STILL, 88, false, true, false, FRAMES_STILL_MS,
-                      FRAME_KEY | FRAME_STILL},
-    [FRAMES_LOSSLESS] = {NULL, "png", RENDER_LOSSLESS, 0, false, true, true, FRAMES_LOSSLESS_MS,
+    [FRAMES_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false,
+                       FRAMES_STILL_MS, FRAME_KEY},
+    [FRAMES_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
+                      FRAMES_STILL_MS, FRAME_KEY | FRAME_STILL},
+    [FRAMES_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, FRAMES_LOSSLESS_MS,
                          FRAME_KEY | FRAME_STILL | FRAME_LOSSLESS},
 };
 
@@ -71,17 +70,11 @@ static void drop_job(struct session *session)
     }
 }
 
-static void finish_view(struct frames_view *view)
-{
-    free(view->camera);
-    free(view->isolate);
-}
-
 void frames_finish(struct session *session)
 {
     drop_job(session);
     for (int i = 0; i < FRAMES_VIEWS; i++) {
-        finish_view(&session->frames.views[i]);
+        render_request_finish(&session->frames.views[i].picture);
     }
 }
 
@@ -98,91 +91,11 @@ const struct frames_view *frames_find_view(const struct frames *frames, uint32_t
         return NULL;
     }
     for (int i = 0; i < FRAMES_VIEWS; i++) {
-        if (frames->views[i].seq == seq && frames->views[i].width > 0) {
+        if (frames->views[i].seq == seq && frames->views[i].picture.picture.values) {
             return &frames->views[i];
         }
     }
     return &frames->views[frames->newest];
-}
-
-/* The members given, in their canonical text, so that equal ones compare equal. */
-static bool read_camera(const cJSON *json, char **out_text, struct error *err)
-{
-    struct record camera;
-
-    *out_text = NULL;
-    if (!json) {
-        return true;
-    }
-    record_init(&camera, &camera_type);
-    bool ok = record_read(&camera, json, "/camera", err);
-    if (ok) {
-        cJSON *object = cJSON_CreateObject();
-
-        record_print(&camera, object);
-        *out_text = json_print(object, false);
-        cJSON_Delete(object);
-    }
-    record_finish(&camera);
-    return ok;
-}
-
-/* The document's camera, as it is now, with what the view changes. */
-static cJSON *patched_camera(const struct session *session, const struct frames_view *view)
-{
-    struct record camera;
-    cJSON *patch = json_parse(view->camera, strlen(view->camera), NULL);
-    cJSON *whole = cJSON_CreateObject();
-
-    record_copy(&camera, &session->room->scene->camera);
-    record_read(&camera, patch, "/camera", NULL);
-    record_print(&camera, whole);
-    record_finish(&camera);
-    cJSON_Delete(patch);
-    return whole;
-}
-
-char *frames_camera(const struct session *session, const struct frames_view *view)
-{
-    if (!view->camera) {
-        return NULL;
-    }
-    cJSON *camera = patched_camera(session, view);
-    char *text = json_print(camera, false);
-
-    cJSON_Delete(camera);
-    return text;
-}
-
-static int compare_ids(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-/* Each id once and in order, so that equal sets compare equal. NULL: none. */
-static char *read_isolate(const cJSON *json)
-{
-    const char *ids[LIMIT_ISOLATED];
-    int count = 0;
-    const cJSON *id;
-
-    cJSON_ArrayForEach(id, json)
-    {
-        ids[count++] = id->valuestring;
-    }
-    if (count == 0) {
-        return NULL;
-    }
-    qsort(ids, (size_t)count, sizeof(*ids), compare_ids);
-    cJSON *list = cJSON_CreateArray();
-    for (int i = 0; i < count; i++) {
-        if (i == 0 || strcmp(ids[i], ids[i - 1]) != 0) {
-            cJSON_AddItemToArray(list, cJSON_CreateString(ids[i]));
-        }
-    }
-    char *text = json_print(list, false);
-    cJSON_Delete(list);
-    return text;
 }
 
 static enum frames_quality find_quality(const char *name)
@@ -192,16 +105,24 @@ static enum frames_quality find_quality(const char *name)
                                         : QUALITY_AUTO;
 }
 
-static bool same_text(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
 static bool same_picture(const struct frames_view *a, const struct frames_view *b)
 {
-    return a->width == b->width && a->height == b->height && a->aov == b->aov &&
-           a->quality == b->quality && a->visible == b->visible &&
-           same_text(a->camera, b->camera) && same_text(a->isolate, b->isolate);
+    return a->quality == b->quality && a->visible == b->visible &&
+           render_request_equal(&a->picture, &b->picture);
+}
+
+/* The members of the checked message that say what is seen. */
+static bool read_picture(const cJSON *message, struct render_request *out, struct error *err)
+{
+    const cJSON *camera = cJSON_GetObjectItemCaseSensitive(message, "camera");
+    const cJSON *isolate = cJSON_GetObjectItemCaseSensitive(message, "isolate");
+
+    render_request_init(out);
+    record_put(&out->picture, "width", json_member_number(message, "width", 0));
+    record_put(&out->picture, "height", json_member_number(message, "height", 0));
+    record_put_text(&out->picture, "aov", json_member_text(message, "aov", aov_name(AOV_COLOR)));
+    return (!camera || record_read(&out->camera, camera, "/camera", err)) &&
+           (!isolate || id_set_read(&out->isolate, isolate, "/isolate", err));
 }
 
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err)
@@ -210,24 +131,21 @@ bool frames_set_view(struct session *session, const cJSON *message, struct error
     struct frames_view *old = newest_view(frames);
     struct frames_view view = {
         .seq = (uint32_t)json_member_number(message, "seq", 0),
-        .width = (int)json_member_number(message, "width", 0),
-        .height = (int)json_member_number(message, "height", 0),
-        .aov = aov_find(json_member_text(message, "aov", "color")),
         .quality = find_quality(json_member_text(message, "quality", "auto")),
         .visible = json_member_bool(message, "visible", true),
     };
 
-    if (!read_camera(cJSON_GetObjectItemCaseSensitive(message, "camera"), &view.camera, err)) {
+    if (!read_picture(message, &view.picture, err)) {
+        render_request_finish(&view.picture);
         return false;
     }
-    view.isolate = read_isolate(cJSON_GetObjectItemCaseSensitive(message, "isolate"));
     if (old && same_picture(old, &view)) {
         old->seq = view.seq;
-        finish_view(&view);
+        render_request_finish(&view.picture);
         return true;
     }
     frames->newest = old ? (frames->newest + 1) % FRAMES_VIEWS : 0;
-    finish_view(&frames->views[frames->newest]);
+    render_request_finish(&frames->views[frames->newest].picture);
     frames->views[frames->newest] = view;
     frames->has_view = true;
     frames_changed(session);
@@ -309,7 +227,10 @@ static double ns_per_pixel(const struct session *session)
 
 static double pixels_of(const struct frames_view *view, int step)
 {
-    return (double)view->width * view->height * scales[step] * scales[step];
+    const struct record *picture = &view->picture.picture;
+
+    return record_number(picture, "width") * record_number(picture, "height") * scales[step] *
+           scales[step];
 }
 
 static double predicted_ms(const struct session *session, const struct frames_view *view, int step)
@@ -386,59 +307,78 @@ static void learn(struct session *session)
 
 /* --- asking and receiving --- */
 
-static void send_frame(struct session *session, const struct packet *answer)
+/* The room of a frame that is shown, or given up, is free. */
+static void free_flight(struct frames *frames, uint32_t number)
+{
+    const int slot = flight_slot(frames, number);
+
+    if (slot >= 0) {
+        frames->flight[slot].number = 0;
+    }
+}
+
+static void take_flight(struct frames *frames, uint32_t number)
+{
+    const int slot = flight_slot(frames, 0);
+
+    if (slot >= 0) {
+        frames->flight[slot].number = number;
+        frames->flight[slot].sent_ms = clock_ms();
+    }
+}
+
+static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
+                                     bool newest)
 {
     struct frames *frames = &session->frames;
-    const cJSON *json = answer->json;
-    const struct room *room = session->room;
-    const uint64_t revision = (uint64_t)json_member_number(json, "revision", 0);
+    const struct packet_frame *frame = answer->frame;
     const uint8_t flags = level_rules[frames->job_level].flags;
-    const bool more = json_member_bool(json, "more", false);
-    bool newest = json_member_bool(json, "newest", true) &&
-                  !(room->problem.kind != ERROR_NONE && revision < room->problem_revision);
     struct frame_header header = {
-        .codec =
-            strcmp(json_member_text(json, "mime", ""), "image/png") == 0 ? FRAME_PNG : FRAME_JPEG,
-        .flags = (more ? flags & ~FRAME_LOSSLESS : flags) | (newest ? 0 : FRAME_STALE),
+        .codec = frame->codec,
+        .flags = (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (newest ? 0 : FRAME_STALE),
         .number = ++frames->last_number,
-        .payload_bytes = (uint32_t)answer->payload_length,
-        .revision = revision,
+        .payload_bytes = (uint32_t)answer->length,
+        .revision = frame->revision,
         .input = frames->job_seq,
-        .width = (uint16_t)json_member_number(json, "width", 0),
-        .height = (uint16_t)json_member_number(json, "height", 0),
+        .width = (uint16_t)frame->width,
+        .height = (uint16_t)frame->height,
         .view_width = (uint16_t)frames->job_view_width,
         .view_height = (uint16_t)frames->job_view_height,
-        .round = (uint8_t)json_member_number(json, "round", 1),
-        .rounds = (uint8_t)json_member_number(json, "rounds", 1),
+        .round = (uint8_t)frame->rounds.done,
+        .rounds = (uint8_t)frame->rounds.count,
     };
-    renders_read_times(json, header.stage_us);
-    struct blob *payload = blob_create(answer->payload, answer->payload_length);
-    uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
 
-    if (frames->job_level == FRAMES_STILL && header.codec == FRAME_JPEG && newest &&
-        !newest_view(frames)->isolate) {
+    memcpy(header.stage_us, frame->times.us, sizeof(header.stage_us));
+    return header;
+}
+
+static void send_frame(struct session *session, const struct picture_answer *answer)
+{
+    struct frames *frames = &session->frames;
+    const struct room *room = session->room;
+    const uint64_t revision = answer->frame->revision;
+    const bool newest = answer->frame->newest &&
+                        !(room->problem.kind != ERROR_NONE && revision < room->problem_revision);
+    const struct frame_header header = header_of(session, answer, newest);
+    struct blob *payload = blob_create(answer->bytes, answer->length);
+    const uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
+
+    if (frames->job_level == FRAMES_STILL && header.codec == CODEC_JPEG && newest &&
+        newest_view(frames)->picture.isolate.count == 0) {
         poster_set(session->room, payload);
     }
     blob_unref(payload);
     if (given_up) {
-        int slot = flight_slot(frames, given_up);
-
-        if (slot >= 0) {
-            frames->flight[slot].number = 0;
-        }
+        free_flight(frames, given_up);
         metric_add(&session->hub->metrics, METRIC_FRAMES_DROPPED, 1);
     }
-    int slot = flight_slot(frames, 0);
-    if (slot >= 0) {
-        frames->flight[slot].number = header.number;
-        frames->flight[slot].sent_ms = clock_ms();
-    }
+    take_flight(frames, header.number);
     frames->stale = !newest;
     frames->revision = revision;
     session->wake(session->connection);
 }
 
-static void on_picture(void *data, const struct packet *answer, const struct error *err)
+static void on_picture(void *data, const struct picture_answer *answer, const struct error *err)
 {
     struct session *session = data;
     struct frames *frames = &session->frames;
@@ -461,7 +401,7 @@ static void on_picture(void *data, const struct packet *answer, const struct err
 }
 
 /* Some of its samples, where there is room on the way. */
-static void on_round(void *data, const struct packet *answer)
+static void on_round(void *data, const struct picture_answer *answer)
 {
     struct session *session = data;
 
@@ -480,43 +420,33 @@ void frames_shown(struct session *session)
 }
 
 /* JPEG would spoil what is no colour, and has no alpha. */
-static bool may_be_jpeg(const struct session *session, const struct frames_view *view)
+static bool may_be_jpeg(const struct session *session, const struct record *picture)
 {
-    return view->aov == AOV_COLOR &&
+    return strcmp(record_text(picture, "aov"), aov_name(AOV_COLOR)) == 0 &&
            record_number(&session->room->scene->render, "transparent") == 0;
 }
 
-static cJSON *picture_fields(struct session *session, const struct frames_view *view,
-                             enum frames_level level)
+/* The view as a picture of this level. */
+static void make_request(struct session *session, const struct frames_view *view,
+                         enum frames_level level, struct render_request *out)
 {
     const struct level_rule *rule = &level_rules[level];
-    struct frames *frames = &session->frames;
-    double scale = scale_of(session, view, level);
-    int width = (int)fmax(1, lround(view->width * scale));
-    int height = (int)fmax(1, lround(view->height * scale));
-    cJSON *fields = cJSON_CreateObject();
+    const double scale = scale_of(session, view, level);
+    struct record *picture = &out->picture, *delivery = &out->delivery;
 
-    cJSON_AddNumberToObject(fields, "width", width);
-    cJSON_AddNumberToObject(fields, "height", height);
-    if (view->camera) {
-        cJSON_AddItemToObject(fields, "camera", patched_camera(session, view));
+    render_request_copy(out, &view->picture);
+    render_request_see_from(out, &session->room->scene->camera);
+    record_put(picture, "width", fmax(1, round(scale * record_number(picture, "width"))));
+    record_put(picture, "height", fmax(1, round(scale * record_number(picture, "height"))));
+    record_put(picture, "quality", rule->quality);
+    if (rule->level >= 0) {
+        record_put(picture, "level", rule->level);
     }
-    if (view->isolate) {
-        cJSON_AddItemToObject(fields, "isolate",
-                              json_parse(view->isolate, strlen(view->isolate), NULL));
-    }
-    cJSON_AddStringToObject(fields, "aov", aov_name(view->aov));
-    if (rule->level) {
-        cJSON_AddStringToObject(fields, "level", rule->level);
-    }
-    cJSON_AddStringToObject(fields, "format", may_be_jpeg(session, view) ? rule->format : "png");
-    cJSON_AddNumberToObject(fields, "quality", rule->quality);
-    cJSON_AddBoolToObject(fields, "chroma_halved", rule->chroma_halved);
-    cJSON_AddBoolToObject(fields, "fast", rule->fast);
-    cJSON_AddBoolToObject(fields, "exact", rule->exact);
-    cJSON_AddBoolToObject(fields, "in_rounds", level == FRAMES_LOSSLESS);
-    frames->job_pixels = (int64_t)width * height;
-    return fields;
+    record_put(delivery, "chroma_halved", rule->chroma_halved);
+    record_put(delivery, "fast", true);
+    record_put(delivery, "exact", rule->exact);
+    record_put(delivery, "in_rounds", level == FRAMES_LOSSLESS);
+    out->codec = may_be_jpeg(session, picture) ? rule->codec : CODEC_PNG;
 }
 
 static void ask(struct session *session, enum frames_level level)
@@ -527,18 +457,19 @@ static void ask(struct session *session, enum frames_level level)
     choose_step(session, view);
     struct render_order order = {
         .room = session->room,
-        .fields = picture_fields(session, view, level),
         .priority = level_rules[level].priority,
         .account = frames->reads ? session->id : NEWCOMERS,
         .on_done = on_picture,
         .on_more = on_round,
         .data = session,
     };
+    make_request(session, view, level, &order.request);
     frames->done = level;
     frames->job_level = level;
+    frames->job_pixels = render_demand(&order).pixels;
     frames->job_seq = view->seq;
-    frames->job_view_width = view->width;
-    frames->job_view_height = view->height;
+    frames->job_view_width = render_request_int(&view->picture, "width");
+    frames->job_view_height = render_request_int(&view->picture, "height");
     frames->job_asked_us = clock_us();
     frames->job = renders_submit(session->hub, &order, NULL);
 }

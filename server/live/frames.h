@@ -14,9 +14,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include <cjson/cJSON.h>
+
 #include "protocol/limits.h"
-#include "protocol/messages.h"
-#include "renderer/worker.h"
+#include "protocol/render_request.h"
 
 struct session;
 
@@ -32,13 +33,10 @@ enum {
 };
 
 struct frames_view {
-    uint32_t seq;
-    int width, height;
-    char *camera; /* canonical text of what it changes in the document's; NULL: nothing */
-    int aov;
+    uint32_t seq;                  /* `picture.values` NULL: there was none yet */
+    struct render_request picture; /* the whole view: its size, camera, output, what it isolates */
     enum frames_quality quality;
     bool visible;
-    char *isolate; /* canonical text of a list of ids; NULL: none */
 };
 
 struct frames {
@@ -75,8 +73,6 @@ void frames_finish(struct session *session);
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err);
 /* The view that a pick means, or the newest; NULL: none yet. */
 const struct frames_view *frames_find_view(const struct frames *frames, uint32_t seq);
-/* The document's camera as the view changes it, as JSON; NULL: it is as it is. Caller frees. */
-char *frames_camera(const struct session *session, const struct frames_view *view);
 void frames_acknowledge(struct session *session, uint32_t number);
 /* The document or the view changed. */
 void frames_changed(struct session *session);

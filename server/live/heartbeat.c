@@ -6,8 +6,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "protocol/messages.h"
-
 void heartbeat_init(struct heartbeat *heartbeat, int fd)
 {
     *heartbeat = (struct heartbeat){.fd = fd};
@@ -24,14 +22,11 @@ void heartbeat_finish(struct heartbeat *heartbeat)
 
 void heartbeat_ask(struct heartbeat *heartbeat, int64_t now_ms)
 {
-    cJSON *packet = cJSON_CreateObject();
+    const struct packet packet = {.kind = TO_WORKER_PING, .ping = {now_ms}};
     size_t length;
-    uint8_t *bytes;
+    uint8_t *bytes = packet_pack(PACKET_TO_WORKER, &packet, &length);
     ssize_t sent = 0;
 
-    cJSON_AddStringToObject(packet, "type", "ping");
-    cJSON_AddNumberToObject(packet, "ping", (double)now_ms);
-    bytes = packet_pack(packet, NULL, 0, &length);
     if (heartbeat->fd >= 0) {
         sent = send(heartbeat->fd, bytes, length, MSG_DONTWAIT | MSG_NOSIGNAL);
     }
@@ -40,7 +35,6 @@ void heartbeat_ask(struct heartbeat *heartbeat, int64_t now_ms)
         heartbeat_finish(heartbeat);
     }
     free(bytes);
-    cJSON_Delete(packet);
 }
 
 /* A line that ends says nothing: the worker's other one does. */
@@ -56,15 +50,16 @@ void heartbeat_receive(struct heartbeat *heartbeat)
     }
 }
 
-bool heartbeat_next(struct heartbeat *heartbeat, struct packet *out, bool *out_alive)
+bool heartbeat_next(struct heartbeat *heartbeat, struct packet_pong *out, bool *out_alive)
 {
-    int64_t steps;
+    struct packet packet;
 
-    if (packet_reader_next(&heartbeat->reader, out) != 1) {
+    if (packet_reader_next(&heartbeat->reader, PACKET_TO_FRONT, &packet) != 1) {
         return false;
     }
-    steps = (int64_t)json_member_number(out->json, "steps", 0);
-    *out_alive = steps != heartbeat->steps || json_member_bool(out->json, "idle", false);
-    heartbeat->steps = steps;
+    *out = packet.pong;
+    packet_finish(&packet);
+    *out_alive = out->steps != heartbeat->steps || out->idle;
+    heartbeat->steps = out->steps;
     return true;
 }

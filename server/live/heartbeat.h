@@ -11,7 +11,7 @@
 struct heartbeat {
     int fd; /* -1: no worker, or one that does not answer any more */
     struct packet_reader reader;
-    int64_t steps; /* of the drawing thread, by the last answer */
+    uint64_t steps; /* of the drawing thread, by the last answer */
 };
 
 void heartbeat_init(struct heartbeat *heartbeat, int fd); /* takes `fd` */
@@ -21,6 +21,6 @@ void heartbeat_ask(struct heartbeat *heartbeat, int64_t now_ms);
 void heartbeat_receive(struct heartbeat *heartbeat);
 /* The next answer; false: none is whole. `*out_alive`: by its words the drawing thread has gone on
  * since the last one, or has nothing to do. Answers come also while that thread hangs. */
-bool heartbeat_next(struct heartbeat *heartbeat, struct packet *out, bool *out_alive);
+bool heartbeat_next(struct heartbeat *heartbeat, struct packet_pong *out, bool *out_alive);
 
 #endif

@@ -256,44 +256,34 @@ void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data
 
 /* --- events of the worker --- */
 
-static void copy_text(char *out, size_t size, const cJSON *object, const char *member)
-{
-    snprintf(out, size, "%s", json_member_text(object, member, ""));
-}
-
 /* What keeps the worker from the rest of the machine. */
-static void tell_confinement(struct hub *hub, const cJSON *confined)
+static void tell_confinement(struct hub *hub, const struct packet_ready *ready)
 {
-    const bool files = json_member_bool(confined, "files", false);
-    const bool calls = json_member_bool(confined, "calls", false);
-    const char *why = json_member_text(confined, "why", "");
-
-    metric_set(&hub->metrics, METRIC_WORKER_FILES_CONFINED, files);
-    metric_set(&hub->metrics, METRIC_WORKER_CALLS_CONFINED, calls);
-    if (files && calls) {
+    metric_set(&hub->metrics, METRIC_WORKER_FILES_CONFINED, ready->files);
+    metric_set(&hub->metrics, METRIC_WORKER_CALLS_CONFINED, ready->calls);
+    if (ready->files && ready->calls) {
         log_info("worker", "confined: files, system calls");
     } else {
         log_warning("worker", "confined: %s; %s",
-                    files   ? "files alone"
-                    : calls ? "system calls alone"
-                            : "nothing",
-                    *why ? why : "--confine is off");
+                    ready->files   ? "files alone"
+                    : ready->calls ? "system calls alone"
+                                   : "nothing",
+                    *ready->why ? ready->why : "--confine is off");
     }
 }
 
-static void on_ready(void *data, const cJSON *ready)
+static void on_ready(void *data, const struct packet_ready *ready)
 {
     struct hub *hub = data;
     struct renderer_info *info = &hub->renderer;
-    const cJSON *renderer = cJSON_GetObjectItemCaseSensitive(ready, "renderer");
 
     hub_lock(hub);
-    copy_text(info->name, sizeof(info->name), renderer, "name");
-    copy_text(info->version, sizeof(info->version), renderer, "version");
-    copy_text(info->device, sizeof(info->device), renderer, "device");
-    info->software = json_member_bool(renderer, "software", false);
+    snprintf(info->name, sizeof(info->name), "%s", ready->name);
+    snprintf(info->version, sizeof(info->version), "%s", ready->version);
+    snprintf(info->device, sizeof(info->device), "%s", ready->device);
+    info->software = ready->software;
     log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
-    tell_confinement(hub, cJSON_GetObjectItemCaseSensitive(ready, "confined"));
+    tell_confinement(hub, ready);
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->told_lost) {
             room->told_lost = false;
@@ -364,11 +354,10 @@ static void on_hopeless(void *data)
 }
 
 /* A revision of a scene can be drawn, or cannot. */
-static void compiled(struct hub *hub, const struct packet *packet, bool broken)
+static void compiled(struct hub *hub, const struct packet_state *state, bool broken)
 {
-    struct room *room = find_room(hub, json_member_text(packet->json, "scene", ""));
-    const uint64_t revision = (uint64_t)json_member_number(packet->json, "revision", 0);
-    struct error err = {0};
+    struct room *room = find_room(hub, state->scene);
+    const uint64_t revision = state->revision;
 
     if (!room) {
         return;
@@ -377,9 +366,8 @@ static void compiled(struct hub *hub, const struct packet *packet, bool broken)
         room->settled = revision;
     }
     if (broken) {
-        renders_read_error(packet->json, &err);
-        copy_text(room->refused_shape, sizeof(room->refused_shape), packet->json, "shape");
-        problem_set(room, &err, revision);
+        quarantine_shape(state->shape, room->refused_shape);
+        problem_set(room, &state->error, revision);
     } else {
         room->shown = revision;
         fallback_proven(room, revision);
@@ -391,41 +379,53 @@ static void compiled(struct hub *hub, const struct packet *packet, bool broken)
     room_worker_done(room, revision);
 }
 
-/* Nothing that keeps it from being drawn: code that is too steep, or a picture that is none. */
-static void warned(struct hub *hub, const struct packet *packet)
+/* Nothing that keeps it from being drawn. */
+static void warned(struct hub *hub, const struct packet_state *state)
 {
-    struct room *room = find_room(hub, json_member_text(packet->json, "scene", ""));
-    const char *place = json_member_text(packet->json, "place", "");
-    const bool asset = strcmp(place, "/environment/image") == 0;
+    static const char *const codes[] = {
+        [WARNING_LIPSCHITZ] = "lipschitz", [WARNING_ASSET] = "asset"};
+    struct room *room = find_room(hub, state->scene);
 
-    struct error err = {0};
-
-    renders_read_error(packet->json, &err);
-    if (room && problem_is_refusal(&err)) {
-        quarantine_keeps_image(room, &err,
-                               (uint64_t)json_member_number(packet->json, "revision", 0));
+    if (room && problem_is_refusal(&state->error)) {
+        quarantine_keeps_image(room, &state->error, state->revision);
     } else if (room) {
-        room_tell_all(room, "warning", asset ? "asset" : "lipschitz", place,
-                      json_member_text(packet->json, "message", ""));
+        room_tell_all(room, "warning", codes[state->warning], state->error.place,
+                      state->error.message);
     }
 }
 
-static void on_packet(void *data, const char *type, const struct packet *packet)
+static void on_packet(void *data, const struct packet *packet)
 {
     struct hub *hub = data;
 
     hub_lock(hub);
-    if (strcmp(type, "shown") == 0) {
-        compiled(hub, packet, false);
-    } else if (strcmp(type, "broken") == 0) {
-        compiled(hub, packet, true);
-    } else if (strcmp(type, "warned") == 0) {
-        warned(hub, packet);
-    } else if (strcmp(type, "compiling") == 0 || strcmp(type, "reading") == 0 ||
-               strcmp(type, "drawing") == 0 || strcmp(type, "slow") == 0) {
-        quarantine_named(hub, packet);
-    } else {
-        renders_answer(hub, packet);
+    switch ((enum packet_to_front)packet->kind) {
+    case TO_FRONT_SHOWN:
+    case TO_FRONT_BROKEN:
+        compiled(hub, &packet->state, packet->kind == TO_FRONT_BROKEN);
+        break;
+    case TO_FRONT_WARNED:
+        warned(hub, &packet->state);
+        break;
+    case TO_FRONT_COMPILING:
+    case TO_FRONT_READING:
+    case TO_FRONT_DRAWING:
+    case TO_FRONT_SLOW:
+        quarantine_named(hub, (enum packet_to_front)packet->kind, &packet->suspect);
+        break;
+    case TO_FRONT_FRAME:
+        renders_frame(hub, packet);
+        break;
+    case TO_FRONT_PROGRESS:
+        renders_progress(hub, packet->job.job);
+        break;
+    case TO_FRONT_FAILED:
+        renders_failed(hub, &packet->failed);
+        break;
+    case TO_FRONT_READY: /* the supervisor's */
+    case TO_FRONT_PONG:
+    case TO_FRONT_COUNT:
+        break;
     }
     hub_unlock(hub);
 }

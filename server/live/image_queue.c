@@ -49,7 +49,7 @@ static void form_line(const struct renders *renders, struct line *line)
          render = render->next) {
         if (render->order.priority == RENDER_IMAGE) {
             line->places[line->count++] =
-                (struct place){.render = render, .pixels = render_demand_of(render).pixels};
+                (struct place){.render = render, .pixels = render_demand(&render->order).pixels};
         }
     }
     for (int i = 0; i < line->count; i++) {
@@ -141,8 +141,8 @@ void image_queue_each(const struct hub *hub, const char *account,
         }
         see(data, &(struct image_place){
                       .scene = render->order.room ? render->order.room->id : NULL,
-                      .width = (int)json_member_number(render->order.fields, "width", 0),
-                      .height = (int)json_member_number(render->order.fields, "height", 0),
+                      .width = render_request_int(&render->order.request, "width"),
+                      .height = render_request_int(&render->order.request, "height"),
                       .position = position,
                       .waited_ms = now - render->asked,
                       .expected_ms = position * hub->renders.image_ms,

@@ -8,7 +8,6 @@
 #include "fallback.h"
 #include "hub.h"
 #include "protocol/code_text.h"
-#include "protocol/json.h"
 #include "protocol/memory.h"
 #include "renderer/pick.h"
 #include "room.h"
@@ -19,9 +18,7 @@ struct question {
     struct question *next;
     struct session *session; /* NULL: it asks no longer */
     double pick, x, y;
-    int width, height;
-    char *camera;  /* text; NULL: the document's */
-    char *isolate; /* as in frames_view */
+    struct render_request view;
 };
 
 struct picker {
@@ -36,8 +33,7 @@ struct picker {
 
 static void question_destroy(struct question *question)
 {
-    free(question->camera);
-    free(question->isolate);
+    render_request_finish(&question->view);
     free(question);
 }
 
@@ -80,11 +76,9 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
         .pick = json_member_number(message, "pick", 0),
         .x = json_member_number(message, "x", 0),
         .y = json_member_number(message, "y", 0),
-        .width = view->width,
-        .height = view->height,
-        .camera = frames_camera(session, view),
-        .isolate = view->isolate ? memory_text(view->isolate) : NULL,
     };
+    render_request_copy(&question->view, &view->picture);
+    render_request_see_from(&question->view, &session->room->scene->camera);
     while (*end) {
         end = &(*end)->next;
     }
@@ -115,7 +109,7 @@ void picker_forget(struct session *session)
 static void empty_field(struct picker_field *picks)
 {
     pick_field_unref(picks->field);
-    free(picks->isolate);
+    id_set_finish(&picks->isolate);
     *picks = (struct picker_field){0};
 }
 
@@ -128,24 +122,19 @@ void picker_finish_room(struct room *room)
 
 /* --- the field --- */
 
-static bool same_isolate(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
 /* What the room has for this question, or the least recently used, which is emptied for it. */
 static struct picker_field *find_field(struct picker *picker, const struct question *question)
 {
     struct picker_field *all = question->session->room->picks, *best = all;
 
     for (int i = 0; i < PICKER_FIELDS; i++) {
-        if (all[i].last_use > 0 && same_isolate(all[i].isolate, question->isolate)) {
+        if (all[i].last_use > 0 && id_set_equal(&all[i].isolate, &question->view.isolate)) {
             return &all[i];
         }
         best = all[i].last_use < best->last_use ? &all[i] : best;
     }
     empty_field(best);
-    best->isolate = question->isolate ? memory_text(question->isolate) : NULL;
+    id_set_copy(&best->isolate, &question->view.isolate);
     best->last_use = picker->turns;
     return best;
 }
@@ -187,26 +176,9 @@ static struct scene *without_code(struct scene *scene)
     return scene;
 }
 
-/* Of a canonical list of ids. */
-static struct pick_field *make_isolated(const struct scene *scene, const char *isolate)
-{
-    cJSON *list = isolate ? json_parse(isolate, strlen(isolate), NULL) : NULL;
-    const char *ids[LIMIT_ISOLATED];
-    const cJSON *id;
-    size_t count = 0;
-
-    cJSON_ArrayForEach(id, list)
-    {
-        ids[count++] = id->valuestring;
-    }
-    struct pick_field *field = pick_field_create(scene, ids, count, NULL);
-    cJSON_Delete(list);
-    return field;
-}
-
 /* Takes `scene`. NULL where it is no field. */
 static struct pick_field *make_field(const struct hub *hub, struct scene *scene,
-                                     const char *isolate)
+                                     const struct id_set *isolate)
 {
     struct pick_field *field = NULL;
 
@@ -214,7 +186,7 @@ static struct pick_field *make_field(const struct hub *hub, struct scene *scene,
         scene = without_code(scene);
     }
     if (scene) {
-        field = make_isolated(scene, isolate);
+        field = pick_field_create(scene, (const char *const *)isolate->ids, isolate->count, NULL);
     }
     scene_destroy(scene);
     return field;
@@ -234,7 +206,7 @@ static void renew(struct picker *picker, const struct question *question)
         return;
     }
     hub_unlock(picker->hub);
-    struct pick_field *field = make_field(picker->hub, scene, question->isolate);
+    struct pick_field *field = make_field(picker->hub, scene, &question->view.isolate);
     hub_lock(picker->hub);
     if (!question->session || question->session->room != room) {
         pick_field_unref(field);
@@ -252,24 +224,16 @@ static void renew(struct picker *picker, const struct question *question)
 
 static struct pick_result look(const struct pick_field *field, const struct question *question)
 {
-    struct pick_question asked = {
-        .width = question->width, .height = question->height, .x = question->x, .y = question->y};
-    struct pick_result result = {0};
-    struct record camera;
+    const struct record *camera = &question->view.camera;
+    const struct pick_question asked = {
+        .camera = record_is_empty(camera) ? NULL : camera,
+        .width = render_request_int(&question->view, "width"),
+        .height = render_request_int(&question->view, "height"),
+        .x = question->x,
+        .y = question->y,
+    };
 
-    record_init(&camera, &camera_type);
-    if (question->camera) {
-        cJSON *json = json_parse(question->camera, strlen(question->camera), NULL);
-
-        record_read(&camera, json, "/camera", NULL);
-        cJSON_Delete(json);
-        asked.camera = &camera;
-    }
-    if (field) {
-        result = pick_at(field, &asked);
-    }
-    record_finish(&camera);
-    return result;
+    return field ? pick_at(field, &asked) : (struct pick_result){0};
 }
 
 static cJSON *vector_or_null(const struct pick_result *result, const double v[3])

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "protocol/id_set.h"
+
 struct error;
 struct hub;
 struct picker;
@@ -20,7 +22,7 @@ enum { PICKER_WAITING = 8 }; /* questions of one session; beyond them its oldest
 enum { PICKER_FIELDS = 4 }; /* that a room keeps: all that is seen, and what viewers isolate */
 
 struct picker_field {
-    char *isolate;            /* as in frames_view; NULL: nothing is isolated */
+    struct id_set isolate;    /* none: all that is there */
     uint64_t last_use;        /* 0: never */
     struct pick_field *field; /* NULL: none yet */
     uint64_t revision;        /* of `field` */

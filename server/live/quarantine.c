@@ -2,14 +2,13 @@
 #include "quarantine.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hub.h"
 #include "problem.h"
 #include "protocol/code_text.h"
-#include "protocol/messages.h"
 #include "room.h"
-#include "say.h"
 #include "server/log.h"
 
 /* --- what is known of shapes --- */
@@ -50,53 +49,54 @@ static void give_more_time(struct quarantine_case *known)
         known->times < LIMIT_RETRY_TIMES ? known->times * LIMIT_RETRY_FACTOR : LIMIT_RETRY_TIMES;
 }
 
-static cJSON *describe(const struct quarantine_case *known)
+static void send_case(struct hub *hub, const struct quarantine_case *known)
 {
-    cJSON *row = cJSON_CreateObject();
+    const bool image = is_image(known->shape);
 
-    cJSON_AddStringToObject(row, is_image(known->shape) ? "asset" : "shape", known->shape);
-    cJSON_AddNumberToObject(row, "times", known->times);
-    if (known->refused != ERROR_NONE) {
-        cJSON_AddStringToObject(row, "code", error_kind_name(known->refused));
-        cJSON_AddNumberToObject(row, "measured", known->measured_ms);
-        cJSON_AddNumberToObject(row, "limit", known->limit_ms);
-    }
-    return row;
-}
-
-static void send_cases(struct hub *hub, const struct quarantine_case *cases, size_t count)
-{
-    cJSON *packet = say_begin("judge");
-    cJSON *shapes = cJSON_AddArrayToObject(packet, "shapes");
-
-    for (size_t i = 0; i < count; i++) {
-        cJSON_AddItemToArray(shapes, describe(&cases[i]));
-    }
-    if (hub->quarantine.pace > 0) {
-        cJSON_AddNumberToObject(packet, "pace", hub->quarantine.pace);
-    }
-    supervisor_send(hub->supervisor, packet);
-    cJSON_Delete(packet);
+    supervisor_send(hub->supervisor,
+                    &(struct packet){.kind = TO_WORKER_JUDGE,
+                                     .judge = {
+                                         .shape = image ? 0 : strtoull(known->shape, NULL, 16),
+                                         .asset = image ? known->shape : "",
+                                         .refused = known->refused,
+                                         .measured_ms = known->measured_ms,
+                                         .limit_ms = known->limit_ms,
+                                         .times = known->times,
+                                     }});
 }
 
 void quarantine_worker_ready(struct hub *hub)
 {
     const struct quarantine *quarantine = &hub->quarantine;
 
-    send_cases(hub, quarantine->cases,
-               quarantine->count < QUARANTINE_SHAPES ? quarantine->count : QUARANTINE_SHAPES);
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
+        send_case(hub, &quarantine->cases[i]);
+    }
+    if (quarantine->pace > 0) {
+        supervisor_send(hub->supervisor,
+                        &(struct packet){.kind = TO_WORKER_PACE, .pace = {quarantine->pace}});
+    }
 }
 
 /* --- what the worker says --- */
 
-static struct suspect read_suspect(const cJSON *json)
+void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES])
 {
-    struct suspect suspect = {.revision = (uint64_t)json_member_number(json, "revision", 0),
-                              .job = (uint32_t)json_member_number(json, "job", 0)};
+    *out = '\0';
+    if (shape) {
+        snprintf(out, QUARANTINE_SHAPE_BYTES, "%016" PRIx64, shape);
+    }
+}
 
-    snprintf(suspect.scene, sizeof(suspect.scene), "%s", json_member_text(json, "scene", ""));
-    snprintf(suspect.shape, sizeof(suspect.shape), "%s",
-             json_member_text(json, "shape", json_member_text(json, "asset", "")));
+static struct suspect read_suspect(const struct packet_suspect *named)
+{
+    struct suspect suspect = {.revision = named->revision, .job = named->job};
+
+    snprintf(suspect.scene, sizeof(suspect.scene), "%s", named->scene);
+    quarantine_shape(named->shape, suspect.shape);
+    if (named->asset && *named->asset) {
+        snprintf(suspect.shape, sizeof(suspect.shape), "%s", named->asset);
+    }
     return suspect;
 }
 
@@ -122,27 +122,35 @@ static struct room *find_room(const struct hub *hub, const char *scene)
     return room;
 }
 
-void quarantine_named(struct hub *hub, const struct packet *packet)
+static void drawing(struct hub *hub, const struct suspect *suspect)
+{
+    const struct room *room = find_room(hub, suspect->scene);
+
+    hub->quarantine.drawing = *suspect;
+    supervisor_set_patience(hub->supervisor, room ? room->patience : 1);
+}
+
+void quarantine_named(struct hub *hub, enum packet_to_front kind,
+                      const struct packet_suspect *named)
 {
     struct quarantine *quarantine = &hub->quarantine;
-    const char *type = json_member_text(packet->json, "type", "");
-    const struct suspect suspect = read_suspect(packet->json);
+    const struct suspect suspect = read_suspect(named);
 
-    if (strcmp(type, "compiling") == 0) {
+    switch (kind) {
+    case TO_FRONT_COMPILING:
         go_on(quarantine, &quarantine->compiling, &suspect);
-    } else if (strcmp(type, "reading") == 0) {
+        break;
+    case TO_FRONT_READING:
         go_on(quarantine, &quarantine->reading, &suspect);
-    } else if (strcmp(type, "drawing") == 0) {
-        const struct room *room = find_room(hub, suspect.scene);
-
-        quarantine->drawing = suspect;
-        supervisor_set_patience(hub->supervisor, room ? room->patience : 1);
-    } else {
+        break;
+    case TO_FRONT_DRAWING:
+        drawing(hub, &suspect);
+        break;
+    default:
         quarantine->slow = suspect;
-        quarantine->measured_ms = (int)json_member_number(packet->json, "measured", 0);
-        quarantine->limit_ms = json_member_bool(packet->json, "still", false)
-                                   ? 0
-                                   : (int)json_member_number(packet->json, "limit", 0);
+        quarantine->measured_ms = named->measured_ms;
+        quarantine->limit_ms = named->still ? 0 : named->limit_ms;
+        break;
     }
 }
 
@@ -301,6 +309,6 @@ bool quarantine_pardon(struct hub *hub, const char *shape)
     }
     known->refused = ERROR_NONE;
     give_more_time(known);
-    send_cases(hub, known, 1);
+    send_case(hub, known);
     return true;
 }

@@ -54,8 +54,11 @@ struct quarantine {
     double pace; /* how slow this machine compiles, as the workers measured it; 0: not known */
 };
 
-/* A packet of type compiling, reading, drawing or slow. */
-void quarantine_named(struct hub *hub, const struct packet *packet);
+/* What the worker says of what it compiles, reads or draws, or that it was too slow. */
+void quarantine_named(struct hub *hub, enum packet_to_front kind,
+                      const struct packet_suspect *named);
+/* A shape as it is called here. "" for 0. */
+void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES]);
 /* Tells a new worker what earlier ones learned. */
 void quarantine_worker_ready(struct hub *hub);
 /* True: it had named somebody. */

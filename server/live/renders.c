@@ -9,14 +9,12 @@
 #include "hub.h"
 #include "image_queue.h"
 #include "problem.h"
-#include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "renders_parts.h"
 #include "room.h"
 #include "room_worker.h"
-#include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
 
@@ -28,7 +26,7 @@ void renders_init(struct renders *renders)
 
 static void render_destroy(struct render *render)
 {
-    cJSON_Delete(render->order.fields);
+    render_request_finish(&render->order.request);
     free(render->document);
     free(render->account);
     free(render);
@@ -73,25 +71,19 @@ static void scene_name(const struct render *render, char out[LIMIT_ID_BYTES + 16
 
 /* --- to the worker --- */
 
-static void send_and_delete(struct hub *hub, cJSON *packet)
+static void send_cancel(struct hub *hub, const struct render *render)
 {
-    supervisor_send(hub->supervisor, packet);
-    cJSON_Delete(packet);
+    supervisor_send(hub->supervisor,
+                    &(struct packet){.kind = TO_WORKER_CANCEL, .job = {render->id}});
 }
 
-static void send_simple(struct hub *hub, const char *type, const struct render *render)
+static void send_drop(struct hub *hub, const struct render *render)
 {
-    cJSON *packet = say_begin(type);
+    char name[LIMIT_ID_BYTES + 16];
 
-    if (strcmp(type, "drop") == 0) {
-        char name[LIMIT_ID_BYTES + 16];
-
-        scene_name(render, name);
-        cJSON_AddStringToObject(packet, "scene", name);
-    } else {
-        cJSON_AddNumberToObject(packet, "job", render->id);
-    }
-    send_and_delete(hub, packet);
+    scene_name(render, name);
+    supervisor_send(hub->supervisor,
+                    &(struct packet){.kind = TO_WORKER_DROP, .state = {.scene = name}});
 }
 
 static void send_scene(struct hub *hub, const struct render *render)
@@ -101,33 +93,26 @@ static void send_scene(struct hub *hub, const struct render *render)
         return;
     }
     char name[LIMIT_ID_BYTES + 16];
-    cJSON *packet = say_begin("scene");
     cJSON *document = json_parse(render->document, strlen(render->document), NULL);
     const cJSON *environment = cJSON_GetObjectItemCaseSensitive(document, "environment");
 
     uploads_send(hub, json_member_text(environment, "image", ""));
     scene_name(render, name);
-    cJSON_AddStringToObject(packet, "scene", name);
-    cJSON_AddNumberToObject(packet, "revision", 1);
-    cJSON_AddItemToObject(packet, "document", document);
-    if (hub->code_refused) {
-        code_text_remove(packet);
-    }
-    send_and_delete(hub, packet);
+    room_worker_send_scene(hub, name, 1, document);
 }
 
-struct render_demand render_demand_of(const struct render *render)
+struct render_demand render_demand(const struct render_order *order)
 {
-    const int width = (int)json_member_number(render->order.fields, "width", 0);
-    const int height = (int)json_member_number(render->order.fields, "height", 0);
+    const int width = render_request_int(&order->request, "width");
+    const int height = render_request_int(&order->request, "height");
 
-    return (struct render_demand){render->order.priority, (int64_t)width * height};
+    return (struct render_demand){order->priority, (int64_t)width * height};
 }
 
 /* Asks for as much as the picture that a worker was lost with. */
 static bool is_fatal(const struct render *render)
 {
-    const struct render_demand demand = render_demand_of(render);
+    const struct render_demand demand = render_demand(&render->order);
     const struct render_demand *fatal = &render->order.room->fatal;
 
     return demand.priority >= fatal->priority && demand.pixels >= fatal->pixels;
@@ -149,20 +134,21 @@ static bool is_careful(const struct render *render)
 static void send_render(struct hub *hub, struct render *render)
 {
     char name[LIMIT_ID_BYTES + 16];
-    cJSON *packet = cJSON_Duplicate(render->order.fields, true);
     const struct room *room = render->order.room;
 
     send_scene(hub, render);
     scene_name(render, name);
-    cJSON_AddStringToObject(packet, "type", "render");
-    cJSON_AddStringToObject(packet, "scene", name);
-    cJSON_AddStringToObject(packet, "account", render->account);
-    cJSON_AddNumberToObject(packet, "job", render->id);
-    cJSON_AddNumberToObject(packet, "priority", render->order.priority);
-    cJSON_AddBoolToObject(packet, "careful", is_careful(render));
-    cJSON_AddNumberToObject(packet, "patience", room ? room->patience : 1);
+    supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_RENDER,
+                                                      .render = {
+                                                          .job = render->id,
+                                                          .scene = name,
+                                                          .account = render->account,
+                                                          .priority = render->order.priority,
+                                                          .patience = room ? room->patience : 1,
+                                                          .careful = is_careful(render),
+                                                          .request = &render->order.request,
+                                                      }});
     render->sent = true;
-    send_and_delete(hub, packet);
 }
 
 /* Sends what may go. A suspect goes alone, so that the next loss has one possible cause. */
@@ -217,12 +203,12 @@ static bool admits(struct hub *hub, const struct render_order *order, struct err
     return order->priority != RENDER_IMAGE || admits_image(hub, order, err);
 }
 
-uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err)
+uint32_t renders_submit(struct hub *hub, struct render_order *order, struct error *err)
 {
     struct renders *renders = &hub->renders;
 
     if (!admits(hub, order, err)) {
-        cJSON_Delete(order->fields);
+        render_request_finish(&order->request);
         return 0;
     }
     struct render *render = memory_alloc(1, sizeof(*render));
@@ -255,12 +241,12 @@ static struct render *find(const struct renders *renders, uint32_t id)
     return render;
 }
 
-static void finish(struct hub *hub, struct render *render, const struct packet *answer,
+static void finish(struct hub *hub, struct render *render, const struct picture_answer *answer,
                    const struct error *err)
 {
     detach(hub, render);
     if (!render->order.room && render->sent) {
-        send_simple(hub, "drop", render);
+        send_drop(hub, render);
     }
     render->order.on_done(render->order.data, answer, err);
     render_destroy(render);
@@ -270,9 +256,9 @@ static void cancel(struct hub *hub, struct render *render)
 {
     detach(hub, render);
     if (render->sent) {
-        send_simple(hub, "cancel", render);
+        send_cancel(hub, render);
         if (!render->order.room) {
-            send_simple(hub, "drop", render);
+            send_drop(hub, render);
         }
     }
     render_destroy(render);
@@ -348,44 +334,11 @@ static void learn_image(struct renders *renders, const struct render *render)
     }
 }
 
-void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES])
+static void count_times(struct hub *hub, const struct job_times *times)
 {
     for (int i = 0; i < FRAME_STAGES; i++) {
-        char name[STAGE_MEMBER_BYTES];
-
-        stage_member((enum frame_stage)i, name);
-        out_us[i] = (uint32_t)json_member_number(frame, name, 0);
+        metric_add_stage(&hub->metrics, (enum frame_stage)i, times->us[i]);
     }
-}
-
-static void count_times(struct hub *hub, const cJSON *frame)
-{
-    uint32_t us[FRAME_STAGES];
-
-    renders_read_times(frame, us);
-    for (int i = 0; i < FRAME_STAGES; i++) {
-        metric_add_stage(&hub->metrics, (enum frame_stage)i, us[i]);
-    }
-}
-
-static enum error_kind kind_of(const char *code)
-{
-    for (int kind = ERROR_NONE + 1; kind < ERROR_INTERNAL; kind++) {
-        if (strcmp(error_kind_name(kind), code) == 0) {
-            return kind;
-        }
-    }
-    return ERROR_INTERNAL;
-}
-
-void renders_read_error(const cJSON *packet, struct error *out)
-{
-    error_set_at(out, kind_of(json_member_text(packet, "code", "")),
-                 json_member_text(packet, "place", ""), (int)json_member_number(packet, "line", 0),
-                 (int)json_member_number(packet, "column", 0), "%s",
-                 json_member_text(packet, "message", ""));
-    out->measured_ms = (int)json_member_number(packet, "measured", 0);
-    out->limit_ms = (int)json_member_number(packet, "limit", 0);
 }
 
 /* --- scenes that are left out --- */
@@ -448,42 +401,59 @@ static void undrawn(const struct render *render, struct error *err)
     }
 }
 
-void renders_answer(struct hub *hub, const struct packet *packet)
+/* NULL: cancelled meanwhile. What is heard of goes on. */
+static struct render *heard_of(struct hub *hub, uint32_t job)
 {
-    const cJSON *json = packet->json;
-    struct render *render = find(&hub->renders, (uint32_t)json_member_number(json, "job", 0));
+    struct render *render = find(&hub->renders, job);
 
     if (!render || !render->sent) {
-        return; /* cancelled meanwhile */
+        return NULL;
     }
-    if (strcmp(json_member_text(json, "type", ""), "progress") == 0) {
-        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
-        return;
-    }
-    if (json_member_bool(json, "more", false)) {
-        render->deadline = clock_ms() + RENDER_DEADLINE_MS;
-        if (render->order.on_more) {
-            render->order.on_more(render->order.data, packet);
-        }
-        return;
-    }
-    if (strcmp(json_member_text(json, "type", ""), "failed") == 0) {
-        struct error err = {0};
+    render->deadline = clock_ms() + RENDER_DEADLINE_MS;
+    return render;
+}
 
-        renders_read_error(json, &err);
-        metric_add(&hub->metrics, METRIC_RENDERS_FAILED, 1);
-        if (json_member_bool(json, "begun", false)) {
-            undrawn(render, &err);
-        }
-        finish(hub, render, NULL, &err);
-    } else {
-        count_times(hub, json);
-        learn_image(&hub->renders, render);
-        if (render->order.room && is_fatal(render)) {
-            render->order.room->deaths = 0;
-        }
-        finish(hub, render, packet, NULL);
+void renders_progress(struct hub *hub, uint32_t job)
+{
+    heard_of(hub, job);
+}
+
+void renders_failed(struct hub *hub, const struct packet_failed *failed)
+{
+    struct render *render = heard_of(hub, failed->job);
+    struct error err = failed->error;
+
+    if (!render) {
+        return;
     }
+    metric_add(&hub->metrics, METRIC_RENDERS_FAILED, 1);
+    if (failed->begun) {
+        undrawn(render, &err);
+    }
+    finish(hub, render, NULL, &err);
+    dispatch(hub);
+}
+
+void renders_frame(struct hub *hub, const struct packet *packet)
+{
+    struct render *render = heard_of(hub, packet->frame.job);
+    const struct picture_answer answer = {&packet->frame, packet->payload, packet->payload_length};
+
+    if (!render) {
+        return;
+    }
+    if (packet->frame.more) {
+        if (render->order.on_more) {
+            render->order.on_more(render->order.data, &answer);
+        }
+        return;
+    }
+    count_times(hub, &packet->frame.times);
+    learn_image(&hub->renders, render);
+    if (render->order.room && is_fatal(render)) {
+        render->order.room->deaths = 0;
+    }
+    finish(hub, render, &answer, NULL);
     dispatch(hub);
 }
 
@@ -504,7 +474,7 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
         }
         const struct render *drawn = find(&hub->renders, hub->quarantine.drawn.job);
 
-        room->fatal = drawn ? render_demand_of(drawn) : (struct render_demand){0};
+        room->fatal = drawn ? render_demand(&drawn->order) : (struct render_demand){0};
         if (++room->deaths >= RENDER_DEATHS) {
             struct error why = {0};
 
@@ -558,7 +528,7 @@ int64_t renders_tick(struct hub *hub, int64_t now_ms)
             continue;
         }
         if (render->sent) {
-            send_simple(hub, "cancel", render);
+            send_cancel(hub, render);
         }
         finish(hub, render, NULL, &err);
     }

@@ -5,7 +5,6 @@
 #ifndef SERVER_RENDERS_H
 #define SERVER_RENDERS_H
 
-#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -40,26 +39,35 @@ struct renders {
     bool ready;         /* a worker is there */
 };
 
+/* A picture that has come. */
+struct picture_answer {
+    const struct packet_frame *frame;
+    const void *bytes;
+    size_t length;
+};
+
 struct render_order {
-    struct room *room;    /* the scene; or */
-    const char *document; /* the text of one that is used once */
-    cJSON *fields;        /* the packet's other members; taken */
+    struct room *room;             /* the scene; or */
+    const char *document;          /* the text of one that is used once */
+    struct render_request request; /* taken */
     int priority;
     /* Whose time it takes: the id of a live connection, or the address of a client; copied. */
     const char *account;
     bool again; /* ask the next worker when this one dies */
     /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */
-    void (*on_done)(void *data, const struct packet *answer, const struct error *err);
+    void (*on_done)(void *data, const struct picture_answer *answer, const struct error *err);
     /* Called before it with each answer that is not the last; NULL: there is one. */
-    void (*on_more)(void *data, const struct packet *answer);
+    void (*on_more)(void *data, const struct picture_answer *answer);
     void *data;
 };
+
+struct render_demand render_demand(const struct render_order *order);
 
 void renders_init(struct renders *renders);
 void renders_finish(struct renders *renders);
 /* Id of the order; 0 and `err` when too many wait, in all or of one account, or the scene is left
  * out. */
-uint32_t renders_submit(struct hub *hub, const struct render_order *order, struct error *err);
+uint32_t renders_submit(struct hub *hub, struct render_order *order, struct error *err);
 void renders_cancel(struct hub *hub, uint32_t id);
 /* Answers every order of the room with ERROR_NOT_FOUND. */
 void renders_cancel_room(struct hub *hub, const struct room *room);
@@ -72,11 +80,10 @@ void renders_fail_all(struct hub *hub, const char *why);
 /* Events of the supervisor. */
 void renders_worker_ready(struct hub *hub);
 void renders_worker_down(struct hub *hub, const struct supervisor_end *end);
-/* A packet of type frame, progress or failed. */
-void renders_answer(struct hub *hub, const struct packet *packet);
-/* What a packet says of times, and of an error. */
-void renders_read_times(const cJSON *frame, uint32_t out_us[FRAME_STAGES]);
-void renders_read_error(const cJSON *packet, struct error *out);
+/* Packets of the worker. */
+void renders_frame(struct hub *hub, const struct packet *packet);
+void renders_progress(struct hub *hub, uint32_t job);
+void renders_failed(struct hub *hub, const struct packet_failed *failed);
 /* Fails what is too old; returns the next deadline or 0. */
 int64_t renders_tick(struct hub *hub, int64_t now_ms);
 

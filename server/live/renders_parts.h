@@ -3,7 +3,6 @@
 #ifndef SERVER_RENDERS_PARTS_H
 #define SERVER_RENDERS_PARTS_H
 
-#include "protocol/messages.h"
 #include "renders.h"
 
 struct render {
@@ -17,7 +16,5 @@ struct render {
     bool sent;
     int64_t deadline;
 };
-
-struct render_demand render_demand_of(const struct render *render);
 
 #endif

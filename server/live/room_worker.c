@@ -7,26 +7,6 @@
 #include "hub.h"
 #include "protocol/code_text.h"
 #include "room_log.h"
-#include "say.h"
-
-/* Takes `packet`. Where code is not allowed, none reaches the worker. */
-static void send_and_delete(struct room *room, cJSON *packet)
-{
-    if (room->hub->code_refused) {
-        code_text_remove(packet);
-    }
-    supervisor_send(room->hub->supervisor, packet);
-    cJSON_Delete(packet);
-}
-
-static cJSON *packet_of(const struct room *room, const char *type, uint64_t revision)
-{
-    cJSON *packet = say_begin(type);
-
-    cJSON_AddStringToObject(packet, "scene", room->id);
-    cJSON_AddNumberToObject(packet, "revision", (double)revision);
-    return packet;
-}
 
 /* The file that the environment names, which the worker keeps as long as its scene does. */
 static void send_image(struct room *room, const struct scene *scene)
@@ -39,17 +19,41 @@ static void send_image(struct room *room, const struct scene *scene)
     }
 }
 
+/* Takes `document`. Where code is not allowed, none reaches the worker. */
+void room_worker_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document)
+{
+    if (hub->code_refused) {
+        code_text_remove(document);
+    }
+    supervisor_send(hub->supervisor,
+                    &(struct packet){.kind = TO_WORKER_SCENE, .scene = {name, revision, document}});
+    cJSON_Delete(document);
+}
+
+/* The same of an edit. */
+static void send_edit(struct room *room, cJSON *ops)
+{
+    struct hub *hub = room->hub;
+
+    send_image(room, room->scene);
+    if (hub->code_refused) {
+        code_text_remove(ops);
+    }
+    supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_EDIT,
+                                                      .edit = {room->id, room->revision, ops}});
+    cJSON_Delete(ops);
+    room->sent = room->revision;
+}
+
 static void send_scene(struct room *room, const struct scene *scene, uint64_t revision)
 {
-    cJSON *packet = packet_of(room, "scene", revision);
+    const bool printed = room->text && scene == room->scene && !room->hub->code_refused;
 
     send_image(room, scene);
-    cJSON_AddItemToObject(packet, "document",
-                          room->text && scene == room->scene && !room->hub->code_refused
-                              ? cJSON_CreateRaw((const char *)room->text->bytes)
-                              : scene_to_json(scene));
+    room_worker_send_scene(room->hub, room->id, revision,
+                           printed ? cJSON_CreateRaw((const char *)room->text->bytes)
+                                   : scene_to_json(scene));
     room->sent = revision;
-    send_and_delete(room, packet);
 }
 
 void room_worker_open(struct room *room)
@@ -74,11 +78,7 @@ void room_worker_done(struct room *room, uint64_t revision)
         send_scene(room, room->scene, room->revision);
         return;
     }
-    cJSON *packet = packet_of(room, "edit", room->revision);
-    send_image(room, room->scene);
-    cJSON_AddItemToObject(packet, "ops", room_log_since(room, room->sent));
-    room->sent = room->revision;
-    send_and_delete(room, packet);
+    send_edit(room, room_log_since(room, room->sent));
 }
 
 void room_worker_edit(struct room *room, const cJSON *ops, const char *text)
@@ -86,14 +86,8 @@ void room_worker_edit(struct room *room, const cJSON *ops, const char *text)
     if (room->sent == 0 || room->sent + 1 != room->revision) {
         return; /* room_worker_done sends all at once */
     }
-    cJSON *packet = packet_of(room, "edit", room->revision);
-    send_image(room, room->scene);
     /* A text has no members that code_text_remove could find. */
-    cJSON_AddItemToObject(packet, "ops",
-                          room->hub->code_refused ? cJSON_Duplicate(ops, true)
-                                                  : cJSON_CreateRaw(text));
-    room->sent = room->revision;
-    send_and_delete(room, packet);
+    send_edit(room, room->hub->code_refused ? cJSON_Duplicate(ops, true) : cJSON_CreateRaw(text));
 }
 
 void room_worker_replace(struct room *room)
@@ -116,10 +110,7 @@ bool room_worker_upload(struct room *room, const char *id)
 void room_worker_close(struct room *room)
 {
     if (room->sent > 0) {
-        cJSON *packet = say_begin("drop");
-
-        cJSON_AddStringToObject(packet, "scene", room->id);
-        supervisor_send(room->hub->supervisor, packet);
-        cJSON_Delete(packet);
+        supervisor_send(room->hub->supervisor,
+                        &(struct packet){.kind = TO_WORKER_DROP, .state = {.scene = room->id}});
     }
 }

@@ -9,7 +9,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct hub;
 struct room;
+
+/* A scene as the worker may have it; takes `document`. */
+void room_worker_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document);
 
 /* Before the first order of a worker that does not hold the scene. */
 void room_worker_open(struct room *room);

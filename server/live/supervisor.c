@@ -19,12 +19,12 @@
 
 #include "heartbeat.h"
 #include "protocol/memory.h"
-#include "protocol/messages.h"
 #include "server/clock.h"
 #include "server/log.h"
 
 enum {
     SPARE_PAIRS = 2, /* its packets, its pulse */
+    COUNTERS = 4,    /* of a pong */
     PING_MS = 250,
     START_MS = 60000,       /* one that is not ready yet may be still, or at work, for so long */
     WATCH_AFTER_MS = 500,   /* of silence it is looked at */
@@ -37,8 +37,7 @@ struct chunk {
     struct chunk *next;
     size_t length, sent;
     uint8_t *bytes;
-    cJSON *packet; /* of a file that is still to be read; `bytes` is NULL so long */
-    char *file;
+    char *asset; /* a file that is still to be read; `bytes` is NULL so long */
 };
 
 struct supervisor {
@@ -63,15 +62,14 @@ struct supervisor {
     struct vigil vigil; /* since `heard` */
     int backoff_ms;
     bool ever_ready;
-    int64_t counted[4]; /* the last pong's counters */
+    int64_t counted[COUNTERS]; /* the last pong's counters */
 };
 
 /* --- sending --- */
 
 static void chunk_destroy(struct chunk *chunk)
 {
-    cJSON_Delete(chunk->packet);
-    free(chunk->file);
+    free(chunk->asset);
     free(chunk->bytes);
     free(chunk);
 }
@@ -123,9 +121,14 @@ static void load_first(struct supervisor *supervisor)
     if (!chunk) {
         return;
     }
-    bytes = supervisor->params.load_file(supervisor->params.data, chunk->file, &length);
+    bytes = supervisor->params.load_file(supervisor->params.data, chunk->asset, &length);
     pthread_mutex_lock(&supervisor->lock);
-    chunk->bytes = packet_pack(chunk->packet, bytes, length, &chunk->length);
+    chunk->bytes = packet_pack(PACKET_TO_WORKER,
+                               &(struct packet){.kind = TO_WORKER_ASSET,
+                                                .asset = {chunk->asset},
+                                                .payload = bytes,
+                                                .payload_length = length},
+                               &chunk->length);
     pthread_mutex_unlock(&supervisor->lock);
     free(bytes);
 }
@@ -154,20 +157,19 @@ static void send_chunk(struct supervisor *supervisor, struct chunk *chunk)
     }
 }
 
-void supervisor_send(struct supervisor *supervisor, const cJSON *packet)
+void supervisor_send(struct supervisor *supervisor, const struct packet *packet)
 {
     struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
 
-    chunk->bytes = packet_pack(packet, NULL, 0, &chunk->length);
+    chunk->bytes = packet_pack(PACKET_TO_WORKER, packet, &chunk->length);
     send_chunk(supervisor, chunk);
 }
 
-void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, const char *id)
+void supervisor_send_asset(struct supervisor *supervisor, const char *id)
 {
     struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
 
-    chunk->packet = cJSON_Duplicate(packet, true);
-    chunk->file = memory_text(id);
+    chunk->asset = memory_text(id);
     send_chunk(supervisor, chunk);
 }
 
@@ -328,55 +330,51 @@ static void take_down(struct supervisor *supervisor, const struct supervisor_end
 /* --- receiving --- */
 
 /* A worker counts from 0; ours go on over restarts. */
-static void count_pong(struct supervisor *supervisor, const cJSON *pong)
+static void count_pong(struct supervisor *supervisor, const struct packet_pong *pong)
 {
-    static const struct {
-        const char *member;
+    const struct {
         enum metric metric;
-    } counters[4] = {{"compilations", METRIC_COMPILATIONS},
-                     {"cache_hits", METRIC_CACHE_HITS},
-                     {"tiles", METRIC_TILES},
-                     {"pictures", METRIC_PICTURES}};
+        uint64_t value;
+    } counters[COUNTERS] = {{METRIC_COMPILATIONS, pong->counters.compilations},
+                            {METRIC_CACHE_HITS, pong->counters.cache_hits},
+                            {METRIC_TILES, pong->counters.tiles},
+                            {METRIC_PICTURES, pong->counters.pictures}};
 
-    for (int i = 0; i < 4; i++) {
-        int64_t value = (int64_t)json_member_number(pong, counters[i].member, 0);
+    for (int i = 0; i < COUNTERS; i++) {
+        int64_t value = (int64_t)counters[i].value;
 
         metric_add(supervisor->params.metrics, counters[i].metric, value - supervisor->counted[i]);
         supervisor->counted[i] = value;
     }
-    metric_set(supervisor->params.metrics, METRIC_RESIDENT_BYTES,
-               (int64_t)json_member_number(pong, "resident_bytes", 0));
-    supervisor->params.on_pace(supervisor->params.data, json_member_number(pong, "pace", 0));
+    metric_set(supervisor->params.metrics, METRIC_RESIDENT_BYTES, (int64_t)pong->resident_bytes);
+    supervisor->params.on_pace(supervisor->params.data, pong->pace);
 }
 
 static void receive_pongs(struct supervisor *supervisor)
 {
-    struct packet packet;
+    struct packet_pong pong;
     bool alive;
 
     heartbeat_receive(&supervisor->heartbeat);
-    while (heartbeat_next(&supervisor->heartbeat, &packet, &alive)) {
+    while (heartbeat_next(&supervisor->heartbeat, &pong, &alive)) {
         if (alive) {
             sign_of_life(supervisor);
         }
-        count_pong(supervisor, packet.json);
-        packet_finish(&packet);
+        count_pong(supervisor, &pong);
     }
 }
 
 static void receive_packet(struct supervisor *supervisor, const struct packet *packet)
 {
-    const char *type = json_member_text(packet->json, "type", "");
-
     sign_of_life(supervisor);
-    if (strcmp(type, "ready") == 0) {
+    if (packet->kind == TO_FRONT_READY) {
         pthread_mutex_lock(&supervisor->lock);
         supervisor->ready = supervisor->ever_ready = true;
         pthread_mutex_unlock(&supervisor->lock);
         metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 1);
-        supervisor->params.on_ready(supervisor->params.data, packet->json);
+        supervisor->params.on_ready(supervisor->params.data, &packet->ready);
     } else {
-        supervisor->params.on_packet(supervisor->params.data, type, packet);
+        supervisor->params.on_packet(supervisor->params.data, packet);
     }
 }
 
@@ -393,7 +391,7 @@ static bool receive(struct supervisor *supervisor)
     }
     sign_of_life(supervisor); /* of a packet that is not whole yet */
     packet_reader_add(&supervisor->reader, bytes, (size_t)got);
-    while ((result = packet_reader_next(&supervisor->reader, &packet)) == 1) {
+    while ((result = packet_reader_next(&supervisor->reader, PACKET_TO_FRONT, &packet)) == 1) {
         receive_packet(supervisor, &packet);
         packet_finish(&packet);
     }

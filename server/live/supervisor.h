@@ -36,8 +36,8 @@ struct supervisor_params {
     struct metrics *metrics;
     void *data;
     /* All are called on the supervisor's thread, holding nothing. */
-    void (*on_ready)(void *data, const cJSON *ready);
-    void (*on_packet)(void *data, const char *type, const struct packet *packet);
+    void (*on_ready)(void *data, const struct packet_ready *ready);
+    void (*on_packet)(void *data, const struct packet *packet); /* any other but pongs */
     /* True: it is known what ended it, and kept from the next, which need not wait. */
     bool (*on_down)(void *data, const struct supervisor_end *end);
     /* How slow this machine compiles, as a worker measured it. */
@@ -48,16 +48,16 @@ struct supervisor_params {
     /* Called after everything that happens; returns when to be called again at the latest
      * (clock_ms; 0: no wish). */
     int64_t (*on_tick)(void *data, int64_t now_ms);
-    /* A file for supervisor_send_file, which frees it; NULL: there is none. */
+    /* A file for supervisor_send_asset, which frees it; NULL: there is none. */
     void *(*load_file)(void *data, const char *id, size_t *out_length);
 };
 
 /* Starts the thread, which starts the worker. Dies without a thread (aborts). */
 struct supervisor *supervisor_create(const struct supervisor_params *params);
 /* Any thread; never waits. Dropped while no worker is ready. */
-void supervisor_send(struct supervisor *supervisor, const cJSON *packet);
-/* The same with a file as the payload, read when its turn comes: nobody waits for it here. */
-void supervisor_send_file(struct supervisor *supervisor, const cJSON *packet, const char *id);
+void supervisor_send(struct supervisor *supervisor, const struct packet *packet);
+/* The same of a file, read when its turn comes: nobody waits for it here. */
+void supervisor_send_asset(struct supervisor *supervisor, const char *id);
 /* Any thread: what the worker is at may take so many times `busy_ms`. */
 void supervisor_set_patience(struct supervisor *supervisor, int times);
 /* Any thread: have on_tick called soon. */

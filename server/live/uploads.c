@@ -7,7 +7,6 @@
 
 #include "hub.h"
 #include "protocol/memory.h"
-#include "say.h"
 #include "server/rest/embedded.h"
 
 void uploads_add(void *data, const struct store_asset *asset)
@@ -89,10 +88,6 @@ void *uploads_load(struct hub *hub, const char *id, size_t *out_length, struct e
 void uploads_send(struct hub *hub, const char *id)
 {
     if (uploads_find(&hub->uploads, id)) {
-        cJSON *packet = say_begin("asset");
-
-        cJSON_AddStringToObject(packet, "asset", id);
-        supervisor_send_file(hub->supervisor, packet, id);
-        cJSON_Delete(packet);
+        supervisor_send_asset(hub->supervisor, id);
     }
 }

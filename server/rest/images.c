@@ -13,7 +13,6 @@
 #include "server/live/hub.h"
 #include "server/live/image_queue.h"
 #include "server/live/room.h"
-#include "wish.h"
 
 /* A picture on its way to a client. */
 struct waiting {
@@ -31,11 +30,12 @@ static void waiting_destroy(struct waiting *waiting)
     free(waiting);
 }
 
-/* The scene's state and the fields of the order, as text. */
-static char *make_key(const struct hub *hub, const cJSON *fields, const struct room *room,
-                      const char *document)
+/* The scene's state and the request, as text. */
+static char *make_key(const struct hub *hub, const struct render_request *asked,
+                      const struct room *room, const char *document)
 {
-    char *text = json_print(fields, false), *key = NULL;
+    cJSON *members = render_request_print(asked);
+    char *text = json_print(members, false), *key = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&key, &length);
 
@@ -48,6 +48,7 @@ static char *make_key(const struct hub *hub, const cJSON *fields, const struct r
     }
     fclose(out);
     free(text);
+    cJSON_Delete(members);
     return key;
 }
 
@@ -62,10 +63,10 @@ static void make_tag(const struct waiting *waiting, uint64_t revision, char out[
     snprintf(out, 48, "\"%" PRIu64 "-%016" PRIx64 "\"", revision, hash);
 }
 
-static void reply_picture(const struct waiting *waiting, uint64_t revision, const char *mime,
+static void reply_picture(const struct waiting *waiting, uint64_t revision, enum codec codec,
                           const void *bytes, size_t length)
 {
-    struct response response = {.status = 200, .type = mime, .length = length};
+    struct response response = {.status = 200, .type = codec_mime(codec), .length = length};
     char tag[48];
 
     make_tag(waiting, revision, tag);
@@ -78,19 +79,18 @@ static void reply_picture(const struct waiting *waiting, uint64_t revision, cons
     request_reply(waiting->request, &response);
 }
 
-static void on_picture(void *data, const struct packet *answer, const struct error *err)
+static void on_picture(void *data, const struct picture_answer *answer, const struct error *err)
 {
     struct waiting *waiting = data;
 
     if (answer) {
-        const char *mime = json_member_text(answer->json, "mime", "application/octet-stream");
-        uint64_t revision = (uint64_t)json_member_number(answer->json, "revision", 0);
+        const uint64_t revision = answer->frame->revision;
 
         if (revision == waiting->revision) {
-            pictures_add(&waiting->hub->pictures, waiting->key, mime, revision, answer->payload,
-                         answer->payload_length);
+            pictures_add(&waiting->hub->pictures, waiting->key, answer->frame->codec, revision,
+                         answer->bytes, answer->length);
         }
-        reply_picture(waiting, revision, mime, answer->payload, answer->payload_length);
+        reply_picture(waiting, revision, answer->frame->codec, answer->bytes, answer->length);
     } else {
         request_reply_error(waiting->request, err);
     }
@@ -126,33 +126,34 @@ static bool reply_at_once(const struct waiting *waiting)
     picture = pictures_find(&waiting->hub->pictures, waiting->key);
     if (picture) {
         metric_add(&waiting->hub->metrics, METRIC_PICTURES_REUSED, 1);
-        reply_picture(waiting, picture->revision, picture->mime, picture->bytes, picture->length);
+        reply_picture(waiting, picture->revision, picture->codec, picture->bytes, picture->length);
     }
     return picture != NULL;
 }
 
-/* Under the hub's lock. Takes `fields`. One of `room` and `document` is given. */
-static void order(struct request *request, const struct wish *wish, cJSON *fields,
-                  struct room *room, const char *document)
+/* Under the hub's lock. Takes what is in `asked`. One of `room` and `document` is given. */
+static void order(struct request *request, struct render_request *asked, struct room *room,
+                  const char *document)
 {
     struct error err = {0};
     struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
     struct render_order render = {.room = room,
                                   .document = document,
-                                  .fields = fields,
+                                  .request = *asked,
                                   .priority = RENDER_IMAGE,
                                   .account = request->client,
                                   .again = true,
                                   .on_done = on_picture,
                                   .data = waiting};
 
+    *asked = (struct render_request){0};
     waiting->request = request;
     waiting->hub = request->hub;
-    wish_size(wish, &waiting->width, &waiting->height);
+    render_request_size(&render.request, &waiting->width, &waiting->height);
     waiting->revision = room ? room->revision : 1;
-    waiting->key = make_key(request->hub, fields, room, document);
+    waiting->key = make_key(request->hub, &render.request, room, document);
     if (reply_at_once(waiting)) {
-        cJSON_Delete(fields);
+        render_request_finish(&render.request);
         waiting_destroy(waiting);
         return;
     }
@@ -165,43 +166,70 @@ static void order(struct request *request, const struct wish *wish, cJSON *field
     request_on_gone(request, on_gone, waiting);
 }
 
-static void order_of_room(struct request *request, const struct wish *wish, const char *id)
+static void order_of_room(struct request *request, struct render_request *asked, const char *id)
 {
     struct error err = {0};
     struct room *room = hub_lock_room(request->hub, id, &err);
-    cJSON *fields;
 
     if (!room) {
         request_reply_error(request, &err);
         return;
     }
-    fields = wish_order(wish, room->scene, &err);
-    if (fields) {
-        order(request, wish, fields, room, NULL);
-    } else {
-        request_reply_error(request, &err);
-    }
+    render_request_see_from(asked, &room->scene->camera);
+    order(request, asked, room, NULL);
     hub_unlock(request->hub);
 }
 
 /* Takes `scene`, which may be NULL with `err` saying why. */
-static void order_of_document(struct request *request, const struct wish *wish, struct scene *scene,
-                              struct error *err)
+static void order_of_document(struct request *request, struct render_request *asked,
+                              struct scene *scene, struct error *err)
 {
-    cJSON *fields =
-        scene && hub_accepts_scene(request->hub, scene, err) ? wish_order(wish, scene, err) : NULL;
-
-    if (!fields) {
+    if (!scene || !hub_accepts_scene(request->hub, scene, err)) {
         request_reply_error(request, err);
     } else {
         char *document = scene_print(scene, false);
 
+        render_request_see_from(asked, &scene->camera);
         hub_lock(request->hub);
-        order(request, wish, fields, NULL, document);
+        order(request, asked, NULL, document);
         hub_unlock(request->hub);
         free(document);
     }
     scene_destroy(scene);
+}
+
+/* --- what is asked --- */
+
+/* `format`: the extension that the path ends with. */
+static bool read_query(const struct request *request, const char *format,
+                       struct render_request *out, struct error *err)
+{
+    for (size_t i = 0; i < request->query_count; i++) {
+        const char *name = request->query[i].name, *text = request->query[i].value;
+
+        if (request_query(request, name) != text) {
+            char place[ERROR_PLACE_BYTES];
+
+            snprintf(place, sizeof(place), "?%.64s", name);
+            return error_set(err, ERROR_INVALID, place, "given twice");
+        }
+        if (!render_request_set_text(out, REQUEST_QUERY, name, text, err)) {
+            return false;
+        }
+    }
+    out->codec = codec_find(format);
+    if (!out->codec) {
+        return error_set(err, ERROR_NOT_FOUND, "?format", "%.40s is not png, jpg or npy", format);
+    }
+    record_put(&out->delivery, "exact", true);
+    return render_request_check(out, REQUEST_QUERY, err);
+}
+
+/* The body but for its member `scene`. */
+static bool read_body(const cJSON *members, struct render_request *out, struct error *err)
+{
+    record_put(&out->delivery, "exact", true);
+    return render_request_read(out, members, err) && render_request_check(out, REQUEST_JSON, err);
 }
 
 /* --- routes --- */
@@ -209,20 +237,21 @@ static void order_of_document(struct request *request, const struct wish *wish, 
 void images_of_scene(struct request *request)
 {
     struct error err = {0};
-    struct wish wish;
+    struct render_request asked;
 
-    if (wish_from_query(&wish, request, request->capture[1], &err)) {
-        order_of_room(request, &wish, request->capture[0]);
+    render_request_init(&asked);
+    if (read_query(request, request->capture[1], &asked, &err)) {
+        order_of_room(request, &asked, request->capture[0]);
     } else {
         request_reply_error(request, &err);
     }
-    wish_finish(&wish);
+    render_request_finish(&asked);
 }
 
 void images_of_example(struct request *request)
 {
     struct error err = {0};
-    struct wish wish;
+    struct render_request asked;
     const struct embedded *example = examples_find(request->capture[0]);
 
     if (!example) {
@@ -230,40 +259,52 @@ void images_of_example(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    if (wish_from_query(&wish, request, request->capture[1], &err)) {
-        order_of_document(request, &wish,
+    render_request_init(&asked);
+    if (read_query(request, request->capture[1], &asked, &err)) {
+        order_of_document(request, &asked,
                           scene_parse((const char *)example->bytes, example->length, &err), &err);
     } else {
         request_reply_error(request, &err);
     }
-    wish_finish(&wish);
+    render_request_finish(&asked);
+}
+
+/* A picture of `scene`: a document, or the id of a scene. */
+static void render_body(struct request *request, const cJSON *members, const cJSON *scene)
+{
+    struct error err = {0};
+    struct render_request asked;
+
+    render_request_init(&asked);
+    if (!read_body(members, &asked, &err)) {
+        request_reply_error(request, &err);
+    } else if (cJSON_IsString(scene)) {
+        order_of_room(request, &asked, scene->valuestring);
+    } else if (cJSON_IsObject(scene)) {
+        order_of_document(request, &asked, scene_read(scene, &err), &err);
+    } else {
+        error_set(&err, ERROR_INVALID, "/scene", "must be a document or the id of a scene");
+        request_reply_error(request, &err);
+    }
+    render_request_finish(&asked);
 }
 
 void images_render(struct request *request)
 {
     struct error err = {0};
-    struct wish wish;
     cJSON *json = json_parse(request->body ? request->body : "", request->body_length, &err);
 
     if (!json) {
         request_reply_error(request, &err);
-        return;
-    }
-    if (!wish_from_json(&wish, json, &err)) {
+    } else if (!cJSON_IsObject(json)) {
+        error_set(&err, ERROR_SYNTAX, "", "the body must be an object");
         request_reply_error(request, &err);
     } else {
-        const cJSON *scene = cJSON_GetObjectItemCaseSensitive(json, "scene");
+        cJSON *scene = cJSON_DetachItemFromObjectCaseSensitive(json, "scene");
 
-        if (cJSON_IsString(scene)) {
-            order_of_room(request, &wish, scene->valuestring);
-        } else if (cJSON_IsObject(scene)) {
-            order_of_document(request, &wish, scene_read(scene, &err), &err);
-        } else {
-            error_set(&err, ERROR_INVALID, "/scene", "must be a document or the id of a scene");
-            request_reply_error(request, &err);
-        }
+        render_body(request, json, scene);
+        cJSON_Delete(scene);
     }
-    wish_finish(&wish);
     cJSON_Delete(json);
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "pictures.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,7 +57,7 @@ const struct picture *pictures_find(struct pictures *pictures, const char *key)
     return picture;
 }
 
-void pictures_add(struct pictures *pictures, const char *key, const char *mime, uint64_t revision,
+void pictures_add(struct pictures *pictures, const char *key, enum codec codec, uint64_t revision,
                   const void *bytes, size_t length)
 {
     if (strlen(key) + length > LIMIT_IMAGE_CACHE_BYTES / LARGEST_PART ||
@@ -67,7 +66,7 @@ void pictures_add(struct pictures *pictures, const char *key, const char *mime, 
     }
     struct picture *picture = memory_alloc(1, sizeof(*picture) + length);
     picture->key = memory_text(key);
-    snprintf(picture->mime, sizeof(picture->mime), "%s", mime);
+    picture->codec = codec;
     picture->revision = revision;
     picture->length = length;
     memcpy(picture->bytes, bytes, length);

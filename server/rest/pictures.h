@@ -7,10 +7,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "protocol/codec.h"
+
 struct picture {
     struct picture *before, *after;
     char *key; /* all that the pixels and their encoding depend on */
-    char mime[64];
+    enum codec codec;
     uint64_t revision;
     size_t length;
     uint8_t bytes[];
@@ -26,7 +28,7 @@ void pictures_finish(struct pictures *pictures);
 /* NULL: not there. Valid until the next addition. */
 const struct picture *pictures_find(struct pictures *pictures, const char *key);
 /* Copies all it is given. What is larger than a part of the limit is not kept. */
-void pictures_add(struct pictures *pictures, const char *key, const char *mime, uint64_t revision,
+void pictures_add(struct pictures *pictures, const char *key, enum codec codec, uint64_t revision,
                   const void *bytes, size_t length);
 
 #endif

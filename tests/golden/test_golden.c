@@ -132,7 +132,7 @@ static bool draw_scene(struct scene *scene, const struct job_desc *desc, struct 
     size_t length = 0;
     const bool good =
         renderer_render(resident, desc, &image, err) &&
-        image_encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &bytes, &length, err);
+        image_encode(&image, &(struct encode_params){.format = CODEC_PNG}, &bytes, &length, err);
 
     if (good) {
         assert_true(picture_read_memory(out, bytes, length));

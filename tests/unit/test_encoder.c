@@ -93,7 +93,7 @@ static struct encoding *take(void)
 
 static void test_turns(void **state)
 {
-    const struct encode_params params[] = {{.format = IMAGE_PNG}, {.format = IMAGE_JPEG}};
+    const struct encode_params params[] = {{.format = CODEC_PNG}, {.format = CODEC_JPEG}};
     struct image images[] = {make_image(WIDTH, HEIGHT, 1), make_image(WIDTH, HEIGHT, 2)};
     struct encoding *encodings[2];
 
@@ -126,7 +126,7 @@ static void test_turns(void **state)
 
 static void test_failure(void **state)
 {
-    const struct encode_params params = {.format = IMAGE_PNG, .limit_bytes = 5000};
+    const struct encode_params params = {.format = CODEC_PNG, .limit_bytes = 5000};
     struct image image = make_image(WIDTH, HEIGHT, 3);
     struct encoding *encoding = begin(&image, &params), *back;
 
@@ -143,7 +143,7 @@ static void test_failure(void **state)
 static void test_given_up(void **state)
 {
     struct image image = make_image(WIDTH, HEIGHT, 4);
-    struct encoding *encoding = begin(&image, &(struct encode_params){.format = IMAGE_PNG}), *back;
+    struct encoding *encoding = begin(&image, &(struct encode_params){.format = CODEC_PNG}), *back;
 
     (void)state;
     add(encoding, &image, 0, BAND);
@@ -159,7 +159,7 @@ static void test_given_up(void **state)
 /* So many rows at once that they are encoded in several goes. */
 static void test_full(void **state)
 {
-    const struct encode_params params = {.format = IMAGE_PNG, .fast = true};
+    const struct encode_params params = {.format = CODEC_PNG, .fast = true};
     struct image image = make_image(4096, 2560, 5); /* 40 MiB */
     struct encoding *encoding = begin(&image, &params);
     uint8_t *bytes;
@@ -186,7 +186,7 @@ static void test_left_behind(void **state)
     struct image image = make_image(WIDTH, HEIGHT, 6);
 
     (void)state;
-    add(begin(&image, &(struct encode_params){.format = IMAGE_NPY}), &image, 0, BAND);
+    add(begin(&image, &(struct encode_params){.format = CODEC_NPY}), &image, 0, BAND);
     image_finish(&image);
 }
 

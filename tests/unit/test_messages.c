@@ -159,7 +159,7 @@ static const uint8_t frame_bytes[FRAME_HEADER_BYTES] = {
 };
 
 static const struct frame_header frame = {
-    .codec = FRAME_PNG,
+    .codec = CODEC_PNG,
     .flags = FRAME_STILL | FRAME_LOSSLESS,
     .number = 0x01020304,
     .payload_bytes = 0x05060708,

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "protocol/nodes.h"
 #include "protocol/picture.h"
 #include "server/cli/command.h"
 #include "server/cli/options.h"
@@ -254,6 +255,31 @@ static void test_other_sources_name_their_place(void **state)
     ASSERT_REFUSED("/nowhere/fieldcast.conf", "No such file or directory");
 }
 
+/* What is asked of a picture is asked by an option of its name, within the same range. */
+static void test_members_of_a_request_have_options(void **state)
+{
+    static const struct {
+        const struct record_type *type;
+        const char *prefix;
+    } types[] = {{&picture_type, ""}, {&camera_type, "camera-"}};
+    (void)state;
+    for (size_t t = 0; t < 2; t++) {
+        for (const struct param *param = types[t].type->params; param->name; param++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s%s", types[t].prefix, param->name);
+            enum option option = option_find(name);
+            if (option == OPTION_COUNT) {
+                fail_msg("there is no option --%s", name);
+            }
+            const struct option_row *row = option_row(option);
+            if (row->type == OPTION_INT) {
+                assert_true(row->min == param->min && row->max == param->max);
+            }
+        }
+    }
+    assert_int_equal(option_find("nothing"), OPTION_COUNT);
+}
+
 int main(void)
 {
     int fd = mkstemp(config_path);
@@ -265,6 +291,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_the_nearest_source_wins, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_the_environment_names_the_config_file, set_up,
                                         tear_down),
+        cmocka_unit_test(test_members_of_a_request_have_options),
         cmocka_unit_test_setup_teardown(test_values_are_checked, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_vectors_and_choices_have_numbers, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_names_are_checked, set_up, tear_down),

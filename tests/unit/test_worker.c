@@ -82,50 +82,50 @@ static void send_bytes(const void *bytes, size_t length)
     assert_int_equal(send(fd, bytes, length, MSG_NOSIGNAL), length);
 }
 
-static void send_json(cJSON *json)
+static void send_packet(int socket, const struct packet *sent)
 {
     size_t length;
-    uint8_t *bytes = packet_pack(json, NULL, 0, &length);
+    uint8_t *bytes = packet_pack(PACKET_TO_WORKER, sent, &length);
 
-    send_bytes(bytes, length);
+    assert_int_equal(send(socket, bytes, length, MSG_NOSIGNAL), length);
     free(bytes);
-    cJSON_Delete(json);
 }
 
-static void send_text(const char *text)
+/* A packet whose members may be anything. */
+static void send_text(enum packet_to_worker kind, const char *members)
 {
-    cJSON *json = cJSON_Parse(text);
+    const uint32_t head[3] = {kind, (uint32_t)strlen(members), 0};
 
-    assert_non_null(json);
-    send_json(json);
+    send_bytes(head, sizeof head);
+    send_bytes(members, head[1]);
 }
 
-/* The next packet; its type. */
-static const char *receive(void)
+/* The next packet; its kind, TO_FRONT_COUNT at the end of the stream. */
+static int receive(void)
 {
     uint8_t bytes[65536];
     int got;
 
     packet_finish(&packet);
-    while ((got = packet_reader_next(&reader, &packet)) == 0) {
+    while ((got = packet_reader_next(&reader, PACKET_TO_FRONT, &packet)) == 0) {
         const ssize_t count = recv(fd, bytes, sizeof bytes, 0);
         if (count <= 0) {
-            return "the end";
+            return TO_FRONT_COUNT;
         }
         packet_reader_add(&reader, bytes, (size_t)count);
     }
     assert_int_equal(got, 1);
-    return json_member_text(packet.json, "type", "");
+    return packet.kind;
 }
 
-/* Skips packets until one of this type; fails at the end of the stream. */
-static void expect(const char *type)
+/* Skips packets until one of this kind; fails at the end of the stream. */
+static void expect(enum packet_to_front kind)
 {
-    const char *got;
+    int got;
 
-    while (strcmp(got = receive(), type) != 0) {
-        if (strcmp(got, "the end") == 0) {
-            fail_msg("no %s came", type);
+    while ((got = receive()) != (int)kind) {
+        if (got == TO_FRONT_COUNT) {
+            fail_msg("no packet %d came", (int)kind);
         }
     }
 }
@@ -133,60 +133,64 @@ static void expect(const char *type)
 /* Asks for the worker's pulse; the answer is the packet. */
 static void ping(int value)
 {
-    char line[64];
     uint8_t bytes[4096];
-    size_t length;
 
-    snprintf(line, sizeof line, "{\"type\":\"ping\",\"ping\":%d}", value);
-    cJSON *json = cJSON_Parse(line);
-    uint8_t *packed = packet_pack(json, NULL, 0, &length);
-    assert_int_equal(send(pulse_fd, packed, length, MSG_NOSIGNAL), length);
-    free(packed);
-    cJSON_Delete(json);
+    send_packet(pulse_fd, &(struct packet){.kind = TO_WORKER_PING, .ping = {value}});
     packet_finish(&packet);
-    while (packet_reader_next(&pulse_reader, &packet) == 0) {
+    while (packet_reader_next(&pulse_reader, PACKET_TO_FRONT, &packet) == 0) {
         const ssize_t count = recv(pulse_fd, bytes, sizeof bytes, 0);
         assert_true(count > 0);
         packet_reader_add(&pulse_reader, bytes, (size_t)count);
     }
-    assert_string_equal(json_member_text(packet.json, "type", ""), "pong");
-    assert_int_equal(json_member_number(packet.json, "ping", -1), value);
+    assert_int_equal(packet.kind, TO_FRONT_PONG);
+    assert_int_equal(packet.pong.ping, value);
 }
 
-static double number(const char *name)
-{
-    return json_member_number(packet.json, name, -1);
-}
-
-static const char *text(const char *name)
-{
-    return json_member_text(packet.json, name, "");
-}
-
-static void send_scene(const char *name, int revision)
+static void send_scene(const char *name, uint64_t revision)
 {
     size_t length;
     char *document = text_file_read(EXAMPLE, &length);
-    cJSON *json = cJSON_CreateObject();
+    cJSON *json = cJSON_Parse(document);
 
-    cJSON_AddStringToObject(json, "type", "scene");
-    cJSON_AddStringToObject(json, "scene", name);
-    cJSON_AddNumberToObject(json, "revision", revision);
-    cJSON_AddItemToObject(json, "document", cJSON_Parse(document));
-    send_json(json);
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE, .scene = {name, revision, json}});
+    cJSON_Delete(json);
     free(document);
+}
+
+static void send_edit(uint64_t revision, const char *ops)
+{
+    cJSON *json = cJSON_Parse(ops);
+
+    assert_non_null(json);
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_EDIT, .edit = {"s", revision, json}});
+    cJSON_Delete(json);
+}
+
+static void send_cancel(uint32_t job)
+{
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_CANCEL, .job = {job}});
+}
+
+/* `members`: of the request. */
+static void send_request(const char *scene, int job, int priority, const char *members)
+{
+    char line[768];
+
+    snprintf(line, sizeof line,
+             "{\"render.job\":%d,\"render.scene\":\"%s\",\"render.priority\":%d,"
+             "\"render.patience\":1,\"render.request\":{%s}}",
+             job, scene, priority, members);
+    send_text(TO_WORKER_RENDER, line);
 }
 
 static void send_render_of(const char *scene, int job, int priority, int width, int height,
                            const char *more)
 {
-    char line[512];
+    char members[512];
 
-    snprintf(line, sizeof line,
-             "{\"type\":\"render\",\"job\":%d,\"scene\":\"%s\",\"priority\":%d,\"width\":%d,"
-             "\"height\":%d,\"samples\":1,\"format\":\"png\",\"fast\":true%s}",
-             job, scene, priority, width, height, more);
-    send_text(line);
+    snprintf(members, sizeof members, "\"width\":%d,\"height\":%d,\"samples\":1%s", width, height,
+             more);
+    send_request(scene, job, priority, members);
 }
 
 static void send_render(int job, int priority, int width, int height, const char *more)
@@ -198,14 +202,10 @@ static void send_render(int job, int priority, int width, int height, const char
 
 static void test_ready(void **state)
 {
-    const cJSON *info;
-
     (void)state;
-    expect("ready");
-    info = cJSON_GetObjectItemCaseSensitive(packet.json, "renderer");
-    assert_true(strlen(json_member_text(info, "name", "")) > 0);
-    assert_true(strlen(json_member_text(info, "device", "")) > 0);
-    assert_true(cJSON_IsBool(cJSON_GetObjectItemCaseSensitive(info, "software")));
+    expect(TO_FRONT_READY);
+    assert_true(strlen(packet.ready.name) > 0);
+    assert_true(strlen(packet.ready.device) > 0);
 }
 
 /* The same document, drawn in this process. */
@@ -225,7 +225,7 @@ static void draw_here(const char *ops, struct picture *out)
 
     assert_true(resident_edit(resident, json, 2, NULL));
     assert_true(renderer_render(resident, &desc, &image, NULL));
-    assert_true(image_encode(&image, &(struct encode_params){.format = IMAGE_PNG}, &bytes,
+    assert_true(image_encode(&image, &(struct encode_params){.format = CODEC_PNG}, &bytes,
                              &bytes_length, NULL));
     assert_true(picture_read_memory(out, bytes, bytes_length));
     free(bytes);
@@ -241,26 +241,23 @@ static void test_render_and_edit(void **state)
     static const char ops[] =
         "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":0.9}]";
     struct picture first, second, here;
-    char line[256];
 
     (void)state;
     send_scene("s", 1);
-    send_render(1, 0, 80, 60, ",\"exact\":true");
-    expect("frame");
-    assert_int_equal(number("job"), 1);
-    assert_int_equal(number("revision"), 1);
-    assert_true(json_member_bool(packet.json, "newest", false));
-    assert_int_equal(number("width"), 80);
-    assert_string_equal(text("mime"), "image/png");
-    assert_true(number("march_us") > 0 && number("encode_us") > 0 && number("queue_us") >= 0);
+    send_render(1, 0, 80, 60, ",\"delivery\":{\"exact\":true}");
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, 1);
+    assert_int_equal(packet.frame.revision, 1);
+    assert_true(packet.frame.newest);
+    assert_int_equal(packet.frame.width, 80);
+    assert_int_equal(packet.frame.codec, CODEC_PNG);
+    assert_true(packet.frame.times.us[FRAME_MARCH] > 0 && packet.frame.times.us[FRAME_ENCODE] > 0);
     assert_true(picture_read_memory(&first, packet.payload, packet.payload_length));
 
-    snprintf(line, sizeof line, "{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":%s}",
-             ops);
-    send_text(line);
+    send_edit(2, ops);
     send_render(2, 0, 80, 60, "");
-    expect("frame");
-    assert_int_equal(number("revision"), 2);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.revision, 2);
     assert_true(picture_read_memory(&second, packet.payload, packet.payload_length));
     assert_false(picture_compare(&first, &second, NULL).greatest == 0);
 
@@ -276,26 +273,25 @@ static void test_structural_edit(void **state)
 {
     (void)state;
     send_scene("s", 1);
-    expect("shown");
-    assert_int_equal(number("revision"), 1);
-    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":[{\"op\":\"insert\","
-              "\"into\":\"/nodes/root\",\"before\":null,\"value\":{\"type\":\"torus\"}}]}");
+    expect(TO_FRONT_SHOWN);
+    assert_int_equal(packet.state.revision, 1);
+    send_edit(2, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
+                 "\"value\":{\"type\":\"torus\"}}]");
     send_render(1, 0, 40, 30, "");
-    send_render(2, 0, 40, 30, ",\"exact\":true");
+    send_render(2, 0, 40, 30, ",\"delivery\":{\"exact\":true}");
     /* In whatever order they come: the compiler may be faster than the first picture. */
     for (bool shown = false, drawn = false; !shown || !drawn;) {
-        const char *type = receive();
+        const int kind = receive();
 
-        assert_string_not_equal(type, "the end");
-        if (strcmp(type, "shown") == 0) {
-            assert_int_equal(number("revision"), 2);
+        assert_int_not_equal(kind, TO_FRONT_COUNT);
+        if (kind == TO_FRONT_SHOWN) {
+            assert_int_equal(packet.state.revision, 2);
             shown = true;
-        } else if (strcmp(type, "frame") == 0 && number("job") == 2) {
-            assert_int_equal(number("revision"), 2);
+        } else if (kind == TO_FRONT_FRAME && packet.frame.job == 2) {
+            assert_int_equal(packet.frame.revision, 2);
             drawn = true;
-        } else if (strcmp(type, "frame") == 0) {
-            assert_int_equal(json_member_bool(packet.json, "newest", true),
-                             number("revision") == 2);
+        } else if (kind == TO_FRONT_FRAME) {
+            assert_int_equal(packet.frame.newest, packet.frame.revision == 2);
         }
     }
 }
@@ -304,13 +300,13 @@ static void test_priority(void **state)
 {
     (void)state;
     send_scene("s", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     send_render(1, 3, 1600, 1200, "");
     send_render(2, 0, 40, 30, "");
-    expect("frame");
-    assert_int_equal(number("job"), 2);
-    expect("frame");
-    assert_int_equal(number("job"), 1);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, 2);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, 1);
 }
 
 /* A large picture of one scene, as urgent as can be, and small ones of another beside it. */
@@ -320,36 +316,36 @@ static void test_scenes_take_turns(void **state)
 
     (void)state;
     send_scene("s", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     send_scene("t", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     send_render(LARGE, 0, 8000, 6000, "");
     for (int job = 1; job <= SMALL; job++) {
         send_render_of("t", job, job % 4, 40, 30, "");
-        expect("frame");
-        assert_int_equal(number("job"), job);
+        expect(TO_FRONT_FRAME);
+        assert_int_equal(packet.frame.job, job);
     }
-    send_text("{\"type\":\"cancel\",\"job\":100}");
+    send_cancel(LARGE);
 }
 
 static void test_cancel(void **state)
 {
     (void)state;
     send_scene("s", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     send_render(1, 0, 1600, 1200, "");
     send_render(2, 0, 1600, 1200, "");
     send_render(3, 1, 40, 30, "");
-    send_text("{\"type\":\"cancel\",\"job\":1}");
-    send_text("{\"type\":\"cancel\",\"job\":2}");
-    send_text("{\"type\":\"cancel\",\"job\":77}");
-    expect("frame");
-    assert_int_equal(number("job"), 3);
+    send_cancel(1);
+    send_cancel(2);
+    send_cancel(77);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, 3);
     do {
         ping(9);
-    } while (!json_member_bool(packet.json, "idle", false));
-    assert_int_equal(number("pictures"), 1);
-    assert_true(number("resident_bytes") > 0);
+    } while (!packet.pong.idle);
+    assert_int_equal(packet.pong.counters.pictures, 1);
+    assert_true(packet.pong.resident_bytes > 0);
 }
 
 /* The number behind a word of its status, as hexadecimal digits. */
@@ -377,7 +373,7 @@ static void test_confined(void **state)
     struct rlimit core;
 
     (void)state;
-    expect("ready");
+    expect(TO_FRONT_READY);
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
         assert_int_equal(status_of(child, none[i]), 0);
     }
@@ -389,54 +385,54 @@ static void test_confined(void **state)
 /* It tells how far the drawing thread has come, and when that has nothing to do. */
 static void test_pulse(void **state)
 {
-    double steps;
+    uint64_t steps;
 
     (void)state;
     send_scene("s", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     do {
         ping(1);
-    } while (!json_member_bool(packet.json, "idle", false));
-    steps = number("steps");
+    } while (!packet.pong.idle);
+    steps = packet.pong.steps;
     ping(2);
-    assert_true(json_member_bool(packet.json, "idle", false));
-    assert_true(number("steps") == steps);
+    assert_true(packet.pong.idle);
+    assert_true(packet.pong.steps == steps);
     send_render(1, 3, 1600, 1200, "");
     do {
         ping(3);
-    } while (number("tiles") == 0); /* in the middle of a picture */
-    assert_false(json_member_bool(packet.json, "idle", true));
-    assert_true(number("steps") > steps);
-    assert_int_equal(number("pictures"), 0);
-    expect("frame");
+    } while (packet.pong.counters.tiles == 0); /* in the middle of a picture */
+    assert_false(packet.pong.idle);
+    assert_true(packet.pong.steps > steps);
+    assert_int_equal(packet.pong.counters.pictures, 0);
+    expect(TO_FRONT_FRAME);
 }
 
 /* Nobody has to listen to it, and whoever talks nonsense there gets no answer. */
 static void test_pulse_gone(void **state)
 {
-    static const uint8_t nonsense[8] = {255, 255, 255, 255, 255, 255, 255, 255};
+    static const uint32_t nonsense[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
 
     (void)state;
-    expect("ready");
+    expect(TO_FRONT_READY);
     assert_int_equal(send(pulse_fd, nonsense, sizeof nonsense, MSG_NOSIGNAL), sizeof nonsense);
     send_scene("s", 1);
     send_render(1, 0, 40, 30, "");
-    expect("frame");
+    expect(TO_FRONT_FRAME);
 }
 
 static void test_dropped_scene(void **state)
 {
     (void)state;
     send_scene("s", 1);
-    expect("shown");
+    expect(TO_FRONT_SHOWN);
     send_render(1, 0, 400, 300, "");
-    send_text("{\"type\":\"drop\",\"scene\":\"s\"}");
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_DROP, .state = {.scene = "s"}});
     send_render(2, 0, 40, 30, "");
-    expect("failed");
-    assert_int_equal(number("job"), 2);
-    assert_string_equal(text("code"), "not_found");
-    expect("frame");
-    assert_int_equal(number("job"), 1);
+    expect(TO_FRONT_FAILED);
+    assert_int_equal(packet.failed.job, 2);
+    assert_int_equal(packet.failed.error.kind, ERROR_NOT_FOUND);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, 1);
 }
 
 static void test_outputs(void **state)
@@ -444,32 +440,32 @@ static void test_outputs(void **state)
     (void)state;
     send_scene("s", 1);
     send_render(1, 0, 40, 30, ",\"format\":\"npy\",\"aov\":\"id\"");
-    send_text("{\"type\":\"render\",\"job\":2,\"scene\":\"s\",\"width\":40,\"height\":30,"
-              "\"format\":\"npy\",\"aov\":\"id\"}");
-    send_text("{\"type\":\"render\",\"job\":3,\"scene\":\"s\",\"width\":40,\"height\":30,"
-              "\"format\":\"jpg\",\"quality\":50,\"chroma_halved\":true,"
-              "\"camera\":{\"position\":[0,9,0.1],\"fov\":20}}");
+    send_request("s", 2, 0, "\"width\":40,\"height\":30,\"format\":\"npy\",\"aov\":\"id\"");
+    send_request("s", 3, 0,
+                 "\"width\":40,\"height\":30,\"format\":\"jpg\",\"quality\":50,"
+                 "\"delivery\":{\"chroma_halved\":true},"
+                 "\"camera\":{\"position\":[0,9,0.1],\"fov\":20}");
     do {
-        expect("frame");
-        if (number("job") == 2) {
-            assert_string_equal(text("mime"), "application/x-npy");
+        expect(TO_FRONT_FRAME);
+        if (packet.frame.job == 2) {
+            assert_int_equal(packet.frame.codec, CODEC_NPY);
             assert_int_equal(packet.payload_length, 128 + 40 * 30 * 4);
         }
-        if (number("job") == 3) {
-            assert_string_equal(text("mime"), "image/jpeg");
+        if (packet.frame.job == 3) {
+            assert_int_equal(packet.frame.codec, CODEC_JPEG);
             assert_memory_equal(packet.payload, "\xff\xd8\xff", 3);
         }
-    } while (number("job") != 3);
+    } while (packet.frame.job != 3);
 }
 
 /* What a render with these members comes back as. */
-static void check_frame(const char *more, const char *mime, int width, int height)
+static void check_frame(const char *more, enum codec codec, int width, int height)
 {
     send_render(1, 0, 40, 30, more);
-    expect("frame");
-    assert_string_equal(text("mime"), mime);
-    assert_int_equal(number("width"), width);
-    assert_int_equal(number("height"), height);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.codec, codec);
+    assert_int_equal(packet.frame.width, width);
+    assert_int_equal(packet.frame.height, height);
 }
 
 static void test_what_is_asked(void **state)
@@ -478,81 +474,76 @@ static void test_what_is_asked(void **state)
 
     (void)state;
     send_scene("s", 1);
-    check_frame(",\"aov\":\"color,depth\"", "application/zip", 40, 30);
+    check_frame(",\"aov\":\"color,depth\"", CODEC_ZIP, 40, 30);
     assert_memory_equal(packet.payload, "PK\3\4", 4);
-    check_frame(",\"zipped\":true", "application/zip", 40, 30);
-    check_frame(",\"region\":[30,7,10,2]", "image/png", 10, 2);
-    check_frame(",\"level\":\"draft\",\"transparent\":true", "image/png", 40, 30);
+    check_frame(",\"delivery\":{\"zipped\":true}", CODEC_ZIP, 40, 30);
+    check_frame(",\"region\":[30,7,10,2]", CODEC_PNG, 10, 2);
+    check_frame(",\"level\":\"draft\",\"transparent\":true", CODEC_PNG, 40, 30);
     assert_int_equal(packet.payload[COLOR_TYPE], RGB_ALPHA);
-    check_frame(",\"transparent\":false", "image/png", 40, 30);
+    check_frame(",\"transparent\":false", CODEC_PNG, 40, 30);
     assert_int_equal(packet.payload[COLOR_TYPE], RGB);
-    for (int i = 0; i < FRAME_STAGES; i++) {
-        char name[STAGE_MEMBER_BYTES];
-
-        stage_member((enum frame_stage)i, name);
-        assert_true(number(name) >= 0);
-    }
 }
 
-static void check_failed(const char *more, const char *code, const char *place)
+static void check_failed(const char *more, enum error_kind kind, const char *place)
 {
-    char line[512];
+    char members[512];
 
-    snprintf(line, sizeof line,
-             "{\"type\":\"render\",\"job\":5,\"width\":40,\"height\":30,\"scene\":\"s\"%s}", more);
-    send_text(line);
-    expect("failed");
-    assert_int_equal(number("job"), 5);
-    assert_string_equal(text("code"), code);
-    assert_string_equal(text("place"), place);
-    assert_true(strlen(text("message")) > 0);
+    snprintf(members, sizeof members, "\"width\":40,\"height\":30%s", more);
+    send_request("s", 5, 0, members);
+    expect(TO_FRONT_FAILED);
+    assert_int_equal(packet.failed.job, 5);
+    assert_int_equal(packet.failed.error.kind, kind);
+    assert_string_equal(packet.failed.error.place, place);
+    assert_true(strlen(packet.failed.error.message) > 0);
+}
+
+static void check_broken(const char *scene, uint64_t revision, enum error_kind kind)
+{
+    expect(TO_FRONT_BROKEN);
+    assert_string_equal(packet.state.scene, scene);
+    assert_int_equal(packet.state.revision, revision);
+    assert_int_equal(packet.state.error.kind, kind);
 }
 
 static void test_refusals(void **state)
 {
+    cJSON *document = cJSON_Parse("{\"format\":\"x\"}");
+
     (void)state;
-    check_failed("", "not_found", "scene");
+    check_failed("", ERROR_NOT_FOUND, "scene");
     send_scene("s", 1);
-    expect("shown");
-    check_failed(",\"aov\":\"smell\"", "invalid", "aov");
-    check_failed(",\"format\":\"gif\"", "invalid", "format");
-    check_failed(",\"aov\":\"position\"", "invalid", "aov");
-    check_failed(",\"format\":\"jpg\",\"transparent\":true", "invalid", "format");
-    check_failed(",\"level\":\"best\"", "invalid", "level");
-    check_failed(",\"region\":[39,0,2,2]", "limit", "region");
-    check_failed(",\"region\":[1,2]", "invalid", "region");
-    check_failed(",\"samples\":9", "limit", "samples");
-    check_failed(",\"samples\":-1", "limit", "samples");
-    check_failed(",\"format\":\"jpg\",\"quality\":400", "limit", "quality");
-    check_failed(",\"camera\":{\"fov\":500}", "invalid", "/camera/fov");
-    send_text("{\"type\":\"render\",\"job\":5,\"scene\":\"s\",\"width\":1e300,\"height\":2}");
-    expect("failed");
-    send_text("{\"type\":\"dance\"}");
-    expect("failed");
-    assert_string_equal(text("code"), "invalid");
-    send_text(
-        "{\"type\":\"scene\",\"scene\":\"t\",\"revision\":4,\"document\":{\"format\":\"x\"}}");
-    expect("broken");
-    assert_string_equal(text("scene"), "t");
-    assert_int_equal(number("revision"), 4);
-    send_text("{\"type\":\"edit\",\"scene\":\"s\",\"revision\":2,\"ops\":[{\"op\":\"remove\","
-              "\"at\":\"/nodes/nobody\"}]}");
-    expect("broken");
-    assert_string_equal(text("code"), "not_found");
+    expect(TO_FRONT_SHOWN);
+    check_failed(",\"aov\":\"smell\"", ERROR_INVALID, "/aov");
+    check_failed(",\"format\":\"gif\"", ERROR_INVALID, "/format");
+    check_failed(",\"aov\":\"position\"", ERROR_INVALID, "aov");
+    check_failed(",\"format\":\"jpg\",\"transparent\":true", ERROR_INVALID, "format");
+    check_failed(",\"level\":\"best\"", ERROR_INVALID, "/level");
+    check_failed(",\"region\":[39,0,2,2]", ERROR_LIMIT, "region");
+    check_failed(",\"region\":[1,2]", ERROR_INVALID, "/region");
+    check_failed(",\"samples\":9", ERROR_INVALID, "/samples");
+    check_failed(",\"format\":\"jpg\",\"quality\":400", ERROR_INVALID, "/quality");
+    check_failed(",\"camera\":{\"fov\":500}", ERROR_INVALID, "/camera/fov");
+    check_failed(",\"isolate\":[7]", ERROR_INVALID, "/isolate/0");
+    check_failed(",\"delivery\":{\"by\":\"air\"}", ERROR_INVALID, "/delivery/by");
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE, .scene = {"t", 4, document}});
+    check_broken("t", 4, ERROR_INVALID);
+    cJSON_Delete(document);
+    send_edit(2, "[{\"op\":\"remove\",\"at\":\"/nodes/nobody\"}]");
+    check_broken("s", 2, ERROR_NOT_FOUND);
     send_render(6, 0, 40, 30, "");
-    expect("frame");
-    assert_int_equal(number("revision"), 1);
+    expect(TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.revision, 1);
 }
 
 static void test_stop(void **state)
 {
     (void)state;
     assert_int_equal(start(NULL), 0);
-    expect("ready");
+    expect(TO_FRONT_READY);
     send_scene("s", 1);
     send_render(1, 0, 1600, 1200, "");
-    send_text("{\"type\":\"stop\"}");
-    while (strcmp(receive(), "the end") != 0) {
+    send_text(TO_WORKER_STOP, "{}");
+    while (receive() != TO_FRONT_COUNT) {
     }
     assert_int_equal(end(), 0);
 }
@@ -562,7 +553,7 @@ static void test_front_gone(void **state)
 {
     (void)state;
     assert_int_equal(start(NULL), 0);
-    expect("ready");
+    expect(TO_FRONT_READY);
     send_scene("s", 1);
     send_render(1, 0, 1600, 1200, "");
     assert_int_equal(end(), 0);
@@ -571,57 +562,157 @@ static void test_front_gone(void **state)
 static void check_broken_stream(const void *bytes, size_t length)
 {
     assert_int_equal(start(NULL), 0);
-    expect("ready");
+    expect(TO_FRONT_READY);
     send_bytes(bytes, length);
-    expect("failed");
-    assert_string_equal(text("code"), "syntax");
-    assert_string_equal(receive(), "the end");
+    expect(TO_FRONT_FAILED);
+    assert_int_equal(packet.failed.error.kind, ERROR_SYNTAX);
+    assert_int_equal(receive(), TO_FRONT_COUNT);
     assert_int_equal(end(), 1);
 }
 
 static void test_malformed_packets(void **state)
 {
-    static const uint32_t huge[2] = {UINT32_MAX, 0};
-    static const char garbage[] = "\x05\0\0\0\0\0\0\0{\"a\":";
-    static const char list[] = "\x02\0\0\0\0\0\0\0[]";
+    static const uint32_t huge[3] = {TO_WORKER_STOP, UINT32_MAX, 0};
+    static const char garbage[] = "\x08\0\0\0\x05\0\0\0\0\0\0\0{\"a\":";
+    static const char list[] = "\x08\0\0\0\x02\0\0\0\0\0\0\0[]";
+    static const char unknown[] = "\x63\0\0\0\x02\0\0\0\0\0\0\0{}";
+    static const char payload[] = "\x08\0\0\0\x02\0\0\0\1\0\0\0{}x"; /* that `stop` never has */
 
     (void)state;
     check_broken_stream(huge, sizeof huge);
     check_broken_stream(garbage, sizeof garbage - 1);
     check_broken_stream(list, sizeof list - 1);
+    check_broken_stream(unknown, sizeof unknown - 1);
+    check_broken_stream(payload, sizeof payload - 1);
 }
 
 /* Packets come whole out of any pieces. */
 static void test_packets(void **state)
 {
-    static const char payload[] = "some bytes";
+    static uint8_t payload[] = "some bytes";
+    const struct packet sent = {.kind = TO_WORKER_ASSET,
+                                .asset = {"a file"},
+                                .payload = payload,
+                                .payload_length = sizeof payload};
     struct packet_reader pieces = {0};
     struct packet out;
-    cJSON *json = cJSON_Parse("{\"a\":1}");
     size_t length;
-    uint8_t *bytes = packet_pack(json, payload, sizeof payload, &length);
+    uint8_t *bytes = packet_pack(PACKET_TO_WORKER, &sent, &length);
 
     (void)state;
     for (int round = 0; round < 3; round++) {
         for (size_t i = 0; i < length; i++) {
-            assert_int_equal(packet_reader_next(&pieces, &out), 0);
+            assert_int_equal(packet_reader_next(&pieces, PACKET_TO_WORKER, &out), 0);
             packet_reader_add(&pieces, bytes + i, 1);
         }
-        assert_int_equal(packet_reader_next(&pieces, &out), 1);
-        assert_int_equal(json_member_number(out.json, "a", 0), 1);
+        assert_int_equal(packet_reader_next(&pieces, PACKET_TO_WORKER, &out), 1);
+        assert_int_equal(out.kind, TO_WORKER_ASSET);
+        assert_string_equal(out.asset.asset, "a file");
         assert_int_equal(out.payload_length, sizeof payload);
         assert_memory_equal(out.payload, payload, sizeof payload);
         packet_finish(&out);
     }
     packet_reader_finish(&pieces);
     free(bytes);
-    cJSON_Delete(json);
+}
+
+/* What a packet says when it has been bytes. */
+static struct packet there(enum packet_way way, const struct packet *sent)
+{
+    struct packet_reader whole = {0};
+    struct packet out = {0};
+    size_t length;
+    uint8_t *bytes = packet_pack(way, sent, &length);
+
+    packet_reader_add(&whole, bytes, length);
+    assert_int_equal(packet_reader_next(&whole, way, &out), 1);
+    assert_int_equal(out.kind, sent->kind);
+    free(bytes);
+    packet_reader_finish(&whole);
+    return out;
+}
+
+static void test_members_to_worker(void **state)
+{
+    const struct packet_judge judge = {0xfedcba9876543210, "a", ERROR_CRASHED, 7, 8, 9};
+    struct render_request request;
+    struct packet got;
+
+    (void)state;
+    got = there(PACKET_TO_WORKER, &(struct packet){.kind = TO_WORKER_JUDGE, .judge = judge});
+    assert_true(got.judge.shape == judge.shape);
+    assert_string_equal(got.judge.asset, "a");
+    assert_int_equal(got.judge.refused, ERROR_CRASHED);
+    assert_int_equal(got.judge.measured_ms, 7);
+    assert_int_equal(got.judge.limit_ms, 8);
+    assert_int_equal(got.judge.times, 9);
+    packet_finish(&got);
+    render_request_init(&request);
+    record_put(&request.camera, "fov", 20);
+    assert_true(render_request_check(&request, REQUEST_JSON, NULL));
+    got = there(PACKET_TO_WORKER, &(struct packet){.kind = TO_WORKER_RENDER,
+                                                   .render = {.job = 7,
+                                                              .scene = "s",
+                                                              .account = "a",
+                                                              .priority = 3,
+                                                              .patience = 2,
+                                                              .careful = true,
+                                                              .request = &request}});
+    assert_int_equal(got.render.job, 7);
+    assert_string_equal(got.render.account, "a");
+    assert_int_equal(got.render.priority, 3);
+    assert_int_equal(got.render.patience, 2);
+    assert_true(got.render.careful);
+    assert_true(render_request_equal(got.render.request, &request));
+    packet_finish(&got);
+    render_request_finish(&request);
+}
+
+static void test_members_to_front(void **state)
+{
+    struct packet sent = {.kind = TO_FRONT_FRAME,
+                          .frame = {.job = 7, .revision = 1e15, .more = true}};
+    struct packet got;
+
+    (void)state;
+    sent.frame.rounds = (struct picture_rounds){4, 16};
+    sent.frame.codec = CODEC_ZIP;
+    for (int i = 0; i < FRAME_STAGES; i++) {
+        sent.frame.times.us[i] = (uint32_t)i + 1;
+    }
+    got = there(PACKET_TO_FRONT, &sent);
+    assert_memory_equal(&got.frame, &sent.frame, sizeof got.frame);
+    packet_finish(&got);
+    sent = (struct packet){.kind = TO_FRONT_WARNED,
+                           .state = {.scene = "s", .revision = 5, .warning = WARNING_ASSET}};
+    error_set_at(&sent.state.error, ERROR_TOO_SLOW, "/here", 3, 4, "text");
+    sent.state.error.measured_ms = 11;
+    sent.state.error.limit_ms = 12;
+    got = there(PACKET_TO_FRONT, &sent);
+    assert_int_equal(got.state.warning, WARNING_ASSET);
+    assert_memory_equal(&got.state.error, &sent.state.error, sizeof got.state.error);
+    packet_finish(&got);
+    sent = (struct packet){.kind = TO_FRONT_SLOW,
+                           .suspect = {.scene = "s",
+                                       .revision = 5,
+                                       .shape = 0xfedcba9876543210,
+                                       .asset = "a",
+                                       .still = true,
+                                       .measured_ms = 1,
+                                       .limit_ms = 2}};
+    got = there(PACKET_TO_FRONT, &sent);
+    assert_true(got.suspect.shape == sent.suspect.shape && got.suspect.still);
+    assert_string_equal(got.suspect.asset, "a");
+    assert_int_equal(got.suspect.limit_ms, 2);
+    packet_finish(&got);
 }
 
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_packets),
+        cmocka_unit_test(test_members_to_worker),
+        cmocka_unit_test(test_members_to_front),
         cmocka_unit_test_setup_teardown(test_ready, start, stop),
         cmocka_unit_test_setup_teardown(test_confined, start, stop),
         cmocka_unit_test_setup_teardown(test_render_and_edit, start, stop),

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+#include "codec.h"
+
+#include <string.h>
+
+static const struct {
+    const char *name, *mime;
+} rows[CODEC_COUNT] = {
+    [CODEC_JPEG] = {"jpg", "image/jpeg"},
+    [CODEC_PNG] = {"png", "image/png"},
+    [CODEC_NPY] = {"npy", "application/x-npy"},
+    [CODEC_ZIP] = {"zip", "application/zip"},
+};
+
+enum codec codec_find(const char *word)
+{
+    for (enum codec codec = CODEC_JPEG; codec <= CODEC_NPY; codec++) {
+        if (strcmp(rows[codec].name, word) == 0) {
+            return codec;
+        }
+    }
+    return strcmp(word, "jpeg") == 0 ? CODEC_JPEG : 0;
+}
+
+const char *codec_name(enum codec codec)
+{
+    return rows[codec].name;
+}
+
+const char *codec_mime(enum codec codec)
+{
+    return rows[codec].mime;
+}
