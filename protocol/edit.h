@@ -61,6 +61,7 @@ struct history_move {
     const cJSON *inverse; /* the history's, until its next change */
     const char *label;    /* the same */
     size_t undo, redo;    /* as in struct history_entry */
+    struct step *step;    /* between history_take and history_put */
 };
 void history_move_finish(struct history_move *move);
 /* Applies the newest step of the author to the scene and moves it to the other stack. False with
@@ -70,6 +71,15 @@ bool history_undo(struct history *history, struct scene *scene, const char *auth
                   struct history_move *out, struct error *err);
 bool history_redo(struct history *history, struct scene *scene, const char *author,
                   struct history_move *out, struct error *err);
+/* The same in three calls: the step is taken from its stack, applied, which may take long and needs
+ * no history, and what takes it back is put on the other stack, unless nothing was applied. Nothing
+ * else may happen to the document and the author's steps meanwhile. */
+bool history_take(struct history *history, const char *author, bool redo, struct history_move *out,
+                  struct error *err);
+bool history_apply(struct history_move *move, struct scene *scene, struct error *err);
+void history_put(struct history *history, const char *author, bool redo, struct history_move *move);
+/* Operations of the step that would be next; 0: there is none. */
+size_t history_next(const struct history *history, const char *author, bool redo);
 void history_depth(const struct history *history, const char *author, size_t *out_undo,
                    size_t *out_redo);
 /* Of the author's step number `index` of a stack, the newest is 0; NULL: there is none. */

@@ -65,6 +65,11 @@ static struct author *find_author(const struct history *history, const char *nam
     return author;
 }
 
+static struct stack *stack_of(struct author *author, bool redo)
+{
+    return redo ? &author->redo : &author->undo;
+}
+
 static struct author **link_of(struct history *history, const char *name)
 {
     struct author **link = &history->newest;
@@ -189,31 +194,41 @@ static bool fail_overwritten(const cJSON *skipped, struct error *err)
                      "somebody else has changed this since");
 }
 
-/* Applies the newest step of one stack and puts what takes it back on the other. A step of which
- * nothing applies any more is gone: the next call reaches the one below. */
-static bool go(struct author *author, bool redo, struct scene *scene, struct history_move *out,
-               struct error *err)
+bool history_take(struct history *history, const char *author_name, bool redo,
+                  struct history_move *out, struct error *err)
 {
-    struct stack *from = redo ? &author->redo : &author->undo;
-    struct stack *to = redo ? &author->undo : &author->redo;
-    struct history_move move = {.undo = author->undo.count, .redo = author->redo.count};
-    struct step *step = from->items[--from->count];
+    struct author *author = find_author(history, author_name);
+    struct stack *from = author ? stack_of(author, redo) : NULL;
+    *out = (struct history_move){0};
+    if (!from || from->count == 0) {
+        return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to %s",
+                         redo ? "redo" : "undo");
+    }
+    out->undo = author->undo.count;
+    out->redo = author->redo.count;
+    out->step = from->items[--from->count];
+    return true;
+}
+
+bool history_apply(struct history_move *move, struct scene *scene, struct error *err)
+{
+    struct step *step = move->step;
     cJSON *inverse = NULL;
-    move.skipped = step_take_overwritten(step, scene);
-    bool ok = step->count > 0 ? edit_apply_some(scene, step->ops, &move.applied, &inverse, err)
-                              : fail_overwritten(move.skipped, err);
-    if (ok) {
-        push(to, step_create(NULL, step->label, move.applied, inverse));
-        move.inverse = inverse;
-        move.label = to->items[to->count - 1]->label;
-    }
+    move->skipped = step_take_overwritten(step, scene);
+    bool ok = step->count > 0 ? edit_apply_some(scene, step->ops, &move->applied, &inverse, err)
+                              : fail_overwritten(move->skipped, err);
+    move->step = ok ? step_create(NULL, step->label, move->applied, inverse) : NULL;
+    move->label = ok ? move->step->label : NULL;
+    move->inverse = inverse;
     step_destroy(step);
-    if (out) {
-        *out = move;
-    } else {
-        history_move_finish(&move);
-    }
     return ok;
+}
+
+void history_put(struct history *history, const char *author_name, bool redo,
+                 struct history_move *move)
+{
+    push(stack_of(hear_of(history, author_name), !redo), move->step);
+    move->step = NULL;
 }
 
 void history_move_finish(struct history_move *move)
@@ -226,15 +241,18 @@ void history_move_finish(struct history_move *move)
 static bool move_step(struct history *history, bool redo, struct scene *scene,
                       const char *author_name, struct history_move *out, struct error *err)
 {
-    struct author *author = find_author(history, author_name);
+    struct history_move move;
+    bool ok =
+        history_take(history, author_name, redo, &move, err) && history_apply(&move, scene, err);
+    if (ok) {
+        history_put(history, author_name, redo, &move);
+    }
     if (out) {
-        *out = (struct history_move){0};
+        *out = move;
+    } else {
+        history_move_finish(&move);
     }
-    if (!author || (redo ? author->redo.count : author->undo.count) == 0) {
-        return error_set(err, ERROR_NOT_FOUND, "", "there is nothing to %s",
-                         redo ? "redo" : "undo");
-    }
-    return go(author, redo, scene, out, err);
+    return ok;
 }
 
 bool history_undo(struct history *history, struct scene *scene, const char *author_name,
@@ -255,6 +273,13 @@ void history_depth(const struct history *history, const char *author_name, size_
     const struct author *author = find_author(history, author_name);
     *out_undo = author ? author->undo.count : 0;
     *out_redo = author ? author->redo.count : 0;
+}
+
+size_t history_next(const struct history *history, const char *author_name, bool redo)
+{
+    const struct author *author = find_author(history, author_name);
+    const struct stack *stack = !author ? NULL : redo ? &author->redo : &author->undo;
+    return stack && stack->count > 0 ? stack->items[stack->count - 1]->count : 0;
 }
 
 const char *history_label(const struct history *history, const char *author_name, bool redo,

@@ -319,6 +319,8 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
                             uint64_t *out_revision, struct error *err)
 {
     struct room_work work = {0};
+    const struct room_order order = {
+        .change = change, .ops = ops, .count = (size_t)cJSON_GetArraySize(ops)};
     enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     if (outcome != ROOM_APPLIED) {
@@ -326,7 +328,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     }
     fallback_before_edit(room, ops);
     if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
-        !room_apply(room, change, ops, &work, err)) {
+        !room_apply(room, &order, &work, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
     }
@@ -337,10 +339,27 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     return ROOM_APPLIED;
 }
 
+/* Applies the newest step of the author; the other stack has what takes it back then. */
+static bool move_step(struct room *room, const struct room_change *change, bool redo,
+                      struct history_move *move, struct room_work *work, struct error *err)
+{
+    const struct room_order order = {
+        .change = change, .move = move, .count = history_next(room->history, change->author, redo)};
+    const bool ok = check_open(room, err) &&
+                    history_take(room->history, change->author, redo, move, err) &&
+                    room_apply(room, &order, work, err);
+
+    if (ok) {
+        history_put(room->history, change->author, redo, move);
+    }
+    return ok;
+}
+
 enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
                             uint64_t *out_revision, cJSON **out_skipped, struct error *err)
 {
     struct history_move move = {0};
+    struct room_work work = {0};
     enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     *out_skipped = NULL;
@@ -348,10 +367,8 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
         return outcome;
     }
     fallback_before_edit(room, NULL);
-    bool ok = check_open(room, err) && (redo ? history_redo : history_undo)(
-                                           room->history, room->scene, change->author, &move, err);
+    const bool ok = move_step(room, change, redo, &move, &work, err);
     *out_skipped = move.skipped;
-    move.skipped = NULL;
     if (!ok) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
         return ROOM_REFUSED;
@@ -361,12 +378,16 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
                                     .redo = move.redo,
                                     .group = memory_text(""),
                                     .label = memory_text(move.label),
-                                    .inverse = json_print(move.inverse, false)};
-    room_forget_text(room);
-    commit_change(room, change, move.applied, json_print(move.applied, false), &step);
-    history_move_finish(&move);
+                                    .inverse = work.inverse_text};
+    commit_change(room, change, work.applied, work.applied_text, &step);
     *out_revision = room->revision;
+    room_work_finish(room, &work);
     return ROOM_APPLIED;
+}
+
+bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
+{
+    return history_next(room->history, author, redo) > ROOM_LIGHT_OPERATIONS;
 }
 
 static void tell_document(struct room *room, const char *text)

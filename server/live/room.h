@@ -121,6 +121,8 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
  * none. Of ROOM_REFUSED too. The caller frees it. */
 enum room_outcome room_undo(struct room *room, const struct room_change *change, bool redo,
                             uint64_t *out_revision, cJSON **out_skipped, struct error *err);
+/* Whether it would let go of the lock: then only on threads of tasks, as with room_edit. */
+bool room_undo_is_heavy(const struct room *room, const char *author, bool redo);
 /* Puts another document in place; takes `scene` and `text`, which is what it prints as. Returns the
  * one before, to be destroyed; NULL: it is still needed. */
 struct scene *room_replace(struct room *room, struct scene *scene, char *text,

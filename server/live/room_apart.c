@@ -120,29 +120,54 @@ void room_snapshot_soon(struct room *room)
 
 /* --- many operations --- */
 
-static bool apply(struct scene *scene, const struct room_change *change, const cJSON *ops,
-                  struct room_work *out, struct error *err)
+static bool apply_operations(struct scene *scene, const struct room_order *order,
+                             struct room_work *out, struct error *err)
 {
-    if (!edit_apply(scene, ops, &out->applied, &out->inverse, err)) {
+    cJSON *inverse = NULL;
+
+    if (!edit_apply(scene, order->ops, &out->applied, &inverse, err)) {
         return false;
     }
-    out->applied_text = json_print(out->applied, false);
-    out->inverse_text = json_print(out->inverse, false);
-    out->step = history_prepare(&(struct history_entry){.group = change->group,
-                                                        .label = change->label,
+    out->inverse_text = json_print(inverse, false);
+    out->step = history_prepare(&(struct history_entry){.group = order->change->group,
+                                                        .label = order->change->label,
                                                         .applied = out->applied,
-                                                        .inverse = out->inverse});
+                                                        .inverse = inverse});
     return true;
 }
 
+static bool apply_step(struct scene *scene, struct history_move *move, struct room_work *out,
+                       struct error *err)
+{
+    if (!history_apply(move, scene, err)) {
+        return false;
+    }
+    out->inverse_text = json_print(move->inverse, false);
+    out->applied = move->applied;
+    move->applied = NULL;
+    return true;
+}
+
+static bool apply(struct scene *scene, const struct room_order *order, struct room_work *out,
+                  struct error *err)
+{
+    const bool ok = order->move ? apply_step(scene, order->move, out, err)
+                                : apply_operations(scene, order, out, err);
+
+    if (ok) {
+        out->applied_text = json_print(out->applied, false);
+    }
+    return ok;
+}
+
 /* Others may still read the document when the copy is to take its place. */
-static bool apply_to_copy(struct room *room, const struct room_change *change, const cJSON *ops,
-                          struct room_work *out, struct error *err)
+static bool apply_to_copy(struct room *room, const struct room_order *order, struct room_work *out,
+                          struct error *err)
 {
     room_hold(room);
     hub_unlock(room->hub);
     struct scene *copy = scene_copy(room->scene);
-    const bool ok = apply(copy, change, ops, out, err);
+    const bool ok = apply(copy, order, out, err);
     if (!ok) {
         scene_destroy(copy);
     }
@@ -158,12 +183,11 @@ static bool apply_to_copy(struct room *room, const struct room_change *change, c
     return ok;
 }
 
-bool room_apply(struct room *room, const struct room_change *change, const cJSON *ops,
-                struct room_work *out, struct error *err)
+bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
+                struct error *err)
 {
-    const bool ok = cJSON_GetArraySize(ops) > ROOM_LIGHT_OPERATIONS
-                        ? apply_to_copy(room, change, ops, out, err)
-                        : apply(room->scene, change, ops, out, err);
+    const bool ok = order->count > ROOM_LIGHT_OPERATIONS ? apply_to_copy(room, order, out, err)
+                                                         : apply(room->scene, order, out, err);
 
     if (ok) {
         room_forget_text(room);

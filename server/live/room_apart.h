@@ -7,19 +7,27 @@
 
 #include "room.h"
 
-enum { ROOM_LIGHT_OPERATIONS = 256 }; /* of an edit; more are applied to a copy */
+enum { ROOM_LIGHT_OPERATIONS = 256 }; /* of an edit or step; more are applied to a copy */
+
+/* What is to be done: operations, or a step of undo or redo that was taken from the history. */
+struct room_order {
+    const struct room_change *change;
+    const cJSON *ops;
+    struct history_move *move; /* NULL: the operations */
+    size_t count;              /* of operations, in either case */
+};
 
 /* What an edit made. */
 struct room_work {
-    cJSON *applied, *inverse; /* `inverse` is the step's */
-    struct step *step;
+    cJSON *applied;
+    struct step *step; /* of operations */
     char *applied_text, *inverse_text;
     struct scene *before; /* that the copy took the place of; NULL: none did */
 };
 
 /* Nobody may hold the room. With many operations it lets go of the lock. */
-bool room_apply(struct room *room, const struct room_change *change, const cJSON *ops,
-                struct room_work *out, struct error *err);
+bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
+                struct error *err);
 /* Frees what nobody has taken; lets go of the lock if that takes long. */
 void room_work_finish(struct room *room, struct room_work *work);
 /* `text` is what the document prints as now; kept where printing takes long. */

@@ -310,13 +310,25 @@ static bool changes_document(enum message_kind kind)
     return kind == MESSAGE_EDIT || kind == MESSAGE_UNDO || kind == MESSAGE_REDO;
 }
 
-/* A change waits for those who hold the document. False, where it is not a task: it would wait. */
+/* Under the lock: a step of undo or redo that is a task, however short its message is. */
+static bool moves_much(const struct session *session, enum message_kind kind)
+{
+    return (kind == MESSAGE_UNDO || kind == MESSAGE_REDO) && session->room &&
+           room_undo_is_heavy(session->room, session->client, kind == MESSAGE_REDO);
+}
+
+/* A change waits for those who hold the document. False, where it is not a task: it would wait, or
+ * take long. */
 static bool receive_checked(struct session *session, const struct message *message, bool apart)
 {
     struct hub *hub = session->hub;
     bool done = true;
 
     hub_lock(hub);
+    if (!apart && moves_much(session, message->kind)) {
+        session->heavy = true;
+        done = false;
+    }
     while (changes_document(message->kind) && session->room && session->room->holds > 0 && done) {
         done = apart;
         if (apart) {
@@ -407,12 +419,13 @@ void session_receive_apart(struct session *session, const char *scene, char *tex
     snprintf(errand->scene, sizeof(errand->scene), "%s", scene);
     hub_lock(hub);
     session->working = true;
+    const bool heavy = session->heavy || length > SESSION_LIGHT_BYTES;
+    session->heavy = false;
     hub_unlock(hub);
     if (!tasks_add(hub->tasks,
                    &(struct task_order){.scene = scene,
                                         .account = session->id,
-                                        .heavy = length > SESSION_LIGHT_BYTES ||
-                                                 hub_scene_is_heavy(hub, scene),
+                                        .heavy = heavy || hub_scene_is_heavy(hub, scene),
                                         .run = run_errand,
                                         .data = errand},
                    NULL)) {

@@ -35,6 +35,7 @@ struct session {
     struct frames frames;
     uint64_t pick_turn; /* of the picker, when it answered last */
     bool working;       /* a task has a message of it: the session stays until that is done */
+    bool heavy;         /* that message may take long, though it is short */
     bool left;          /* meanwhile its connection has closed */
     int64_t worked_us;  /* what the last task took of a processor */
     int close_code;     /* > 0: close when the outbox is empty, or at once when it is full */

@@ -112,6 +112,29 @@ test('edits of one client stay in order, whatever each takes', async () => {
     await live.close();
 });
 
+test('a small edit does not wait while a step of many operations is taken back or done again', async (t) => {
+    const other = await Live.open(daemon, 'other');
+    const client = 'author-of-much';
+    const author = await Live.open(daemon, 'many', { client });
+    await author.next('applied', { edit: author.change(setAll(0.95)) });
+    await author.close();
+    let first = 0;
+    for (const type of ['undo', 'redo', 'undo', 'redo', 'undo']) {
+        const again = await Live.open(daemon, 'many', { client }); // who has just worked much is not read at once
+        const before = await counter(daemon, 'edits_total');
+        const edit = again.step(type);
+        await other.next('applied', { edit: other.set('/nodes/ball/params/radius', 0.5 + first / 10) });
+        first += (await counter(daemon, 'edits_total')) === before + 1;
+        await again.next('applied', { edit });
+        await again.close();
+    }
+    t.diagnostic(`the small edit was first ${first} times of 5`);
+    assert.ok(first >= 3, `first ${first} times`);
+    const { root } = await ask(daemon, 'GET', '/v1/scenes/many');
+    assert.ok(root.children.every(({ params }) => params?.radius !== 0.95));
+    await other.close();
+});
+
 test('all or none of many operations are applied', async () => {
     const live = await Live.open(daemon, 'many');
     const { revision } = live.welcome;
