@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <microhttpd.h>
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,14 @@ struct field_check {
     bool ok;
 };
 
+/* libmicrohttpd puts a line that continues a field behind the field's name, in a copy at the end of
+ * its memory, and leaves the value where it was: "Content-Length: 3" with " 0" below is another
+ * field, and the body would be read as the next request. */
+static bool is_folded(const char *name, size_t name_length, const char *value)
+{
+    return value && (uintptr_t)value < (uintptr_t)(name + name_length);
+}
+
 static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const char *name,
                                    size_t name_length, const char *value, size_t value_length)
 {
@@ -33,6 +42,10 @@ static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const ch
     (void)kind;
     check->ok =
         head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
+    if (check->ok && is_folded(name, name_length, value)) {
+        check->fault = (struct head_fault){400, "a header is folded over lines"};
+        check->ok = false;
+    }
     for (int i = 0; i < SINGLE_COUNT && check->ok; i++) {
         if (strcasecmp(name, single[i]) != 0) {
             continue;

@@ -109,7 +109,7 @@ describe('heads', () => {
     for (const [where, before] of [['first', ''], ['second', get()]]) {
         test(`white space around values is no part of them, in the ${where} request`, async () => {
             const body = '{"from":"example:first-steps"}';
-            const post = `POST /v1/scenes HTTP/1.1\r\nHost:\t localhost \t\r\nX: \t a b \t\r\nContent-Type:application/json\t\r\nContent-Length:\t${body.length}\r\n\r\n${body}`;
+            const post = `POST /v1/scenes HTTP/1.1\r\nHost:\t localhost \t\r\nX: \t a b \t\r\nNone:\r\nBlank: \t\r\nContent-Type:application/json\t\r\nContent-Length:\t${body.length}\r\n\r\n${body}`;
             assert.equal((await statuses(before + post, before ? 2 : 1)).at(-1), 201);
         });
     }
@@ -162,6 +162,16 @@ const malformed = {
     'a header without colon': [400, get('Nonsense\r\n')],
     'a header without name': [400, get(': x\r\n')],
     'a folded header': [400, get('X: a\r\n b\r\n')],
+    'a folded length': [400, get('Content-Length: 3\r\n 0\r\n') + get()],
+    'a length in the fold': [400, get('Content-Length:\r\n\t30\r\n') + get()],
+    'a folded coding': [400, get('Transfer-Encoding:\r\n chunked\r\n') + '0\r\n\r\n'],
+    'a fold of blanks': [400, get('X: a\r\n \t\r\n')],
+    'a line of blanks first': [400, 'GET / HTTP/1.1\r\n \r\nHost: localhost\r\n\r\n'],
+    'a tab in the request line': [400, 'GET\t/ HTTP/1.1\r\nHost: localhost\r\n\r\n'],
+    'a blank behind the version': [400, 'GET / HTTP/1.1 \r\nHost: localhost\r\n\r\n'],
+    'a blank before the method': [400, ' GET / HTTP/1.1\r\nHost: localhost\r\n\r\n'],
+    'a Host of blanks': [400, 'GET / HTTP/1.1\r\nHost: \t \r\n\r\n'],
+    'a length of blanks': [400, get('Content-Length: \t\r\n')],
     'a fold first': [400, 'GET / HTTP/1.1\r\n Host: localhost\r\n\r\n'],
     'NUL in a header': [400, get('X: a\0b\r\n')],
     'NUL in a name': [400, get('X\0: a\r\n')],
@@ -195,8 +205,10 @@ describe('malformed', () => {
         });
     }
 
-    // The second request of a connection is parsed by libmicrohttpd; it must not get farther.
-    for (const name of ['Host twice', 'two lengths', 'length and chunked', 'unknown coding']) {
+    // The second request of a connection is parsed by libmicrohttpd; it must not get farther, and what
+    // would be its body is no third one.
+    const later = ['Host twice', 'two lengths', 'length and chunked', 'unknown coding', 'a tab behind the coding', 'a blank before the colon'];
+    for (const name of [...later, 'a folded header', 'a folded length', 'a length in the fold', 'a folded coding', 'a fold of blanks']) {
         test(`${name}, as the second request`, async () => {
             const peer = connect();
             peer.socket.write(Buffer.from(get() + malformed[name][1], 'latin1'));
