@@ -15,6 +15,7 @@ const struct record_type delivery_type = {"delivery", "How a picture comes to wh
     {"in_rounds", PARAM_BOOL, .doc = "Several pictures, of ever more samples."},
     {"chroma_halved", PARAM_BOOL, .doc = "JPEG with a quarter of the colours."},
     {"fast", PARAM_BOOL, .doc = "PNG that is quick to write."},
+    {"key", PARAM_BOOL, .doc = "Decodes without earlier pictures of the stream."},
     {"zipped", PARAM_BOOL, .doc = "A ZIP also of one picture."},
     {.name = NULL}}};
 /* clang-format on */

@@ -20,7 +20,8 @@ struct render_request {
 /* Switches of the way from the renderer to who asked; nobody outside can set them:
  * `exact`: wait for the newest revision's shader, else draw the newest drawable state;
  * `in_rounds`: of ever more samples, each a whole picture;
- * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one. */
+ * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one;
+ * `key`: it decodes without earlier pictures of the stream. */
 extern const struct record_type delivery_type;
 
 /* A colour picture of the usual size, PNG. */

@@ -24,7 +24,7 @@ struct rows {
 
 struct work {
     struct encoding result; /* the first member: what the owner holds */
-    struct picture_file *file;
+    struct stream_encoder *stream;
     FILE *out; /* into `bytes` */
     char *bytes;
     size_t length;
@@ -113,7 +113,7 @@ static bool encode_slice(struct work *work, struct rows *rows)
     const struct image slice = slice_of(rows);
 
     rows->taken += slice.height;
-    return picture_file_add(work->file, rows->aov, &slice, &work->result.error);
+    return stream_encoder_add(work->stream, rows->aov, &slice, &work->result.error);
 }
 
 static void wake_owner(const struct encoder *encoder)
@@ -148,7 +148,8 @@ static void encode(struct encoder *encoder, struct work *work)
     if (wanted && rows) {
         work->failed = !encode_slice(work, rows);
     } else if (wanted) {
-        work->result.ok = picture_file_end(work->file, &work->result.error);
+        work->result.ok =
+            stream_encoder_end(work->stream, &work->result.packet, &work->result.error);
     }
     work->result.encode_us += (uint32_t)(now_us() - start);
     pthread_mutex_lock(&encoder->lock);
@@ -217,7 +218,8 @@ void encoder_destroy(struct encoder *encoder)
     free(encoder);
 }
 
-struct encoding *encoder_begin(struct encoder *encoder, const struct image shapes[AOV_COUNT],
+struct encoding *encoder_begin(struct encoder *encoder, struct stream_encoder *stream,
+                               const struct image shapes[AOV_COUNT],
                                const struct encode_params *params, int priority, void *data,
                                struct error *err)
 {
@@ -227,12 +229,11 @@ struct encoding *encoder_begin(struct encoder *encoder, const struct image shape
     if (!work->out) {
         abort();
     }
-    work->file = picture_file_create(shapes, params, work->out, err);
-    if (!work->file) {
+    work->stream = stream;
+    if (!stream_encoder_begin(stream, shapes, params, work->out, err)) {
         encoding_destroy(&work->result);
         return NULL;
     }
-    work->result.codec = picture_file_codec(work->file);
     work->result.priority = priority;
     work->result.data = data;
     pthread_mutex_lock(&encoder->lock);
@@ -312,7 +313,6 @@ void encoding_destroy(struct encoding *encoding)
     while (work->rows) {
         drop_rows(work);
     }
-    picture_file_destroy(work->file);
     if (work->out) {
         fclose(work->out);
     }

@@ -5,15 +5,16 @@
 #define RENDERER_ENCODER_H
 
 #include "renderer/renderer.h"
+#include "stream_encoder.h"
 
 struct encoder;
 
 /* A picture being encoded. It belongs to the encoder until encoder_take gives it back. */
 struct encoding {
-    int priority; /* the lowest goes first, then the oldest */
-    void *data;   /* the owner's */
-    enum codec codec;
-    bool ok; /* else `error` says why, or nobody wanted it */
+    int priority;                /* the lowest goes first, then the oldest */
+    void *data;                  /* the owner's */
+    struct stream_packet packet; /* where it is ok */
+    bool ok;                     /* else `error` says why, or nobody wanted it */
     uint8_t *bytes;
     size_t length;
     uint32_t encode_us;
@@ -24,9 +25,11 @@ struct encoding {
 struct encoder *encoder_create(int wake_fd, struct error *err);
 /* Drops all pictures, their `data` excepted, which is not freed. */
 void encoder_destroy(struct encoder *encoder);
-/* Begins the picture of these outputs (job_image_shape). NULL and `err` where the format cannot
- * hold them. */
-struct encoding *encoder_begin(struct encoder *encoder, const struct image shapes[AOV_COUNT],
+/* Begins the next picture of a stream, of these outputs (job_image_shape). The stream stays the
+ * caller's, who leaves it alone until encoder_take has given the picture back. NULL and `err` where
+ * the format cannot hold them. */
+struct encoding *encoder_begin(struct encoder *encoder, struct stream_encoder *stream,
+                               const struct image shapes[AOV_COUNT],
                                const struct encode_params *params, int priority, void *data,
                                struct error *err);
 /* The next rows of an output; takes them. */

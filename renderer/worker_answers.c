@@ -124,7 +124,8 @@ void worker_send_frame(struct worker *w, const struct task *task)
                                               .rounds = task->rounds,
                                               .width = task->width,
                                               .height = task->height,
-                                              .codec = encoding->codec,
+                                              .codec = encoding->packet.codec,
+                                              .key = encoding->packet.key,
                                               .times = task->times},
                                     .payload = encoding->bytes,
                                     .payload_length = encoding->length});

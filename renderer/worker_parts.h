@@ -25,6 +25,7 @@ struct task {
     struct turn *turn; /* its account's */
     struct job *job;   /* NULL once it is drawn, or given up */
     struct encode_params encode;
+    struct stream_encoder *stream; /* of its rounds */
     struct encoding *encoding;
     bool between; /* a round is drawn and being encoded; there are more */
     bool newest;

@@ -28,6 +28,7 @@ void worker_drop_task(struct worker *w, struct task **at)
     *at = gone->next;
     turns_leave(&w->turns, gone->turn);
     job_destroy(gone->job);
+    stream_encoder_close(gone->stream);
     free(gone->scene);
     free(gone);
 }
@@ -41,7 +42,8 @@ static bool begin_encoding(struct worker *w, struct task *task, struct error *er
         task->width = shapes[i].width ? shapes[i].width : task->width;
         task->height = shapes[i].width ? shapes[i].height : task->height;
     }
-    task->encoding = encoder_begin(w->encoder, shapes, &task->encode, task->priority, task, err);
+    task->encoding =
+        encoder_begin(w->encoder, task->stream, shapes, &task->encode, task->priority, task, err);
     return task->encoding;
 }
 
@@ -58,6 +60,10 @@ static bool begin_task(struct worker *w, const struct packet_render *packet, str
     desc.careful = packet->careful;
     desc.patience = packet->patience;
     task->encode = encode_params_of(packet->request);
+    task->stream = stream_encoder_open(&picture_stream);
+    if (render_request_is(packet->request, "key")) {
+        stream_encoder_ask_key(task->stream);
+    }
     task->encode.limit_bytes = LIMIT_IMAGE_BYTES;
     task->job = job_create(held->resident, &desc, err);
     if (!task->job) {

@@ -141,6 +141,7 @@ struct packet_frame {
     struct picture_rounds rounds;
     int width, height;
     enum codec codec;
+    bool key; /* it decodes without earlier ones */
     struct job_times times;
 };
 

@@ -47,14 +47,13 @@ struct level_rule {
 };
 
 static const struct level_rule level_rules[] = {
-    [FRAMES_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0,
-                       FRAME_KEY},
+    [FRAMES_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0, 0},
     [FRAMES_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false,
-                       FRAMES_STILL_MS, FRAME_KEY},
+                       FRAMES_STILL_MS, 0},
     [FRAMES_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
-                      FRAMES_STILL_MS, FRAME_KEY | FRAME_STILL},
+                      FRAMES_STILL_MS, FRAME_STILL},
     [FRAMES_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, FRAMES_LOSSLESS_MS,
-                         FRAME_KEY | FRAME_STILL | FRAME_LOSSLESS},
+                         FRAME_STILL | FRAME_LOSSLESS},
 };
 
 void frames_init(struct frames *frames)
@@ -327,15 +326,22 @@ static void take_flight(struct frames *frames, uint32_t number)
     }
 }
 
+static uint8_t flags_of(const struct frames *frames, const struct packet_frame *frame, bool newest)
+{
+    const uint8_t flags = level_rules[frames->job_level].flags;
+
+    return (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (frame->key ? FRAME_KEY : 0) |
+           (newest ? 0 : FRAME_STALE);
+}
+
 static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
                                      bool newest)
 {
     struct frames *frames = &session->frames;
     const struct packet_frame *frame = answer->frame;
-    const uint8_t flags = level_rules[frames->job_level].flags;
     struct frame_header header = {
         .codec = frame->codec,
-        .flags = (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (newest ? 0 : FRAME_STALE),
+        .flags = flags_of(frames, frame, newest),
         .number = ++frames->last_number,
         .payload_bytes = (uint32_t)answer->length,
         .revision = frame->revision,
@@ -372,7 +378,9 @@ static void send_frame(struct session *session, const struct picture_answer *ans
         free_flight(frames, given_up);
         metric_add(&session->hub->metrics, METRIC_FRAMES_DROPPED, 1);
     }
-    take_flight(frames, header.number);
+    if (given_up != header.number) {
+        take_flight(frames, header.number);
+    }
     frames->stale = !newest;
     frames->revision = revision;
     session->wake(session->connection);
@@ -408,6 +416,8 @@ static void on_round(void *data, const struct picture_answer *answer)
     if (has_credit(&session->frames, clock_ms()) &&
         line_is_free(session, session->frames.job_level)) {
         send_frame(session, answer);
+    } else {
+        outbox_skip(&session->outbox);
     }
 }
 
@@ -446,6 +456,7 @@ static void make_request(struct session *session, const struct frames_view *view
     record_put(delivery, "fast", true);
     record_put(delivery, "exact", rule->exact);
     record_put(delivery, "in_rounds", level == FRAMES_LOSSLESS);
+    record_put(delivery, "key", outbox_wants_key(&session->outbox));
     out->codec = may_be_jpeg(session, picture) ? rule->codec : CODEC_PNG;
 }
 

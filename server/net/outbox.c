@@ -83,14 +83,29 @@ bool outbox_text(struct outbox *outbox, struct blob *text)
     return true;
 }
 
+void outbox_skip(struct outbox *outbox)
+{
+    outbox->linked = false;
+}
+
+bool outbox_wants_key(const struct outbox *outbox)
+{
+    return !outbox->linked;
+}
+
 uint32_t outbox_frame(struct outbox *outbox, const struct frame_header *header,
                       struct blob *payload)
 {
     struct outbox_frame *slot = &outbox->current;
+    const bool key = header->flags & FRAME_KEY;
 
     /* A begun moving frame is finished: on a slow line nothing would ever arrive otherwise. */
     if (slot->payload && slot->begun && slot->precious) {
         slot = &outbox->next;
+    }
+    outbox->linked = key || (outbox->linked && !slot->payload);
+    if (!outbox->linked) {
+        return header->number;
     }
     uint32_t given_up = slot->payload ? slot->number : 0;
     frame_clear(slot);

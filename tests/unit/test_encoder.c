@@ -19,6 +19,8 @@ enum { WIDTH = 640, HEIGHT = 90, BAND = 30 };
 
 static int wake_fd;
 static struct encoder *encoder;
+static struct stream_encoder *streams[2]; /* of the pictures that were begun */
+static int stream_count;
 
 static int start(void **state)
 {
@@ -32,6 +34,9 @@ static int stop(void **state)
 {
     (void)state;
     encoder_destroy(encoder);
+    while (stream_count > 0) {
+        stream_encoder_close(streams[--stream_count]);
+    }
     close(wake_fd);
     return 0;
 }
@@ -54,7 +59,8 @@ static struct encoding *begin(const struct image *image, const struct encode_par
 {
     struct image shapes[AOV_COUNT] = {[AOV_COLOR] = *image};
     struct error err = {0};
-    struct encoding *encoding = encoder_begin(encoder, shapes, params, 0, NULL, &err);
+    struct stream_encoder *stream = streams[stream_count++] = stream_encoder_open(&picture_stream);
+    struct encoding *encoding = encoder_begin(encoder, stream, shapes, params, 0, NULL, &err);
 
     if (!encoding) {
         fail_msg("%s", err.message);

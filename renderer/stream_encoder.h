@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* An encoder of pictures that follow each other, beside that of single ones (image/encode.h): a
+ * picture may be told as what has changed since the one before. Those that hold no earlier
+ * pictures are streams too, of keys alone.
+ *
+ * A picture comes as rows, so that a large one needs no memory. Touches no GL; one thread at a
+ * time. */
+#ifndef RENDERER_STREAM_ENCODER_H
+#define RENDERER_STREAM_ENCODER_H
+
+#include "renderer/image/image.h"
+
+/* What is said of the bytes of a picture. */
+struct stream_packet {
+    enum codec codec;
+    bool key; /* it decodes alone; else with all since the last key */
+};
+
+/* `begin` takes a picture of these outputs, the last one's rows all in or given up, and writes it
+ * to `out`; with `key` it may use no earlier one. Each fails as image/encode.h has it. */
+struct stream_class {
+    void *(*open)(void);
+    bool (*begin)(void *state, const struct image shapes[AOV_COUNT],
+                  const struct encode_params *params, bool key, FILE *out, struct error *err);
+    bool (*add)(void *state, enum aov aov, const struct image *rows, struct error *err);
+    bool (*end)(void *state, struct stream_packet *out, struct error *err);
+    void (*close)(void *state);
+};
+/* The files of image.h, one a picture. */
+extern const struct stream_class picture_stream;
+
+struct stream_encoder;
+
+struct stream_encoder *stream_encoder_open(const struct stream_class *class);
+/* The next picture shall be a key, as the first one is. */
+void stream_encoder_ask_key(struct stream_encoder *stream);
+/* `out` stays the caller's. What was begun before and not ended is given up, and this is a key. */
+bool stream_encoder_begin(struct stream_encoder *stream, const struct image shapes[AOV_COUNT],
+                          const struct encode_params *params, FILE *out, struct error *err);
+bool stream_encoder_add(struct stream_encoder *stream, enum aov aov, const struct image *rows,
+                        struct error *err);
+/* When all rows of all outputs were added. */
+bool stream_encoder_end(struct stream_encoder *stream, struct stream_packet *out,
+                        struct error *err);
+void stream_encoder_close(struct stream_encoder *stream); /* NULL: nothing */
+
+#endif
