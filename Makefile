@@ -84,9 +84,9 @@ glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
 examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg \
                                $(S)/protocol/examples/assets/* $(S)/protocol/reference/*.jpg))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
-# What is embedded: C by deploy/embed.sh, for renderer/glsl/files.h and server/rest/embedded.h.
+# What is embedded: C by deploy/embed.sh, for renderer/glsl/files.h and server/embedded.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl/files.h),$(OUT)/generated/glsl.o) \
-            $(if $(wildcard $(S)/server/rest/embedded.h),$(OUT)/generated/embedded.o)
+            $(if $(wildcard $(S)/server/embedded.h),$(OUT)/generated/embedded.o)
 objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
 library := $(OUT)/libfieldcast.a
 

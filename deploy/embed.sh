@@ -102,7 +102,7 @@ digests() {
 }
 
 embedded() {
-    echo '#include "server/rest/embedded.h"'
+    echo '#include "server/embedded.h"'
     page "$1" "$2" | table page page_
     files "$1/protocol/examples" json | LC_ALL=C sort | table examples example_
     digests "$1/protocol/examples/assets" | LC_ALL=C sort | table example_files example_file_

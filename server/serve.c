@@ -14,9 +14,11 @@
 #include "log.h"
 #include "protocol/memory.h"
 #include "server/live/hub.h"
+#include "server/live/session.h"
 #include "server/net/acceptor.h"
 #include "server/net/http.h"
 #include "server/net/ws.h"
+#include "server/rest/routes.h"
 
 enum {
     DRAIN_SECONDS = 8,
@@ -128,6 +130,42 @@ static bool check_bind(const char *address, const char *token, struct error *err
                      address);
 }
 
+/* What the adapters to the two libraries know of who is behind them. */
+static bool start_net(struct server *server, struct error *err)
+{
+    struct hub *hub = server->hub;
+    const struct http_app http = {
+        .routes = &routes,
+        .access = &hub->access,
+        .metrics = &hub->metrics,
+        .tasks = hub->tasks,
+        .draining = &hub->draining,
+        .hub = hub,
+        .lock = hub_lock,
+        .unlock = hub_unlock,
+        .scene_is_heavy = hub_scene_is_heavy,
+    };
+    const struct ws_app ws = {
+        .hub = hub,
+        .metrics = &hub->metrics,
+        .lock = hub_lock,
+        .unlock = hub_unlock,
+        .open = session_create,
+        .leave = session_leave,
+        .receive = session_receive,
+        .receive_apart = session_receive_apart,
+        .is_done = session_is_done,
+        .tell_rest = session_tell_rest,
+        .said_hello = session_said_hello,
+        .next = session_next,
+        .close = session_close,
+    };
+
+    hub->ws = server->ws = ws_create(&ws, err);
+    server->http = server->ws ? http_create(&http, err) : NULL;
+    return server->http != NULL;
+}
+
 static bool start(struct server *server, const struct serve_params *params, const char *address,
                   struct error *err)
 {
@@ -146,11 +184,7 @@ static bool start(struct server *server, const struct serve_params *params, cons
 
     build_worker_argv(params, server->worker_argv);
     if (!check_bind(address, params->token, err) || !(server->hub = hub_create(&hub, err)) ||
-        !(server->ws = ws_create(server->hub, err))) {
-        return false;
-    }
-    server->hub->ws = server->ws;
-    if (!(server->http = http_create(server->hub, err))) {
+        !start_net(server, err)) {
         return false;
     }
     struct acceptor_events events = {

@@ -6,7 +6,7 @@
 #include <cjson/cJSON.h>
 
 #include "drawing.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 
 /* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);

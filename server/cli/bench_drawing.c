@@ -13,7 +13,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "server/clock.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 
 enum { FIRST_SIDE = 64 };
 

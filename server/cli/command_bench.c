@@ -7,7 +7,7 @@
 #include "command.h"
 #include "protocol/json.h"
 #include "server/clock.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 
 static int by_value(const void *a, const void *b)
 {

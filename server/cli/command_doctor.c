@@ -16,7 +16,7 @@
 #include "drawing.h"
 #include "protocol/memory.h"
 #include "renderer/worker.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 #include "server/store/store.h"
 
 enum { DEVICES_MAX = 16 };

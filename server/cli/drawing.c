@@ -10,7 +10,7 @@
 #include "protocol/memory.h"
 #include "protocol/nearest.h"
 #include "server/digest.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 
 static void print_line(void *data, const char *line)
 {

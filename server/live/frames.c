@@ -506,7 +506,7 @@ int64_t frames_pump(struct session *session, int64_t now_ms)
         level = FRAMES_STILL;
     }
     if (!line_is_free(session, level)) {
-        return 0; /* session_frame_written wakes */
+        return 0; /* session_next wakes */
     }
     int64_t due = frames->changed_at + level_rules[level].after_ms;
     if (now_ms < due) {

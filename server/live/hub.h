@@ -15,15 +15,15 @@
 #include "catalog.h"
 #include "compiles.h"
 #include "picker.h"
+#include "pictures.h"
 #include "protocol/scene.h"
 #include "quarantine.h"
 #include "renders.h"
 #include "server/metrics.h"
 #include "server/net/access.h"
-#include "server/rest/pictures.h"
 #include "server/store/store.h"
+#include "server/tasks.h"
 #include "supervisor.h"
-#include "tasks.h"
 #include "uploads.h"
 
 struct room;

@@ -142,12 +142,35 @@ void session_tell_durable(struct session *session, int64_t edit, uint64_t revisi
     say_edit_state(session, edit, revision, NULL);
 }
 
-void session_frame_written(struct session *session, uint32_t frame, size_t bytes)
+/* A frame was handed to the socket completely. */
+static void count_frame(struct session *session, size_t bytes)
 {
-    (void)frame;
     metric_add(&session->hub->metrics, METRIC_FRAMES_SENT, 1);
     metric_add(&session->hub->metrics, METRIC_FRAME_BYTES, (int64_t)bytes);
     supervisor_wake(session->hub->supervisor);
+}
+
+bool session_next(struct session *session, uint8_t *out, struct outbox_piece *piece, int *out_code)
+{
+    if (session->close_now || !outbox_next(&session->outbox, out, piece)) {
+        *out_code = session->close_code;
+        return false;
+    }
+    if (piece->frame_done) {
+        count_frame(session, piece->frame_bytes);
+    }
+    return true;
+}
+
+bool session_is_done(const struct session *session, int64_t *out_worked_us)
+{
+    *out_worked_us = session->worked_us;
+    return !session->working;
+}
+
+bool session_said_hello(const struct session *session)
+{
+    return session->client[0];
 }
 
 void session_tell_rest(struct session *session, int wait_ms)

@@ -6,18 +6,11 @@
 
 #include "frames.h"
 #include "server/net/outbox.h"
+#include "server/net/ws.h"
 
 struct author;
 struct hub;
 struct room;
-
-enum {
-    CLOSE_NORMAL = 1000, /* RFC 6455, 7.4.1 */
-    CLOSE_GOING_AWAY = 1001,
-    CLOSE_POLICY = 1008,
-    CLOSE_TOO_BIG = 1009,
-    CLOSE_TRY_LATER = 1013,
-};
 
 enum { SESSION_LIGHT_BYTES = 8192 }; /* of a message; a longer one is a task */
 
@@ -57,8 +50,10 @@ void session_receive_apart(struct session *session, const char *scene, char *tex
 void session_leave(struct session *session);
 /* Its messages took much time: none is read for so long. */
 void session_tell_rest(struct session *session, int wait_ms);
-/* `frame` was handed to the socket completely. */
-void session_frame_written(struct session *session, uint32_t frame, size_t bytes);
+/* For ws.c, as struct ws_app has them. */
+bool session_is_done(const struct session *session, int64_t *out_worked_us);
+bool session_said_hello(const struct session *session);
+bool session_next(struct session *session, uint8_t *out, struct outbox_piece *piece, int *out_code);
 
 void session_say(struct session *session, struct blob *message);  /* takes the reference */
 void session_send(struct session *session, struct blob *message); /* borrows it */

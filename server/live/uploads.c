@@ -7,7 +7,7 @@
 
 #include "hub.h"
 #include "protocol/memory.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 
 void uploads_add(void *data, const struct store_asset *asset)
 {

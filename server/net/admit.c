@@ -12,8 +12,8 @@
 
 #include "access.h"
 #include "head.h"
-#include "server/live/hub.h"
-#include "server/rest/routes.h"
+#include "http.h"
+#include "route.h"
 
 /* --- framing --- */
 
@@ -146,7 +146,8 @@ static bool is_navigation(const struct request *request)
     return mode && strcmp(mode, "navigate") == 0 && dest && strcmp(dest, "document") == 0;
 }
 
-static bool check_access(const struct request *request, bool open, bool page, struct response *out)
+static bool check_access(const struct access *access, const struct request *request, bool open,
+                         bool page, struct response *out)
 {
     struct access_request values = {
         .host = request_header(request, "Host"),
@@ -157,7 +158,7 @@ static bool check_access(const struct request *request, bool open, bool page, st
         .to_page = page && is_navigation(request),
     };
     struct error err = {0};
-    int status = access_check(&request->hub->access, &values, open, &err);
+    int status = access_check(access, &values, open, &err);
 
     if (status) {
         *out = response_problem(status, status == 401 ? "unauthorized" : error_kind_name(err.kind),
@@ -178,8 +179,8 @@ static struct response preflight(void)
     return response;
 }
 
-bool admit_request(struct request *request, const char *target, const struct route **out_route,
-                   struct response *out)
+bool admit_request(const struct http_app *app, struct request *request, const char *target,
+                   const struct route **out_route, struct response *out)
 {
     struct error err = {0};
 
@@ -188,13 +189,13 @@ bool admit_request(struct request *request, const char *target, const struct rou
         *out = response_problem(400, "syntax", err.place, err.message);
         return false;
     }
-    const struct route *route = routes_find(request, out);
+    const struct route *route = route_find(app->routes, request, out);
     *out_route = route;
     bool is_preflight = strcmp(request->method, "OPTIONS") == 0 &&
                         request_header(request, "Origin") &&
                         request_header(request, "Access-Control-Request-Method");
     struct response refusal;
-    if (!check_access(request, is_preflight || (route && route->access != GUARDED),
+    if (!check_access(app->access, request, is_preflight || (route && route->access != GUARDED),
                       route && route->access == PAGE, &refusal)) {
         if (!route) {
             free(out->body);
@@ -210,7 +211,7 @@ bool admit_request(struct request *request, const char *target, const struct rou
     if (!route) {
         return false;
     }
-    if (atomic_load(&request->hub->draining) && route->access == GUARDED) {
+    if (atomic_load(app->draining) && route->access == GUARDED) {
         *out = response_problem(503, "unavailable", "", "the server is shutting down");
         return false;
     }

@@ -9,6 +9,7 @@
 #include "request.h"
 
 struct MHD_Connection;
+struct http_app;
 struct route;
 
 /* Both: false, and `*out` is the answer. */
@@ -16,8 +17,8 @@ bool admit_framing(const struct request *request, struct MHD_Connection *connect
                    const char *version, struct response *out);
 /* `target` may be NULL, which is refused. `*out_route` is set for refused requests too, NULL where
  * there is none: how much of a body is read away depends on it. */
-bool admit_request(struct request *request, const char *target, const struct route **out_route,
-                   struct response *out);
+bool admit_request(const struct http_app *app, struct request *request, const char *target,
+                   const struct route **out_route, struct response *out);
 
 /* `route` may be NULL. */
 size_t admit_body_limit(const struct route *route);

@@ -16,11 +16,12 @@
 #include "body.h"
 #include "protocol/memory.h"
 #include "request.h"
+#include "route.h"
 #include "safety.h"
 #include "server/clock.h"
-#include "server/live/hub.h"
 #include "server/log.h"
-#include "server/rest/routes.h"
+#include "server/metrics.h"
+#include "server/tasks.h"
 
 enum { BODY_PATIENCE = 3 }; /* times the limit that are read before the connection is cut */
 
@@ -53,7 +54,7 @@ struct exchange {
 };
 
 struct http {
-    struct hub *hub;
+    struct http_app app;
     struct MHD_Daemon *daemon;
     int gone_epoll;
     atomic_int connections, pending;
@@ -180,7 +181,7 @@ void http_check_gone(struct http *http)
     struct exchange *gone[16];
     int count = 0;
 
-    hub_lock(http->hub);
+    http->app.lock(http->app.hub);
     pthread_mutex_lock(&http->lock);
     int found = epoll_wait(http->gone_epoll, events, 16, 0);
     for (int i = 0; i < found; i++) {
@@ -194,7 +195,7 @@ void http_check_gone(struct http *http)
     for (int i = 0; i < count; i++) {
         gone[i]->gone(gone[i]->gone_data);
     }
-    hub_unlock(http->hub);
+    http->app.unlock(http->app.hub);
 }
 
 /* --- libmicrohttpd's callbacks --- */
@@ -243,7 +244,7 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
     exchange->connection = connection;
     exchange->target = target ? memory_text(target) : NULL;
     exchange->body.bodies = &http->bodies;
-    exchange->request.hub = http->hub;
+    exchange->request.hub = http->app.hub;
     exchange->request.header = find_header;
     read_address(connection, exchange->request.client);
     exchange->started_us = clock_us();
@@ -252,12 +253,12 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
 
 static enum MHD_Result queue_reply(struct exchange *exchange)
 {
-    struct hub *hub = exchange->http->hub;
+    struct metrics *metrics = exchange->http->app.metrics;
     enum MHD_Result result =
         MHD_queue_response(exchange->connection, (unsigned)exchange->status, exchange->response);
 
-    metric_add(&hub->metrics, METRIC_HTTP_REQUESTS, 1);
-    metric_add(&hub->metrics, METRIC_HTTP_ERRORS, exchange->status >= 400);
+    metric_add(metrics, METRIC_HTTP_REQUESTS, 1);
+    metric_add(metrics, METRIC_HTTP_ERRORS, exchange->status >= 400);
     log_debug("http", "%s %s %d %lld us", exchange->request.method,
               exchange->request.path ? exchange->request.path : "?", exchange->status,
               (long long)(clock_us() - exchange->started_us));
@@ -334,17 +335,17 @@ static void run_handler(void *data, bool dropped)
 
 static void hand_over(struct exchange *exchange)
 {
-    struct hub *hub = exchange->http->hub;
+    const struct http_app *app = &exchange->http->app;
     const bool named = exchange->route->scene == SCENE_NAMED;
     const char *id = named ? exchange->request.capture[0] : "";
     struct error err = {0};
 
     exchange->handling = true;
-    if (!tasks_add(hub->tasks,
+    if (!tasks_add(app->tasks,
                    &(struct task_order){.scene = id,
                                         .account = exchange->request.client,
                                         .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
-                                                 (named && hub_scene_is_heavy(hub, id)),
+                                                 (named && app->scene_is_heavy(app->hub, id)),
                                         .bounded = true,
                                         .run = run_handler,
                                         .data = exchange},
@@ -384,7 +385,8 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
     if (!admit_framing(&exchange->request, exchange->connection, version, &response)) {
         return answer_now(exchange, &response);
     }
-    if (admit_request(&exchange->request, exchange->target, &exchange->route, &response)) {
+    if (admit_request(&exchange->http->app, &exchange->request, exchange->target, &exchange->route,
+                      &response)) {
         const uint64_t announced = admit_announced_bytes(&exchange->request);
 
         exchange->body.most = announced ? (size_t)announced : body_limit(exchange);
@@ -479,11 +481,11 @@ __attribute__((format(printf, 2, 0))) static void on_log(void *data, const char 
 
 /* --- life --- */
 
-struct http *http_create(struct hub *hub, struct error *err)
+struct http *http_create(const struct http_app *app, struct error *err)
 {
     struct http *http = memory_alloc(1, sizeof(*http));
 
-    http->hub = hub;
+    http->app = *app;
     pthread_mutex_init(&http->lock, NULL);
     http->gone_epoll = epoll_create1(EPOLL_CLOEXEC);
     http->daemon = MHD_start_daemon(

@@ -16,9 +16,8 @@
 #include "protocol/memory.h"
 #include "protocol/utf8.h"
 #include "server/clock.h"
-#include "server/live/hub.h"
-#include "server/live/session.h"
 #include "server/log.h"
+#include "server/metrics.h"
 #include "workload.h"
 
 enum {
@@ -53,7 +52,7 @@ struct link {
 };
 
 struct ws {
-    struct hub *hub;
+    struct ws_app app;
     struct lws_context *context;
     struct lws_vhost *vhost;
     pthread_t thread;
@@ -171,24 +170,24 @@ static void on_gone(struct ws *ws, struct link *link)
 
 static void on_established(struct link *link)
 {
-    struct hub *hub = link->ws->hub;
+    const struct ws_app *app = &link->ws->app;
 
-    hub_lock(hub);
-    link->session = session_create(hub, wake, link);
-    hub_unlock(hub);
+    app->lock(app->hub);
+    link->session = app->open(app->hub, wake, link);
+    app->unlock(app->hub);
     lws_set_timer_usecs(link->wsi, (lws_usec_t)HELLO_SECONDS * LWS_USEC_PER_SEC);
 }
 
 static void on_closed(struct link *link)
 {
-    struct hub *hub = link->ws->hub;
+    const struct ws_app *app = &link->ws->app;
 
-    hub_lock(hub);
+    app->lock(app->hub);
     if (link->session) {
-        session_leave(link->session);
+        app->leave(link->session);
     }
     link->session = NULL;
-    hub_unlock(hub);
+    app->unlock(app->hub);
 }
 
 static int close_with(struct link *link, int code)
@@ -214,16 +213,16 @@ static void keep_bytes(struct link *link, const char *bytes, size_t length)
 /* Who has worked much is not read for as long. */
 static void rest(struct link *link, int64_t rest_us)
 {
-    struct hub *hub = link->ws->hub;
+    const struct ws_app *app = &link->ws->app;
 
     link->resting = true;
     lws_rx_flow_control(link->wsi, 0);
     lws_set_timer_usecs(link->wsi, (lws_usec_t)rest_us);
-    metric_add(&hub->metrics, METRIC_RESTS, 1);
+    metric_add(app->metrics, METRIC_RESTS, 1);
     if (rest_us >= REST_TOLD_US) {
-        hub_lock(hub);
-        session_tell_rest(link->session, (int)(rest_us / 1000));
-        hub_unlock(hub);
+        app->lock(app->hub);
+        app->tell_rest(link->session, (int)(rest_us / 1000));
+        app->unlock(app->hub);
     }
 }
 
@@ -242,20 +241,20 @@ static void give_away(struct link *link)
     link->apart = true;
     lws_rx_flow_control(link->wsi, 0);
     lws_set_timer_usecs(link->wsi, (lws_usec_t)APART_SECONDS * LWS_USEC_PER_SEC);
-    session_receive_apart(link->session, link->scene, link->text, link->length);
+    link->ws->app.receive_apart(link->session, link->scene, link->text, link->length);
     link->text = NULL;
     link->capacity = 0;
 }
 
 static void take_back(struct link *link)
 {
-    struct hub *hub = link->ws->hub;
+    const struct ws_app *app = &link->ws->app;
+    int64_t worked_us = 0;
 
-    hub_lock(hub);
-    const bool working = link->session->working;
-    const int64_t worked_us = link->session->worked_us;
-    hub_unlock(hub);
-    if (!working) {
+    app->lock(app->hub);
+    const bool done = app->is_done(link->session, &worked_us);
+    app->unlock(app->hub);
+    if (done) {
         link->apart = false;
         lws_rx_flow_control(link->wsi, 1);
         charge(link, worked_us);
@@ -267,8 +266,8 @@ static void hand_on(struct link *link)
     if (link->session) {
         const int64_t before = clock_thread_us();
 
-        if (session_receive(link->session, link->scene, link->text ? link->text : "",
-                            link->length)) {
+        if (link->ws->app.receive(link->session, link->scene, link->text ? link->text : "",
+                                  link->length)) {
             charge(link, clock_thread_us() - before);
         } else {
             give_away(link);
@@ -309,7 +308,7 @@ static int on_receive(struct link *link, const char *bytes, size_t length)
 
 static void on_timer(struct link *link)
 {
-    struct hub *hub = link->ws->hub;
+    const struct ws_app *app = &link->ws->app;
 
     if (link->apart) {
         lws_validity_confirmed(link->wsi);
@@ -320,11 +319,11 @@ static void on_timer(struct link *link)
         link->resting = false;
         lws_rx_flow_control(link->wsi, 1);
     }
-    hub_lock(hub);
-    if (link->session && !link->session->client[0]) {
-        session_close(link->session, CLOSE_POLICY, "protocol", -1);
+    app->lock(app->hub);
+    if (link->session && !app->said_hello(link->session)) {
+        app->close(link->session, CLOSE_POLICY, "protocol", -1);
     }
-    hub_unlock(hub);
+    app->unlock(app->hub);
 }
 
 /* --- writing --- */
@@ -366,18 +365,12 @@ static int on_peer_close(struct link *link)
 static int write_piece(struct link *link)
 {
     struct ws *ws = link->ws;
-    struct session *session = link->session;
     struct outbox_piece piece;
     int code = 0;
 
-    hub_lock(ws->hub);
-    bool more = !session->close_now && outbox_next(&session->outbox, ws->scratch + LWS_PRE, &piece);
-    if (!more) {
-        code = session->close_code;
-    } else if (piece.frame_done) {
-        session_frame_written(session, piece.frame_done, piece.frame_bytes);
-    }
-    hub_unlock(ws->hub);
+    ws->app.lock(ws->app.hub);
+    const bool more = ws->app.next(link->session, ws->scratch + LWS_PRE, &piece, &code);
+    ws->app.unlock(ws->app.hub);
     if (!more) {
         return code ? write_close(link, code) : 0;
     }
@@ -415,9 +408,9 @@ static void on_kicked(struct ws *ws)
     adopt_waiting(ws);
     for (struct link *link = ws->links; link; link = link->next) {
         if (draining && link->session) {
-            hub_lock(ws->hub);
-            session_close(link->session, CLOSE_GOING_AWAY, "shutting_down", 1000);
-            hub_unlock(ws->hub);
+            ws->app.lock(ws->app.hub);
+            ws->app.close(link->session, CLOSE_GOING_AWAY, "shutting_down", 1000);
+            ws->app.unlock(ws->app.hub);
         }
         if (atomic_exchange(&link->dirty, false) && link->session) {
             if (link->apart) {
@@ -507,7 +500,7 @@ static void on_log(int level, const char *line)
     }
 }
 
-struct ws *ws_create(struct hub *hub, struct error *err)
+struct ws *ws_create(const struct ws_app *app, struct error *err)
 {
     struct ws *ws = memory_alloc(1, sizeof(*ws));
     struct lws_context_creation_info info = {
@@ -523,7 +516,7 @@ struct ws *ws_create(struct hub *hub, struct error *err)
         .user = ws,
     };
 
-    ws->hub = hub;
+    ws->app = *app;
     pthread_mutex_init(&ws->lock, NULL);
     lws_set_log_level(LLL_ERR | LLL_WARN, on_log);
     ws->context = lws_create_context(&info);

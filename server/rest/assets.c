@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "embedded.h"
 #include "protocol/memory.h"
 #include "routes.h"
 #include "server/digest.h"
+#include "server/embedded.h"
 #include "server/live/frames.h"
 #include "server/live/hub.h"
 #include "server/live/room.h"

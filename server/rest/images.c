@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "embedded.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "routes.h"
+#include "server/embedded.h"
 #include "server/live/hub.h"
 #include "server/live/image_queue.h"
 #include "server/live/room.h"

@@ -8,11 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "embedded.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "routes.h"
+#include "server/embedded.h"
 #include "server/live/hub.h"
 
 enum { WEB_FILE_BYTES = 67108864 };

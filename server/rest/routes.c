@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "routes.h"
 
-#include <string.h>
-
 static const struct route table[] = {
     {"GET", "/v1/scenes", scenes_list, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/scenes", scenes_create, BODY_JSON, GUARDED, SCENE_NEW},
@@ -32,74 +30,8 @@ static const struct route table[] = {
     {"GET", "/", pages_app, BODY_NONE, PAGE, SCENE_NONE},
     {"GET", "/s/{}", pages_app, BODY_NONE, PAGE, SCENE_NONE},
 };
-enum { ROUTE_COUNT = sizeof(table) / sizeof(*table) };
 
 /* Everything else that can be read is a file of the page. */
 static const struct route asset_route = {"GET", "", pages_asset, BODY_NONE, OPEN, SCENE_NONE};
 
-static bool match(const char *pattern, struct request *request)
-{
-    const char *path = request->path;
-    int captures = 0;
-
-    while (*pattern) {
-        if (*pattern != '{') {
-            if (*pattern++ != *path++) {
-                return false;
-            }
-            continue;
-        }
-        size_t length = strcspn(path, "/"), after = strcspn(pattern + 2, "/");
-        length = length > after ? length - after : 0;
-        if (length == 0 || length > LIMIT_ID_BYTES) {
-            return false;
-        }
-        memcpy(request->capture[captures], path, length);
-        request->capture[captures++][length] = '\0';
-        path += length;
-        pattern += 2;
-    }
-    return *path == '\0';
-}
-
-static bool method_fits(const struct route *route, const char *method)
-{
-    return strcmp(route->method, method) == 0 ||
-           (strcmp(method, "HEAD") == 0 && strcmp(route->method, "GET") == 0);
-}
-
-static void add_method(char *list, size_t size, const char *method)
-{
-    size_t used = strlen(list);
-
-    snprintf(list + used, size - used, "%s%s", used ? ", " : "", method);
-}
-
-const struct route *routes_find(struct request *request, struct response *out)
-{
-    char allowed[80] = "";
-
-    for (size_t i = 0; i < ROUTE_COUNT; i++) {
-        if (!match(table[i].pattern, request)) {
-            continue;
-        }
-        if (method_fits(&table[i], request->method)) {
-            return &table[i];
-        }
-        add_method(allowed, sizeof(allowed), table[i].method);
-        if (strcmp(table[i].method, "GET") == 0) {
-            add_method(allowed, sizeof(allowed), "HEAD");
-        }
-    }
-    bool under_api = strncmp(request->path, "/v1/", 4) == 0 || strcmp(request->path, "*") == 0;
-    if (!*allowed && !under_api && method_fits(&asset_route, request->method)) {
-        return &asset_route;
-    }
-    if (*allowed || !under_api) {
-        *out = response_problem(405, "invalid", "", "this address does not know the method");
-        response_add(out, "Allow", "%s", *allowed ? allowed : "GET, HEAD");
-    } else {
-        *out = response_problem(404, "not_found", "", "there is nothing at this address");
-    }
-    return NULL;
-}
+const struct route_table routes = {table, sizeof(table) / sizeof(*table), &asset_route};

@@ -3,34 +3,9 @@
 #ifndef SERVER_ROUTES_H
 #define SERVER_ROUTES_H
 
-#include "server/net/request.h"
+#include "server/net/route.h"
 
-enum route_body { BODY_NONE, BODY_JSON, BODY_FILE };
-
-enum route_access {
-    GUARDED, /* by the token, if there is one */
-    OPEN,    /* to everybody */
-    PAGE,    /* open, and pages of other sites may lead here */
-};
-
-/* The scene that a handler works on. Then it runs on a thread of the tasks. */
-enum route_scene {
-    SCENE_NONE,
-    SCENE_NEW,   /* none that is there, or named in the body */
-    SCENE_NAMED, /* by the first capture */
-};
-
-struct route {
-    const char *method;  /* GET serves HEAD too */
-    const char *pattern; /* "{}" matches an id, or what is left of one path segment */
-    void (*handle)(struct request *request); /* replies now or later */
-    enum route_body body;
-    enum route_access access;
-    enum route_scene scene;
-};
-
-/* The route of a request, whose captures are filled in. NULL: none, and `*out` says 404 or 405. */
-const struct route *routes_find(struct request *request, struct response *out);
+extern const struct route_table routes;
 
 /* Handlers; each file knows one subject. */
 void scenes_list(struct request *request);

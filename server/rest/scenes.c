@@ -6,12 +6,12 @@
 #include <string.h>
 #include <time.h>
 
-#include "embedded.h"
 #include "protocol/import/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "routes.h"
+#include "server/embedded.h"
 #include "server/live/hub.h"
 #include "server/live/poster.h"
 #include "server/live/room.h"

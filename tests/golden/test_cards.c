@@ -16,7 +16,7 @@
 #include <turbojpeg.h>
 
 #include "renderer/renderer.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 #include "tests/support/progress.h"
 
 #define CARD_MEAN 8.0

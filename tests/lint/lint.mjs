@@ -43,7 +43,12 @@ function search(files, pattern, see) {
 
 // --- the arrows of the house ---
 
-// protocol <- renderer <- server, and the folders of renderer/ among themselves. What the files of a
+// What every folder of server/ may use, and what it uses nothing of.
+const BASE = 'server/(clock|digest|directory|embedded|log|metrics|tasks)';
+const base = new RegExp(`^${BASE}\\.h$`);
+const worker = /^renderer\/(renderer|worker|pick)\.h$/;
+
+// protocol <- renderer <- server, and the folders of renderer/ and server/ among themselves. What the files of a
 // folder may include besides its own headers ("name.h" in the same folder, "server/live/room.h" in
 // another) and, where nothing is said of the system's, <any>.
 const LAYERS = {
@@ -61,12 +66,19 @@ const LAYERS = {
     'renderer/draw': {
         others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|gl|image)\//, /^renderer\/renderer\.h$/],
     },
-    server: { others: [/^protocol\//, /^renderer\/(renderer|worker|pick)\.h$/] },
+    server: { others: [/^protocol\//, worker] },
+    [BASE]: { others: [/^protocol\//, base] },
+    'server/net': { others: [/^protocol\//, base] },
+    'server/store': { others: [/^protocol\//, base] },
+    'server/live': { others: [/^protocol\//, worker, base, /^server\/(net|store)\//] },
+    'server/rest': { others: [/^protocol\//, worker, base, /^server\/(net|store|live)\//] },
+    'server/cli': { others: [/^protocol\//, worker, base, /^server\/(net|store|live|rest)\/|^server\/serve\.h$/] },
 };
 
 function checkIncludes(files) {
     for (const [layer, may] of Object.entries(LAYERS)) {
-        const own = files.filter((file) => file.startsWith(`${layer}/`) && /\.[ch]$/.test(file));
+        const pattern = new RegExp(`^${layer}(/.*)?\\.[ch]$`);
+        const own = files.filter((file) => pattern.test(file));
         search(own, /^\s*#\s*include\s*(["<])([^">]+)[">]/, ([, quote, name], file, line) => {
             const allowed =
                 quote === '<'

@@ -15,7 +15,7 @@
 #include "protocol/reference.h"
 #include "renderer/glsl/files.h"
 #include "renderer/sdf/sdf.h"
-#include "server/rest/embedded.h"
+#include "server/embedded.h"
 #include "tests/support/text_file.h"
 
 static size_t missing;

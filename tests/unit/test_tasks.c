@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "protocol/limits.h"
-#include "server/live/tasks.h"
+#include "server/tasks.h"
 
 enum { MOST = 200 };
 
