@@ -12,6 +12,8 @@
 #include "protocol/json.h"
 #include "tests/support/random_edit.h"
 
+enum { DOCUMENTS = 80, EDITS = 60, DAMAGED = 6000 };
+
 static struct error err;
 
 static void assert_same(const char *a, const char *b, const cJSON *ops)
@@ -116,10 +118,10 @@ static void test_random_edits_have_exact_inverses(void **state)
 {
     (void)state;
     int accepted = 0, refused = 0;
-    for (uint64_t seed = 1; seed <= 170; seed++) {
+    for (uint64_t seed = 1; seed <= DOCUMENTS; seed++) {
         struct random random = {seed};
         struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
-        for (int i = 0; i < 60; i++) {
+        for (int i = 0; i < EDITS; i++) {
             cJSON *ops = random_edit(&random, wild), *applied, *inverse;
             char *before = scene_print(wild, false), *after;
             struct scene *copy = scene_copy(wild);
@@ -157,11 +159,10 @@ static void test_random_edits_have_exact_inverses(void **state)
         }
         scene_destroy(wild);
     }
-    assert_true(accepted > 2000 && refused > 1000);
+    assert_true(accepted > 1000 && refused > 500);
     for (int i = 0; i < REACHED; i++) {
-        if (reached[i].seen < 3) {
-            fail_msg("%s %s...%s: only %d", reached[i].op, reached[i].begins, reached[i].ends,
-                     reached[i].seen);
+        if (reached[i].seen == 0) {
+            fail_msg("%s %s...%s: never", reached[i].op, reached[i].begins, reached[i].ends);
         }
     }
 }
@@ -174,7 +175,7 @@ static void test_damaged_edits(void **state)
     struct scene *wild = random_document(&random, 30);
     char *before = scene_print(wild, false);
     int accepted = 0, refused = 0;
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < DAMAGED; i++) {
         cJSON *edit = random_edit(&random, wild), *inverse;
         char *text = json_print(edit, false);
         size_t length = strlen(text);
@@ -196,7 +197,7 @@ static void test_damaged_edits(void **state)
         cJSON_Delete(edit);
         free(text);
     }
-    assert_true(accepted > 200 && refused > 200);
+    assert_true(accepted > DAMAGED / 100 && refused > DAMAGED / 100);
     char *after = scene_print(wild, false);
     assert_string_equal(before, after);
     free(before);

@@ -14,6 +14,8 @@
 #include "protocol/scene.h"
 #include "tests/support/random_edit.h"
 
+enum { DOCUMENTS = 300, DAMAGED = 1500 };
+
 static struct error err;
 
 static struct scene *parse(const char *text)
@@ -426,7 +428,7 @@ static void test_empty_scene(void **state)
 static void test_random_documents_round_trip(void **state)
 {
     (void)state;
-    for (uint64_t seed = 1; seed <= 1000; seed++) {
+    for (uint64_t seed = 1; seed <= DOCUMENTS; seed++) {
         struct random random = {seed};
         struct scene *scene = random_document(&random, 1 + random_below(&random, 40));
         char *text = scene_print(scene, false), *pretty = scene_print(scene, true);
@@ -454,7 +456,7 @@ static void test_damaged_documents(void **state)
     (void)state;
     struct random random = {9};
     int accepted = 0;
-    for (int i = 0; i < 5000; i++) {
+    for (int i = 0; i < DAMAGED; i++) {
         struct scene *scene = random_document(&random, 1 + random_below(&random, 6));
         char *text = scene_print(scene, false);
         size_t length = strlen(text);
@@ -477,7 +479,7 @@ static void test_damaged_documents(void **state)
         }
         scene_destroy(scene);
     }
-    assert_true(accepted > 100);
+    assert_true(accepted > DAMAGED / 50);
 }
 
 int main(void)
