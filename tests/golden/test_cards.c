@@ -21,7 +21,11 @@
 
 #define CARD_MEAN 8.0
 
-enum { BLOCK = 3 }; /* the scene is drawn so much smaller than its card */
+enum {
+    BLOCK = 5, /* the scene is drawn so much smaller than its card */
+    PLACE = 2, /* so many of its pixels in a square are compared as one, for mirrors in mirrors show
+                  other things in each */
+};
 
 static struct renderer *renderer;
 
@@ -41,23 +45,30 @@ static uint8_t *unpack(const struct embedded *card, int *out_width, int *out_hei
     return pixels;
 }
 
-/* Mean difference of a channel between a picture and means of blocks of a larger one. */
-static double blocks_difference(const uint8_t *small, const uint8_t *large, int width, int height)
+/* Mean of a channel over the square with `side` pixels whose first is (x, y). */
+static double mean_of(const uint8_t *pixels, int width, int x, int y, int side, int channel)
 {
     double sum = 0;
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            for (int c = 0; c < 3; c++) {
-                double mean = 0;
-                for (int i = 0; i < BLOCK * BLOCK; i++) {
-                    const int from_x = x * BLOCK + i % BLOCK, from_y = y * BLOCK + i / BLOCK;
-                    mean += large[4 * (from_y * width * BLOCK + from_x) + c];
-                }
-                sum += fabs(mean / (BLOCK * BLOCK) - small[4 * (y * width + x) + c]);
-            }
-        }
+
+    for (int i = 0; i < side * side; i++) {
+        sum += pixels[4 * ((y + i / side) * width + x + i % side) + channel];
     }
-    return sum / ((double)width * height * 3);
+    return sum / (side * side);
+}
+
+/* Mean difference of a channel between the places of a picture and of a larger one. */
+static double places_difference(const struct image *small, const uint8_t *large)
+{
+    const int across = small->width / PLACE, down = small->height / PLACE;
+    double sum = 0;
+
+    for (int i = 0; i < across * down * 3; i++) {
+        const int x = i / 3 % across * PLACE, y = i / 3 / across * PLACE;
+        sum +=
+            fabs(mean_of(small->pixels, small->width, x, y, PLACE, i % 3) -
+                 mean_of(large, small->width * BLOCK, x * BLOCK, y * BLOCK, PLACE * BLOCK, i % 3));
+    }
+    return sum / (across * down * 3);
 }
 
 /* Mean difference of a channel between the card and the scene drawn now. */
@@ -82,14 +93,14 @@ static double difference(const struct embedded *example, const struct embedded *
         cJSON_SetNumberValue(cJSON_GetObjectItem(ops->child, "value"), exposure);
         assert_true(resident_edit(resident, ops, 2, &err));
     }
-    assert_true(width % BLOCK == 0 && height % BLOCK == 0);
+    assert_true(width % (BLOCK * PLACE) == 0 && height % (BLOCK * PLACE) == 0);
     const struct job_desc desc = {.width = width / BLOCK,
                                   .height = height / BLOCK,
                                   .level = QUALITY_STILL,
                                   .samples = 2,
                                   .exact = true};
     assert_true(renderer_render(resident, &desc, &image, &err));
-    double sum = blocks_difference(image.pixels, pixels, image.width, image.height);
+    const double sum = places_difference(&image, pixels);
     image_finish(&image);
     resident_destroy(resident);
     cJSON_Delete(ops);
