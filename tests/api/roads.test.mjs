@@ -14,8 +14,8 @@ import { Live } from '../support/live.mjs';
 import { decodePng } from '../support/png.mjs';
 
 const run = promisify(execFile);
-const WIDTH = 96;
-const HEIGHT = 54;
+const WIDTH = 48;
+const HEIGHT = 27;
 const folder = 'protocol/examples';
 const examples = fs.readdirSync(folder).filter((name) => name.endsWith('.json'));
 const rich = 'tests/golden/everything/rich/scene.json';
