@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs every suite and adds up their TAP. The last line is `N passed, N failed`. Suites run two at a
-// time, but for those that kill processes, or compare rates: they run alone.
+// time, but for those that look at what a process costs, or at what it does in a while: they run alone.
 //
 //   node tests/run.mjs BUILD [WORD]...    BUILD: the folder with the program (build/asan); only
 //                                         suites whose name holds one of the words
@@ -26,7 +26,15 @@ const LEFT_BUSY_SECONDS = 30;
 const TICKS = 100; // of /proc, in a second
 const LOG_LINES = 200; // shown of a suite that failed
 const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'fault', 'e2e'];
-const ALONE = ['api', 'kill'];
+const ALONE = [
+    'api/live',
+    'api/shares',
+    'api/sockets',
+    'kill/drain',
+    'kill/image',
+    'kill/patience',
+    'kill/worker',
+];
 const NOT_SUITES = ['bench', 'support', 'bad'];
 
 const root = path.dirname(path.dirname(new URL(import.meta.url).pathname));
@@ -266,9 +274,9 @@ async function runAll(suites) {
 }
 
 const suites = findSuites();
-const together = suites.filter((suite) => !ALONE.includes(kindOf(suite)));
+const together = suites.filter((suite) => !ALONE.includes(suite.name));
 await Promise.all([runAll(together), runAll(together)]);
-await runAll(suites.filter((suite) => ALONE.includes(kindOf(suite))));
+await runAll(suites.filter((suite) => ALONE.includes(suite.name)));
 if (failures.length > 0) {
     console.log(`\nfailed: ${failures.join(', ')} (logs are in ${logs})`);
 }
