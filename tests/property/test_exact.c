@@ -18,7 +18,7 @@
 #define TOLERANCE 1e-3
 #define REACH 2.0 /* of shapes without an end; most others lie in a cube of this half side */
 
-enum { SETS = 50, POINTS = 20, CLOUD_MAX = 1500, PAIRS = 700, NEAREST = 4, LOOKS = 150 };
+enum { SETS = 25, POINTS = 20, CLOUD_MAX = 1500, PAIRS = 700, NEAREST = 4, LOOKS = 150 };
 
 struct shape {
     const struct node_type *type;

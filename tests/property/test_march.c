@@ -138,7 +138,7 @@ static void no_row_oversteps(void **state)
         if (type->kind == KIND_MODEL || type->kind == KIND_CODE) {
             continue;
         }
-        for (int round = 0; round < 30; round++) {
+        for (int round = 0; round < 15; round++) {
             const struct random_limits limits = {.depth = 1, .bounded = true};
             struct scene *scene = random_scene(&random, type, &limits);
             check_picture(&random, &tally, scene, WIDTH / 2, HEIGHT / 2);
@@ -155,7 +155,7 @@ static void no_scene_oversteps(void **state)
     struct random random = {32};
     struct tally tally = {0};
     bool ok = true;
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < 100; i++) {
         const struct random_limits limits = {.depth = 1 + i % 4, .bounded = true};
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i / 4 % 4);
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
