@@ -11,7 +11,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random_edit.h"
 
-enum { WIDTH = 160, HEIGHT = 90, EDITS = 1000, GLANCES = 50 };
+enum { WIDTH = 80, HEIGHT = 45, EDITS = 400, GLANCES = 20 };
 
 static struct renderer *renderer;
 

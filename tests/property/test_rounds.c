@@ -11,7 +11,7 @@
 
 #include "tests/support/drawing.h"
 
-enum { WIDTH = 120, HEIGHT = 68, ROUNDS_MAX = 4 };
+enum { WIDTH = 72, HEIGHT = 41, ROUNDS_MAX = 4 };
 
 struct rounds {
     struct image of[ROUNDS_MAX];
