@@ -12,7 +12,7 @@ import { Live } from '../support/live.mjs';
 import { spawn } from 'node:child_process';
 import { program } from '../support/daemon.mjs';
 
-const KILLS = Number(process.env.FIELDCAST_KILLS ?? 50);
+const KILLS = Number(process.env.FIELDCAST_KILLS ?? 25);
 const CLIENTS = ['editor-one', 'editor-two', 'editor-three', 'editor-four'];
 const WINDOW = 100;
 const data = makeDirectory();
