@@ -4,8 +4,10 @@
 import assert from 'node:assert/strict';
 import net from 'node:net';
 import { after, before, describe, test } from 'node:test';
-import { ask, counter, cpuSecondsOf, sleep, startDaemon, until } from '../support/daemon.mjs';
-import { handshake, Live } from '../support/live.mjs';
+import { ask, counter, cpuSecondsOf, memoryOf, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { encodeMessage, handshake, Live } from '../support/live.mjs';
+
+const SLOW_BYTES = 16 << 20; // more memory of the daemon while many are slow
 
 let daemon;
 before(async () => {
@@ -281,6 +283,24 @@ describe('handshakes', () => {
     });
 });
 
+/** Others are answered while `turns` goes on, and little is held and done for those. */
+async function isServedAsEver(turns) {
+    await until(() => turns() >= 5, 'the slow to begin');
+    const memory = memoryOf(daemon.pid);
+    for (const first = turns(); turns() < first + 10; ) {
+        assert.deepEqual(await statuses(get()), [200]);
+        await ask(daemon, 'PUT', '/v1/scenes/beside', { format: 'fieldcast/1', root: { type: 'sphere' } });
+    }
+    const start = Date.now();
+    const cpu = cpuSecondsOf(daemon.pid);
+    const next = turns() + 20;
+    await until(() => turns() >= next, 'the slow to go on');
+    const used = cpuSecondsOf(daemon.pid) - cpu;
+    const seconds = (Date.now() - start) / 1000;
+    assert.ok(used < 0.5 * seconds, `${used} s of processor time in ${seconds} s`);
+    assert.ok(memoryOf(daemon.pid) - memory < SLOW_BYTES, 'little memory');
+}
+
 describe('slow clients', () => {
     test('a head that does not end is answered 408, and costs nothing meanwhile', async () => {
         const peers = Array.from({ length: 50 }, () => connect());
@@ -311,6 +331,62 @@ describe('slow clients', () => {
         }
         await peer.end();
         assert.ok(sent >= 32 && sent < 60, `cut after ${sent} MiB, of 16 allowed`);
+    });
+
+    test('bodies that drip hold up nobody, and cost nothing', async () => {
+        const head = 'POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n';
+        const peers = Array.from({ length: 60 }, (_, i) => {
+            const peer = connect();
+            peer.socket.setNoDelay(true);
+            peer.socket.write(`${head}${i % 2 ? 'Transfer-Encoding: chunked' : 'Content-Length: 9999'}\r\n\r\n`);
+            peer.drop = i % 2 ? '1\r\n \r\n' : ' ';
+            return peer;
+        });
+        let dripping = true;
+        let drops = 0;
+        const drip = (async () => {
+            for (; dripping; drops += 1) {
+                peers.forEach((peer) => peer.socket.write(peer.drop));
+                await sleep(50);
+            }
+        })();
+        try {
+            await isServedAsEver(() => drops);
+            assert.ok(peers.every((peer) => !peer.ended && !peer.statuses().length), 'they drip on');
+        } finally {
+            dripping = false;
+            await drip;
+            peers.forEach((peer) => peer.close());
+        }
+    });
+
+    test('readers of one byte at a time hold up nobody, and cost nothing', async () => {
+        const reading = Array.from({ length: 40 }, (_, i) => {
+            const reader = { bytes: 0 };
+            const onread = { buffer: Buffer.alloc(1), callback: () => ((reader.bytes += 1), false) };
+            reader.socket = net.connect({ port: daemon.port, host: '127.0.0.1', onread });
+            reader.socket.on('error', () => {});
+            reader.socket.write(i % 2 ? get('', '/v1/schema.json') : handshake(daemon.port, 's'));
+            reader.socket.write(i % 2 ? '' : encodeMessage(1, Buffer.from(`{"type":"hello","client":"slow-${i}-reader"}`)));
+            return reader;
+        });
+        let going = true;
+        let turns = 0;
+        const read = (async () => {
+            for (; going; turns += 1) {
+                reading.forEach(({ socket }) => socket.resume());
+                await sleep(50);
+            }
+        })();
+        try {
+            await isServedAsEver(() => turns);
+            assert.ok(reading.every(({ bytes }) => bytes > 0 && bytes < 20_000));
+        } finally {
+            going = false;
+            await read;
+            reading.forEach(({ socket }) => socket.destroy());
+        }
+        await until(async () => (await counter(daemon, 'sessions')) === 0, 'sessions to end');
     });
 
     test('a client that leaves before its picture is there frees the renderer', async () => {
