@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Depth, normal and id as drawn are what the C evaluator says, of every scene in golden/nodes.
  *
- * Pictures are good to a pixel, so they are large, and every fifth pixel each way is looked at
+ * Pictures are good to a pixel, so they are large, and every eighth pixel each way is looked at
  * (tests/support/picture_oracle.h). */
 #include <dirent.h>
 #include <setjmp.h>
@@ -16,7 +16,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/picture_oracle.h"
 
-enum { EVERY = 5, SCENES_MAX = 200, PATH_BYTES = 300 };
+enum { EVERY = 8, SCENES_MAX = 200, PATH_BYTES = 300 };
 
 /* Their surfaces have waves shorter than a pixel: depth and normal there are those of a place, not
  * of a pixel. */
