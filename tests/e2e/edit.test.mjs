@@ -2,21 +2,22 @@
 // Looking around, changing numbers, isolating: the picture follows, nothing is compiled, undo is exact.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { counter, until } from '../support/daemon.mjs';
+import { counter } from '../support/daemon.mjs';
 import {
     closePage,
     difference,
     documentWhen,
     dragBy,
+    drawnPixels,
     field,
     nodeIn,
     openStage,
     picture,
     pictureChanged,
     pixels,
+    pixelsLike,
     row,
     settled,
-    stillPixels,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
@@ -215,7 +216,7 @@ test('what is isolated is this page’s alone, and no edit', async () => {
     const [page, other] = [await open(id), await open(id)];
     const before = await stage.document(id);
     await Promise.all([settled(page), settled(other)]);
-    const [all, seen] = [await stillPixels(page), await stillPixels(other)];
+    const [all, seen] = [await drawnPixels(page, stage, id), await drawnPixels(other, stage, id)];
     await row(page, 'pair').click();
     await page.keyboard.press('Shift+H');
     const pill = page.getByTestId('isolated');
@@ -225,11 +226,11 @@ test('what is isolated is this page’s alone, and no edit', async () => {
     await row(page, 'pair').getByRole('img', { name: 'Isolated' }).waitFor();
     await pictureChanged(page, all, 'the picture of the pair alone');
     assert.equal(await stage.document(id), before);
-    assert.ok(difference(await stillPixels(other), seen) < 2, 'the other page shows all');
+    assert.equal(difference(await pixels(other), seen), 0, 'the other page shows all');
     await pill.getByRole('button', { name: 'Show all' }).click();
     await pill.waitFor({ state: 'detached' });
-    const again = async () => difference(await pixels(page), all) < 2;
-    await until(again, 'all of it again');
+    const again = () => pixelsLike(page, all, 1, 'all of it again');
+    await again();
     await row(page, 'crate').click();
     await page.keyboard.press('Shift+H');
     await pill.getByText('Isolated: crate').waitFor();

@@ -7,11 +7,14 @@ import {
     closePage,
     difference,
     documentWhen,
+    drawnPixels,
     field,
+    forgetProblem,
     openStage,
     picture,
     pictureChanged,
     pixels,
+    pixelsLike,
     row,
     SCENE,
     settled,
@@ -38,7 +41,9 @@ async function open(part = {}) {
     const id = await stage.scene({ ...SCENE, ...part });
     page = await stage.page({ scene: id });
     await settled(page);
-    return (holds, what) => documentWhen(stage, id, holds, what);
+    const when = (holds, what) => documentWhen(stage, id, holds, what);
+    when.scene = id;
+    return when;
 }
 
 const setup = (name) => page.getByRole('button', { name, exact: true }).click();
@@ -165,8 +170,7 @@ test('a picture is dropped on its field; one that is none is refused there', asy
     await drop('room.hdr', panorama());
     await when((d) => d.environment.image?.length === 64, 'the picture');
     await page.getByRole('alert').waitFor({ state: 'detached' });
-    /* The browser itself tells of the refusal. */
-    page.problems = page.problems.filter((text) => !text.includes('422') && !text.includes('415'));
+    await forgetProblem(page, /status of 4(15|22)/);
 });
 
 test('forms show what belongs to the kind that is chosen', async () => {
@@ -188,14 +192,14 @@ test('forms show what belongs to the kind that is chosen', async () => {
 
 test('effects are switches, and change the picture', async () => {
     const when = await open({ environment: { floor: true, floor_height: -1 } });
-    const lit = await stillPixels(page);
+    const lit = await drawnPixels(page, stage, when.scene);
     await setup('Render');
     await toggle('shadows').click();
     await when((d) => d.render.shadows === false, 'no shadows');
-    const bare = await pictureChanged(page, lit, 'a picture without shadows');
-    await settled(page);
+    await pictureChanged(page, lit, 'a picture without shadows');
     await toggle('shadows').click();
-    await pictureChanged(page, bare, 'shadows again');
+    await when((d) => d.render.shadows !== false, 'shadows');
+    await pixelsLike(page, lit, 2, 'shadows again');
     await choose('level', 'draft');
     await when((d) => d.render.level === 'draft', 'the level');
 });
@@ -231,7 +235,7 @@ test('a camera without perspective stays so when it is turned', async () => {
 test('a new spot light is seen, aims at what is selected, and can be switched off', async () => {
     const when = await open({ lights: [] });
     await row(page, 'ball').click();
-    const dark = await stillPixels(page);
+    const dark = await drawnPixels(page, stage, when.scene);
     await page.getByRole('button', { name: 'Add a light' }).click();
     await page.getByRole('menuitem', { name: 'Spot' }).click();
     const d = await when((one) => one.lights.length === 1, 'the light');
@@ -242,11 +246,8 @@ test('a new spot light is seen, aims at what is selected, and can be switched of
     const along = to.reduce((sum, x, i) => sum + x * light.direction[i], 0);
     assert.ok(along > 0.99 * far, 'it aims at the ball');
     await valueIs(field(page, 'angle'), '30°');
-    const lit = await pictureChanged(page, dark, 'light');
-    assert.ok(difference(lit, dark) > 40, `it changes ${difference(lit, dark)} of 255`);
-    await settled(page);
+    await until(async () => difference(await pixels(page), dark) > 40, 'light, by more than 40 of 255');
     await page.getByRole('button', { name: 'Switch spot-1 off' }).click();
     await when((one) => one.lights[0].visible === false, 'the light to be off');
-    await settled(page);
-    assert.ok(difference(await stillPixels(page), dark) <= 2, 'as dark as before');
+    await pixelsLike(page, dark, 2, 'a picture as dark as before');
 });

@@ -7,6 +7,7 @@ import {
     closePage,
     difference,
     documentWhen,
+    drawnPixels,
     field,
     nodeIn,
     openStage,
@@ -14,7 +15,6 @@ import {
     pixels,
     row,
     settled,
-    stillPixels,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
@@ -38,7 +38,7 @@ test('edits made while the daemon is away arrive when it is back', async () => {
     await field(page, 'radius').fill('1.1');
     await field(page, 'radius').press('Enter');
     await settled(page);
-    const last = await stillPixels(page);
+    const last = await drawnPixels(page, stage, id);
 
     const { port } = stage.daemon;
     await stage.daemon.kill('SIGKILL');

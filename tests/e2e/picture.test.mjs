@@ -2,19 +2,17 @@
 // The picture: picking, the honest state, and that the last frame is the picture of REST.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
-import { until } from '../support/daemon.mjs';
-import { decodePng } from '../support/png.mjs';
 import {
     closePage,
     difference,
     dragBy,
+    drawnPixels,
     field,
     openStage,
     picture,
     pixels,
     row,
     SCENE,
-    stillPixels,
     settled,
 } from './stage.mjs';
 
@@ -156,16 +154,7 @@ test('the lossless frame is image.png, pixel for pixel', async () => {
     const id = await stage.scene({ ...SCENE, render: { samples: 2 } });
     page = await stage.page({ scene: id });
     await settled(page);
-    const shown = await stillPixels(page);
-    const at = `/v1/scenes/${id}/image.png?width=${shown.width}&height=${shown.height}`;
-    const answer = await fetch(stage.daemon.url + at);
-    assert.equal(answer.status, 200);
-    const image = decodePng(Buffer.from(await answer.arrayBuffer()));
-    /* The worker tells of a frame a moment before the browser has put it on the screen. */
-    await until(
-        async () => difference(await pixels(page), image) === 0,
-        'the pixels of image.png on the screen',
-    );
+    await drawnPixels(page, stage, id);
 });
 
 test('a new shape appears while the page says that it compiles', async () => {

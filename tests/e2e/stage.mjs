@@ -185,10 +185,11 @@ export async function rows(page) {
     return found;
 }
 
-/** Pixels of the picture alone, without what lies over it. */
+/** Pixels of the picture alone, without what lies over it: pills, the ring of a click, the focus. */
 export async function pixels(page) {
     const style = await page.addStyleTag({
-        content: '.view > :not(.view-picture), .notices { visibility: hidden !important; }',
+        content: `.view > :not(.view-picture), .view-picture > :not(canvas), .view-picture::after,
+            .notices { visibility: hidden !important; }`,
     });
     const box = await picture(page).boundingBox();
     const image = decodePng(await page.screenshot({ clip: box }));
@@ -210,7 +211,10 @@ export function difference(a, b) {
     return most;
 }
 
-/** The pixels once the browser has put the newest frame on the screen: two looks are the same. */
+/**
+ * The pixels when looks are the same. The page tells of a frame before the browser has put it on the
+ * screen: what has to be the newest to a step is asked for by `until`, or is `drawnPixels`.
+ */
 export async function stillPixels(page) {
     let last = await pixels(page);
     return until(
@@ -221,6 +225,31 @@ export async function stillPixels(page) {
         },
         'a still picture',
     );
+}
+
+/** The pixels once they are those that the server draws of the document. */
+export async function drawnPixels(page, stage, id) {
+    const { width, height } = await pixels(page);
+    const answer = await fetch(`${stage.daemon.url}/v1/scenes/${id}/image.png?width=${width}&height=${height}`);
+    assert.equal(answer.status, 200);
+    const image = decodePng(Buffer.from(await answer.arrayBuffer()));
+    return pixelsLike(page, image, 0, 'the pixels of image.png on the screen');
+}
+
+/** Waits until no channel of the pixels is further than `room` from an image; answers them. */
+export const pixelsLike = (page, image, room, what) =>
+    until(
+        async () => {
+            const now = await pixels(page);
+            return difference(now, image) <= room && now;
+        },
+        what,
+    );
+
+/** Waits for what the browser itself says of a refused request, which the console then is free of. */
+export async function forgetProblem(page, pattern) {
+    await until(() => page.problems.some((text) => pattern.test(text)), `${pattern} in the console`);
+    page.problems = page.problems.filter((text) => !pattern.test(text));
 }
 
 /** Waits until the picture differs from `before`; answers the new pixels. */
