@@ -293,6 +293,11 @@ void render_request_size(const struct render_request *request, int *out_width, i
     *out_height = part ? (int)region[3] : render_request_int(request, "height");
 }
 
+int64_t render_request_pixels(const struct render_request *request)
+{
+    return (int64_t)render_request_int(request, "width") * render_request_int(request, "height");
+}
+
 int render_request_int(const struct render_request *request, const char *name)
 {
     return (int)record_number(&request->picture, name);

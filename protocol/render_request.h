@@ -5,6 +5,8 @@
 #ifndef PROTOCOL_RENDER_REQUEST_H
 #define PROTOCOL_RENDER_REQUEST_H
 
+#include <stdint.h>
+
 #include "codec.h"
 #include "id_set.h"
 #include "picture.h"
@@ -52,6 +54,8 @@ void render_request_see_from(struct render_request *request, const struct record
 void render_request_outputs(const struct render_request *request, bool out[AOV_COUNT]);
 /* Pixels of the answer: of the region where there is one. */
 void render_request_size(const struct render_request *request, int *out_width, int *out_height);
+/* Of the whole picture. */
+int64_t render_request_pixels(const struct render_request *request);
 /* A number of `picture`, a switch of `delivery`. */
 int render_request_int(const struct render_request *request, const char *name);
 bool render_request_is(const struct render_request *request, const char *name);

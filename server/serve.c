@@ -13,8 +13,10 @@
 
 #include "log.h"
 #include "protocol/memory.h"
-#include "server/live/hub.h"
-#include "server/live/session.h"
+#include "server/live/hub_life.h"
+#include "server/live/hub_rooms.h"
+#include "server/live/session_life.h"
+#include "server/live/session_messages.h"
 #include "server/net/acceptor.h"
 #include "server/net/http.h"
 #include "server/net/ws.h"

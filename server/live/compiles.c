@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "hub.h"
-#include "room.h"
+#include "room_state.h"
 #include "say.h"
 #include "session.h"
 
@@ -50,7 +50,7 @@ int64_t compiles_expected(const struct compiles *compiles, size_t nodes)
 
 static struct blob *message(const struct room *room, bool over, int64_t now_ms)
 {
-    const int64_t expected = compiles_expected(&room->hub->compiles, room->scene->node_count);
+    const int64_t expected = compiles_expected(room->hub->compiles, room->scene->node_count);
     cJSON *json = say_begin("compiling");
 
     cJSON_AddNumberToObject(json, "revision", (double)room->revision);
@@ -83,7 +83,7 @@ static void end(struct room *room, int64_t now_ms)
     if (room->compiling_told) {
         tell_all(room, true, now_ms);
         if (room->shown >= room->sent && room->sent > 0) {
-            compiles_record(&room->hub->compiles, room->scene->node_count,
+            compiles_record(room->hub->compiles, room->scene->node_count,
                             now_ms - room->compiling_since);
         }
     }

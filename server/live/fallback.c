@@ -5,7 +5,7 @@
 
 #include "protocol/code_text.h"
 #include "protocol/json.h"
-#include "room_log.h"
+#include "room_state.h"
 
 static void drop(struct fallback *fallback)
 {
@@ -29,7 +29,7 @@ void fallback_proven(struct room *room, uint64_t revision)
 static void step(struct room *room)
 {
     struct fallback *fallback = &room->fallback;
-    const char *text = room_log_entry(room, fallback->revision + 1)->ops;
+    const char *text = room_entry_of(room, fallback->revision + 1)->ops;
     cJSON *ops = json_parse(text, strlen(text), NULL);
 
     if (ops && edit_apply(fallback->scene, ops, NULL, NULL, NULL)) {

@@ -16,13 +16,6 @@
 struct room;
 struct scene;
 
-struct fallback {
-    bool code;           /* there is code in the scene, or there was */
-    uint64_t proven;     /* newest revision that a worker could draw; 0: none */
-    struct scene *scene; /* NULL: none */
-    uint64_t revision;   /* of `scene` */
-};
-
 void fallback_finish(struct room *room);
 /* The scene is about to change; `ops` NULL: by what was there before. */
 void fallback_before_edit(struct room *room, const cJSON *ops);

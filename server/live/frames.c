@@ -8,7 +8,8 @@
 #include "hub.h"
 #include "poster.h"
 #include "protocol/messages.h"
-#include "room.h"
+#include "renders.h"
+#include "room_state.h"
 #include "server/clock.h"
 #include "session.h"
 
@@ -61,19 +62,19 @@ void frames_init(struct frames *frames)
     memset(frames, 0, sizeof(*frames));
 }
 
-static void drop_job(struct session *session)
+void frames_stop(struct session *session)
 {
-    if (session->frames.job) {
-        renders_cancel(session->hub, session->frames.job);
-        session->frames.job = 0;
+    if (session->frames->job) {
+        renders_cancel(session->hub, session->frames->job);
+        session->frames->job = 0;
     }
 }
 
 void frames_finish(struct session *session)
 {
-    drop_job(session);
+    frames_stop(session);
     for (int i = 0; i < FRAMES_VIEWS; i++) {
-        render_request_finish(&session->frames.views[i].picture);
+        render_request_finish(&session->frames->views[i].picture);
     }
 }
 
@@ -126,7 +127,7 @@ static bool read_picture(const cJSON *message, struct render_request *out, struc
 
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     struct frames_view *old = newest_view(frames);
     struct frames_view view = {
         .seq = (uint32_t)json_member_number(message, "seq", 0),
@@ -153,12 +154,12 @@ bool frames_set_view(struct session *session, const cJSON *message, struct error
 
 void frames_changed(struct session *session)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
 
     frames->changed_at = clock_ms();
     frames->done = FRAMES_NOTHING;
     if (frames->job_level > FRAMES_MOVING) {
-        drop_job(session);
+        frames_stop(session);
     }
     supervisor_wake(session->hub->supervisor);
 }
@@ -178,7 +179,7 @@ static int flight_slot(const struct frames *frames, uint32_t number)
 /* Frames arrive in order: what is before the acknowledged one was shown or skipped. */
 void frames_acknowledge(struct session *session, uint32_t number)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
 
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
         if (frames->flight[i].number && frames->flight[i].number <= number) {
@@ -219,7 +220,7 @@ static bool line_is_free(const struct session *session, enum frames_level level)
 /* What is known of the scene, by this session or by others; 0: nothing. */
 static double ns_per_pixel(const struct session *session)
 {
-    const double own = session->frames.ns_per_pixel;
+    const double own = session->frames->ns_per_pixel;
 
     return own > 0 ? own : session->room->ns_per_pixel;
 }
@@ -252,11 +253,11 @@ static bool is_too_large(const struct session *session, const struct frames_view
     const double target_ms = quality_rules[view->quality].target_ms;
 
     if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
-        return pixels_of(view, step) > FIRST_PIXELS / (1 + renders_moving(&session->hub->renders));
+        return pixels_of(view, step) > FIRST_PIXELS / (1 + renders_moving(session->hub->renders));
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >
-           target_ms * (step < session->frames.step ? 0.8 : 1.1);
+           target_ms * (step < session->frames->step ? 0.8 : 1.1);
 }
 
 static void choose_step(struct session *session, const struct frames_view *view)
@@ -266,13 +267,13 @@ static void choose_step(struct session *session, const struct frames_view *view)
     while (step < last_step(view) && is_too_large(session, view, step)) {
         step++;
     }
-    session->frames.step = step;
+    session->frames->step = step;
 }
 
 /* The step of the picture between moving and still ones; the current one: none is worth while. */
 static int larger_step(const struct session *session, const struct frames_view *view)
 {
-    const int moving = session->frames.step;
+    const int moving = session->frames->step;
     int step = 0;
 
     while (step < moving && predicted_ms(session, view, step) > FRAMES_LARGER_MS) {
@@ -285,7 +286,7 @@ static double scale_of(const struct session *session, const struct frames_view *
                        enum frames_level level)
 {
     return level >= FRAMES_STILL    ? 1
-           : level == FRAMES_MOVING ? scales[session->frames.step]
+           : level == FRAMES_MOVING ? scales[session->frames->step]
                                     : scales[larger_step(session, view)];
 }
 
@@ -297,7 +298,7 @@ static double mixed(double known, double took)
 /* Waiting for others' pictures counts: who shares the machine gets smaller pictures, not fewer. */
 static void learn(struct session *session)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
 
     frames->ns_per_pixel = mixed(frames->ns_per_pixel, took);
@@ -337,7 +338,7 @@ static uint8_t flags_of(const struct frames *frames, const struct packet_frame *
 static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
                                      bool newest)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     const struct packet_frame *frame = answer->frame;
     struct frame_header header = {
         .codec = frame->codec,
@@ -360,7 +361,7 @@ static struct frame_header header_of(struct session *session, const struct pictu
 
 static void send_frame(struct session *session, const struct picture_answer *answer)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     const struct room *room = session->room;
     const uint64_t revision = answer->frame->revision;
     const bool newest = answer->frame->newest &&
@@ -389,7 +390,7 @@ static void send_frame(struct session *session, const struct picture_answer *ans
 static void on_picture(void *data, const struct picture_answer *answer, const struct error *err)
 {
     struct session *session = data;
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
 
     frames->job = 0;
     if (!answer) {
@@ -413,8 +414,8 @@ static void on_round(void *data, const struct picture_answer *answer)
 {
     struct session *session = data;
 
-    if (has_credit(&session->frames, clock_ms()) &&
-        line_is_free(session, session->frames.job_level)) {
+    if (has_credit(session->frames, clock_ms()) &&
+        line_is_free(session, session->frames->job_level)) {
         send_frame(session, answer);
     } else {
         outbox_skip(&session->outbox);
@@ -423,8 +424,8 @@ static void on_round(void *data, const struct picture_answer *answer)
 
 void frames_shown(struct session *session)
 {
-    if (session->frames.stale) {
-        session->frames.stale = false;
+    if (session->frames->stale) {
+        session->frames->stale = false;
         frames_changed(session);
     }
 }
@@ -462,7 +463,7 @@ static void make_request(struct session *session, const struct frames_view *view
 
 static void ask(struct session *session, enum frames_level level)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     const struct frames_view *view = newest_view(frames);
 
     choose_step(session, view);
@@ -477,7 +478,7 @@ static void ask(struct session *session, enum frames_level level)
     make_request(session, view, level, &order.request);
     frames->done = level;
     frames->job_level = level;
-    frames->job_pixels = render_demand(&order).pixels;
+    frames->job_pixels = render_request_pixels(&order.request);
     frames->job_seq = view->seq;
     frames->job_view_width = render_request_int(&view->picture, "width");
     frames->job_view_height = render_request_int(&view->picture, "height");
@@ -493,11 +494,11 @@ bool frames_is_waiting(const struct frames *frames)
 
 int64_t frames_pump(struct session *session, int64_t now_ms)
 {
-    struct frames *frames = &session->frames;
+    struct frames *frames = session->frames;
     const struct frames_view *view = newest_view(frames);
 
     if (!view || !view->visible || !session->room || session->room->left_out.kind != ERROR_NONE ||
-        session->close_code || !session->hub->renders.ready || frames->job ||
+        session->close_code || !session->hub->renders->ready || frames->job ||
         frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
         return 0;
     }

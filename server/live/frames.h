@@ -69,6 +69,8 @@ struct frames {
 
 void frames_init(struct frames *frames);
 void frames_finish(struct session *session);
+/* No picture is wanted any more, for now. */
+void frames_stop(struct session *session);
 /* The checked `view` message. False and `err`: the camera is wrong. */
 bool frames_set_view(struct session *session, const cJSON *message, struct error *err);
 /* The view that a pick means, or the newest; NULL: none yet. */

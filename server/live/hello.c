@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hub.h"
+#include "compiles.h"
+#include "frames.h"
+#include "hub_rooms.h"
 #include "problem.h"
 #include "protocol/json.h"
 #include "protocol/messages.h"
@@ -13,7 +15,7 @@
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
-#include "session.h"
+#include "session_life.h"
 
 /* --- welcome --- */
 

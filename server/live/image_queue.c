@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "hub.h"
-#include "renders_parts.h"
-#include "room.h"
+#include "render_list.h"
+#include "room_state.h"
 #include "server/clock.h"
 
 /* One that waits. */
@@ -48,8 +48,8 @@ static void form_line(const struct renders *renders, struct line *line)
     for (const struct render *render = renders->first; render && line->count < LIMIT_IMAGE_QUEUE;
          render = render->next) {
         if (render->order.priority == RENDER_IMAGE) {
-            line->places[line->count++] =
-                (struct place){.render = render, .pixels = render_demand(&render->order).pixels};
+            line->places[line->count++] = (struct place){
+                .render = render, .pixels = render_request_pixels(&render->order.request)};
         }
     }
     for (int i = 0; i < line->count; i++) {
@@ -94,7 +94,7 @@ static int first_position(const struct line *line, const char *account)
 static bool refuse(const struct hub *hub, const struct line *line, const char *account, bool share,
                    struct error *err)
 {
-    const struct renders *renders = &hub->renders;
+    const struct renders *renders = hub->renders;
     const int own = own_count(line, account), waiting = share ? own : line->count;
     const int64_t each_ms = renders->image_ms > 0 ? renders->image_ms : 1000;
     const int64_t wait_ms = each_ms * (share ? first_position(line, account) : 1);
@@ -111,7 +111,7 @@ bool image_queue_admits(struct hub *hub, const struct render_order *order, struc
 {
     struct line line;
 
-    form_line(&hub->renders, &line);
+    form_line(hub->renders, &line);
     if (own_count(&line, order->account) >= LIMIT_IMAGE_SHARE) {
         metric_add(&hub->metrics, METRIC_IMAGES_OVER_SHARE, 1);
         return refuse(hub, &line, order->account, true, err);
@@ -131,7 +131,7 @@ void image_queue_each(const struct hub *hub, const char *account,
     const int64_t now = clock_ms();
     struct line line;
 
-    form_line(&hub->renders, &line);
+    form_line(hub->renders, &line);
     for (int i = 0; i < line.count; i++) {
         const struct render *render = line.places[i].render;
         const int position = position_of(&line, line.places[i].turn, i);
@@ -145,7 +145,7 @@ void image_queue_each(const struct hub *hub, const char *account,
                       .height = render_request_int(&render->order.request, "height"),
                       .position = position,
                       .waited_ms = now - render->asked,
-                      .expected_ms = position * hub->renders.image_ms,
+                      .expected_ms = position * hub->renders->image_ms,
                   });
     }
 }
@@ -155,7 +155,7 @@ int image_queue_clients(const struct hub *hub)
     struct line line;
     int count = 0;
 
-    form_line(&hub->renders, &line);
+    form_line(hub->renders, &line);
     for (int i = 0; i < line.count; i++) {
         count += line.places[i].turn == 1;
     }

@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "fallback.h"
+#include "frames.h"
 #include "hub.h"
 #include "protocol/code_text.h"
 #include "protocol/memory.h"
 #include "renderer/pick.h"
-#include "room.h"
+#include "room_apart.h"
 #include "say.h"
 #include "session.h"
 
@@ -63,7 +64,7 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
 {
     struct picker *picker = session->hub->picker;
     const struct frames_view *view =
-        frames_find_view(&session->frames, (uint32_t)json_member_number(message, "seq", 0));
+        frames_find_view(session->frames, (uint32_t)json_member_number(message, "seq", 0));
 
     if (!view) {
         return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");

@@ -19,16 +19,6 @@ struct session;
 
 enum { PICKER_WAITING = 8 }; /* questions of one session; beyond them its oldest is given up */
 
-enum { PICKER_FIELDS = 4 }; /* that a room keeps: all that is seen, and what viewers isolate */
-
-struct picker_field {
-    struct id_set isolate;    /* none: all that is there */
-    uint64_t last_use;        /* 0: never */
-    struct pick_field *field; /* NULL: none yet */
-    uint64_t revision;        /* of `field` */
-    uint64_t tried;           /* newest of which one was to be made */
-};
-
 struct picker *picker_create(struct hub *hub, struct error *err);
 /* Ends the thread; what waits is never answered. */
 void picker_destroy(struct picker *picker); /* NULL: nothing */

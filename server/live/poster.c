@@ -7,7 +7,7 @@
 #include "hub.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
-#include "room.h"
+#include "room_state.h"
 
 void poster_set(struct room *room, struct blob *jpeg)
 {

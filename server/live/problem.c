@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "hub.h"
-#include "room.h"
+#include "room_state.h"
 #include "say.h"
 #include "session.h"
 
@@ -74,7 +74,7 @@ void problem_cure(struct room *room, uint64_t revision)
     }
 }
 
-static void tell_retry(const struct room *room, const char *place)
+void problem_tell_retry(const struct room *room, const char *place)
 {
     tell_all(room, say_notice("info", "retrying", place, "It is tried again."));
 }
@@ -88,51 +88,10 @@ void problem_leave_out(struct room *room, const struct error *why)
 void problem_let_in(struct room *room)
 {
     if (room->left_out.kind != ERROR_NONE) {
-        tell_retry(room, room->left_out.place);
+        problem_tell_retry(room, room->left_out.place);
     }
     room->left_out = (struct error){0};
     room->deaths = 0;
-}
-
-static bool is_meant(const struct error *err, const char *place)
-{
-    return problem_is_refusal(err) && (!place || strcmp(err->place, place) == 0);
-}
-
-/* The worker is told at once; if it does not hold the scene, when it is. */
-static bool retry_refused(struct room *room)
-{
-    const struct error old = room->problem;
-
-    if (!quarantine_pardon(room->hub, room->refused_shape)) {
-        return false;
-    }
-    room->problem = (struct error){0};
-    tell_retry(room, old.place);
-    return true;
-}
-
-static void retry_left_out(struct room *room)
-{
-    room->patience = room->patience < LIMIT_RETRY_TIMES ? room->patience * LIMIT_RETRY_FACTOR
-                                                        : LIMIT_RETRY_TIMES;
-    problem_let_in(room);
-    for (struct session *session = room->sessions; session; session = session->next) {
-        frames_changed(session);
-    }
-}
-
-bool problem_retry(struct room *room, const char *place, struct error *err)
-{
-    const bool out = is_meant(&room->left_out, place);
-    const bool refused = is_meant(&room->problem, place) && retry_refused(room);
-
-    if (out) {
-        retry_left_out(room);
-    }
-    return out || refused ||
-           error_set(err, ERROR_NOT_FOUND, "/place", "nothing at \"%s\" waits to be tried again",
-                     place ? place : "");
 }
 
 void problem_tell(struct session *session, const struct room *room)

@@ -18,13 +18,12 @@ bool problem_is_refusal(const struct error *err);
 void problem_set(struct room *room, const struct error *err, uint64_t revision);
 /* The scene can be drawn as of this revision: tells that the problem of an older one is over. */
 void problem_cure(struct room *room, uint64_t revision);
-/* What was refused, or the scene that was left out, is tried again with more time. `place`: of the
- * problem; NULL: whatever it is. False and `err` where nothing there waits for it. */
-bool problem_retry(struct room *room, const char *place, struct error *err);
 /* The scene is left out for this reason. */
 void problem_leave_out(struct room *room, const struct error *why);
 /* It is drawn again, since it was edited. */
 void problem_let_in(struct room *room);
+/* What is at this place is tried again. */
+void problem_tell_retry(const struct room *room, const char *place);
 /* For somebody who has just come; nothing where there is none. */
 void problem_tell(struct session *session, const struct room *room);
 

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fallback.h"
 #include "hub.h"
 #include "problem.h"
 #include "protocol/code_text.h"
-#include "room.h"
+#include "room_state.h"
 #include "server/log.h"
 
 /* --- what is known of shapes --- */
@@ -67,7 +68,7 @@ static void send_case(struct hub *hub, const struct quarantine_case *known)
 
 void quarantine_worker_ready(struct hub *hub)
 {
-    const struct quarantine *quarantine = &hub->quarantine;
+    const struct quarantine *quarantine = hub->quarantine;
 
     for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
         send_case(hub, &quarantine->cases[i]);
@@ -126,14 +127,14 @@ static void drawing(struct hub *hub, const struct suspect *suspect)
 {
     const struct room *room = find_room(hub, suspect->scene);
 
-    hub->quarantine.drawing = *suspect;
+    hub->quarantine->drawing = *suspect;
     supervisor_set_patience(hub->supervisor, room ? room->patience : 1);
 }
 
 void quarantine_named(struct hub *hub, enum packet_to_front kind,
                       const struct packet_suspect *named)
 {
-    struct quarantine *quarantine = &hub->quarantine;
+    struct quarantine *quarantine = hub->quarantine;
     const struct suspect suspect = read_suspect(named);
 
     switch (kind) {
@@ -225,7 +226,7 @@ void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t
 /* The second time it is refused. */
 static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
 {
-    struct quarantine *quarantine = &hub->quarantine;
+    struct quarantine *quarantine = hub->quarantine;
     struct quarantine_case *known = get_case(quarantine, suspect);
     struct room *room = find_room(hub, suspect->scene);
     const bool image = is_image(suspect->shape);
@@ -254,7 +255,7 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
 
 bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
-    struct quarantine *quarantine = &hub->quarantine;
+    struct quarantine *quarantine = hub->quarantine;
     const struct suspect none = {.scene = ""};
     const bool slow = *quarantine->slow.shape && quarantine->limit_ms > 0;
     const struct suspect compiled = *quarantine->slow.shape ? quarantine->slow
@@ -281,14 +282,14 @@ bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked)
 {
-    return hub->quarantine.named ? strcmp(hub->quarantine.drawn.scene, scene) == 0 : asked;
+    return hub->quarantine->named ? strcmp(hub->quarantine->drawn.scene, scene) == 0 : asked;
 }
 
 /* --- second tries --- */
 
 bool quarantine_is_tried_again(const struct hub *hub, const struct room *room)
 {
-    const struct quarantine *quarantine = &hub->quarantine;
+    const struct quarantine *quarantine = hub->quarantine;
 
     for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
         const struct quarantine_case *known = &quarantine->cases[i];
@@ -302,7 +303,7 @@ bool quarantine_is_tried_again(const struct hub *hub, const struct room *room)
 
 bool quarantine_pardon(struct hub *hub, const char *shape)
 {
-    struct quarantine_case *known = find_case(&hub->quarantine, shape);
+    struct quarantine_case *known = find_case(hub->quarantine, shape);
 
     if (!known || known->refused == ERROR_NONE) {
         return false;

@@ -12,11 +12,12 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
-#include "renders_parts.h"
-#include "room.h"
+#include "quarantine.h"
+#include "room_state.h"
 #include "room_worker.h"
 #include "server/clock.h"
 #include "server/log.h"
+#include "uploads.h"
 
 void renders_init(struct renders *renders)
 {
@@ -35,7 +36,7 @@ static void render_destroy(struct render *render)
 /* Takes it out of the list. */
 static void detach(struct hub *hub, struct render *render)
 {
-    struct renders *renders = &hub->renders;
+    struct renders *renders = hub->renders;
     struct render **link = &renders->first;
 
     while (*link != render) {
@@ -101,7 +102,7 @@ static void send_scene(struct hub *hub, const struct render *render)
     room_worker_send_scene(hub, name, 1, document);
 }
 
-struct render_demand render_demand(const struct render_order *order)
+static struct render_demand render_demand(const struct render_order *order)
 {
     const int width = render_request_int(&order->request, "width");
     const int height = render_request_int(&order->request, "height");
@@ -156,14 +157,14 @@ static void dispatch(struct hub *hub)
 {
     bool any_sent = false, suspect_sent = false;
 
-    if (!hub->renders.ready) {
+    if (!hub->renders->ready) {
         return;
     }
-    for (struct render *render = hub->renders.first; render; render = render->next) {
+    for (struct render *render = hub->renders->first; render; render = render->next) {
         any_sent |= render->sent;
         suspect_sent |= render->sent && is_suspect(render);
     }
-    for (struct render *render = hub->renders.first; render && !suspect_sent;
+    for (struct render *render = hub->renders->first; render && !suspect_sent;
          render = render->next) {
         if (render->sent) {
             continue;
@@ -205,7 +206,7 @@ static bool admits(struct hub *hub, const struct render_order *order, struct err
 
 uint32_t renders_submit(struct hub *hub, struct render_order *order, struct error *err)
 {
-    struct renders *renders = &hub->renders;
+    struct renders *renders = hub->renders;
 
     if (!admits(hub, order, err)) {
         render_request_finish(&order->request);
@@ -266,7 +267,7 @@ static void cancel(struct hub *hub, struct render *render)
 
 void renders_cancel(struct hub *hub, uint32_t id)
 {
-    struct render *render = find(&hub->renders, id);
+    struct render *render = find(hub->renders, id);
 
     if (render) {
         cancel(hub, render);
@@ -279,15 +280,15 @@ void renders_fail_all(struct hub *hub, const char *why)
     struct error err = {0};
 
     error_set(&err, ERROR_UNAVAILABLE, "", "%s", why);
-    while (hub->renders.first) {
-        finish(hub, hub->renders.first, NULL, &err);
+    while (hub->renders->first) {
+        finish(hub, hub->renders->first, NULL, &err);
     }
 }
 
 void renders_cancel_room(struct hub *hub, const struct room *room)
 {
     struct error err = {0};
-    struct render *render = hub->renders.first;
+    struct render *render = hub->renders->first;
 
     error_set(&err, ERROR_NOT_FOUND, room->id, "the scene was deleted");
     while (render) {
@@ -295,7 +296,7 @@ void renders_cancel_room(struct hub *hub, const struct room *room)
 
         if (render->order.room == room) {
             finish(hub, render, NULL, &err);
-            next = hub->renders.first; /* the callback may have changed the list */
+            next = hub->renders->first; /* the callback may have changed the list */
         }
         render = next;
     }
@@ -383,7 +384,7 @@ static void leave_out(struct room *room, const struct error *why)
 
 void renders_worker_ready(struct hub *hub)
 {
-    hub->renders.ready = true;
+    hub->renders->ready = true;
     dispatch(hub);
 }
 
@@ -404,7 +405,7 @@ static void undrawn(const struct render *render, struct error *err)
 /* NULL: cancelled meanwhile. What is heard of goes on. */
 static struct render *heard_of(struct hub *hub, uint32_t job)
 {
-    struct render *render = find(&hub->renders, job);
+    struct render *render = find(hub->renders, job);
 
     if (!render || !render->sent) {
         return NULL;
@@ -449,7 +450,7 @@ void renders_frame(struct hub *hub, const struct packet *packet)
         return;
     }
     count_times(hub, &packet->frame.times);
-    learn_image(&hub->renders, render);
+    learn_image(hub->renders, render);
     if (render->order.room && is_fatal(render)) {
         render->order.room->deaths = 0;
     }
@@ -465,14 +466,14 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
     for (struct room *room = hub->rooms; room; room = room->next) {
         bool asked = room->sent && room->settled < room->revision;
 
-        for (struct render *r = hub->renders.first; r && !asked; r = r->next) {
+        for (struct render *r = hub->renders->first; r && !asked; r = r->next) {
             asked = r->sent && r->order.room == room;
         }
         room->sent = room->shown = room->settled = 0;
         if (!quarantine_blames(hub, room->id, asked) || room->left_out.kind != ERROR_NONE) {
             continue;
         }
-        const struct render *drawn = find(&hub->renders, hub->quarantine.drawn.job);
+        const struct render *drawn = find(hub->renders, hub->quarantine->drawn.job);
 
         room->fatal = drawn ? render_demand(&drawn->order) : (struct render_demand){0};
         if (++room->deaths >= RENDER_DEATHS) {
@@ -495,10 +496,10 @@ void renders_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct error err = {0};
 
-    hub->renders.ready = false;
+    hub->renders->ready = false;
     blame(hub, end);
     error_set(&err, ERROR_UNAVAILABLE, "", "the render process ended while it drew this");
-    for (struct render *render = hub->renders.first, *next; render; render = next) {
+    for (struct render *render = hub->renders->first, *next; render; render = next) {
         next = render->next;
         if (!render->sent) {
             continue;
@@ -521,7 +522,7 @@ int64_t renders_tick(struct hub *hub, int64_t now_ms)
 
     error_set(&err, ERROR_UNAVAILABLE, "", "the picture did not go on for %d seconds",
               RENDER_DEADLINE_MS / 1000);
-    for (struct render *render = hub->renders.first, *next; render; render = next) {
+    for (struct render *render = hub->renders->first, *next; render; render = next) {
         next = render->next;
         if (render->deadline > now_ms) {
             next_deadline = clock_earlier(next_deadline, render->deadline);

@@ -6,30 +6,25 @@
 #include <string.h>
 #include <sys/random.h>
 
+#include "catalog.h"
+#include "fallback.h"
+#include "frames.h"
 #include "hub.h"
+#include "picker.h"
 #include "poster.h"
 #include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
-#include "room_apart.h"
 #include "room_authors.h"
 #include "room_log.h"
+#include "room_snapshot.h"
+#include "room_store.h"
 #include "room_worker.h"
 #include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
-
-/* A commit under way. */
-struct commit {
-    struct room *room;
-    uint64_t revision;
-    char author[LIMIT_ID_BYTES + 1];
-    int64_t edit;
-    void (*then)(void *data);
-    void *data;
-};
 
 /* --- birth and death --- */
 
@@ -56,6 +51,7 @@ struct room *room_create(struct hub *hub, const char *id, struct scene *scene, u
     room->patience = 1;
     room->fallback.code = code_text_in_scene(scene);
     make_epoch(room->epoch);
+    room->destroy = room_destroy;
     return room;
 }
 
@@ -158,103 +154,6 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
 
 /* --- what follows an accepted change --- */
 
-static void on_durable(void *data)
-{
-    struct commit *commit = data;
-    struct room *room = commit->room;
-    struct hub *hub = room->hub;
-
-    hub_lock(hub);
-    if (commit->revision > room->durable) {
-        room->durable = commit->revision;
-    }
-    const struct author *author =
-        commit->edit > 0 ? authors_find(&room->authors, commit->author) : NULL;
-    if (author && author->session) {
-        session_tell_durable(author->session, commit->edit, commit->revision);
-    }
-    room->pending--;
-    if (room->deleted && room->pending == 0) {
-        room_destroy(room);
-    }
-    hub_unlock(hub);
-    if (commit->then) {
-        commit->then(commit->data);
-    }
-    free(commit);
-}
-
-/* Takes `text` and what `step` holds; NULL: none. */
-static void push_write(struct room *room, enum store_kind kind, const struct room_change *change,
-                       char *text, const struct store_step *step)
-{
-    struct store_write *write = memory_alloc(1, sizeof(*write));
-    struct commit *commit = memory_alloc(1, sizeof(*commit));
-    const char *name = record_text(&room->scene->info, "name");
-
-    commit->room = room;
-    commit->revision = room->revision;
-    commit->edit = change->edit;
-    commit->then = change->then;
-    commit->data = change->data;
-    snprintf(commit->author, sizeof(commit->author), "%s", change->author);
-    write->kind = kind;
-    write->revision = room->revision;
-    write->edit = change->edit;
-    write->text = text;
-    write->step = step ? *step : (struct store_step){0};
-    write->name = memory_text(name);
-    write->nodes = room->scene->node_count;
-    write->on_durable = on_durable;
-    write->data = commit;
-    snprintf(write->scene, sizeof(write->scene), "%s", room->id);
-    snprintf(write->author, sizeof(write->author), "%s", change->author);
-    snprintf(write->key, sizeof(write->key), "%s", change->by ? change->by->key : "");
-    room->pending++;
-    store_push(room->hub->store, write);
-    if (kind == STORE_CREATE || kind == STORE_EDIT || kind == STORE_REPLACE) {
-        struct timespec now;
-
-        clock_gettime(CLOCK_REALTIME, &now);
-        catalog_set(&room->hub->catalog, room->id, name, room->revision, room->scene->node_count,
-                    (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000);
-    }
-}
-
-void room_store_new(struct room *room, char *text, void (*then)(void *data), void *data)
-{
-    push_write(room, STORE_CREATE, &(struct room_change){.author = "", .then = then, .data = data},
-               text, NULL);
-}
-
-void room_store_deleted(struct room *room, void (*then)(void *data), void *data)
-{
-    room->deleted = true;
-    push_write(room, STORE_DELETE, &(struct room_change){.author = "", .then = then, .data = data},
-               NULL, NULL);
-}
-
-void room_snapshot(struct room *room)
-{
-    char *text =
-        room->text ? memory_text((const char *)room->text->bytes) : scene_print(room->scene, false);
-
-    room->edits_since_snapshot = 0;
-    push_write(room, STORE_SNAPSHOT, &(struct room_change){.author = ""}, text, NULL);
-    room_authors_cut(room);
-}
-
-void room_store_author(struct room *room, struct author *author)
-{
-    push_write(room, STORE_AUTHOR, &(struct room_change){.author = author->id, .by = author}, NULL,
-               NULL);
-}
-
-const char *room_change_name(const struct room_change *change)
-{
-    return change->by ? change->by->name : change->author;
-}
-
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
 {
     struct blob *message = say_changed(room->revision, room_change_name(change), ops, 0);
@@ -281,7 +180,7 @@ static void commit_change(struct room *room, const struct room_change *change, c
     tell_others(room, change, text);
     problem_let_in(room); /* it may have helped */
     room_worker_edit(room, ops, text);
-    push_write(room, STORE_EDIT, change, text, step);
+    room_store_push(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
         room_snapshot_soon(room);
@@ -416,7 +315,7 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
     room_log_clear(room);
     room_worker_replace(room);
     tell_document(room, text);
-    push_write(room, STORE_REPLACE, change, text, NULL);
+    room_store_push(room, STORE_REPLACE, change, text, NULL);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     return before;
 }
@@ -435,7 +334,7 @@ struct blob *room_document_message(struct room *room)
 
 struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client)
 {
-    const struct room_entry *entry = room_log_entry(room, revision);
+    const struct room_entry *entry = room_entry_of(room, revision);
     bool own = strcmp(entry->author, client) == 0;
 
     return say_changed(revision, entry->name, entry->ops, own ? entry->edit : 0);

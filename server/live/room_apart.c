@@ -19,7 +19,7 @@ void room_release(struct room *room)
     pthread_cond_broadcast(&room->hub->released);
 }
 
-static bool is_heavy(const struct room *room)
+bool room_is_heavy(const struct room *room)
 {
     return room->scene->node_count > TASK_LIGHT_NODES;
 }
@@ -34,7 +34,7 @@ static struct blob *with_end(const char *text)
 void room_keep_text(struct room *room, const char *text)
 {
     room_forget_text(room);
-    if (is_heavy(room)) {
+    if (room_is_heavy(room)) {
         room->text = with_end(text);
     }
 }
@@ -59,7 +59,7 @@ struct blob *room_text(struct room *room)
     if (room->text) {
         return blob_ref(room->text);
     }
-    if (!is_heavy(room)) {
+    if (!room_is_heavy(room)) {
         return print(room);
     }
     room_hold(room);
@@ -70,52 +70,6 @@ struct blob *room_text(struct room *room)
     room->text = blob_ref(text);
     room_release(room);
     return text;
-}
-
-/* --- snapshots --- */
-
-struct snapshot {
-    struct hub *hub;
-    char id[LIMIT_ID_BYTES + 1];
-};
-
-static void store_snapshot(void *data, bool dropped)
-{
-    struct snapshot *snapshot = data;
-    struct room *room = dropped ? NULL : hub_lock_room_to_change(snapshot->hub, snapshot->id, NULL);
-
-    if (room) {
-        room->snapshot_soon = false;
-        blob_unref(room_text(room));
-        room_snapshot(room);
-        hub_unlock(snapshot->hub);
-    }
-    free(snapshot);
-}
-
-void room_snapshot_soon(struct room *room)
-{
-    if (!is_heavy(room) || room->text) {
-        room_snapshot(room);
-        return;
-    }
-    if (room->snapshot_soon) {
-        return;
-    }
-    struct snapshot *snapshot = memory_alloc(1, sizeof(*snapshot));
-
-    snapshot->hub = room->hub;
-    snprintf(snapshot->id, sizeof(snapshot->id), "%s", room->id);
-    room->snapshot_soon = tasks_add(room->hub->tasks,
-                                    &(struct task_order){.scene = room->id,
-                                                         .account = "",
-                                                         .heavy = true,
-                                                         .run = store_snapshot,
-                                                         .data = snapshot},
-                                    NULL);
-    if (!room->snapshot_soon) {
-        free(snapshot);
-    }
 }
 
 /* --- many operations --- */

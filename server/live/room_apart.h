@@ -5,7 +5,7 @@
 #ifndef SERVER_ROOM_APART_H
 #define SERVER_ROOM_APART_H
 
-#include "room.h"
+#include "room_state.h"
 
 enum { ROOM_LIGHT_OPERATIONS = 256 }; /* of an edit or step; more are applied to a copy */
 
@@ -25,6 +25,15 @@ struct room_work {
     struct scene *before; /* that the copy took the place of; NULL: none did */
 };
 
+/* Whether printing or copying it takes long. */
+bool room_is_heavy(const struct room *room);
+/* Between these two the document is as it was, without the lock too, and the room stays. */
+void room_hold(struct room *room);
+void room_release(struct room *room);
+
+/* What the document prints as. One of many nodes is printed without the lock and kept until the
+ * next edit; only on threads of tasks then. A text with its NUL; caller unrefs. */
+struct blob *room_text(struct room *room);
 /* Nobody may hold the room. With many operations it lets go of the lock. */
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err);
@@ -33,7 +42,4 @@ void room_work_finish(struct room *room, struct room_work *work);
 /* `text` is what the document prints as now; kept where printing takes long. */
 void room_keep_text(struct room *room, const char *text);
 void room_forget_text(struct room *room);
-/* Stores a snapshot soon, or at once where that is quick. */
-void room_snapshot_soon(struct room *room);
-
 #endif

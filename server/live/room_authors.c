@@ -6,6 +6,7 @@
 
 #include "hub.h"
 #include "room_log.h"
+#include "room_store.h"
 
 void room_authors_load(struct room *room, const struct store_loaded *loaded)
 {

@@ -4,7 +4,7 @@
 #ifndef SERVER_ROOM_AUTHORS_H
 #define SERVER_ROOM_AUTHORS_H
 
-#include "room.h"
+#include "room_state.h"
 
 struct store_loaded;
 

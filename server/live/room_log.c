@@ -13,11 +13,6 @@ static struct room_entry *entry_at(struct room *room, uint64_t revision)
     return &room->log[revision % ROOM_LOG];
 }
 
-const struct room_entry *room_log_entry(const struct room *room, uint64_t revision)
-{
-    return &room->log[revision % ROOM_LOG];
-}
-
 void room_log_clear(struct room *room)
 {
     for (size_t i = 0; i < ROOM_LOG; i++) {
@@ -58,7 +53,7 @@ void room_log_add(struct room *room, const struct room_change *change, const cha
 const struct room_entry *room_log_find(const struct room *room, const char *author, int64_t edit)
 {
     for (uint64_t r = room->revision; r > room->log_from; r--) {
-        const struct room_entry *entry = room_log_entry(room, r);
+        const struct room_entry *entry = room_entry_of(room, r);
 
         if (entry->edit == edit && strcmp(entry->author, author) == 0) {
             return entry;
@@ -72,7 +67,7 @@ cJSON *room_log_since(const struct room *room, uint64_t from)
     cJSON *all = cJSON_CreateArray();
 
     for (uint64_t r = from + 1; r <= room->revision; r++) {
-        const char *text = room_log_entry(room, r)->ops;
+        const char *text = room_entry_of(room, r)->ops;
         cJSON *ops = json_parse(text, strlen(text), NULL);
 
         while (ops && ops->child) {

@@ -4,13 +4,11 @@
 #ifndef SERVER_ROOM_LOG_H
 #define SERVER_ROOM_LOG_H
 
-#include "room.h"
+#include "room_state.h"
 
 void room_log_clear(struct room *room);
 /* The newest revision, `ops` as text. */
 void room_log_add(struct room *room, const struct room_change *change, const char *ops);
-/* Of a revision above room->log_from. */
-const struct room_entry *room_log_entry(const struct room *room, uint64_t revision);
 /* The author's edit of this number; NULL: not there (any more). */
 const struct room_entry *room_log_find(const struct room *room, const char *author, int64_t edit);
 /* Operations of all revisions above `from`, which is at least room->log_from. Caller deletes. */

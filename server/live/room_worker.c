@@ -4,16 +4,20 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fallback.h"
 #include "hub.h"
 #include "protocol/code_text.h"
+#include "quarantine.h"
 #include "room_log.h"
+#include "room_state.h"
+#include "uploads.h"
 
 /* The file that the environment names, which the worker keeps as long as its scene does. */
 static void send_image(struct room *room, const struct scene *scene)
 {
     const char *image = record_text(&scene->environment, "image");
 
-    if (*image && strcmp(image, room->image) != 0 && uploads_find(&room->hub->uploads, image)) {
+    if (*image && strcmp(image, room->image) != 0 && uploads_find(room->hub->uploads, image)) {
         snprintf(room->image, sizeof(room->image), "%s", image);
         uploads_send(room->hub, image);
     }

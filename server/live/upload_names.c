@@ -8,9 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalog.h"
 #include "hub.h"
 #include "protocol/memory.h"
-#include "room.h"
+#include "room_snapshot.h"
+#include "uploads.h"
 
 static struct upload_name *find(const struct upload_names *names, const char *id, size_t length)
 {
@@ -46,10 +48,10 @@ static void read_text(void *data, const char *scene, const char *text)
 /* Under the hub's lock. */
 static void begin(struct hub *hub, struct upload_names *out)
 {
-    out->count = hub->uploads.count;
+    out->count = hub->uploads->count;
     out->items = memory_alloc(out->count, sizeof(*out->items));
     for (size_t i = 0; i < out->count; i++) {
-        memcpy(out->items[i].id, hub->uploads.items[i].id, sizeof(out->items[i].id));
+        memcpy(out->items[i].id, hub->uploads->items[i].id, sizeof(out->items[i].id));
     }
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->edits_since_snapshot && !room->deleted) {

@@ -87,7 +87,7 @@ void *uploads_load(struct hub *hub, const char *id, size_t *out_length, struct e
 
 void uploads_send(struct hub *hub, const char *id)
 {
-    if (uploads_find(&hub->uploads, id)) {
+    if (uploads_find(hub->uploads, id)) {
         supervisor_send_asset(hub->supervisor, id);
     }
 }

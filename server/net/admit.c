@@ -12,7 +12,7 @@
 
 #include "access.h"
 #include "head.h"
-#include "http.h"
+#include "http_app.h"
 #include "route.h"
 
 /* --- framing --- */

@@ -5,9 +5,9 @@
 #ifndef SERVER_HTTP_H
 #define SERVER_HTTP_H
 
-#include <stdatomic.h>
 #include <sys/socket.h>
 
+#include "http_app.h"
 #include "protocol/error.h"
 
 enum {
@@ -16,25 +16,7 @@ enum {
     HTTP_BODY_MS = 30000, /* for a whole body, however it trickles */
 };
 
-struct access;
-struct hub;
 struct http;
-struct metrics;
-struct route_table;
-struct tasks;
-
-/* Who answers the requests; all of it outlives the http. */
-struct http_app {
-    const struct route_table *routes;
-    const struct access *access;
-    struct metrics *metrics;
-    struct tasks *tasks;
-    const atomic_bool *draining;   /* what is guarded is refused */
-    struct hub *hub;               /* that handlers get with a request; nothing is known of it */
-    void (*lock)(struct hub *hub); /* under it the requests with a `gone` are answered */
-    void (*unlock)(struct hub *hub);
-    bool (*scene_is_heavy)(struct hub *hub, const char *id); /* to read, print or copy */
-};
 
 struct http *http_create(const struct http_app *app, struct error *err);
 /* Any thread; takes `fd`, from which nothing has been read. */

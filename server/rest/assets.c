@@ -8,11 +8,12 @@
 #include "server/digest.h"
 #include "server/embedded.h"
 #include "server/live/frames.h"
-#include "server/live/hub.h"
+#include "server/live/hub_rooms.h"
 #include "server/live/room.h"
 #include "server/live/room_worker.h"
 #include "server/live/session.h"
 #include "server/live/upload_names.h"
+#include "server/live/uploads.h"
 
 /* A file on its way to the disk. */
 struct waiting {
@@ -40,8 +41,8 @@ void assets_list(struct request *request)
     cJSON *list = cJSON_AddArrayToObject(json, "assets");
 
     hub_lock(hub);
-    for (size_t i = 0; i < hub->uploads.count; i++) {
-        cJSON_AddItemToArray(list, describe(&hub->uploads.items[i]));
+    for (size_t i = 0; i < hub->uploads->count; i++) {
+        cJSON_AddItemToArray(list, describe(&hub->uploads->items[i]));
     }
     hub_unlock(hub);
     request_reply_json(request, 200, json);
@@ -76,11 +77,11 @@ static void on_stored(void *data)
     cJSON *json;
 
     hub_lock(hub);
-    hub->uploads.pending_count--;
-    hub->uploads.pending_bytes -= waiting->asset.length;
-    uploads_add(&hub->uploads, &waiting->asset);
+    hub->uploads->pending_count--;
+    hub->uploads->pending_bytes -= waiting->asset.length;
+    uploads_add(hub->uploads, &waiting->asset);
     tell_rooms(hub, waiting->asset.id);
-    json = describe(uploads_find(&hub->uploads, waiting->asset.id));
+    json = describe(uploads_find(hub->uploads, waiting->asset.id));
     hub_unlock(hub);
     reply(waiting->request, 201, json, waiting->asset.id);
     free(waiting);
@@ -93,8 +94,8 @@ static void store_asset(struct request *request, struct store_asset *asset)
     struct store_write *write = memory_alloc(1, sizeof(*write));
 
     hub_lock(request->hub);
-    request->hub->uploads.pending_count++;
-    request->hub->uploads.pending_bytes += asset->length;
+    request->hub->uploads->pending_count++;
+    request->hub->uploads->pending_bytes += asset->length;
     hub_unlock(request->hub);
     *waiting = (struct waiting){request, request->hub, *asset};
     *write = (struct store_write){
@@ -113,18 +114,18 @@ static void remove_asset(struct hub *hub, const char *id, void (*on_durable)(voi
                                   .on_durable = on_durable,
                                   .data = data};
     snprintf(write->asset->id, sizeof(write->asset->id), "%s", id);
-    uploads_remove(&hub->uploads, id);
+    uploads_remove(hub->uploads, id);
     store_push(hub->store, write);
 }
 
 /* Under the hub's lock: removes what no scene names, oldest first, until there is room. */
 static void remove_unnamed(struct hub *hub, const struct upload_names *names, size_t length)
 {
-    for (size_t i = 0; i < names->count && !uploads_have_room(&hub->uploads, length); i++) {
+    for (size_t i = 0; i < names->count && !uploads_have_room(hub->uploads, length); i++) {
         const char *id = names->items[i].id;
 
         if (!upload_names_scene(names, id) && !example_files_find(id) &&
-            uploads_find(&hub->uploads, id)) {
+            uploads_find(hub->uploads, id)) {
             remove_asset(hub, id, NULL, NULL);
         }
     }
@@ -136,7 +137,7 @@ static bool make_room(struct hub *hub, size_t length, struct error *err)
     struct upload_names names;
 
     hub_lock(hub);
-    bool room = uploads_have_room(&hub->uploads, length);
+    bool room = uploads_have_room(hub->uploads, length);
     hub_unlock(hub);
     if (room) {
         return true;
@@ -147,11 +148,11 @@ static bool make_room(struct hub *hub, size_t length, struct error *err)
     hub_lock(hub);
     upload_names_add_open(&names, hub);
     remove_unnamed(hub, &names, length);
-    room = uploads_have_room(&hub->uploads, length) ||
+    room = uploads_have_room(hub->uploads, length) ||
            error_set(err, ERROR_FULL, "/v1/assets",
                      "%zu files of %zu bytes, all named by scenes, are kept; the limits are %d "
                      "files and %d bytes",
-                     hub->uploads.count, hub->uploads.bytes, LIMIT_ASSETS, LIMIT_ASSETS_BYTES);
+                     hub->uploads->count, hub->uploads->bytes, LIMIT_ASSETS, LIMIT_ASSETS_BYTES);
     hub_unlock(hub);
     upload_names_finish(&names);
     return room;
@@ -169,7 +170,7 @@ void assets_create(struct request *request)
         asset_inspect((const uint8_t *)request->body, request->body_length, &asset->info, &err)) {
         digest_text(request->body, request->body_length, asset->id);
         hub_lock(hub);
-        const struct upload *upload = uploads_find(&hub->uploads, asset->id);
+        const struct upload *upload = uploads_find(hub->uploads, asset->id);
         known = upload ? describe(upload) : NULL;
         hub_unlock(hub);
     }
@@ -193,10 +194,10 @@ void assets_read(struct request *request)
     struct hub *hub = request->hub;
     struct response response = {.status = 200};
     struct error err = {0};
-    char type[sizeof(hub->uploads.items->type)] = "";
+    char type[sizeof(hub->uploads->items->type)] = "";
 
     hub_lock(hub);
-    const struct upload *upload = uploads_find(&hub->uploads, request->capture[0]);
+    const struct upload *upload = uploads_find(hub->uploads, request->capture[0]);
     if (upload) {
         memcpy(type, upload->type, sizeof(type));
     }
@@ -224,7 +225,7 @@ static bool check_removal(struct hub *hub, const char *id, const struct upload_n
 {
     const char *scene = names ? upload_names_scene(names, id) : NULL;
 
-    if (!uploads_find(&hub->uploads, id)) {
+    if (!uploads_find(hub->uploads, id)) {
         return error_set(err, ERROR_NOT_FOUND, "", "there is no asset %s", id);
     }
     if (example_files_find(id)) {

@@ -10,9 +10,12 @@
 #include "protocol/messages.h"
 #include "routes.h"
 #include "server/embedded.h"
-#include "server/live/hub.h"
+#include "server/live/hub_rooms.h"
 #include "server/live/image_queue.h"
+#include "server/live/pictures.h"
+#include "server/live/renders.h"
 #include "server/live/room.h"
+#include "server/live/uploads.h"
 
 /* A picture on its way to a client. */
 struct waiting {
@@ -40,7 +43,7 @@ static char *make_key(const struct hub *hub, const struct render_request *asked,
     FILE *out = open_memstream(&key, &length);
 
     /* A file that was not there when the picture was drawn may be by now. */
-    fprintf(out, "%s %zu ", text, hub->uploads.count);
+    fprintf(out, "%s %zu ", text, hub->uploads->count);
     if (room) {
         fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
     } else {
@@ -87,7 +90,7 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
         const uint64_t revision = answer->frame->revision;
 
         if (revision == waiting->revision) {
-            pictures_add(&waiting->hub->pictures, waiting->key, answer->frame->codec, revision,
+            pictures_add(waiting->hub->pictures, waiting->key, answer->frame->codec, revision,
                          answer->bytes, answer->length);
         }
         reply_picture(waiting, revision, answer->frame->codec, answer->bytes, answer->length);
@@ -123,7 +126,7 @@ static bool reply_at_once(const struct waiting *waiting)
         request_reply(waiting->request, &response);
         return true;
     }
-    picture = pictures_find(&waiting->hub->pictures, waiting->key);
+    picture = pictures_find(waiting->hub->pictures, waiting->key);
     if (picture) {
         metric_add(&waiting->hub->metrics, METRIC_PICTURES_REUSED, 1);
         reply_picture(waiting, picture->revision, picture->codec, picture->bytes, picture->length);

@@ -13,7 +13,8 @@
 #include "protocol/messages.h"
 #include "routes.h"
 #include "server/embedded.h"
-#include "server/live/hub.h"
+#include "server/live/hub_rooms.h"
+#include "server/live/renders.h"
 
 enum { WEB_FILE_BYTES = 67108864 };
 
@@ -297,7 +298,7 @@ void pages_ready(struct request *request)
     struct renderer_info info;
 
     hub_lock(hub);
-    bool ready = hub->renders.ready;
+    bool ready = hub->renders->ready;
     info = hub->renderer;
     hub_unlock(hub);
     const char *damage = store_damage(hub->store);

@@ -12,7 +12,8 @@
 #include "protocol/messages.h"
 #include "routes.h"
 #include "server/embedded.h"
-#include "server/live/hub.h"
+#include "server/live/catalog.h"
+#include "server/live/hub_rooms.h"
 #include "server/live/poster.h"
 #include "server/live/room.h"
 #include "server/net/ws.h"
@@ -95,8 +96,8 @@ void scenes_list(struct request *request)
     cJSON *list = cJSON_AddArrayToObject(json, "scenes");
 
     hub_lock(hub);
-    for (size_t i = 0; i < hub->catalog.count; i++) {
-        const struct catalog_entry *entry = hub->catalog.entries[i];
+    for (size_t i = 0; i < hub->catalog->count; i++) {
+        const struct catalog_entry *entry = hub->catalog->entries[i];
         cJSON *item = cJSON_CreateObject();
         char modified[40];
 

@@ -93,6 +93,35 @@ function checkIncludes(files) {
     }
 }
 
+// Within these folders no file needs itself by way of others; `a.c` and `a.h` are one.
+const WITHOUT_CIRCLES = ['server/net', 'server/live', 'server/rest'];
+
+function checkCircles(files) {
+    const needs = new Map();
+    const stem = (file) => file.replace(/\.[ch]$/, '');
+    for (const folder of WITHOUT_CIRCLES) {
+        const own = files.filter((file) => path.dirname(file) === folder && /\.[ch]$/.test(file));
+        search(own, /^\s*#\s*include\s*"([^"]+)"/, ([, name], file, line) => {
+            const target = name.includes('/') ? name : path.join(folder, name);
+            if (path.dirname(target) === folder && stem(target) !== stem(file)) {
+                needs.set(stem(file), [...(needs.get(stem(file)) ?? []), { to: stem(target), file, line }]);
+            }
+        });
+    }
+    const done = new Set();
+    const visit = (node, way) => {
+        for (const { to, file, line } of done.has(node) ? [] : needs.get(node) ?? []) {
+            if (way.includes(to)) {
+                report(file, line, 'circle', [...way.slice(way.indexOf(to)), to].join(' -> '));
+            } else {
+                visit(to, [...way, to]);
+            }
+        }
+        done.add(node);
+    };
+    [...needs.keys()].forEach((node) => visit(node, [node]));
+}
+
 // What C and GLSL have in common has a name in renderer/glsl/interface.h.
 function checkBindings(files) {
     const own = files.filter((file) => /^renderer\/.*\.glsl$/.test(file));
@@ -260,6 +289,7 @@ function checkTools(files) {
 
 const files = listFiles().sort();
 checkIncludes(files);
+checkCircles(files);
 checkBindings(files);
 checkPurity(files);
 checkImports(files);

@@ -13,9 +13,11 @@
 
 #include "protocol/memory.h"
 #include "server/live/authors.h"
+#include "server/live/catalog.h"
 #include "server/live/hub.h"
 #include "server/live/room.h"
 #include "server/live/room_authors.h"
+#include "server/live/room_store.h"
 
 enum { MANY = 25000 };
 
@@ -118,6 +120,7 @@ static void open_hub(struct hub *hub)
 
     memset(hub, 0, sizeof(*hub));
     pthread_mutex_init(&hub->lock, NULL);
+    hub->catalog = memory_alloc(1, sizeof(*hub->catalog));
     hub->store = store_open(directory, &hub->metrics, &err);
     assert_non_null(hub->store);
 }
@@ -125,7 +128,8 @@ static void open_hub(struct hub *hub)
 static void close_hub(struct hub *hub)
 {
     store_close(hub->store);
-    catalog_finish(&hub->catalog);
+    catalog_finish(hub->catalog);
+    free(hub->catalog);
     pthread_mutex_destroy(&hub->lock);
 }
 

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#include "retry.h"
+
+#include <string.h>
+
+#include "frames.h"
+#include "hub.h"
+#include "problem.h"
+#include "quarantine.h"
+#include "room_state.h"
+#include "session.h"
+
+static bool is_meant(const struct error *err, const char *place)
+{
+    return problem_is_refusal(err) && (!place || strcmp(err->place, place) == 0);
+}
+
+/* The worker is told at once; if it does not hold the scene, when it is. */
+static bool retry_refused(struct room *room)
+{
+    const struct error old = room->problem;
+
+    if (!quarantine_pardon(room->hub, room->refused_shape)) {
+        return false;
+    }
+    room->problem = (struct error){0};
+    problem_tell_retry(room, old.place);
+    return true;
+}
+
+static void retry_left_out(struct room *room)
+{
+    room->patience = room->patience < LIMIT_RETRY_TIMES ? room->patience * LIMIT_RETRY_FACTOR
+                                                        : LIMIT_RETRY_TIMES;
+    problem_let_in(room);
+    for (struct session *session = room->sessions; session; session = session->next) {
+        frames_changed(session);
+    }
+}
+
+bool retry_place(struct room *room, const char *place, struct error *err)
+{
+    const bool out = is_meant(&room->left_out, place);
+    const bool refused = is_meant(&room->problem, place) && retry_refused(room);
+
+    if (out) {
+        retry_left_out(room);
+    }
+    return out || refused ||
+           error_set(err, ERROR_NOT_FOUND, "/place", "nothing at \"%s\" waits to be tried again",
+                     place ? place : "");
+}

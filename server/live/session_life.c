@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+#include "session_life.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "frames.h"
+#include "hub.h"
+#include "picker.h"
+#include "protocol/memory.h"
+#include "room_authors.h"
+#include "say.h"
+#include "server/clock.h"
+
+struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
+{
+    struct session *session = memory_alloc(1, sizeof(*session));
+    uint64_t number = 0;
+
+    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+        abort();
+    }
+    snprintf(session->id, sizeof(session->id), "%016" PRIx64, number);
+    session->hub = hub;
+    session->wake = wake;
+    session->connection = connection;
+    outbox_init(&session->outbox);
+    session->frames = memory_alloc(1, sizeof(*session->frames));
+    frames_init(session->frames);
+    metric_add(&hub->metrics, METRIC_SESSIONS, 1);
+    metric_add(&hub->metrics, METRIC_SESSIONS_TOTAL, 1);
+    return session;
+}
+
+void session_leave_room(struct session *session)
+{
+    struct room *room = session->room;
+
+    if (!room) {
+        return;
+    }
+    struct session **link = &room->sessions;
+    while (*link != session) {
+        link = &(*link)->next;
+    }
+    *link = session->next;
+    if (session->author) {
+        room_authors_left(room, session->author);
+        session->author = NULL;
+    }
+    session->next = NULL;
+    session->room = NULL;
+    room->session_count--;
+    room->idle_since = clock_ms();
+}
+
+static void session_destroy(struct session *session)
+{
+    picker_forget(session);
+    frames_finish(session);
+    free(session->frames);
+    session_leave_room(session);
+    outbox_finish(&session->outbox);
+    metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
+    free(session);
+}
+
+static void ignore(void *connection)
+{
+    (void)connection;
+}
+
+void session_leave(struct session *session)
+{
+    if (!session->working) {
+        session_destroy(session);
+        return;
+    }
+    session->left = true;
+    session->close_code = CLOSE_GOING_AWAY;
+    session->wake = ignore;
+    picker_forget(session);
+}
+
+void session_close(struct session *session, int code, const char *reason, int retry_ms)
+{
+    if (session->close_code) {
+        return;
+    }
+    session_say(session, say_bye(reason, retry_ms));
+    session->close_code = code;
+    picker_forget(session);
+    frames_stop(session);
+}
