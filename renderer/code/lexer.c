@@ -16,6 +16,7 @@ struct lexer {
     struct token *tokens;
     size_t count, capacity;
     struct error *err;
+    bool whole;
 };
 
 static const char *const texts[] = {
@@ -180,7 +181,7 @@ static bool read_word(struct lexer *lexer)
         add(lexer, TOKEN_TYPE, length)->type = type;
         return true;
     }
-    if (!check_word(lexer, text, length)) {
+    if (!lexer->whole && !check_word(lexer, text, length)) {
         return false;
     }
     add(lexer, TOKEN_NAME, length);
@@ -294,9 +295,9 @@ static bool read_token(struct lexer *lexer)
     return is_word(*text) ? read_word(lexer) : read_mark(lexer);
 }
 
-struct token *lexer_read(const char *text, struct error *err)
+struct token *lexer_read(const char *text, bool whole, struct error *err)
 {
-    struct lexer lexer = {.next = text, .at = {1, 1}, .err = err};
+    struct lexer lexer = {.next = text, .at = {1, 1}, .err = err, .whole = whole};
     bool ok = skip_blank(&lexer);
     while (ok && *lexer.next) {
         ok = read_token(&lexer) && skip_blank(&lexer);

@@ -99,8 +99,8 @@ struct token {
     double number;
 };
 
-/* All tokens, the last of which is END or BAD. Caller frees. */
-struct token *lexer_read(const char *text, struct error *err);
+/* All tokens, the last of which is END or BAD. Caller frees. `whole`: no word is refused. */
+struct token *lexer_read(const char *text, bool whole, struct error *err);
 /* "while", or NULL for kinds without a text of their own. */
 const char *lexer_text(enum token_kind kind);
 

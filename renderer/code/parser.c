@@ -7,11 +7,9 @@
 
 #include "protocol/nearest.h"
 
-static struct stmt *parse_statement(struct parser *parser);
-
 bool parser_enter(struct parser *parser)
 {
-    if (++parser->depth > LIMIT_CODE_DEPTH) {
+    if (++parser->depth > LIMIT_CODE_DEPTH && !parser->tree->whole) {
         return tree_fail_limit(parser->tree, parser->token->at, "nesting", LIMIT_CODE_DEPTH,
                                "code_depth");
     }
@@ -168,7 +166,7 @@ static struct stmt *parse_declarator(struct parser *parser, const struct variabl
 }
 
 /* float a = 1, b[2]; the type is read already. */
-static struct stmt *parse_declarators(struct parser *parser, struct variable *model)
+struct stmt *parser_declarators(struct parser *parser, struct variable *model)
 {
     struct stmt *block = statement(parser, STMT_DECLARE), **last = &block->body;
     do {
@@ -193,7 +191,7 @@ static struct stmt *parse_declaration(struct parser *parser)
         tree_fail(parser->tree, parser->token->at, "a function cannot be inside another one");
         return NULL;
     }
-    return parse_declarators(parser, &model);
+    return parser_declarators(parser, &model);
 }
 
 /* --- statements --- */
@@ -228,7 +226,7 @@ static struct stmt *parse_block(struct parser *parser)
             parser_unexpected(parser, "} to match the {");
             return NULL;
         }
-        struct stmt *stmt = parse_statement(parser);
+        struct stmt *stmt = parser_statement(parser);
         if (!stmt) {
             return NULL;
         }
@@ -246,10 +244,10 @@ static struct stmt *parse_if(struct parser *parser)
     if (!parser_enter(parser) || !parser_expect(parser, TOKEN_OPEN, "after if") ||
         !(stmt->expr = parser_expression(parser)) ||
         !parser_expect(parser, TOKEN_CLOSE, "after the condition") ||
-        !(stmt->body = parse_statement(parser))) {
+        !(stmt->body = parser_statement(parser))) {
         return NULL;
     }
-    if (parser_take(parser, TOKEN_ELSE) && !(stmt->other = parse_statement(parser))) {
+    if (parser_take(parser, TOKEN_ELSE) && !(stmt->other = parser_statement(parser))) {
         return NULL;
     }
     parser_leave(parser);
@@ -300,7 +298,7 @@ static struct stmt *parse_for(struct parser *parser)
         return NULL;
     }
     if (!parser_expect(parser, TOKEN_CLOSE, "after the step of the loop") ||
-        !(stmt->body = parse_statement(parser))) {
+        !(stmt->body = parser_statement(parser))) {
         return NULL;
     }
     parser_leave(parser);
@@ -332,7 +330,7 @@ static bool skip_attribute(struct parser *parser)
               : parser_unexpected(parser, "an attribute such as [unroll]");
 }
 
-static struct stmt *parse_statement(struct parser *parser)
+struct stmt *parser_statement(struct parser *parser)
 {
     if (!skip_attribute(parser)) {
         return NULL;
@@ -356,6 +354,9 @@ static struct stmt *parse_statement(struct parser *parser)
     case TOKEN_CONTINUE:
         return parse_jump(parser, STMT_CONTINUE, "after continue");
     default:
+        if (parser_is_word(parser, "while")) {
+            return parser_while(parser);
+        }
         return starts_declaration(parser)
                    ? parse_declaration(parser)
                    : parse_value_statement(parser, TOKEN_SEMICOLON, "after the statement");
@@ -459,7 +460,7 @@ static struct stmt *parse_top(struct parser *parser)
         }
         return parse_function(parser, model.type);
     }
-    return parse_declarators(parser, &model);
+    return parser_declarators(parser, &model);
 }
 
 /* precision highp float; */
@@ -475,10 +476,10 @@ static bool parse_precision(struct parser *parser)
 bool parser_read(struct tree *tree, const char *text)
 {
     struct error bad = {0};
-    struct token *tokens = lexer_read(text, &bad);
+    struct token *tokens = lexer_read(text, tree->whole, &bad);
     struct parser parser = {.tree = tree, .token = tokens, .bad = &bad};
-    struct stmt **last = &tree->top;
     bool ok = true;
+    parser.last_top = &tree->top;
     while (ok && parser.token->kind != TOKEN_END) {
         if (parser_take(&parser, TOKEN_SEMICOLON)) {
             continue;
@@ -487,11 +488,14 @@ bool parser_read(struct tree *tree, const char *text)
             ok = parse_precision(&parser);
             continue;
         }
+        if (tree->whole && parser_whole_top(&parser, &ok)) {
+            continue;
+        }
         struct stmt *stmt = parse_top(&parser);
         ok = stmt != NULL;
         if (ok) {
-            *last = stmt;
-            last = &stmt->next;
+            *parser.last_top = stmt;
+            parser.last_top = &stmt->next;
         }
     }
     free(tokens);

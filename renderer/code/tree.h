@@ -59,6 +59,7 @@ enum storage {
     STORAGE_PARAMETER,
     STORAGE_GLOBAL,   /* a constant */
     STORAGE_DECLARED, /* a parameter of the document */
+    STORAGE_UNIFORM,  /* of a block or a texture; only in the whole language */
 };
 
 enum direction { DIRECTION_IN, DIRECTION_OUT, DIRECTION_INOUT };
@@ -78,6 +79,7 @@ struct variable {
     int first;           /* STORAGE_DECLARED: its first number */
     uint16_t at_frame;   /* lower.h: where it lies in the frame, */
     bool placed;         /* if it has a place yet */
+    bool varying;        /* renderer/spmd: its lanes may differ */
     int scope;           /* how deep the scope is that it was declared in */
     struct variable *hidden;        /* what its name meant before */
     struct variable *next;          /* among parameters */
@@ -110,6 +112,7 @@ struct expr {
     struct at at; /* of the operator, of the name, of the first token */
     struct type type;
     bool effects;  /* assigns to something */
+    bool varying;  /* renderer/spmd: its lanes may differ */
     bool postfix;  /* EXPR_STEP */
     bool list;     /* EXPR_CONSTRUCT: {a, b}, whose type comes from what it initialises */
     bool array;    /* EXPR_CONSTRUCT: type[a](args), or type[](args) */
@@ -150,6 +153,10 @@ struct stmt {
     int trips;
     double start, step;
     struct function *function;
+    /* renderer/spmd: of if and for, lanes take it differently; of what leaves, not all lanes do. */
+    bool varying;
+    int scope;       /* renderer/spmd: of what is inside of a for, an if, */
+    int other_scope; /* of an else */
 };
 
 struct call {
@@ -179,7 +186,18 @@ struct function {
     struct function *next_called; /* in tree->called */
     /* lower.h: */
     uint16_t result_at, entry; /* in the frame; the first step */
+    bool varying;              /* renderer/spmd: its result's lanes may differ */
+    bool leaves;               /* renderer/spmd: some lanes return before others */
+    int scope;                 /* renderer/spmd: of the body */
 };
+
+/* A struct of the whole language. */
+struct tree_struct {
+    struct name *name;
+    struct variable *members; /* a list */
+};
+
+enum { TREE_STRUCTS = 64 };
 
 struct tree_chunk;
 
@@ -195,6 +213,11 @@ struct tree {
     int data_count;   /* elements of primitive.data */
     bool data_used, shading_used;
     bool clear; /* it says how much light a surface lets through */
+    /* GLSL as we write it ourselves, not users' code: with structs, blocks, while and variables
+     * outside of functions. parser_whole.c reads what is more; check.h knows nothing of it. */
+    bool whole;
+    struct tree_struct structs[TREE_STRUCTS];
+    int struct_count;
     struct function *entry;
     struct error *err;
 };

@@ -16,6 +16,9 @@ enum base {
     BASE_PRIMITIVE, /* Primitive3D: holds nothing of its own, stands for the declared parameters */
     BASE_FRAGMENT,  /* FragmentProperties: stands for the point that is shaded */
     BASE_SURFACE,   /* Surface: all that a shader may say of a point */
+    /* Only in the whole language (tree.h): */
+    BASE_STRUCT,  /* `rows`: which of the tree's structs */
+    BASE_SAMPLER, /* sampler2D */
 };
 
 struct type {
