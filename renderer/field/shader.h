@@ -3,6 +3,8 @@
 #ifndef RENDERER_SHADER_H
 #define RENDERER_SHADER_H
 
+#include <stdio.h>
+
 #include "field.h"
 
 /* `float map(vec3 p)`: the distance. Caller frees.
@@ -15,5 +17,24 @@ char *shader_map(const struct field *field);
  * object_position is filled in). USER_SHADERS must be defined where field->shader_count > 0. Both
  * texts may stand in one program. */
 char *shader_surface(const struct field *field);
+
+/* What one kind of instruction does, as a function of its own, whose numbers are own_number(i) from
+ * 0 on: what an interpreter of field programs calls (renderer/engine).
+ *
+ *   SHAPE float(vec3 p)   COMBINE, SHARE float(float a, float b)   CHANGE float(float d)
+ *   MAP, FIRST, LAST vec3(vec3 p)   CELL vec3(vec3 p, vec3 cell)   AFTER float(float d, vec3 p) */
+#define SHADER_KERNELS(X)                                                                          \
+    X(SHAPE) X(COMBINE) X(SHARE) X(CHANGE) X(MAP) X(FIRST) X(LAST) X(CELL) X(AFTER)
+enum shader_kernel {
+#define X(NAME) KERNEL_##NAME,
+    SHADER_KERNELS(X)
+#undef X
+};
+
+/* Whether instructions of this type have that. */
+bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel);
+/* `choices`: as of struct field_instruction. */
+void shader_kernel(FILE *out, const char *name, const struct node_type *type, uint32_t choices,
+                   enum shader_kernel kernel);
 
 #endif
