@@ -170,19 +170,31 @@ static bool blend_feels_far(const double *n)
     return (enum kernel)n[1] >= EXPONENTIAL;
 }
 
+static double no_reach(const double *n)
+{
+    (void)n;
+    return 0;
+}
+
+static double blend_reach(const double *n)
+{
+    return blend_feels_far(n) && (enum kernel)n[1] != POLYNOMIAL ? INFINITY : n[0];
+}
+
 const struct sdf sdf_operations[] = {
-    {"union", .combine = combine_union, .rule = SDF_ANY},
-    {"intersection", .combine = combine_intersection, .rule = SDF_ALL},
-    {"difference", .combine = combine_difference, .rule = SDF_FIRST},
+    {"union", .combine = combine_union, .rule = SDF_ANY, .reach = no_reach},
+    {"intersection", .combine = combine_intersection, .rule = SDF_ALL, .reach = no_reach},
+    {"difference", .combine = combine_difference, .rule = SDF_FIRST, .reach = no_reach},
     {"exclusive", .combine = combine_exclusive, .rule = SDF_ANY},
-    {"smooth_union", .scale = blend_scale, .combine = smin, .rule = SDF_ANY, .soft = true,
-     .feels_far = blend_feels_far, .lowered = blend_lowered, .stretched = blend_stretched},
+    {"smooth_union", .reach = blend_reach, .scale = blend_scale, .combine = smin, .rule = SDF_ANY,
+     .soft = true, .feels_far = blend_feels_far, .lowered = blend_lowered,
+     .stretched = blend_stretched},
     {"smooth_intersection", .scale = blend_scale, .combine = combine_smooth_intersection,
-     .rule = SDF_ALL, .soft = true},
+     .rule = SDF_ALL, .soft = true, .reach = blend_reach},
     {"smooth_difference", .scale = blend_scale, .combine = combine_smooth_difference,
-     .rule = SDF_FIRST, .soft = true},
+     .rule = SDF_FIRST, .soft = true, .reach = blend_reach},
     {"morph", .combine = combine_morph, .rule = SDF_ANY, .soft = true, .operands = 2},
-    {"material", .combine = combine_union, .rule = SDF_ANY},
-    {"group", .combine = combine_union, .rule = SDF_ANY},
+    {"material", .combine = combine_union, .rule = SDF_ANY, .reach = no_reach},
+    {"group", .combine = combine_union, .rule = SDF_ANY, .reach = no_reach},
     {.type = NULL},
 };

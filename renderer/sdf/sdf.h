@@ -75,6 +75,10 @@ struct sdf {
      * precision; NULL: no. Depends on choices alone. */
     bool (*feels_far)(const double *n);
     size_t operands; /* only the first so many children count; 0: all */
+    /* How much farther than the other an operand is from where it stops to matter: then the
+     * result is the other alone, to the bit. INFINITY, or NULL: it always matters. Of all in an
+     * intersection, and of what a difference takes away, distances count from the inside. */
+    double (*reach)(const double *n);
 
     /* KIND_DISTANCE */
     double (*change)(double d, const double *n);
