@@ -3,7 +3,7 @@
  * colour that nothing of the surface tells of (shadows, patterns, mirror images). */
 
 #include "camera.glsl"
-#include "gbuffer_load.glsl"
+#include "geometry_load.glsl"
 
 layout(binding = UNIT_PIXELS) uniform sampler2D pixels;
 

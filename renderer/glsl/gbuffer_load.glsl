@@ -2,8 +2,8 @@
 /* What the march and matter passes left of a sample. */
 
 #include "gbuffer.glsl"
+#include "geometry_load.glsl"
 
-layout(binding = UNIT_GEOMETRY) uniform sampler2D geometry;
 layout(binding = UNIT_MATTER) uniform usampler2D matter;
 layout(binding = UNIT_MORE) uniform usampler2D more;
 

@@ -1,41 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* Last pass: what is known of each pixel becomes an output. One of OUT_... is defined. */
 
-#include "edges.glsl"
 #include "gbuffer_load.glsl"
-#include "tone.glsl"
+#include "pixel.glsl"
 #include "visibility_load.glsl"
 
 layout(location = ARGS_LOCATION) uniform ResolveArgs args;
-layout(binding = UNIT_COUNTED) uniform sampler2D counted;
 layout(binding = UNIT_STEPS) uniform sampler2D steps;
 #if defined(OUT_ID_RAW)
 layout(location = 0) out uvec4 out_pixel;
 #else
 layout(location = 0) out vec4 out_pixel;
 #endif
-
-vec4 average(ivec2 here)
-{
-    return texelFetch(pixels, here, 0) / max(texelFetch(counted, here, 0).x, 1.0);
-}
-
-/* Edges are mixed with what is around them, the more the stronger they are (Sabino, Andrade, Clua,
- * Montenegro, Pagliosa: A hybrid GPU rasterized and ray traced rendering pipeline for real time
- * rendering of per pixel effects, 2012). */
-vec4 blended(ivec2 here)
-{
-    vec4 c = average(here);
-    float edge = clamp(edge_at(here), 0.0, 1.0);
-    vec4 sum = 2.0 * c;
-    float weights = 2.0;
-    for (int i = zero; i < 4; i++) {
-        ivec2 aside = (i < 2 ? ivec2(1, 0) : ivec2(0, 1)) * (1 - 2 * (i & 1));
-        sum += average(here + aside);
-        weights += 1.0;
-    }
-    return mix(c, sum / weights, edge);
-}
 
 /* Neighbouring ids get hues far apart: steps of the golden ratio. */
 vec3 id_color(uint id)
@@ -55,11 +31,6 @@ vec3 steps_color(float steps)
     return mix(steps_colors[i], steps_colors[i + 1], place - float(i));
 }
 #endif
-
-vec3 color_of(vec4 c, float coverage)
-{
-    return srgb(coverage > 0.0 ? c.rgb / coverage : vec3(0.0));
-}
 
 /* Part of the light that arrives, of all lights together that throw shadows. */
 vec3 light_seen(ivec2 here)
@@ -83,16 +54,13 @@ void main()
     Surface s = surface_load(here);
     float rough = s.model == MODEL_STANDARD ? s.gloss : sqrt(2.0 / (s.gloss + 2.0));
     vec4 optical = vec4(s.reflectivity, s.ior, 1.0 - s.transmission, rough);
-    float dither = (pixel_noise(pixel) - 0.5) * 0.98 / 255.0;
-    vec4 c = args.blend_edges == 1 ? blended(here) : average(here);
-    bool transparent = (frame.effects & EFFECT_TRANSPARENT) != 0;
-    float coverage = transparent ? c.a : 1.0;
+    vec4 c = pixel_light(here, args.blend_edges == 1);
 
     vec4 none = vec4(0.0);
 #if defined(OUT_COLOR)
-    out_pixel = vec4(color_of(c, coverage) + dither, coverage);
+    out_pixel = pixel_color(c, pixel);
 #elif defined(OUT_LINEAR)
-    out_pixel = vec4(c.rgb, coverage);
+    out_pixel = c;
 #elif defined(OUT_DEPTH)
     out_pixel = vec4(g.w);
 #elif defined(OUT_NORMAL)
