@@ -77,7 +77,9 @@ endif
 
 # --- the program ---
 
-sources := $(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c))
+# The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
+apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells tile,$(S)/renderer/engine/$(f).c)
+sources := $(filter-out $(apart),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
@@ -87,7 +89,9 @@ page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 # What is embedded: C by deploy/embed.sh, for renderer/glsl/files.h and server/embedded.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl/files.h),$(OUT)/generated/glsl.o) \
             $(if $(wildcard $(S)/server/embedded.h),$(OUT)/generated/embedded.o)
-objects := $(filter-out $(main),$(call object,$(sources))) $(embedded)
+widths := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine)),8 4,4)
+engine_objects := $(foreach w,$(widths),$(OUT)/generated/engine-$(w).o)
+objects := $(filter-out $(main),$(call object,$(sources))) $(embedded) $(engine_objects)
 library := $(OUT)/libfieldcast.a
 
 fieldcast: $(OUT)/fieldcast ## the program with the page that web/dist holds now, if any (C only)
@@ -113,6 +117,38 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 	$(call say,GEN,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)sh $< glsl $(abspath $(glsl)) >$@
+
+# GLSL as C over vectors: the shaders that the engine runs, and each instruction of a field.
+spmd := $(OUT)/spmd
+spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far shown is_edge pixel_light \
+                pixel_color guard cell_count cell_next
+spmd_objects := $(call object,$(wildcard $(S)/renderer/spmd/*.c $(S)/protocol/*.c \
+                    $(S)/protocol/*/*.c $(S)/renderer/code/*.c $(S)/renderer/field/*.c \
+                    $(S)/renderer/sdf/*.c $(S)/renderer/glsl/*.c)) $(OUT)/generated/glsl.o
+
+$(spmd): $(spmd_objects)
+	$(call say,LD,$@)
+	$(Q)$(link) -o $@ $^ $(packages_libs)
+
+$(OUT)/generated/engine.i: $(spmd) $(S)/renderer/engine/engine.glsl
+	$(call say,GEN,$@)
+	$(Q)$(spmd) text $(S)/renderer/engine/engine.glsl | grep -v '^#line' >$@.glsl
+	$(Q)$(CC) -E -P -x c $@.glsl -o $@
+
+$(OUT)/generated/spmd.c $(OUT)/generated/spmd.h &: $(OUT)/generated/engine.i
+	$(Q)$(spmd) c $< $(spmd_entries) >$(OUT)/generated/spmd.c
+	$(Q)$(spmd) h $< $(spmd_entries) >$(OUT)/generated/spmd.h
+
+$(OUT)/generated/kernels.table: $(spmd)
+	$(Q)$(spmd) table >$@
+
+# The same file for each width; nothing is fused or reordered, so that all give the same bits.
+engine_flags := $(call accepted,-ftrivial-auto-var-init=uninitialized) -fno-stack-protector -fwrapv -ffp-contract=off -fno-math-errno -Wno-psabi -Wno-unused -Wno-shadow -Wno-missing-prototypes -I$(OUT)/generated
+engine_width_8 := -mavx2
+$(engine_objects): $(OUT)/generated/engine-%.o: $(S)/renderer/engine/width.c $(OUT)/flags \
+        $(OUT)/generated/spmd.c $(OUT)/generated/spmd.h $(OUT)/generated/kernels.table
+	$(call say,CC,$@)
+	$(Q)$(compile) $(engine_flags) $(engine_width_$*) -DLANES=$* -MMD -MP -c -o $@ $<
 
 $(OUT)/generated/embedded.c: $(S)/deploy/embed.sh $(page) $(examples) $(OUT)/embedded-names
 	$(call say,GEN,$@)

@@ -53,7 +53,8 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!renderer->draw) {
         goto fail;
     }
-    renderer->environments = environments_create(&renderer->gl, err);
+    renderer->environments =
+        environments_create(&renderer->gl, params->stage == RENDER_ENGINE, err);
     if (!renderer->environments) {
         goto fail;
     }

@@ -23,8 +23,18 @@ struct renderer; /* a GL context on a device */
 struct resident; /* a scene held ready for drawing, at a revision */
 struct job;      /* one picture being drawn, tile by tile */
 
+/* What computes pictures. */
+enum render_stage {
+    RENDER_COMPUTE, /* compute shaders of the device */
+    /* Vectors of the processors (renderer/engine), for colour of one to 255 without smoke, clear
+     * things and users' code: all else is drawn by the device. */
+    RENDER_ENGINE,
+};
+
 struct renderer_params {
     struct device_params device;
+    enum render_stage stage;
+    int lanes;            /* of the engine's vectors; 0: the most */
     int tile_side;        /* pixels, a multiple of 8; 0: what is good for the device */
     int code_ms, tile_ms; /* that compiling code, drawing the smallest tile may take of the
                               * processors; 0: what limits.h says */

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "common.h"
+#include "draw_engine.h"
 #include "protocol/memory.h"
 #include "wave.h"
 
@@ -197,7 +198,7 @@ static void make_slot(const struct draw *draw, struct draw_slot *slot,
 
 bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
                 const struct draw_form *const wanted[AOV_COUNT], const struct draw_plan *plan,
-                struct error *err)
+                bool engine, struct error *err)
 {
     const struct gl *gl = draw->gl;
     struct draw_picture picture = {.plan = *plan,
@@ -207,6 +208,14 @@ bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_
 
     for (int i = 0; i < AOV_COUNT; i++) {
         picture.forms[i] = wanted[i];
+    }
+    if (engine && engine_draws(block, wanted, plan)) {
+        picture.block = memory_alloc(1, sizeof *block);
+        *picture.block = *block;
+        *out = picture;
+        return true;
+    }
+    for (int i = 0; i < AOV_COUNT; i++) {
         if (wanted[i] && !resolve_pass(draw, wanted[i], err)) {
             return false;
         }
@@ -239,7 +248,9 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
         }
         gl->DeleteBuffers(AOV_COUNT, slot->buffers);
         gl->DeleteQueries(DRAW_MARKS, slot->queries);
+        free(slot->pixels);
     }
+    free(picture->block);
     *picture = (struct draw_picture){0};
 }
 
@@ -258,7 +269,7 @@ static GLuint make_kept(const struct gl *gl, GLenum format, struct tile region)
 
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    if (picture->plan.samples > FIRST_ROUND) {
+    if (picture->plan.samples > FIRST_ROUND && !picture->block) {
         picture->kept = make_kept(draw->gl, GL_RGBA32F, region);
         picture->kept_counted = make_kept(draw->gl, GL_R32F, region);
         picture->until = FIRST_ROUND;
@@ -456,6 +467,15 @@ bool draw_tile(struct draw *draw, struct draw_picture *picture, const struct dra
     struct wave wave;
 
     picture->slots[index].tile = tile;
+    if (picture->block) {
+        struct draw_slot *slot = &picture->slots[index];
+        const uint64_t start = now_us();
+
+        memset(slot->stage_us, 0, sizeof slot->stage_us);
+        engine_draw_tile(picture, scene, slot);
+        slot->stage_us[FRAME_SHADE] = now_us() - start;
+        return true;
+    }
     wave = make_wave(draw, picture, scene, index);
     bind_scene(draw, picture, scene);
     wave_start_clock(&wave);
@@ -541,6 +561,9 @@ bool draw_wait(struct draw *draw, struct draw_picture *picture, int index, struc
     struct draw_slot *slot = &picture->slots[index];
     const uint64_t start = now_us();
 
+    if (picture->block) {
+        return true;
+    }
     if (!wait_fence(draw, slot, err)) {
         return false;
     }
@@ -561,6 +584,10 @@ bool draw_collect(struct draw *draw, struct draw_picture *picture, int index, en
     const uint64_t start = now_us();
     const uint8_t *from;
 
+    if (picture->block) {
+        engine_collect(slot, to, stride);
+        return true;
+    }
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->buffers[aov]);
     from = gl->MapBufferRange(GL_PIXEL_PACK_BUFFER, 0,
                               (GLsizeiptr)(row * (size_t)slot->tile.height), GL_MAP_READ_BIT);

@@ -44,6 +44,8 @@ struct draw_scene {
     struct program *program;
     const struct numbers *numbers;
     const struct environment *environment;
+    const float *values;                 /* the numbers in memory */
+    const struct engine_program *engine; /* NULL: it cannot draw this */
 };
 
 enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts with the last */
@@ -57,6 +59,7 @@ struct draw_slot {
     GLuint queries[DRAW_MARKS]; /* on a GPU: made where they are first needed */
     uint8_t stages[DRAW_MARKS]; /* what ended at each */
     int marks;
+    uint8_t *pixels;  /* drawn by the engine; else NULL */
     uint64_t last_us; /* on the CPU: the last mark */
     uint64_t stage_us[FRAME_STAGES];
 };
@@ -68,6 +71,7 @@ struct draw_picture {
     int lights;
     bool clear; /* light goes through something */
     GLuint frame;
+    struct frame_block *block; /* drawn by the engine; else NULL */
     struct draw_slot slots[DRAW_SLOTS];
     /* Drawn in rounds: each tile gets samples `from` to `until`, and between two rounds its pixels
      * are kept in textures as large as the region that is drawn. */
@@ -88,10 +92,11 @@ uint64_t draw_compilations(const struct draw *draw);
 /* Mirrored and broken rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
 
-/* `forms`: for each output NULL or its form. */
+/* `forms`: for each output NULL or its form. `engine`: the engine can draw the scene, and does so
+ * where it can draw the picture. */
 bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
-                struct error *err);
+                bool engine, struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
 /* Its pixels have several samples each. */
 bool draw_is_sampled(const struct draw_picture *picture);

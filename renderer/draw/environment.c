@@ -18,6 +18,7 @@ enum {
 enum maker { MAKE_PLAIN, MAKE_MIRROR, MAKE_MATT, MAKER_COUNT };
 
 struct environments {
+    bool read; /* into memory */
     const struct gl *gl;
     struct pass makers[MAKER_COUNT];
     GLuint frame;
@@ -79,16 +80,21 @@ static int levels_of(int width, int height)
 }
 
 /* Longitudes meet, latitudes end. Counts its bytes with those of its levels. */
+static size_t texels_of(int width, int height, int level)
+{
+    const size_t across = width >> level ? (size_t)(width >> level) : 1;
+    const size_t down = height >> level ? (size_t)(height >> level) : 1;
+
+    return across * down;
+}
+
 static GLuint create_picture(const struct gl *gl, int width, int height, int levels,
                              size_t *out_bytes)
 {
     GLuint texture;
 
     for (int level = 0; level < levels; level++) {
-        const size_t across = width >> level ? (size_t)(width >> level) : 1;
-        const size_t down = height >> level ? (size_t)(height >> level) : 1;
-
-        *out_bytes += DECODED_TEXEL_BYTES * across * down;
+        *out_bytes += DECODED_TEXEL_BYTES * texels_of(width, height, level);
     }
 
     gl->GenTextures(1, &texture);
@@ -150,6 +156,37 @@ static void make_light(const struct environments *environments, struct environme
     make(environments, MAKE_MATT, out->irradiance, 0, MATT_WIDTH);
 }
 
+static void read_picture(const struct gl *gl, GLuint texture, int width, int height, int levels,
+                         struct environment *out, int index)
+{
+    struct engine_sky *sky = &out->skies[index];
+    size_t count = 0, at = 0;
+
+    for (int level = 0; level < levels; level++) {
+        count += texels_of(width, height, level);
+    }
+    *sky = (struct engine_sky){.width = width, .height = height, .levels = levels};
+    sky->texels = memory_alloc(count, 4 * sizeof *sky->texels);
+    out->bytes += count * 4 * sizeof *sky->texels;
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    for (int level = 0; level < levels; level++) {
+        gl->GetTexImage(GL_TEXTURE_2D, level, GL_RGBA, GL_FLOAT, sky->texels + 4 * at);
+        at += texels_of(width, height, level);
+    }
+}
+
+/* Into memory. */
+static void read_back(const struct gl *gl, const struct decoded *image, struct environment *out)
+{
+    const int width = image ? image->width : PLAIN_WIDTH;
+    const int height = image ? image->height : PLAIN_WIDTH / 2;
+
+    read_picture(gl, out->panorama, width, height, levels_of(width, height), out, 0);
+    read_picture(gl, out->mirrored, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS, out, 1);
+    read_picture(gl, out->irradiance, MATT_WIDTH, MATT_WIDTH / 2, 1, out, 2);
+}
+
 /* --- the list --- */
 
 static void destroy(const struct environments *environments, struct environment *environment)
@@ -158,6 +195,9 @@ static void destroy(const struct environments *environments, struct environment 
                                environment->irradiance};
 
     environments->gl->DeleteTextures(3, textures);
+    for (int i = 0; i < ENGINE_SKIES; i++) {
+        free(environment->skies[i].texels);
+    }
     free(environment);
 }
 
@@ -206,6 +246,9 @@ static struct environment *create(struct environments *environments,
         make_plain(environments, environment);
     }
     make_light(environments, environment);
+    if (environments->read) {
+        read_back(gl, image, environment);
+    }
     gl->Finish(); /* so that its time is told apart */
     if (!gl_check(gl, "environment", err)) {
         destroy(environments, environment);
@@ -271,7 +314,7 @@ void environment_unref(struct environments *environments, struct environment *en
 
 /* --- birth and death --- */
 
-struct environments *environments_create(const struct gl *gl, struct error *err)
+struct environments *environments_create(const struct gl *gl, bool read, struct error *err)
 {
     static const char *const files[MAKER_COUNT] = {[MAKE_PLAIN] = "environment_sky.glsl",
                                                    [MAKE_MIRROR] = "environment_mirror.glsl",
@@ -279,6 +322,7 @@ struct environments *environments_create(const struct gl *gl, struct error *err)
     struct environments *environments = memory_alloc(1, sizeof *environments);
 
     environments->gl = gl;
+    environments->read = read;
     gl->GenBuffers(1, &environments->frame);
     for (int i = 0; i < MAKER_COUNT; i++) {
         const struct pass_source source = {.compute = true, .file = files[i]};

@@ -12,13 +12,15 @@
 #include <stdint.h>
 
 #include "frame.h"
+#include "renderer/engine/engine.h"
 #include "renderer/gl/gl.h"
 #include "renderer/image/decode.h"
 
 struct environment {
     GLuint panorama; /* the picture, or the gradient as one; rgba16f as the others, with mipmaps */
     GLuint mirrored; /* mip level i for roughness (i + 1) / levels */
-    GLuint irradiance; /* over pi, so 1 in an environment of 1 */
+    GLuint irradiance;                     /* over pi, so 1 in an environment of 1 */
+    struct engine_sky skies[ENGINE_SKIES]; /* the same in memory, where that is wanted */
     int references;
     uint64_t key;
     size_t bytes;
@@ -27,8 +29,9 @@ struct environment {
 
 struct environments; /* those of a renderer */
 
-/* Compiles its shaders. NULL and `err` where GL fails. */
-struct environments *environments_create(const struct gl *gl, struct error *err);
+/* Compiles its shaders. `read`: environments are wanted in memory as well. NULL and `err` where GL
+ * fails. */
+struct environments *environments_create(const struct gl *gl, bool read, struct error *err);
 void environments_destroy(struct environments *environments); /* NULL: nothing */
 
 /* The same without its picture: one colour. */

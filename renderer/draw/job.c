@@ -62,7 +62,8 @@ static enum job_state begin(struct job *job)
     }
     frame_set_camera(&block, &job->camera, job->width, job->height);
     plan_make(&plan, &block, &snapshot->render, &job->wish, &snapshot->extent);
-    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan, &job->error)) {
+    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan,
+                    snapshot->engine != NULL, &job->error)) {
         return fail(job);
     }
     job->begun = true;
@@ -199,9 +200,9 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
 /* The next tile, or the next sample of the one under way. */
 static bool draw_next(struct job *job)
 {
-    const struct draw_scene scene = {job->snapshot->program,
-                                     snapshot_numbers(job->renderer, job->snapshot),
-                                     job->snapshot->environment};
+    const struct draw_scene scene = {
+        job->snapshot->program, snapshot_numbers(job->renderer, job->snapshot),
+        job->snapshot->environment, job->snapshot->field->numbers, job->snapshot->engine};
     const struct watch before = look_at_clocks(job);
 
     if (!draw_sample(job, &scene)) {

@@ -295,6 +295,9 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent = extent_of(renderer, field, &scene->camera);
+    if (renderer->params.stage == RENDER_ENGINE) {
+        snapshot->engine = engine_program_create(field, renderer->params.lanes);
+    }
     if (!look_around(renderer, snapshot, scene, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
@@ -334,6 +337,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     }
     leave_waiting(renderer, snapshot);
     numbers_finish(&snapshot->numbers, &renderer->gl);
+    engine_program_destroy(snapshot->engine);
     program_unref(renderer->programs, snapshot->program);
     field_unref(snapshot->field);
     environment_unref(renderer->environments, snapshot->environment);

@@ -21,6 +21,7 @@ struct snapshot {
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct numbers numbers;
+    struct engine_program *engine; /* NULL: it draws nothing of this scene */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
     struct error error;    /* why it cannot be drawn although its program can; ERROR_NONE: it can */

@@ -61,6 +61,7 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSTRING, GetString)                                                                        \
+    X(GETTEXIMAGE, GetTexImage)                                                                    \
     X(GETUNIFORMBLOCKINDEX, GetUniformBlockIndex)                                                  \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(MAPBUFFERRANGE, MapBufferRange)                                                              \

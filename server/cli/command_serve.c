@@ -68,6 +68,8 @@ static int run(const struct options *options, struct serve_params *params)
                                        option_text(options, OPTION_CACHE),
                                        "--worker-memory",
                                        option_text(options, OPTION_WORKER_MEMORY),
+                                       "--stage",
+                                       option_text(options, OPTION_STAGE),
                                        "--confine",
                                        option_text(options, OPTION_CONFINE),
                                        "--code-time",

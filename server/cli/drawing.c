@@ -32,6 +32,7 @@ void drawing_params(const struct options *options, struct renderer_params *out)
                    .index = option_int(options, OPTION_DEVICE_INDEX),
                    .cache_dir = cache,
                    .debug = true},
+        .stage = (enum render_stage)option_int(options, OPTION_STAGE),
         .log = print_line,
     };
 }

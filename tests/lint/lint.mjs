@@ -62,9 +62,11 @@ const LAYERS = {
     'renderer/glsl': { others: [/^protocol\//] },
     'renderer/code': { others: [/^protocol\//, /^renderer\/sdf\//] },
     'renderer/field': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl)\//] },
+    'renderer/spmd': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field)\//] },
+    'renderer/engine': { others: [/^protocol\//, /^renderer\/(sdf|glsl|field)\//] },
     'renderer/gl': { others: [/^protocol\//, /^renderer\/(glsl\/|vigil\.h$)/] },
     'renderer/draw': {
-        others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|gl|image)\//, /^renderer\/renderer\.h$/],
+        others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|engine|gl|image)\//, /^renderer\/renderer\.h$/],
     },
     server: { others: [/^protocol\//, worker] },
     [BASE]: { others: [/^protocol\//, base] },

@@ -57,7 +57,7 @@ static int set_up(void **state)
     (void)state;
     if (!egl_init(&egl, &params, &err) || !gl_load(&gl, &err) ||
         !pass_init(&asking, &gl, &source, &err) ||
-        !(environments = environments_create(&gl, &err))) {
+        !(environments = environments_create(&gl, false, &err))) {
         error_print(&err, stderr);
         return -1;
     }

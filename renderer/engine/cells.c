@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* Space in cubes, each with a tape: the operations that matter within it. A cube's tape is made of
+ * its parent's when a ray comes there; all eight of a parent at once, a lane for each. What a tape
+ * leaves out changes no bit of the field in the cube, so cubes may be any, and each thread has its
+ * own. */
+
+#define LOOSE 1.5f    /* of its half: the points of a vector need not be in one cube */
+#define CELL_PIXELS 4 /* half of the smallest, in footprints */
+#define CELL_SHORT 3  /* such a tape is not made shorter */
+#define CELL_WHOLE 6  /* such a tape is run once for all lanes */
+#define CELL_LIMIT (1 << 18)
+
+static struct cell *cell_add(struct cells *cells)
+{
+    if (cells->count == cells->capacity) {
+        cells->capacity = cells->capacity ? 2 * cells->capacity : 1024;
+        cells->at = memory_resize(cells->at, cells->capacity, sizeof *cells->at);
+    }
+    return &cells->at[cells->count++];
+}
+
+static void tape_room(struct cells *cells, size_t count)
+{
+    if (cells->room - cells->used < count) {
+        cells->room = 2 * (cells->room + count);
+        cells->tapes = memory_resize(cells->tapes, cells->room, sizeof *cells->tapes);
+    }
+}
+
+/* The root holds everything, wherever it is asked for. */
+static void cells_begin(struct lanes *c)
+{
+    struct cells *cells = &c->cells;
+    cells->count = cells->used = 0;
+    cells->last = 0;
+    tape_room(cells, c->program->count);
+    for (size_t i = 0; i < c->program->count; i++) {
+        cells->tapes[cells->used++] = (uint32_t)i;
+    }
+    struct cell *root = cell_add(cells);
+    *root = (struct cell){
+        .half = c->frame->max_distance, .count = (uint32_t)c->program->count, .parent = -1};
+    for (int i = 0; i < 3; i++) {
+        root->half = f_max(root->half, 2.0f * fabsf(c->frame->eye[i]));
+    }
+}
+
+static void cells_end(struct cells *cells)
+{
+    free(cells->at);
+    free(cells->tapes);
+}
+
+/* The lanes whose points the tape holds for. */
+static vb cell_lanes(const struct cell *cell, vb m, const vf *p)
+{
+    const float reach = LOOSE * cell->half;
+    return m & (vf_abs(p[0] - cell->centre[0]) <= reach) &
+           (vf_abs(p[1] - cell->centre[1]) <= reach) & (vf_abs(p[2] - cell->centre[2]) <= reach);
+}
+
+static bool cell_has(const struct cell *cell, const vf *p, int lane)
+{
+    for (int i = 0; i < 3; i++) {
+        if (fabsf(p[i][lane] - cell->centre[i]) > cell->half) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The tape of one child, from behind: only what a result is made of. */
+static void make_tape(struct lanes *c, const struct cell *parent, const struct drop *drops,
+                      int lane, struct cell *child)
+{
+    struct cells *cells = &c->cells;
+    const struct operation *operations = c->program->operations;
+    bool distance[FIELD_SLOTS_MAX] = {true}, point[FIELD_SLOTS_MAX] = {false};
+    tape_room(cells, parent->count);
+    const uint32_t *from = cells->tapes + parent->tape;
+    uint32_t *const to = cells->tapes + cells->used;
+    uint32_t *at = to + parent->count;
+    for (uint32_t i = parent->count; i-- > 0;) {
+        const uint32_t word = from[i];
+        const struct operation *in = &operations[word & TAPE_INDEX];
+        const bool makes_point = in->op == FIELD_PLACE || in->op == FIELD_MAP;
+        uint32_t kept = word;
+        if (makes_point ? !point[in->out] : !distance[in->a]) {
+            i -= in->op == FIELD_LOOP_END ? in->length : 0;
+            continue;
+        }
+        if (makes_point) {
+            point[in->out] = false;
+            point[in->point] = true;
+        } else if (in->op == FIELD_COMBINE && (word & ~(uint32_t)TAPE_INDEX)) {
+            distance[in->a] = false;
+            distance[in->b] = true;
+        } else if (in->op == FIELD_COMBINE && drops[i].second[lane]) {
+            continue;
+        } else if (in->op == FIELD_COMBINE) {
+            const bool first = drops[i].first[lane];
+            distance[in->a] = !first;
+            distance[in->b] = true;
+            kept |= !first ? 0 : in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE;
+        } else if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
+            distance[in->a] = false;
+            point[in->point] |= in->op == FIELD_SHAPE;
+        } else if (in->op == FIELD_AFTER) {
+            point[in->point] = true;
+        } else if (in->op == FIELD_LOOP_END) { /* whole */
+            const struct operation *begin = in - in->length;
+            for (uint32_t k = 0; k < in->length; k++) {
+                *--at = from[i - k];
+            }
+            i -= in->length;
+            kept = from[i];
+            distance[begin->a] = false;
+            point[begin->point] = true;
+        }
+        *--at = kept;
+    }
+    child->tape = (uint32_t)cells->used;
+    child->count = (uint32_t)(to + parent->count - at);
+    memmove(to, at, child->count * sizeof *at);
+    cells->used += child->count;
+}
+
+static void cell_split(struct lanes *c, int32_t index)
+{
+    struct machine v;
+    const struct cell parent = c->cells.at[index];
+    struct drop *drops = aligned_alloc(sizeof(vf), (parent.count + 1) * sizeof *drops);
+    const int32_t children = (int32_t)c->cells.count;
+    const float half = 0.5f * parent.half;
+    if (!drops) {
+        abort();
+    }
+    for (int k = 0; k < 8; k++) {
+        struct cell *child = cell_add(&c->cells);
+        *child = (struct cell){.half = half, .parent = index};
+        for (int i = 0; i < 3; i++) {
+            child->centre[i] = parent.centre[i] + (k >> i & 1 ? half : -half);
+        }
+    }
+    for (int first = 0; first < 8; first += LANES) {
+        vf centre[3] = {0};
+        for (int k = 0; k < LANES; k++) {
+            for (int i = 0; i < 3; i++) {
+                centre[i][k] = c->cells.at[children + first + (k & 7)].centre[i];
+            }
+        }
+        machine_of(&v, c, vb_all(true), centre);
+        v.drops = drops;
+        v.radius = LOOSE * half * 1.7320508f;
+        run(&v, c->cells.tapes + parent.tape, parent.count);
+        for (int k = 0; k < LANES && first + k < 8; k++) {
+            struct cell *child = &c->cells.at[children + first + k];
+            make_tape(c, &parent, drops, k, child);
+        }
+    }
+    c->cells.at[index].children = children;
+    free(drops);
+}
+
+/* Whether smaller cubes would be worth it. */
+static bool cell_splits(const struct lanes *c, const struct cell *cell)
+{
+    if (cell->children || cell->count <= CELL_SHORT || c->cells.count > CELL_LIMIT) {
+        return cell->children != 0;
+    }
+    float square = 0;
+    for (int i = 0; i < 3; i++) {
+        const float way = cell->centre[i] - c->frame->eye[i];
+        square += way * way;
+    }
+    const float way = f_max(sqrtf(square) - 1.7320508f * cell->half, 0.0f);
+    return cell->half >
+           2.0f * CELL_PIXELS * c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
+}
+
+static int first_lane(vb m)
+{
+    int lane = 0;
+    while (lane < LANES - 1 && !m[lane]) {
+        lane++;
+    }
+    return lane;
+}
+
+/* A cube for the first of these lanes, and those that it holds. The root holds everything. */
+static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_lanes)
+{
+    struct cells *cells = &c->cells;
+    int32_t at = cells->last;
+    const int lane = first_lane(m);
+    vb held = cell_lanes(&cells->at[at], m, p);
+    if (lanes_any(m & ~held)) {
+        /* The cube that the first lane is in without what is around it, so that it is in one of its
+         * children as well. */
+        while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
+            at = cells->at[at].parent;
+        }
+        held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
+    } else if (!cell_has(&cells->at[at], p, lane) || !cell_splits(c, &cells->at[at])) {
+        *out_lanes = held;
+        return &cells->at[at];
+    }
+    while (cell_splits(c, &cells->at[at])) {
+        if (!cells->at[at].children) {
+            cell_split(c, at);
+        }
+        const struct cell *cell = &cells->at[at];
+        int child = cell->children;
+        for (int i = 0; i < 3; i++) {
+            child += (p[i][lane] > cell->centre[i]) << i;
+        }
+        const vb fewer = cell_lanes(&cells->at[child], held, p);
+        /* Twice a short tape is no better than once. */
+        if (lanes_any(held & ~fewer) && (cell->count <= CELL_WHOLE || !fewer[lane])) {
+            break;
+        }
+        held = fewer;
+        at = child;
+    }
+    cells->last = at;
+    *out_lanes = held;
+    return &cells->at[at];
+}

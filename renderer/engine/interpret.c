@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: MIT */
+/* The interpreter of field programs, and what the generated C asks for. */
+#include <stdlib.h>
+
+#include "lanes_parts.h"
+#include "protocol/memory.h"
+
+struct drop {
+    vb first, second;
+};
+
+/* --- the field --- */
+
+typedef vf shape_function(struct lanes *c, vb m, const vf *p);
+typedef vf combine_function(struct lanes *c, vb m, vf a, vf b);
+typedef vf change_function(struct lanes *c, vb m, vf d);
+typedef void map_function(struct lanes *c, vb m, const vf *p, vf *out);
+typedef void cell_function(struct lanes *c, vb m, const vf *p, const vf *cell, vf *out);
+typedef vf after_function(struct lanes *c, vb m, vf d, const vf *p);
+
+#define CALL(type, function) ((type *)(function))
+
+enum { MIXTURE = 11, SURFACE = 22, OPEN_MAX = LIMIT_NODE_DEPTH };
+
+struct open {
+    vb before;
+    vf first[3], last[3], cell[3], left;
+};
+
+struct machine {
+    struct lanes *c;
+    vb m;
+    vf p[FIELD_SLOTS_MAX][3];
+    vf d[FIELD_SLOTS_MAX];
+    vf (*mixtures)[MIXTURE]; /* NULL: distances alone */
+    /* NULL, or what each operation of the tape may leave out where `radius` around its point is all
+     * that is asked for. */
+    struct drop *drops;
+    float radius;
+    struct open open[OPEN_MAX];
+    int depth;
+};
+
+static void place(const float *n, const vf p[3], vf out[3])
+{
+    for (int i = 0; i < 3; i++, n += 4) {
+        out[i] = n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3];
+    }
+}
+
+static void select_all(vb m, const vf *from, vf *to, int count)
+{
+    for (int i = 0; i < count; i++) {
+        to[i] = vf_select(m, from[i], to[i]);
+    }
+}
+
+static void run_shape(struct machine *v, const struct operation *in)
+{
+    struct lanes *c = v->c;
+    const float *head = c->own + 4 * FIELD_MATRIX_VEC4S;
+    v->d[in->a] = CALL(shape_function, in->function)(c, v->m, v->p[in->point]);
+    if (v->mixtures) {
+        spmd_alone(c, v->m, v->d[in->a], vf_all(head[FIELD_LEAF]), vf_all(head[FIELD_SLOT]),
+                   v->mixtures[in->a]);
+    }
+}
+
+static void run_combine(struct machine *v, const struct operation *in)
+{
+    struct lanes *c = v->c;
+    const vf a = v->d[in->a], b = v->d[in->b];
+    const float side = in->seen ? c->numbers[in->seen] : 0.0f;
+    const vf d = side == 0.0f  ? CALL(combine_function, in->function)(c, v->m, a, b)
+                 : side > 0.0f ? b
+                               : a;
+    v->d[in->a] = d;
+    if (v->mixtures) {
+        vf *const ma = v->mixtures[in->a], *const mb = v->mixtures[in->b], out[MIXTURE];
+        vf share = side == 0.0f ? CALL(combine_function, in->share)(c, v->m, a, b)
+                                : vf_all(side > 0.0f ? 1.0f : 0.0f);
+        if (in->mixes) {
+            spmd_mixed(c, v->m, d, share, ma, mb, out);
+        } else {
+            spmd_chosen(c, v->m, d, share, ma, mb, out);
+        }
+        memcpy(ma, out, sizeof out);
+    }
+}
+
+/* Whether one operand is so far from the other that it cannot matter within the radius: both have
+ * slopes of at most 1 (Barbier et al.: Lipschitz pruning, Computer Graphics Forum 2025). */
+static void record(struct machine *v, const struct operation *in, size_t at)
+{
+    struct drop *drop = &v->drops[at];
+    *drop = (struct drop){vb_zero, vb_zero};
+    if (!in->prunes) {
+        return;
+    }
+    const double n[2] = {v->c->own[0], in->kernel};
+    const vf a = in->rule == SDF_ALL     ? -v->d[in->a]
+                 : in->rule == SDF_FIRST ? -v->d[in->a]
+                                         : v->d[in->a];
+    const vf b = in->rule == SDF_ALL ? -v->d[in->b] : v->d[in->b];
+    const vf far = 2.0f * v->radius + (float)in->reach(n) + 1e-5f * (vf_abs(a) + vf_abs(b));
+    drop->first = a - b > far;
+    drop->second = b - a > far;
+    if (in->seen && v->c->numbers[in->seen] != 0.0f) {
+        const bool second = v->c->numbers[in->seen] > 0.0f;
+        drop->first = vb_all(second);
+        drop->second = vb_all(!second);
+    }
+}
+
+static void set_distance(struct machine *v, uint16_t slot, vf d)
+{
+    v->d[slot] = d;
+    if (v->mixtures) {
+        v->mixtures[slot][0] = d;
+    }
+}
+
+/* Answers where to go on. */
+static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
+{
+    struct lanes *c = v->c;
+    struct open *open = &v->open[v->depth++];
+    CALL(map_function, in->function)(c, v->m, v->p[in->point], open->first);
+    CALL(map_function, in->share)(c, v->m, v->p[in->point], open->last);
+    memcpy(open->cell, open->first, sizeof open->cell);
+    open->before = v->m;
+    open->left = spmd_cell_count(c, v->m, open->first, open->last);
+    v->d[in->a] = vf_all(FIELD_FAR);
+    if (v->mixtures) {
+        spmd_mixture_far(c, v->m, v->mixtures[in->a]);
+    }
+    v->m &= open->left > 0.0f;
+    if (!lanes_any(v->m)) {
+        v->m = open->before;
+        v->depth--;
+        return at + in->length + 1;
+    }
+    CALL(cell_function, in->cell)(c, v->m, v->p[in->point], open->cell, v->p[in->out]);
+    return at + 1;
+}
+
+static size_t run_loop_end(struct machine *v, const struct operation *in, size_t at)
+{
+    struct lanes *c = v->c;
+    struct open *open = &v->open[v->depth - 1];
+    const vb nearer = v->m & (v->d[in->b] < v->d[in->a]);
+    vf next[3];
+    v->d[in->a] = vf_select(nearer, v->d[in->b], v->d[in->a]);
+    if (v->mixtures) {
+        select_all(nearer, v->mixtures[in->b], v->mixtures[in->a], MIXTURE);
+    }
+    spmd_cell_next(c, v->m, open->cell, open->first, open->last, next);
+    memcpy(open->cell, next, sizeof next);
+    open->left = open->left - 1.0f;
+    v->m &= open->left > 0.0f;
+    if (lanes_any(v->m)) {
+        const struct operation *begin = in - in->length;
+        c->own = c->numbers + 4 * (size_t)begin->numbers;
+        CALL(cell_function, begin->cell)(c, v->m, v->p[begin->point], open->cell, v->p[begin->out]);
+        return at - in->length + 1;
+    }
+    v->m = open->before;
+    v->depth--;
+    return at + 1;
+}
+
+/* One operand alone. */
+static void run_move(struct machine *v, const struct operation *in, bool negated)
+{
+    const vf d = v->d[in->b];
+    v->d[in->a] = negated ? -d : d;
+    if (v->mixtures) {
+        memcpy(v->mixtures[in->a], v->mixtures[in->b], sizeof v->mixtures[0]);
+        v->mixtures[in->a][0] = v->d[in->a];
+    }
+}
+
+static void run(struct machine *v, const uint32_t *tape, size_t count)
+{
+    struct lanes *c = v->c;
+    const struct engine_program *program = c->program;
+    for (size_t i = 0; i < count;) {
+        const uint32_t word = tape[i];
+        const struct operation *in = &program->operations[word & TAPE_INDEX];
+        if (word & (TAPE_MOVE | TAPE_NEGATE)) {
+            run_move(v, in, (word & TAPE_NEGATE) != 0);
+            i++;
+            continue;
+        }
+        c->own = c->numbers + 4 * (size_t)in->numbers;
+        switch (in->op) {
+        case FIELD_EMPTY:
+            v->d[in->a] = vf_all(FIELD_FAR);
+            if (v->mixtures) {
+                spmd_mixture_far(c, v->m, v->mixtures[in->a]);
+            }
+            break;
+        case FIELD_SHAPE:
+            run_shape(v, in);
+            break;
+        case FIELD_COMBINE:
+            if (v->drops) {
+                record(v, in, i);
+            }
+            run_combine(v, in);
+            break;
+        case FIELD_DISTANCE:
+            set_distance(v, in->a, CALL(change_function, in->function)(c, v->m, v->d[in->a]));
+            break;
+        case FIELD_PLACE:
+            place(c->own, v->p[in->point], v->p[in->out]);
+            break;
+        case FIELD_MAP:
+            CALL(map_function, in->function)(c, v->m, v->p[in->point], v->p[in->out]);
+            break;
+        case FIELD_AFTER:
+            set_distance(
+                v, in->a,
+                vf_max(CALL(after_function, in->function)(c, v->m, v->d[in->a], v->p[in->point]),
+                       vf_all(c->numbers[in->seen])));
+            break;
+        case FIELD_LOOP:
+            i = run_loop(v, in, i);
+            continue;
+        case FIELD_LOOP_END:
+            i = run_loop_end(v, in, i);
+            continue;
+        default:
+            break;
+        }
+        i++;
+    }
+}
+
+static struct machine *machine_of(struct machine *v, struct lanes *c, vb m, const vf *p)
+{
+    v->c = c;
+    v->m = m;
+    v->mixtures = NULL;
+    v->drops = NULL;
+    v->depth = 0;
+    memcpy(v->p[0], p, sizeof v->p[0]);
+    return v;
+}
+
+#include "cells.c"
+
+static vf spmd_map(struct lanes *c, vb m, const vf *p)
+{
+    struct machine v;
+    vf d = vf_zero;
+    while (lanes_any(m)) {
+        vb held;
+        const struct cell *cell = cell_at(c, m, p, &held);
+        run(machine_of(&v, c, held, p), c->cells.tapes + cell->tape, cell->count);
+        d = vf_select(held, v.d[0], d);
+        m &= ~held;
+    }
+    return d;
+}
+
+static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *out)
+{
+    struct machine v;
+    vf mixtures[FIELD_SLOTS_MAX][MIXTURE], whole[MIXTURE] = {0};
+    vb left = m;
+    (void)at;
+    while (lanes_any(left)) {
+        vb held;
+        const struct cell *cell = cell_at(c, left, p, &held);
+        machine_of(&v, c, held, p);
+        v.mixtures = mixtures;
+        run(&v, c->cells.tapes + cell->tape, cell->count);
+        select_all(held, mixtures[0], whole, MIXTURE);
+        left &= ~held;
+    }
+    spmd_paint(c, m, whole, out);
+}
+
+/* --- textures --- */
+
+static const float *texel(const struct engine_sky *sky, int level, int x, int y)
+{
+    const float *texels = sky->texels;
+    int width = sky->width, height = sky->height;
+    for (int i = 0; i < level; i++) {
+        texels += 4 * (size_t)width * (size_t)height;
+        width = width > 1 ? width / 2 : 1;
+        height = height > 1 ? height / 2 : 1;
+    }
+    x = ((x % width) + width) % width;
+    y = y < 0 ? 0 : y >= height ? height - 1 : y;
+    return texels + 4 * ((size_t)y * (size_t)width + (size_t)x);
+}
+
+static void sample_level(const struct engine_sky *sky, int level, float u, float v, float out[4])
+{
+    const int width = sky->width >> level > 1 ? sky->width >> level : 1;
+    const int height = sky->height >> level > 1 ? sky->height >> level : 1;
+    const float x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
+    const int left = (int)floorf(x), top = (int)floorf(y);
+    const float s = x - (float)left, t = y - (float)top;
+    const float *a = texel(sky, level, left, top), *b = texel(sky, level, left + 1, top);
+    const float *c = texel(sky, level, left, top + 1), *d = texel(sky, level, left + 1, top + 1);
+    for (int i = 0; i < 4; i++) {
+        out[i] = (a[i] * (1 - s) + b[i] * s) * (1 - t) + (c[i] * (1 - s) + d[i] * s) * t;
+    }
+}
+
+static const struct engine_sky *sky_of(const struct lanes *c, int unit)
+{
+    return c->skies[unit == UNIT_PANORAMA ? 0 : unit == UNIT_MIRRORED ? 1 : 2];
+}
+
+static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4])
+{
+    const struct engine_sky *sky = sky_of(c, unit);
+    for (int k = 0; k < 4; k++) {
+        out[k] = vf_zero;
+    }
+    for (int i = 0; i < LANES; i++) {
+        float low[4], high[4];
+        if (!m[i]) {
+            continue;
+        }
+        const float most = (float)(sky->levels - 1);
+        const float at = level[i] < 0 ? 0 : level[i] > most ? most : level[i];
+        const int first = (int)at;
+        const float part = at - (float)first;
+        sample_level(sky, first, u[i], v[i], low);
+        if (part > 0) {
+            sample_level(sky, first + 1, u[i], v[i], high);
+        }
+        for (int k = 0; k < 4; k++) {
+            out[k][i] = part > 0 ? low[k] * (1 - part) + high[k] * part : low[k];
+        }
+    }
+}
+
+static int lanes_texture_size(struct lanes *c, int unit, int i)
+{
+    return i == 0 ? sky_of(c, unit)->width : sky_of(c, unit)->height;
+}
+
+static void lanes_texel(struct lanes *c, int unit, vb m, vi x, vi y, vi level, vf out[4])
+{
+    const float *from = unit == UNIT_GEOMETRY ? c->tile.geometry
+                        : unit == UNIT_PIXELS ? c->tile.pixels
+                                              : c->tile.counted;
+    const int width = unit == UNIT_COUNTED ? 1 : 4;
+    (void)level;
+    for (int k = 0; k < 4; k++) {
+        out[k] = k < width ? lanes_gather(from, (y * c->tile.side + x) * width + k, m) : vf_zero;
+    }
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* Between the files of the engine that are compiled for a width of vectors. */
+#ifndef RENDERER_LANES_PARTS_H
+#define RENDERER_LANES_PARTS_H
+
+#include "engine.h"
+#ifdef LANES
+#include "lanes.h"
+#endif
+#include "renderer/field/shader.h"
+
+struct operation {
+    uint8_t op;           /* enum field_op */
+    bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
+    bool prunes, soft;    /* FIELD_COMBINE: an operand may be left out; it blends */
+    uint8_t rule, kernel; /* FIELD_COMBINE: enum sdf_rule; its choice */
+    uint16_t a, b, point, out;
+    uint32_t numbers, seen;
+    uint32_t length; /* of a loop: operations from its first to its last */
+    double (*reach)(const double *n);
+    void (*function)(void), (*share)(void), (*cell)(void);
+};
+
+/* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
+ * alone. */
+enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
+#define TAPE_NEGATE 0x80000000u
+
+/* A cube, and what of the program matters in it. */
+struct cell {
+    float centre[3], half;    /* the tape holds for LOOSE times this */
+    uint32_t tape, count;     /* among the tapes */
+    int32_t parent, children; /* the first of eight; 0: not made yet */
+};
+
+struct cells {
+    struct cell *at;
+    size_t count, capacity;
+    uint32_t *tapes;
+    size_t used, room;
+    int32_t last; /* that was asked for */
+};
+
+struct engine_width;
+
+struct engine_program {
+    const struct engine_width *width;
+    struct operation *operations;
+    size_t count;
+    struct {
+        int material_base, material_stride;
+    } scene;
+};
+
+/* A tile with what is around it. */
+struct lanes_tile {
+    int side; /* pixels in a row */
+    float *geometry, *pixels, *counted;
+};
+
+struct kernel_row {
+    int type;
+    uint32_t choices;
+    enum shader_kernel kernel;
+    void (*function)(void);
+};
+
+struct engine_width {
+    int lanes;
+    const struct kernel_row *kernels;
+    size_t kernel_count;
+    void (*draw)(const struct engine_picture *picture, int x, int y, int width, int height,
+                 uint8_t *out, size_t stride);
+};
+extern const struct engine_width engine_8, engine_4;
+
+struct lanes;
+struct scene_block {
+    int material_base, material_stride;
+};
+struct dispatch_block {
+    int origin[2];
+    int mode, zero;
+};
+#define LANES_CONTEXT                                                                              \
+    const struct engine_program *program;                                                          \
+    const struct frame_block *frame;                                                               \
+    const struct dispatch_block *dispatch;                                                         \
+    const struct scene_block *scene;                                                               \
+    const struct engine_sky *const *skies;                                                         \
+    const float *numbers, *own;                                                                    \
+    struct lanes_tile tile;                                                                        \
+    struct cells cells;
+
+#ifdef LANES
+static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4]);
+static int lanes_texture_size(struct lanes *c, int unit, int i);
+static void lanes_texel(struct lanes *c, int unit, vb m, vi x, vi y, vi level, vf out[4]);
+#endif
+
+#endif

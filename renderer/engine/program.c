@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* A field as operations with the functions that run them. */
+#include <stdlib.h>
+
+#include "lanes_parts.h"
+#include "protocol/memory.h"
+
+/* Of those that the processor has, from the widest; NULL behind the last. */
+static const struct engine_width *width_at(size_t index)
+{
+#ifdef __x86_64__
+    static const struct engine_width *const widths[] = {&engine_8, &engine_4, NULL};
+    const size_t first = __builtin_cpu_supports("avx2") ? 0 : 1;
+#else
+    static const struct engine_width *const widths[] = {&engine_4, NULL};
+    const size_t first = 0;
+#endif
+    return first + index < sizeof widths / sizeof widths[0] ? widths[first + index] : NULL;
+}
+
+int engine_lanes(size_t index)
+{
+    const struct engine_width *width = width_at(index);
+    return width ? width->lanes : 0;
+}
+
+static const struct engine_width *width_of(int lanes)
+{
+    const struct engine_width *width = width_at(0);
+    for (size_t i = 0; lanes > 0 && width && width->lanes != lanes; i++) {
+        width = width_at(i);
+    }
+    return width;
+}
+
+static void (*find(const struct engine_width *width, const struct field_instruction *in,
+                   enum shader_kernel kernel))(void)
+{
+    for (size_t i = 0; i < width->kernel_count; i++) {
+        const struct kernel_row *row = &width->kernels[i];
+        if (row->kernel == kernel && row->choices == in->choices && row->type == in->type->number) {
+            return row->function;
+        }
+    }
+    return NULL;
+}
+
+/* Which function it calls first; false: none is needed. */
+static bool first_kernel(const struct field_instruction *in, enum shader_kernel *out)
+{
+    switch (in->op) {
+    case FIELD_SHAPE:
+        *out = KERNEL_SHAPE;
+        return true;
+    case FIELD_COMBINE:
+        *out = KERNEL_COMBINE;
+        return true;
+    case FIELD_DISTANCE:
+        *out = KERNEL_CHANGE;
+        return true;
+    case FIELD_MAP:
+        *out = KERNEL_MAP;
+        return true;
+    case FIELD_AFTER:
+        *out = KERNEL_AFTER;
+        return true;
+    case FIELD_LOOP:
+        *out = KERNEL_FIRST;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool make(const struct engine_width *width, struct operation *out,
+                 const struct field_instruction *in)
+{
+    enum shader_kernel kernel;
+    *out = (struct operation){.op = (uint8_t)in->op,
+                              .a = in->a,
+                              .b = in->b,
+                              .point = in->point,
+                              .out = in->out,
+                              .numbers = in->numbers,
+                              .seen = in->seen};
+    if (first_kernel(in, &kernel)) {
+        out->function = find(width, in, kernel);
+        out->share = kernel == KERNEL_COMBINE ? find(width, in, KERNEL_SHARE)
+                     : kernel == KERNEL_FIRST ? find(width, in, KERNEL_LAST)
+                                              : NULL;
+        out->cell = kernel == KERNEL_FIRST ? find(width, in, KERNEL_CELL) : NULL;
+        return out->function != NULL;
+    }
+    return true;
+}
+
+/* What a slot holds at this place of the field, and which loops are open. */
+struct reading {
+    bool mixed[FIELD_SLOTS_MAX];
+    uint32_t loops[LIMIT_NODE_DEPTH];
+    int depth, bent; /* open loops; open changes of space that lengthen */
+};
+
+static bool read_one(struct engine_program *program, struct reading *r,
+                     const struct field_instruction *in)
+{
+    const uint32_t at = (uint32_t)program->count;
+    struct operation *to = &program->operations[at];
+    const bool bends = in->type && in->type->kind == KIND_DOMAIN && in->type->lipschitz == 0;
+    if (in->op == FIELD_GUARD || in->op == FIELD_GUARD_END) {
+        return true;
+    }
+    if (!make(program->width, to, in)) {
+        return false;
+    }
+    program->count++;
+    if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
+        r->mixed[in->a] = false;
+    } else if (in->op == FIELD_COMBINE) {
+        to->mixes = in->sdf->soft || r->mixed[in->a] || r->mixed[in->b];
+        r->mixed[in->a] = to->mixes;
+        to->prunes = in->sdf->reach && r->depth == 0 && r->bent == 0;
+        to->rule = (uint8_t)in->sdf->rule;
+        to->kernel = (uint8_t)(in->choices & 0xff);
+        to->reach = in->sdf->reach;
+        to->soft = in->sdf->soft;
+    } else if (in->op == FIELD_LOOP) {
+        r->loops[r->depth++] = at;
+    } else if (in->op == FIELD_LOOP_END) {
+        to->length = at - r->loops[--r->depth];
+        program->operations[at - to->length].length = to->length;
+        program->operations[at - to->length].b = in->b;
+        r->mixed[in->a] = r->mixed[in->b];
+    }
+    r->bent += bends && in->op == FIELD_MAP;
+    r->bent -= bends && in->op == FIELD_AFTER && r->bent > 0;
+    return true;
+}
+
+struct engine_program *engine_program_create(const struct field *field, int lanes)
+{
+    struct engine_program *program = memory_alloc(1, sizeof *program);
+    struct reading reading = {.depth = 0};
+    bool ok = field->shader_count == 0 && field->code_count == 0;
+
+    program->width = width_of(lanes);
+    ok = ok && program->width;
+
+    program->operations = memory_alloc(field->instruction_count, sizeof *program->operations);
+    program->scene.material_base = (int)field->material_base;
+    program->scene.material_stride = (int)field->material_stride;
+    for (size_t i = 0; ok && i < field->instruction_count; i++) {
+        ok = read_one(program, &reading, &field->instructions[i]);
+    }
+    if (!ok) {
+        engine_program_destroy(program);
+        return NULL;
+    }
+    return program;
+}
+
+void engine_program_destroy(struct engine_program *program)
+{
+    if (program) {
+        free(program->operations);
+        free(program);
+    }
+}
+
+void engine_draw(const struct engine_picture *picture, int x, int y, int width, int height,
+                 uint8_t *out, size_t stride)
+{
+    picture->program->width->draw(picture, x, y, width, height, out, stride);
+}

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT */
+/* The engine and the device draw the same picture: every example that it draws, and the scenes of
+ * golden pictures; and its pictures are the same bytes for every width of vectors. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "renderer/engine/engine.h"
+#include "server/embedded.h"
+#include "tests/support/drawing.h"
+#include "tests/support/progress.h"
+
+enum {
+    WIDTH = 64,
+    HEIGHT = 36,
+    STEPS = 2,      /* of 255, by which a pixel may differ; */
+    PER_MILLE = 10, /* more of them are edges, where one ray meets another surface */
+    FRACTAL_PER_MILLE = 60,
+};
+
+static struct renderer *open_renderer(enum render_stage stage, int lanes)
+{
+    struct error err = {0};
+    const struct renderer_params params = {
+        .device = {.index = -1, .cache_dir = getenv("FIELDCAST_CACHE")},
+        .stage = stage,
+        .lanes = lanes};
+    struct renderer *renderer = renderer_create(&params, &err);
+
+    if (!renderer) {
+        fail_msg("%s", err.message);
+    }
+    return renderer;
+}
+
+static struct image draw(struct renderer *renderer, const struct embedded *example, int samples)
+{
+    struct error err = {0};
+    struct image image;
+    struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+
+    assert_non_null(scene);
+    const char *around = record_text(&scene->environment, "image");
+    const struct embedded *file = *around ? example_files_find(around) : NULL;
+    if (file) {
+        renderer_asset(renderer, around, file->bytes, file->length);
+    }
+    struct resident *resident = resident_create(renderer, scene, 1);
+    desc.samples = samples;
+    assert_true(renderer_render(resident, &desc, &image, &err));
+    resident_destroy(resident);
+    return image;
+}
+
+/* Pixels that differ. */
+static int difference(const struct image *a, const struct image *b)
+{
+    const uint8_t *p = a->pixels, *q = b->pixels;
+    int count = 0;
+
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        int most = 0;
+        for (int c = 0; c < 4; c++) {
+            const int apart = abs(p[4 * i + c] - q[4 * i + c]);
+            most = apart > most ? apart : most;
+        }
+        count += most > STEPS;
+    }
+    return count;
+}
+
+static int bound_of(const struct embedded *example)
+{
+    const bool fractal = strcmp(example->path, "fractals") == 0;
+
+    return WIDTH * HEIGHT * (fractal ? FRACTAL_PER_MILLE : PER_MILLE) / 1000;
+}
+
+static void every_example_is_the_same_by_both(void **state)
+{
+    struct image *device = calloc(examples_count, sizeof *device);
+    struct renderer *renderer = open_renderer(RENDER_COMPUTE, 0);
+
+    (void)state;
+    assert_non_null(device);
+    for (size_t i = 0; i < examples_count; i++) {
+        progress("%s by the device", examples_table[i].path);
+        device[i] = draw(renderer, &examples_table[i], 1);
+    }
+    renderer_destroy(renderer);
+    renderer = open_renderer(RENDER_ENGINE, 0);
+    for (size_t i = 0; i < examples_count; i++) {
+        struct image image = draw(renderer, &examples_table[i], 1);
+        const int count = difference(&image, &device[i]);
+
+        progress("%s by the engine: %d pixels differ", examples_table[i].path, count);
+        if (count > bound_of(&examples_table[i])) {
+            fail_msg("%s: %d pixels differ", examples_table[i].path, count);
+        }
+        image_finish(&image);
+        image_finish(&device[i]);
+    }
+    renderer_destroy(renderer);
+    free(device);
+}
+
+static const struct embedded *example(const char *name)
+{
+    const struct embedded *found = examples_find(name);
+
+    assert_non_null(found);
+    return found;
+}
+
+/* So that the comparison is one: pictures of two scenes differ, and of the same scene with another
+ * number of samples at its edges. */
+static void other_pictures_are_noticed(void **state)
+{
+    struct renderer *renderer = open_renderer(RENDER_ENGINE, 0);
+    struct image a = draw(renderer, example("csg"), 1), b = draw(renderer, example("blend"), 1);
+    struct image more = draw(renderer, example("csg"), 2);
+
+    (void)state;
+    assert_true(difference(&a, &b) > WIDTH * HEIGHT / 10);
+    assert_true(difference(&a, &more) > WIDTH * HEIGHT * PER_MILLE / 1000);
+    image_finish(&a);
+    image_finish(&b);
+    image_finish(&more);
+    renderer_destroy(renderer);
+}
+
+static void all_widths_give_the_same_bytes(void **state)
+{
+    static const char *const names[] = {"csg", "snowman", "mirrors", "twist", "repeat-polar"};
+    enum { NAMES = sizeof names / sizeof names[0] };
+    struct image widest[NAMES];
+
+    (void)state;
+    assert_true(engine_lanes(0) > 0);
+    for (size_t k = 0; engine_lanes(k) > 0; k++) {
+        struct renderer *renderer = open_renderer(RENDER_ENGINE, engine_lanes(k));
+        for (size_t i = 0; i < NAMES; i++) {
+            struct image image = draw(renderer, example(names[i]), 2);
+            if (k == 0) {
+                widest[i] = image;
+                continue;
+            }
+            assert_memory_equal(image.pixels, widest[i].pixels, WIDTH * HEIGHT * 4);
+            image_finish(&image);
+        }
+        renderer_destroy(renderer);
+    }
+    for (size_t i = 0; i < NAMES; i++) {
+        image_finish(&widest[i]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_example_is_the_same_by_both),
+        cmocka_unit_test(other_pictures_are_noticed),
+        cmocka_unit_test(all_widths_give_the_same_bytes),
+    };
+    return cmocka_run_group_tests_name("engine", tests, NULL, NULL);
+}
