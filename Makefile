@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Builds, runs and tests fieldcast. `make help` lists the targets. GNU make 4 or newer.
+# Builds, runs and tests fieldcast. `make help` lists the targets. GNU make 4.3 or newer.
 #
 #   CONFIG=release|debug|asan|tsan|cov   objects under $(BUILD)/$(CONFIG)/
 #   BUILD=DIR    where everything built goes; `make -f ../src/Makefile` builds in the current folder
