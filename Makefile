@@ -143,7 +143,7 @@ $(OUT)/generated/kernels.table: $(spmd)
 	$(Q)$(spmd) table >$@
 
 # The same file for each width; nothing is fused or reordered, so that all give the same bits.
-engine_flags := $(call accepted,-ftrivial-auto-var-init=uninitialized) -fno-stack-protector -fwrapv -ffp-contract=off -fno-math-errno -Wno-psabi -Wno-unused -Wno-shadow -Wno-missing-prototypes -I$(OUT)/generated
+engine_flags := $(call accepted,-ftrivial-auto-var-init=uninitialized) -fno-stack-protector -fwrapv -ffp-contract=off -fno-math-errno -Wno-psabi -Wno-unused -Wno-unused-parameter -Wno-shadow -Wno-missing-prototypes -I$(OUT)/generated
 engine_width_8 := -mavx2
 $(engine_objects): $(OUT)/generated/engine-%.o: $(S)/renderer/engine/width.c $(OUT)/flags \
         $(OUT)/generated/spmd.c $(OUT)/generated/spmd.h $(OUT)/generated/kernels.table
