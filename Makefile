@@ -121,7 +121,7 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 # GLSL as C over vectors: the shaders that the engine runs, and each instruction of a field.
 spmd := $(OUT)/spmd
 spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far shown is_edge pixel_light \
-                pixel_color guard cell_count cell_next
+                pixel_color cell_count cell_next
 spmd_objects := $(call object,$(wildcard $(S)/renderer/spmd/*.c $(S)/protocol/*.c \
                     $(S)/protocol/*/*.c $(S)/renderer/code/*.c $(S)/renderer/field/*.c \
                     $(S)/renderer/sdf/*.c $(S)/renderer/glsl/*.c)) $(OUT)/generated/glsl.o

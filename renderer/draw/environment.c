@@ -79,7 +79,6 @@ static int levels_of(int width, int height)
     return levels;
 }
 
-/* Longitudes meet, latitudes end. Counts its bytes with those of its levels. */
 static size_t texels_of(int width, int height, int level)
 {
     const size_t across = width >> level ? (size_t)(width >> level) : 1;
@@ -88,6 +87,7 @@ static size_t texels_of(int width, int height, int level)
     return across * down;
 }
 
+/* Longitudes meet, latitudes end. Counts its bytes with those of its levels. */
 static GLuint create_picture(const struct gl *gl, int width, int height, int levels,
                              size_t *out_bytes)
 {

@@ -31,7 +31,7 @@ void paint(Mixture m, out Surface s)
 
 /* Sample `index` of a pixel, with all rays that follow: its light and coverage; normal and distance
  * of what its first ray met. */
-void trace(ivec2 pixel, int index, int rays, float start, out vec4 total, out vec4 geometry_of)
+void trace(ivec2 pixel, int index, int rays, out vec4 total, out vec4 geometry_of)
 {
     Ray ray = camera_sample(pixel, index);
     vec4 weight = vec4(1.0, 1.0, 1.0, 0.0);
@@ -40,7 +40,7 @@ void trace(ivec2 pixel, int index, int rays, float start, out vec4 total, out ve
     total = vec4(0.0);
     has_next = true;
     for (int i = 0; i <= rays && has_next; i++) {
-        Hit found = march(ray, i == 0 ? start : 0.0, 0.0, frame.max_steps);
+        Hit found = march(ray, 0.0, 0.0, frame.max_steps);
         float t = found.hit ? found.t : 0.0;
         vec3 p = ray.origin + ray.direction * t;
         vec4 g = vec4(found.hit ? found.normal : vec3(0.0),

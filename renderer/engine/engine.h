@@ -36,7 +36,6 @@ struct engine_picture {
     const struct engine_sky *skies[ENGINE_SKIES];
     enum engine_smoothing smoothing;
     int samples, rays;
-    bool linear;
 };
 
 /* Draws pixels x, y to x + width, y + height: four bytes each, rows `stride` bytes apart. */

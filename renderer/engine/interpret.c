@@ -20,7 +20,7 @@ typedef vf after_function(struct lanes *c, vb m, vf d, const vf *p);
 
 #define CALL(type, function) ((type *)(function))
 
-enum { MIXTURE = 11, SURFACE = 22, OPEN_MAX = LIMIT_NODE_DEPTH };
+enum { MIXTURE = 11, OPEN_MAX = LIMIT_NODE_DEPTH };
 
 struct open {
     vb before;

@@ -123,7 +123,6 @@ static bool read_one(struct engine_program *program, struct reading *r,
         to->rule = (uint8_t)in->sdf->rule;
         to->kernel = (uint8_t)(in->choices & 0xff);
         to->reach = in->sdf->reach;
-        to->soft = in->sdf->soft;
     } else if (in->op == FIELD_LOOP) {
         r->loops[r->depth++] = at;
     } else if (in->op == FIELD_LOOP_END) {

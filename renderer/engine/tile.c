@@ -49,12 +49,8 @@ static void add_sample(struct hand *hand, const struct engine_picture *picture, 
     struct lanes *c = &hand->lanes;
     const vf pixel[2] = {(vf)(x + hand->dispatch.origin[0]), (vf)(y + hand->dispatch.origin[1])};
     vf total[4] = {0}, geometry[4] = {0}, light[3];
-    spmd_trace(c, m, pixel, index, picture->rays, vf_zero, total, geometry);
-    if (picture->linear) {
-        memcpy(light, total, sizeof light);
-    } else {
-        spmd_shown(c, m, total, light);
-    }
+    spmd_trace(c, m, pixel, index, picture->rays, total, geometry);
+    spmd_shown(c, m, total, light);
     const vi at = y * SIDE + x;
     for (int i = 0; i < LANES; i++) {
         if (!m[i]) {

@@ -16,6 +16,7 @@
 #include <turbojpeg.h>
 
 #include "renderer/renderer.h"
+#include "server/cli/drawing.h"
 #include "server/embedded.h"
 #include "tests/support/progress.h"
 
@@ -83,11 +84,7 @@ static double difference(const struct embedded *example, const struct embedded *
     cJSON *ops = cJSON_Parse("[{\"op\":\"set\",\"at\":\"/render/exposure\",\"value\":0}]");
 
     assert_non_null(scene);
-    const char *around = record_text(&scene->environment, "image");
-    const struct embedded *file = *around ? example_files_find(around) : NULL;
-    if (file) {
-        renderer_asset(renderer, around, file->bytes, file->length);
-    }
+    drawing_give_example_file(renderer, scene);
     struct resident *resident = resident_create(renderer, scene, 1);
     if (exposure != 0) {
         cJSON_SetNumberValue(cJSON_GetObjectItem(ops->child, "value"), exposure);
