@@ -24,7 +24,9 @@ const PATIENCE = {
 const LEFT_IDLE_SECONDS = 4;
 const LEFT_BUSY_SECONDS = 30;
 const TICKS = 100; // of /proc, in a second
-const LOG_LINES = 200; // shown of a suite that failed
+const LOG_LINES = 100; // shown of the end of a suite that failed
+const REPORT_LINES = 30; // shown of each test that failed
+const REPORTS = 5;
 const ORDER = ['unit', 'lint', 'cli', 'web', 'property', 'golden', 'api', 'kill', 'fault', 'e2e'];
 const ALONE = [
     'api/live',
@@ -229,12 +231,21 @@ function show(suite, count, outcome, seconds) {
         console.log(`       ${fault}`);
     }
     if (count.failed > 0) {
-        const lines = outcome.all.trimEnd().split('\n');
-        if (lines.length > LOG_LINES) {
-            console.log(`       (the last ${LOG_LINES} of ${lines.length} lines)`);
-        }
-        console.log(lines.slice(-LOG_LINES).map((line) => `     | ${line}`).join('\n'));
+        showLog(outcome.all.trimEnd().split('\n'));
     }
+}
+
+/** The tests that failed first, because whoever reads may see a part of this only. */
+function showLog(lines) {
+    const failed = lines.flatMap((line, at) => (/^ *not ok\b/.test(line) ? [at] : []));
+    const print = (some) => console.log(some.map((line) => `     | ${line}`).join('\n'));
+    for (const at of failed.slice(0, REPORTS)) {
+        print(lines.slice(at, at + REPORT_LINES));
+    }
+    if (lines.length > LOG_LINES) {
+        console.log(`       (the last ${LOG_LINES} of ${lines.length} lines)`);
+    }
+    print(lines.slice(-LOG_LINES));
 }
 
 for (const signal of ['SIGINT', 'SIGTERM']) {

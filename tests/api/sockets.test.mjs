@@ -127,7 +127,8 @@ describe('heads', () => {
         const peer = connect();
         peer.socket.end(get('Connection: close\r\n', '/v1/scenes/s/image.png?width=4096&height=4096&samples=4'));
         await peer.end();
-        assert.deepEqual(peer.statuses(), []);
+        // The connection ends with or without the answer for a client that has left.
+        assert.match(peer.statuses().join(), /^(503)?$/);
         await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the end of the order');
     });
 
