@@ -6,7 +6,7 @@
 
 #include "hub.h"
 #include "room_state.h"
-#include "say.h"
+#include "server_message.h"
 #include "session.h"
 
 static size_t class_of(size_t nodes)
@@ -51,7 +51,7 @@ int64_t compiles_expected(const struct compiles *compiles, size_t nodes)
 static struct blob *message(const struct room *room, bool over, int64_t now_ms)
 {
     const int64_t expected = compiles_expected(room->hub->compiles, room->scene->node_count);
-    cJSON *json = say_begin("compiling");
+    cJSON *json = message_begin("compiling");
 
     cJSON_AddNumberToObject(json, "revision", (double)room->revision);
     cJSON_AddBoolToObject(json, "over", over);
@@ -59,7 +59,7 @@ static struct blob *message(const struct room *room, bool over, int64_t now_ms)
     if (expected >= 0) {
         cJSON_AddNumberToObject(json, "expected_ms", (double)expected);
     }
-    return say(json);
+    return message_print(json);
 }
 
 static void tell_all(const struct room *room, bool over, int64_t now_ms)

@@ -12,9 +12,9 @@
 #include "protocol/messages.h"
 #include "room.h"
 #include "room_authors.h"
-#include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
+#include "server_message.h"
 #include "session_life.h"
 
 /* --- welcome --- */
@@ -45,11 +45,11 @@ static void add_labels(cJSON *welcome, const struct session *session, const char
     }
 }
 
-static void say_welcome(struct session *session, const char *key)
+static void send_welcome(struct session *session, const char *key)
 {
     struct room *room = session->room;
     const struct renderer_info *info = &session->hub->renderer;
-    cJSON *welcome = say_begin("welcome");
+    cJSON *welcome = message_begin("welcome");
     size_t undo = 0, redo = 0;
 
     history_depth(room->history, session->client, &undo, &redo);
@@ -70,7 +70,7 @@ static void say_welcome(struct session *session, const char *key)
     add_labels(welcome, session, "undo_labels", false);
     add_labels(welcome, session, "redo_labels", true);
     add_limits(welcome);
-    session_say(session, say(welcome));
+    session_say(session, message_print(welcome));
 }
 
 /* --- hello --- */
@@ -144,14 +144,14 @@ void hello_receive(struct session *session, const char *scene, const cJSON *mess
         return;
     }
     enter_room(session, room, author);
-    say_welcome(session, key);
+    send_welcome(session, key);
     bring_up_to_date(session, message);
     problem_tell(session, room);
     compiles_tell(session, room, clock_ms());
     if (!hub_accepts_scene(hub, room->scene, &err)) {
         error_set(&err, ERROR_FORBIDDEN, err.place,
                   "this server runs no code: what has some is not shown as it is meant");
-        session_say(session, say_fault("warning", "code_off", &err));
+        session_say(session, message_fault("warning", "code_off", &err));
     }
     log_debug("session", "%s entered %s as %s", session->id, room->id, author->name);
 }

@@ -12,7 +12,7 @@
 #include "protocol/memory.h"
 #include "renderer/pick.h"
 #include "room_apart.h"
-#include "say.h"
+#include "server_message.h"
 #include "session.h"
 
 struct question {
@@ -242,9 +242,9 @@ static cJSON *vector_or_null(const struct pick_result *result, const double v[3]
     return result->hit ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
 }
 
-static struct blob *say_picked(double pick, uint64_t revision, const struct pick_result *result)
+static struct blob *picked_message(double pick, uint64_t revision, const struct pick_result *result)
 {
-    cJSON *message = say_begin("picked");
+    cJSON *message = message_begin("picked");
 
     cJSON_AddNumberToObject(message, "pick", pick);
     cJSON_AddNumberToObject(message, "revision", (double)revision);
@@ -254,7 +254,7 @@ static struct blob *say_picked(double pick, uint64_t revision, const struct pick
     cJSON_AddItemToObject(message, "normal", vector_or_null(result, result->normal));
     cJSON_AddItemToObject(message, "distance",
                           result->hit ? cJSON_CreateNumber(result->distance) : cJSON_CreateNull());
-    return say(message);
+    return message_print(message);
 }
 
 /* Under the lock, which it lets go for the work. */
@@ -273,7 +273,7 @@ static void answer(struct picker *picker, const struct question *question)
     pick_field_unref(field);
     hub_lock(picker->hub);
     if (question->session) {
-        session_say(question->session, say_picked(question->pick, revision, &result));
+        session_say(question->session, picked_message(question->pick, revision, &result));
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "hub.h"
 #include "room_state.h"
-#include "say.h"
+#include "server_message.h"
 #include "session.h"
 
 bool problem_is_refusal(const struct error *err)
@@ -17,8 +17,8 @@ bool problem_is_refusal(const struct error *err)
 /* Whatever rule is broken, it is the newest state that does not compile. */
 static struct blob *message(const struct error *err)
 {
-    return say_fault("error", error_kind_name(problem_is_refusal(err) ? err->kind : ERROR_COMPILE),
-                     err);
+    return message_fault("error",
+                         error_kind_name(problem_is_refusal(err) ? err->kind : ERROR_COMPILE), err);
 }
 
 static void tell_all(const struct room *room, struct blob *text)
@@ -32,7 +32,7 @@ static void tell_all(const struct room *room, struct blob *text)
 static void end(struct room *room)
 {
     tell_all(room,
-             say_notice("info", "compiled", room->problem.place, "The scene is drawn again."));
+             message_notice("info", "compiled", room->problem.place, "The scene is drawn again."));
     room->problem = (struct error){0};
 }
 
@@ -76,13 +76,13 @@ void problem_cure(struct room *room, uint64_t revision)
 
 void problem_tell_retry(const struct room *room, const char *place)
 {
-    tell_all(room, say_notice("info", "retrying", place, "It is tried again."));
+    tell_all(room, message_notice("info", "retrying", place, "It is tried again."));
 }
 
 void problem_leave_out(struct room *room, const struct error *why)
 {
     room->left_out = *why;
-    tell_all(room, say_fault("error", "scene_left_out", why));
+    tell_all(room, message_fault("error", "scene_left_out", why));
 }
 
 void problem_let_in(struct room *room)
@@ -97,7 +97,7 @@ void problem_let_in(struct room *room)
 void problem_tell(struct session *session, const struct room *room)
 {
     if (room->left_out.kind != ERROR_NONE) {
-        session_say(session, say_fault("error", "scene_left_out", &room->left_out));
+        session_say(session, message_fault("error", "scene_left_out", &room->left_out));
     }
     if (room->problem.kind != ERROR_NONE) {
         session_say(session, message(&room->problem));

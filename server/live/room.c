@@ -21,9 +21,9 @@
 #include "room_snapshot.h"
 #include "room_store.h"
 #include "room_worker.h"
-#include "say.h"
 #include "server/clock.h"
 #include "server/log.h"
+#include "server_message.h"
 #include "session.h"
 
 /* --- birth and death --- */
@@ -156,7 +156,7 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
 
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
 {
-    struct blob *message = say_changed(room->revision, room_change_name(change), ops, 0);
+    struct blob *message = message_changed(room->revision, room_change_name(change), ops, 0);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         if (session != change->session) {
@@ -291,7 +291,8 @@ bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
 
 static void tell_document(struct room *room, const char *text)
 {
-    struct blob *message = room->sessions ? say_document(room->revision, text, strlen(text)) : NULL;
+    struct blob *message =
+        room->sessions ? message_document(room->revision, text, strlen(text)) : NULL;
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
@@ -326,7 +327,7 @@ struct blob *room_document_message(struct room *room)
 {
     struct blob *text = room_text(room);
     struct blob *message =
-        say_document(room->revision, (const char *)text->bytes, text->length - 1);
+        message_document(room->revision, (const char *)text->bytes, text->length - 1);
 
     blob_unref(text);
     return message;
@@ -337,13 +338,13 @@ struct blob *room_changed_message(const struct room *room, uint64_t revision, co
     const struct room_entry *entry = room_entry_of(room, revision);
     bool own = strcmp(entry->author, client) == 0;
 
-    return say_changed(revision, entry->name, entry->ops, own ? entry->edit : 0);
+    return message_changed(revision, entry->name, entry->ops, own ? entry->edit : 0);
 }
 
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
                    const char *text)
 {
-    struct blob *message = say_notice(level, code, place, text);
+    struct blob *message = message_notice(level, code, place, text);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);

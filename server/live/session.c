@@ -7,8 +7,8 @@
 
 #include "hub.h"
 #include "room_state.h"
-#include "say.h"
 #include "server/log.h"
+#include "server_message.h"
 
 void session_send(struct session *session, struct blob *message)
 {
@@ -32,7 +32,7 @@ void session_say(struct session *session, struct blob *message)
 
 void session_error(struct session *session, const struct error *err)
 {
-    session_say(session, say_fault("error", error_kind_name(err->kind), err));
+    session_say(session, message_fault("error", error_kind_name(err->kind), err));
 }
 
 void session_tell_edit(struct session *session, int64_t edit, uint64_t revision,
@@ -41,8 +41,8 @@ void session_tell_edit(struct session *session, int64_t edit, uint64_t revision,
     size_t undo = 0, redo = 0;
 
     history_depth(session->room->history, session->client, &undo, &redo);
-    session_say(session, say_applied(edit, revision, revision <= session->room->durable, undo, redo,
-                                     skipped));
+    session_say(session, message_applied(edit, revision, revision <= session->room->durable, undo,
+                                         redo, skipped));
 }
 
 void session_tell_durable(struct session *session, int64_t edit, uint64_t revision)
@@ -89,5 +89,5 @@ void session_tell_rest(struct session *session, int wait_ms)
               "What this page sent took much work: the server reads on in %.1f s",
               wait_ms / 1000.0);
     err.retry_ms = wait_ms;
-    session_say(session, say_fault("info", error_kind_name(err.kind), &err));
+    session_say(session, message_fault("info", error_kind_name(err.kind), &err));
 }

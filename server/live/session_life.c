@@ -11,8 +11,8 @@
 #include "picker.h"
 #include "protocol/memory.h"
 #include "room_authors.h"
-#include "say.h"
 #include "server/clock.h"
+#include "server_message.h"
 
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
 {
@@ -89,7 +89,7 @@ void session_close(struct session *session, int code, const char *reason, int re
     if (session->close_code) {
         return;
     }
-    session_say(session, say_bye(reason, retry_ms));
+    session_say(session, message_bye(reason, retry_ms));
     session->close_code = code;
     picker_forget(session);
     frames_stop(session);

@@ -14,8 +14,8 @@
 #include "protocol/messages.h"
 #include "retry.h"
 #include "room.h"
-#include "say.h"
 #include "server/clock.h"
+#include "server_message.h"
 #include "session_life.h"
 
 /* Numbers may be left out, but nobody gets to where none is left. */
@@ -72,7 +72,7 @@ static void edit(struct session *session, const struct message *message)
     const enum room_outcome outcome = apply(session, message, &change, &revision, &skipped, &err);
 
     if (outcome == ROOM_REFUSED) {
-        session_say(session, say_rejected(change.edit, &err, skipped));
+        session_say(session, message_rejected(change.edit, &err, skipped));
     } else {
         session_tell_edit(session, change.edit, revision, skipped);
     }
@@ -152,7 +152,7 @@ static void refuse(struct session *session, const char *text, size_t length,
     if (number >= 1 && (!strcmp(type, "edit") || !strcmp(type, "undo") || !strcmp(type, "redo"))) {
         metric_add(&session->hub->metrics, METRIC_EDITS_REJECTED, 1);
         use_number(session, (int64_t)number, NULL);
-        session_say(session, say_rejected((int64_t)number, err, NULL));
+        session_say(session, message_rejected((int64_t)number, err, NULL));
     } else {
         session_error(session, err);
     }

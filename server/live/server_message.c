@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "say.h"
+#include "server_message.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "protocol/json.h"
 
-struct blob *say(cJSON *message)
+struct blob *message_print(cJSON *message)
 {
     char *text = json_print(message, false);
     struct blob *blob = blob_create(text, strlen(text));
@@ -17,7 +17,7 @@ struct blob *say(cJSON *message)
     return blob;
 }
 
-cJSON *say_begin(const char *type)
+cJSON *message_begin(const char *type)
 {
     cJSON *message = cJSON_CreateObject();
 
@@ -33,7 +33,7 @@ static struct blob *joined(char *text, size_t length)
     return blob;
 }
 
-struct blob *say_document(uint64_t revision, const char *document, size_t bytes)
+struct blob *message_document(uint64_t revision, const char *document, size_t bytes)
 {
     char *text = NULL;
     size_t length = 0;
@@ -47,7 +47,7 @@ struct blob *say_document(uint64_t revision, const char *document, size_t bytes)
 }
 
 /* An author's id needs no escapes: letters, digits, - and _ only. */
-struct blob *say_changed(uint64_t revision, const char *author, const char *ops, int64_t edit)
+struct blob *message_changed(uint64_t revision, const char *author, const char *ops, int64_t edit)
 {
     char *text = NULL;
     size_t length = 0;
@@ -70,10 +70,10 @@ static void add_skipped(cJSON *message, const cJSON *skipped)
     }
 }
 
-struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t undo, size_t redo,
-                         const cJSON *skipped)
+struct blob *message_applied(int64_t edit, uint64_t revision, bool durable, size_t undo,
+                             size_t redo, const cJSON *skipped)
 {
-    cJSON *message = say_begin("applied");
+    cJSON *message = message_begin("applied");
 
     cJSON_AddNumberToObject(message, "edit", (double)edit);
     cJSON_AddNumberToObject(message, "revision", (double)revision);
@@ -81,7 +81,7 @@ struct blob *say_applied(int64_t edit, uint64_t revision, bool durable, size_t u
     cJSON_AddNumberToObject(message, "undo", (double)undo);
     cJSON_AddNumberToObject(message, "redo", (double)redo);
     add_skipped(message, skipped);
-    return say(message);
+    return message_print(message);
 }
 
 /* Line and column only where the error is in a text. */
@@ -102,42 +102,43 @@ static void add_error(cJSON *message, const struct error *err)
     }
 }
 
-struct blob *say_rejected(int64_t edit, const struct error *err, const cJSON *skipped)
+struct blob *message_rejected(int64_t edit, const struct error *err, const cJSON *skipped)
 {
-    cJSON *message = say_begin("rejected");
+    cJSON *message = message_begin("rejected");
 
     cJSON_AddNumberToObject(message, "edit", (double)edit);
     cJSON_AddStringToObject(message, "code", error_kind_name(err->kind));
     add_error(message, err);
     add_skipped(message, skipped);
-    return say(message);
+    return message_print(message);
 }
 
-struct blob *say_fault(const char *level, const char *code, const struct error *err)
+struct blob *message_fault(const char *level, const char *code, const struct error *err)
 {
-    cJSON *message = say_begin("notice");
+    cJSON *message = message_begin("notice");
 
     cJSON_AddStringToObject(message, "level", level);
     cJSON_AddStringToObject(message, "code", code);
     add_error(message, err);
-    return say(message);
+    return message_print(message);
 }
 
-struct blob *say_notice(const char *level, const char *code, const char *place, const char *text)
+struct blob *message_notice(const char *level, const char *code, const char *place,
+                            const char *text)
 {
     struct error err = {0};
 
     error_set(&err, ERROR_NONE, place, "%s", text);
-    return say_fault(level, code, &err);
+    return message_fault(level, code, &err);
 }
 
-struct blob *say_bye(const char *reason, int retry_ms)
+struct blob *message_bye(const char *reason, int retry_ms)
 {
-    cJSON *message = say_begin("bye");
+    cJSON *message = message_begin("bye");
 
     cJSON_AddStringToObject(message, "reason", reason);
     if (retry_ms >= 0) {
         cJSON_AddNumberToObject(message, "retry_ms", retry_ms);
     }
-    return say(message);
+    return message_print(message);
 }
