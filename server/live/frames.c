@@ -8,7 +8,7 @@
 #include "hub.h"
 #include "poster.h"
 #include "protocol/messages.h"
-#include "renders.h"
+#include "render_queue.h"
 #include "room_state.h"
 #include "server/clock.h"
 #include "session.h"
@@ -65,7 +65,7 @@ void frames_init(struct frames *frames)
 void frames_stop(struct session *session)
 {
     if (session->frames->job) {
-        renders_cancel(session->hub, session->frames->job);
+        render_queue_cancel(session->hub, session->frames->job);
         session->frames->job = 0;
     }
 }
@@ -253,7 +253,8 @@ static bool is_too_large(const struct session *session, const struct frames_view
     const double target_ms = quality_rules[view->quality].target_ms;
 
     if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
-        return pixels_of(view, step) > FIRST_PIXELS / (1 + renders_moving(session->hub->renders));
+        return pixels_of(view, step) >
+               FIRST_PIXELS / (1 + render_queue_moving(session->hub->render_queue));
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >
@@ -483,7 +484,7 @@ static void ask(struct session *session, enum frames_level level)
     frames->job_view_width = render_request_int(&view->picture, "width");
     frames->job_view_height = render_request_int(&view->picture, "height");
     frames->job_asked_us = clock_us();
-    frames->job = renders_submit(session->hub, &order, NULL);
+    frames->job = render_queue_submit(session->hub, &order, NULL);
 }
 
 bool frames_is_waiting(const struct frames *frames)
@@ -498,7 +499,7 @@ int64_t frames_pump(struct session *session, int64_t now_ms)
     const struct frames_view *view = newest_view(frames);
 
     if (!view || !view->visible || !session->room || session->room->left_out.kind != ERROR_NONE ||
-        session->close_code || !session->hub->renders->ready || frames->job ||
+        session->close_code || !session->hub->render_queue->ready || frames->job ||
         frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
         return 0;
     }

@@ -25,7 +25,7 @@ struct compiles;
 struct picker;
 struct pictures;
 struct quarantine;
-struct renders;
+struct render_queue;
 struct room;
 struct uploads;
 struct ws;
@@ -48,7 +48,7 @@ struct hub {
     struct catalog *catalog;
     struct uploads *uploads;
     struct room *rooms;
-    struct renders *renders;
+    struct render_queue *render_queue;
     struct quarantine *quarantine;
     struct compiles *compiles;
     struct pictures *pictures;

@@ -19,7 +19,7 @@
 #include "protocol/memory.h"
 #include "protocol/schema.h"
 #include "quarantine.h"
-#include "renders.h"
+#include "render_queue.h"
 #include "room.h"
 #include "room_snapshot.h"
 #include "room_worker.h"
@@ -65,7 +65,7 @@ static void on_ready(void *data, const struct packet_ready *ready)
         }
     }
     quarantine_worker_ready(hub);
-    renders_worker_ready(hub);
+    render_queue_worker_ready(hub);
     hub_unlock(hub);
 }
 
@@ -105,7 +105,7 @@ static bool on_down(void *data, const struct supervisor_end *end)
     log_debug("hub", "worker down: %s", end->text);
     tell_lost(hub, end);
     bool known = quarantine_worker_down(hub, end);
-    renders_worker_down(hub, end);
+    render_queue_worker_down(hub, end);
     hub_unlock(hub);
     return known;
 }
@@ -188,13 +188,13 @@ static void on_packet(void *data, const struct packet *packet)
         quarantine_named(hub, (enum packet_to_front)packet->kind, &packet->suspect);
         break;
     case TO_FRONT_FRAME:
-        renders_frame(hub, packet);
+        render_queue_frame(hub, packet);
         break;
     case TO_FRONT_PROGRESS:
-        renders_progress(hub, packet->job.job);
+        render_queue_progress(hub, packet->job.job);
         break;
     case TO_FRONT_FAILED:
-        renders_failed(hub, &packet->failed);
+        render_queue_failed(hub, &packet->failed);
         break;
     case TO_FRONT_READY: /* the supervisor's */
     case TO_FRONT_PONG:
@@ -212,7 +212,8 @@ static void close_idle_rooms(struct hub *hub, int64_t now_ms)
     for (struct room *room = hub->rooms, *next; room; room = next) {
         next = room->next;
         if (room->sessions || room->pending || room->holds ||
-            renders_has_room(hub->renders, room) || now_ms - room->idle_since < ROOM_IDLE_MS) {
+            render_queue_has_room(hub->render_queue, room) ||
+            now_ms - room->idle_since < ROOM_IDLE_MS) {
             continue;
         }
         if (room->edits_since_snapshot) {
@@ -230,7 +231,7 @@ static int64_t on_tick(void *data, int64_t now_ms)
     struct hub *hub = data;
 
     hub_lock(hub);
-    int64_t next = renders_tick(hub, now_ms);
+    int64_t next = render_queue_tick(hub, now_ms);
     for (struct room *room = hub->rooms; room; room = room->next) {
         for (struct session *session = room->sessions; session; session = session->next) {
             next = clock_earlier(next, frames_pump(session, now_ms));
@@ -281,11 +282,11 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     pthread_cond_init(&hub->released, NULL);
     hub->catalog = memory_alloc(1, sizeof(*hub->catalog));
     hub->uploads = memory_alloc(1, sizeof(*hub->uploads));
-    hub->renders = memory_alloc(1, sizeof(*hub->renders));
+    hub->render_queue = memory_alloc(1, sizeof(*hub->render_queue));
     hub->quarantine = memory_alloc(1, sizeof(*hub->quarantine));
     hub->compiles = memory_alloc(1, sizeof(*hub->compiles));
     hub->pictures = memory_alloc(1, sizeof(*hub->pictures));
-    renders_init(hub->renders);
+    render_queue_init(hub->render_queue);
     hub->access = params->access;
     hub->web_dir = params->web_dir;
     hub->code_refused = params->code_refused;
@@ -331,7 +332,7 @@ void hub_drain(struct hub *hub)
         }
         poster_store(room);
     }
-    renders_fail_all(hub, "the server is shutting down");
+    render_queue_fail_all(hub, "the server is shutting down");
     hub_unlock(hub);
     store_flush(hub->store);
 }
@@ -359,13 +360,13 @@ void hub_destroy(struct hub *hub)
         hub->rooms = room->next;
         room_destroy(room);
     }
-    renders_finish(hub->renders);
+    render_queue_finish(hub->render_queue);
     pictures_finish(hub->pictures);
     catalog_finish(hub->catalog);
     uploads_finish(hub->uploads);
     free(hub->catalog);
     free(hub->uploads);
-    free(hub->renders);
+    free(hub->render_queue);
     free(hub->quarantine);
     free(hub->compiles);
     free(hub->pictures);

@@ -7,7 +7,7 @@
 
 #include "catalog.h"
 #include "protocol/memory.h"
-#include "renders.h"
+#include "render_queue.h"
 #include "room.h"
 #include "room_apart.h"
 #include "room_store.h"
@@ -187,7 +187,7 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
 
 void hub_delete_room(struct hub *hub, struct room *room, void (*then)(void *data), void *data)
 {
-    renders_cancel_room(hub, room);
+    render_queue_cancel_room(hub, room);
     while (room->sessions) {
         session_close(room->sessions, CLOSE_NORMAL, "deleted", -1);
         session_leave_room(room->sessions);

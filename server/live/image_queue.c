@@ -5,13 +5,13 @@
 #include <string.h>
 
 #include "hub.h"
-#include "render_list.h"
+#include "render_entry.h"
 #include "room_state.h"
 #include "server/clock.h"
 
 /* One that waits. */
 struct place {
-    const struct render *render;
+    const struct render_entry *entry;
     int64_t pixels;
     int turn; /* of its client's, counted from 1 */
 };
@@ -24,7 +24,7 @@ struct line {
 
 static bool is_own(const struct place *place, const char *account)
 {
-    return strcmp(place->render->account, account) == 0;
+    return strcmp(place->entry->account, account) == 0;
 }
 
 static int turn_of(const struct line *line, int index)
@@ -37,19 +37,19 @@ static int turn_of(const struct line *line, int index)
         const bool before =
             other->pixels < place->pixels || (other->pixels == place->pixels && i < index);
 
-        turn += before && is_own(other, place->render->account);
+        turn += before && is_own(other, place->entry->account);
     }
     return turn;
 }
 
-static void form_line(const struct renders *renders, struct line *line)
+static void form_line(const struct render_queue *queue, struct line *line)
 {
     line->count = 0;
-    for (const struct render *render = renders->first; render && line->count < LIMIT_IMAGE_QUEUE;
-         render = render->next) {
-        if (render->order.priority == RENDER_IMAGE) {
+    for (const struct render_entry *entry = queue->first; entry && line->count < LIMIT_IMAGE_QUEUE;
+         entry = entry->next) {
+        if (entry->order.priority == RENDER_IMAGE) {
             line->places[line->count++] = (struct place){
-                .render = render, .pixels = render_request_pixels(&render->order.request)};
+                .entry = entry, .pixels = render_request_pixels(&entry->order.request)};
         }
     }
     for (int i = 0; i < line->count; i++) {
@@ -94,9 +94,9 @@ static int first_position(const struct line *line, const char *account)
 static bool refuse(const struct hub *hub, const struct line *line, const char *account, bool share,
                    struct error *err)
 {
-    const struct renders *renders = hub->renders;
+    const struct render_queue *queue = hub->render_queue;
     const int own = own_count(line, account), waiting = share ? own : line->count;
-    const int64_t each_ms = renders->image_ms > 0 ? renders->image_ms : 1000;
+    const int64_t each_ms = queue->image_ms > 0 ? queue->image_ms : 1000;
     const int64_t wait_ms = each_ms * (share ? first_position(line, account) : 1);
 
     error_set(err, share ? ERROR_SHARE : ERROR_UNAVAILABLE, "",
@@ -111,7 +111,7 @@ bool image_queue_admits(struct hub *hub, const struct render_order *order, struc
 {
     struct line line;
 
-    form_line(hub->renders, &line);
+    form_line(hub->render_queue, &line);
     if (own_count(&line, order->account) >= LIMIT_IMAGE_SHARE) {
         metric_add(&hub->metrics, METRIC_IMAGES_OVER_SHARE, 1);
         return refuse(hub, &line, order->account, true, err);
@@ -131,21 +131,21 @@ void image_queue_each(const struct hub *hub, const char *account,
     const int64_t now = clock_ms();
     struct line line;
 
-    form_line(hub->renders, &line);
+    form_line(hub->render_queue, &line);
     for (int i = 0; i < line.count; i++) {
-        const struct render *render = line.places[i].render;
+        const struct render_entry *entry = line.places[i].entry;
         const int position = position_of(&line, line.places[i].turn, i);
 
         if (!is_own(&line.places[i], account)) {
             continue;
         }
         see(data, &(struct image_place){
-                      .scene = render->order.room ? render->order.room->id : NULL,
-                      .width = render_request_int(&render->order.request, "width"),
-                      .height = render_request_int(&render->order.request, "height"),
+                      .scene = entry->order.room ? entry->order.room->id : NULL,
+                      .width = render_request_int(&entry->order.request, "width"),
+                      .height = render_request_int(&entry->order.request, "height"),
                       .position = position,
-                      .waited_ms = now - render->asked,
-                      .expected_ms = position * hub->renders->image_ms,
+                      .waited_ms = now - entry->asked,
+                      .expected_ms = position * hub->render_queue->image_ms,
                   });
     }
 }
@@ -155,7 +155,7 @@ int image_queue_clients(const struct hub *hub)
     struct line line;
     int count = 0;
 
-    form_line(hub->renders, &line);
+    form_line(hub->render_queue, &line);
     for (int i = 0; i < line.count; i++) {
         count += line.places[i].turn == 1;
     }

@@ -13,7 +13,7 @@
 #include "server/live/hub_rooms.h"
 #include "server/live/image_queue.h"
 #include "server/live/pictures.h"
-#include "server/live/renders.h"
+#include "server/live/render_queue.h"
 #include "server/live/room.h"
 #include "server/live/uploads.h"
 
@@ -106,7 +106,7 @@ static void on_gone(void *data)
     struct waiting *waiting = data;
     struct error err = {0};
 
-    renders_cancel(waiting->hub, waiting->job);
+    render_queue_cancel(waiting->hub, waiting->job);
     error_set(&err, ERROR_UNAVAILABLE, "", "the client left");
     request_reply_error(waiting->request, &err);
     waiting_destroy(waiting);
@@ -140,27 +140,27 @@ static void order(struct request *request, struct render_request *asked, struct 
 {
     struct error err = {0};
     struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
-    struct render_order render = {.room = room,
-                                  .document = document,
-                                  .request = *asked,
-                                  .priority = RENDER_IMAGE,
-                                  .account = request->client,
-                                  .again = true,
-                                  .on_done = on_picture,
-                                  .data = waiting};
+    struct render_order order = {.room = room,
+                                 .document = document,
+                                 .request = *asked,
+                                 .priority = RENDER_IMAGE,
+                                 .account = request->client,
+                                 .again = true,
+                                 .on_done = on_picture,
+                                 .data = waiting};
 
     *asked = (struct render_request){0};
     waiting->request = request;
     waiting->hub = request->hub;
-    render_request_size(&render.request, &waiting->width, &waiting->height);
+    render_request_size(&order.request, &waiting->width, &waiting->height);
     waiting->revision = room ? room->revision : 1;
-    waiting->key = make_key(request->hub, &render.request, room, document);
+    waiting->key = make_key(request->hub, &order.request, room, document);
     if (reply_at_once(waiting)) {
-        render_request_finish(&render.request);
+        render_request_finish(&order.request);
         waiting_destroy(waiting);
         return;
     }
-    waiting->job = renders_submit(request->hub, &render, &err);
+    waiting->job = render_queue_submit(request->hub, &order, &err);
     if (!waiting->job) {
         request_reply_error(request, &err);
         waiting_destroy(waiting);

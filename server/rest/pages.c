@@ -14,7 +14,7 @@
 #include "routes.h"
 #include "server/embedded.h"
 #include "server/live/hub_rooms.h"
-#include "server/live/renders.h"
+#include "server/live/render_queue.h"
 
 enum { WEB_FILE_BYTES = 67108864 };
 
@@ -298,7 +298,7 @@ void pages_ready(struct request *request)
     struct renderer_info info;
 
     hub_lock(hub);
-    bool ready = hub->renders->ready;
+    bool ready = hub->render_queue->ready;
     info = hub->renderer;
     hub_unlock(hub);
     const char *damage = store_damage(hub->store);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The pictures that are asked of the worker and not yet there, as renders.c keeps them. */
-#ifndef SERVER_RENDER_LIST_H
-#define SERVER_RENDER_LIST_H
+/* The pictures that are asked of the worker and not yet there, as render_queue.c keeps them. */
+#ifndef SERVER_RENDER_ENTRY_H
+#define SERVER_RENDER_ENTRY_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -10,7 +10,7 @@
 #include "renderer/worker.h"
 
 struct room;
-struct render;
+struct render_entry;
 
 enum {
     RENDER_MOVING = 0, /* priorities: the lowest number goes first */
@@ -21,8 +21,8 @@ enum {
     RENDER_DEATHS = 2,           /* workers that one scene may take with it */
 };
 
-struct renders {
-    struct render *first, **end; /* in order of asking */
+struct render_queue {
+    struct render_entry *first, **end; /* in order of asking */
     uint32_t last_id;
     int64_t image_done; /* clock_ms when the last of these was there */
     int64_t image_ms;   /* running mean of what one of these takes; 0: none yet */
@@ -51,8 +51,8 @@ struct render_order {
     void *data;
 };
 
-struct render {
-    struct render *next;
+struct render_entry {
+    struct render_entry *next;
     uint32_t id;
     struct render_order order;
     char *document; /* a copy of order.document */
