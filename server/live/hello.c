@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "compiles.h"
-#include "frames.h"
 #include "hub_rooms.h"
 #include "problem.h"
 #include "protocol/json.h"
@@ -16,6 +15,7 @@
 #include "server/log.h"
 #include "server_message.h"
 #include "session_life.h"
+#include "stream.h"
 
 /* --- welcome --- */
 

@@ -9,7 +9,6 @@
 #include "catalog.h"
 #include "compiles.h"
 #include "fallback.h"
-#include "frames.h"
 #include "hub_rooms.h"
 #include "picker.h"
 #include "pictures.h"
@@ -26,6 +25,7 @@
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
+#include "stream.h"
 #include "uploads.h"
 
 /* --- events of the worker --- */
@@ -73,7 +73,7 @@ static void on_ready(void *data, const struct packet_ready *ready)
 static bool is_waited_for(const struct room *room)
 {
     for (const struct session *session = room->sessions; session; session = session->next) {
-        if (frames_is_waiting(session->frames)) {
+        if (stream_is_waiting(session->stream)) {
             return true;
         }
     }
@@ -147,7 +147,7 @@ static void compiled(struct hub *hub, const struct packet_state *state, bool bro
         fallback_proven(room, revision);
         problem_cure(room, revision);
         for (struct session *session = room->sessions; session; session = session->next) {
-            frames_shown(session);
+            stream_shown(session);
         }
     }
     room_worker_done(room, revision);
@@ -234,7 +234,7 @@ static int64_t on_tick(void *data, int64_t now_ms)
     int64_t next = render_queue_tick(hub, now_ms);
     for (struct room *room = hub->rooms; room; room = room->next) {
         for (struct session *session = room->sessions; session; session = session->next) {
-            next = clock_earlier(next, frames_pump(session, now_ms));
+            next = clock_earlier(next, stream_pump(session, now_ms));
         }
         next = clock_earlier(next, compiles_watch(room, now_ms));
     }

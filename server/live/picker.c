@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "fallback.h"
-#include "frames.h"
 #include "hub.h"
 #include "protocol/code_text.h"
 #include "protocol/memory.h"
@@ -14,6 +13,7 @@
 #include "room_apart.h"
 #include "server_message.h"
 #include "session.h"
+#include "stream.h"
 
 struct question {
     struct question *next;
@@ -63,8 +63,8 @@ static void make_room(struct picker *picker, const struct session *session)
 bool picker_ask(struct session *session, const cJSON *message, struct error *err)
 {
     struct picker *picker = session->hub->picker;
-    const struct frames_view *view =
-        frames_find_view(session->frames, (uint32_t)json_member_number(message, "seq", 0));
+    const struct stream_view *view =
+        stream_find_view(session->stream, (uint32_t)json_member_number(message, "seq", 0));
 
     if (!view) {
         return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");

@@ -4,7 +4,8 @@
  * compile, read or draw. What was being compiled or read when it ended gets a second try, with
  * LIMIT_RETRY_FACTOR times the time; if that ends a worker too, it is left alone until somebody
  * asks for a retry: a scene falls back to its last good state, or to a sky without its picture.
- * Drawing counts against a scene (render_queue.h). Every function is called under the hub's lock. */
+ * Drawing counts against a scene (render_queue.h). Every function is called under the hub's
+ * lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 

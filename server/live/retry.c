@@ -3,12 +3,12 @@
 
 #include <string.h>
 
-#include "frames.h"
 #include "hub.h"
 #include "problem.h"
 #include "quarantine.h"
 #include "room_state.h"
 #include "session.h"
+#include "stream.h"
 
 static bool is_meant(const struct error *err, const char *place)
 {
@@ -34,7 +34,7 @@ static void retry_left_out(struct room *room)
                                                         : LIMIT_RETRY_TIMES;
     problem_let_in(room);
     for (struct session *session = room->sessions; session; session = session->next) {
-        frames_changed(session);
+        stream_changed(session);
     }
 }
 

@@ -8,7 +8,6 @@
 
 #include "catalog.h"
 #include "fallback.h"
-#include "frames.h"
 #include "hub.h"
 #include "picker.h"
 #include "poster.h"
@@ -25,6 +24,7 @@
 #include "server/log.h"
 #include "server_message.h"
 #include "session.h"
+#include "stream.h"
 
 /* --- birth and death --- */
 
@@ -162,7 +162,7 @@ static void tell_others(struct room *room, const struct room_change *change, con
         if (session != change->session) {
             session_send(session, message);
         }
-        frames_changed(session);
+        stream_changed(session);
     }
     blob_unref(message);
 }
@@ -296,7 +296,7 @@ static void tell_document(struct room *room, const char *text)
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
-        frames_changed(session);
+        stream_changed(session);
     }
     blob_unref(message);
 }

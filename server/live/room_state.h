@@ -92,7 +92,7 @@ struct room {
     bool told_lost;             /* that the worker is gone */
     int deaths;                 /* workers lost while they drew this scene, */
     struct render_demand fatal; /* the last with a picture of so much: another one ends `deaths` */
-    double ns_per_pixel;        /* of moving pictures, by all who look: frames.h; 0: none yet */
+    double ns_per_pixel;        /* of moving pictures, by all who look: stream.h; 0: none yet */
     int patience;               /* times the usual time that a tile of it may take */
     struct error left_out;      /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct fallback fallback;

@@ -8,7 +8,7 @@
 #include "server/net/ws.h"
 
 struct author;
-struct frames;
+struct stream;
 struct hub;
 struct room;
 
@@ -23,7 +23,7 @@ struct session {
     struct author *author;           /* in the room; NULL: none, or another session's by now */
     int64_t newest_edit;             /* the greatest number used, of refused edits too */
     struct outbox outbox;
-    struct frames *frames;
+    struct stream *stream;
     uint64_t pick_turn; /* of the picker, when it answered last */
     bool working;       /* a task has a message of it: the session stays until that is done */
     bool heavy;         /* that message may take long, though it is short */

@@ -6,13 +6,13 @@
 #include <string.h>
 #include <sys/random.h>
 
-#include "frames.h"
 #include "hub.h"
 #include "picker.h"
 #include "protocol/memory.h"
 #include "room_authors.h"
 #include "server/clock.h"
 #include "server_message.h"
+#include "stream.h"
 
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
 {
@@ -27,8 +27,8 @@ struct session *session_create(struct hub *hub, void (*wake)(void *connection), 
     session->wake = wake;
     session->connection = connection;
     outbox_init(&session->outbox);
-    session->frames = memory_alloc(1, sizeof(*session->frames));
-    frames_init(session->frames);
+    session->stream = memory_alloc(1, sizeof(*session->stream));
+    stream_init(session->stream);
     metric_add(&hub->metrics, METRIC_SESSIONS, 1);
     metric_add(&hub->metrics, METRIC_SESSIONS_TOTAL, 1);
     return session;
@@ -59,8 +59,8 @@ void session_leave_room(struct session *session)
 static void session_destroy(struct session *session)
 {
     picker_forget(session);
-    frames_finish(session);
-    free(session->frames);
+    stream_finish(session);
+    free(session->stream);
     session_leave_room(session);
     outbox_finish(&session->outbox);
     metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
@@ -92,5 +92,5 @@ void session_close(struct session *session, int code, const char *reason, int re
     session_say(session, message_bye(reason, retry_ms));
     session->close_code = code;
     picker_forget(session);
-    frames_stop(session);
+    stream_stop(session);
 }

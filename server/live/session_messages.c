@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frames.h"
 #include "hello.h"
 #include "hub_rooms.h"
 #include "picker.h"
@@ -17,6 +16,7 @@
 #include "server/clock.h"
 #include "server_message.h"
 #include "session_life.h"
+#include "stream.h"
 
 /* Numbers may be left out, but nobody gets to where none is left. */
 static bool use_number(struct session *session, int64_t number, struct error *err)
@@ -92,7 +92,7 @@ static void view(struct session *session, const cJSON *message)
 {
     struct error err = {0};
 
-    if (!frames_set_view(session, message, &err)) {
+    if (!stream_set_view(session, message, &err)) {
         session_error(session, &err);
     }
 }
@@ -132,12 +132,12 @@ static void handle(struct session *session, const struct message *message)
         retry(session, message->json);
         break;
     case MESSAGE_ACK:
-        frames_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
+        stream_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
         break;
     default:
         break;
     }
-    frames_pump(session, clock_ms());
+    stream_pump(session, clock_ms());
 }
 
 /* A message that does not keep to the form; if it was an edit, its author waits for an answer. */

@@ -7,11 +7,11 @@
 #include "routes.h"
 #include "server/digest.h"
 #include "server/embedded.h"
-#include "server/live/frames.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/room.h"
 #include "server/live/room_worker.h"
 #include "server/live/session.h"
+#include "server/live/stream.h"
 #include "server/live/upload_names.h"
 #include "server/live/uploads.h"
 
@@ -56,7 +56,7 @@ static void tell_rooms(struct hub *hub, const char *id)
             continue;
         }
         for (struct session *session = room->sessions; session; session = session->next) {
-            frames_changed(session);
+            stream_changed(session);
         }
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "frames.h"
+#include "stream.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,19 +26,19 @@ enum {
  * however many come at once, those who are there keep most of it. */
 #define NEWCOMERS "newcomers"
 
-struct quality_rule {
+struct preference_rule {
     double target_ms; /* what a moving picture may take */
     int last_step;    /* how far it may shrink */
 };
 
-static const struct quality_rule quality_rules[] = {
-    [QUALITY_AUTO] = {50, SCALE_COUNT - 1},
-    [QUALITY_SMOOTH] = {25, SCALE_COUNT - 1},
-    [QUALITY_SHARP] = {120, 2},
+static const struct preference_rule preference_rules[] = {
+    [PREFER_AUTO] = {50, SCALE_COUNT - 1},
+    [PREFER_SMOOTH] = {25, SCALE_COUNT - 1},
+    [PREFER_SHARP] = {120, 2},
 };
 
 /* How each picture is drawn and encoded. */
-struct level_rule {
+struct stage_rule {
     int level; /* of quality; -1: the scene's */
     enum codec codec;
     int priority, quality;
@@ -47,67 +47,67 @@ struct level_rule {
     uint8_t flags;
 };
 
-static const struct level_rule level_rules[] = {
-    [FRAMES_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0, 0},
-    [FRAMES_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false,
-                       FRAMES_STILL_MS, 0},
-    [FRAMES_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
-                      FRAMES_STILL_MS, FRAME_STILL},
-    [FRAMES_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, FRAMES_LOSSLESS_MS,
+static const struct stage_rule stage_rules[] = {
+    [STREAM_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0, 0},
+    [STREAM_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false,
+                       STREAM_STILL_MS, 0},
+    [STREAM_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
+                      STREAM_STILL_MS, FRAME_STILL},
+    [STREAM_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, STREAM_LOSSLESS_MS,
                          FRAME_STILL | FRAME_LOSSLESS},
 };
 
-void frames_init(struct frames *frames)
+void stream_init(struct stream *stream)
 {
-    memset(frames, 0, sizeof(*frames));
+    memset(stream, 0, sizeof(*stream));
 }
 
-void frames_stop(struct session *session)
+void stream_stop(struct session *session)
 {
-    if (session->frames->job) {
-        render_queue_cancel(session->hub, session->frames->job);
-        session->frames->job = 0;
+    if (session->stream->job) {
+        render_queue_cancel(session->hub, session->stream->job);
+        session->stream->job = 0;
     }
 }
 
-void frames_finish(struct session *session)
+void stream_finish(struct session *session)
 {
-    frames_stop(session);
-    for (int i = 0; i < FRAMES_VIEWS; i++) {
-        render_request_finish(&session->frames->views[i].picture);
+    stream_stop(session);
+    for (int i = 0; i < STREAM_VIEWS; i++) {
+        render_request_finish(&session->stream->views[i].picture);
     }
 }
 
 /* --- views --- */
 
-static struct frames_view *newest_view(struct frames *frames)
+static struct stream_view *newest_view(struct stream *stream)
 {
-    return frames->has_view ? &frames->views[frames->newest] : NULL;
+    return stream->has_view ? &stream->views[stream->newest] : NULL;
 }
 
-const struct frames_view *frames_find_view(const struct frames *frames, uint32_t seq)
+const struct stream_view *stream_find_view(const struct stream *stream, uint32_t seq)
 {
-    if (!frames->has_view) {
+    if (!stream->has_view) {
         return NULL;
     }
-    for (int i = 0; i < FRAMES_VIEWS; i++) {
-        if (frames->views[i].seq == seq && frames->views[i].picture.picture.values) {
-            return &frames->views[i];
+    for (int i = 0; i < STREAM_VIEWS; i++) {
+        if (stream->views[i].seq == seq && stream->views[i].picture.picture.values) {
+            return &stream->views[i];
         }
     }
-    return &frames->views[frames->newest];
+    return &stream->views[stream->newest];
 }
 
-static enum frames_quality find_quality(const char *name)
+static enum stream_preference find_preference(const char *name)
 {
-    return strcmp(name, "smooth") == 0  ? QUALITY_SMOOTH
-           : strcmp(name, "sharp") == 0 ? QUALITY_SHARP
-                                        : QUALITY_AUTO;
+    return strcmp(name, "smooth") == 0  ? PREFER_SMOOTH
+           : strcmp(name, "sharp") == 0 ? PREFER_SHARP
+                                        : PREFER_AUTO;
 }
 
-static bool same_picture(const struct frames_view *a, const struct frames_view *b)
+static bool same_picture(const struct stream_view *a, const struct stream_view *b)
 {
-    return a->quality == b->quality && a->visible == b->visible &&
+    return a->preference == b->preference && a->visible == b->visible &&
            render_request_equal(&a->picture, &b->picture);
 }
 
@@ -125,13 +125,13 @@ static bool read_picture(const cJSON *message, struct render_request *out, struc
            (!isolate || id_set_read(&out->isolate, isolate, "/isolate", err));
 }
 
-bool frames_set_view(struct session *session, const cJSON *message, struct error *err)
+bool stream_set_view(struct session *session, const cJSON *message, struct error *err)
 {
-    struct frames *frames = session->frames;
-    struct frames_view *old = newest_view(frames);
-    struct frames_view view = {
+    struct stream *stream = session->stream;
+    struct stream_view *old = newest_view(stream);
+    struct stream_view view = {
         .seq = (uint32_t)json_member_number(message, "seq", 0),
-        .quality = find_quality(json_member_text(message, "quality", "auto")),
+        .preference = find_preference(json_member_text(message, "quality", "auto")),
         .visible = json_member_bool(message, "visible", true),
     };
 
@@ -144,32 +144,32 @@ bool frames_set_view(struct session *session, const cJSON *message, struct error
         render_request_finish(&view.picture);
         return true;
     }
-    frames->newest = old ? (frames->newest + 1) % FRAMES_VIEWS : 0;
-    render_request_finish(&frames->views[frames->newest].picture);
-    frames->views[frames->newest] = view;
-    frames->has_view = true;
-    frames_changed(session);
+    stream->newest = old ? (stream->newest + 1) % STREAM_VIEWS : 0;
+    render_request_finish(&stream->views[stream->newest].picture);
+    stream->views[stream->newest] = view;
+    stream->has_view = true;
+    stream_changed(session);
     return true;
 }
 
-void frames_changed(struct session *session)
+void stream_changed(struct session *session)
 {
-    struct frames *frames = session->frames;
+    struct stream *stream = session->stream;
 
-    frames->changed_at = clock_ms();
-    frames->done = FRAMES_NOTHING;
-    if (frames->job_level > FRAMES_MOVING) {
-        frames_stop(session);
+    stream->changed_at = clock_ms();
+    stream->done = STREAM_NOTHING;
+    if (stream->job_stage > STREAM_MOVING) {
+        stream_stop(session);
     }
     supervisor_wake(session->hub->supervisor);
 }
 
 /* --- flow --- */
 
-static int flight_slot(const struct frames *frames, uint32_t number)
+static int flight_slot(const struct stream *stream, uint32_t number)
 {
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
-        if (frames->flight[i].number == number) {
+        if (stream->flight[i].number == number) {
             return i;
         }
     }
@@ -177,28 +177,28 @@ static int flight_slot(const struct frames *frames, uint32_t number)
 }
 
 /* Frames arrive in order: what is before the acknowledged one was shown or skipped. */
-void frames_acknowledge(struct session *session, uint32_t number)
+void stream_acknowledge(struct session *session, uint32_t number)
 {
-    struct frames *frames = session->frames;
+    struct stream *stream = session->stream;
 
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
-        if (frames->flight[i].number && frames->flight[i].number <= number) {
-            frames->flight[i].number = 0;
-            frames->reads = true;
+        if (stream->flight[i].number && stream->flight[i].number <= number) {
+            stream->flight[i].number = 0;
+            stream->reads = true;
         }
     }
     supervisor_wake(session->hub->supervisor);
 }
 
 /* Who never acknowledged a frame may be one who reads none. */
-static bool has_credit(const struct frames *frames, int64_t now_ms)
+static bool has_credit(const struct stream *stream, int64_t now_ms)
 {
-    int left = frames->reads ? LIMIT_FRAMES_IN_FLIGHT : 1;
+    int left = stream->reads ? LIMIT_FRAMES_IN_FLIGHT : 1;
 
     for (int i = 0; i < LIMIT_FRAMES_IN_FLIGHT; i++) {
-        if (frames->flight[i].number) {
+        if (stream->flight[i].number) {
             left--;
-            if (now_ms - frames->flight[i].sent_ms > FRAMES_STALL_MS) {
+            if (now_ms - stream->flight[i].sent_ms > STREAM_STALL_MS) {
                 return false;
             }
         }
@@ -208,11 +208,11 @@ static bool has_credit(const struct frames *frames, int64_t now_ms)
 
 /* While a frame waits to be written, only a moving picture in its place is worth its time: a
  * better one would be drawn at the cost of others and wait. */
-static bool line_is_free(const struct session *session, enum frames_level level)
+static bool line_is_free(const struct session *session, enum stream_stage stage)
 {
     bool precious;
 
-    return !outbox_has_frame(&session->outbox, &precious) || (level == FRAMES_MOVING && !precious);
+    return !outbox_has_frame(&session->outbox, &precious) || (stage == STREAM_MOVING && !precious);
 }
 
 /* --- how large a moving picture is --- */
@@ -220,12 +220,12 @@ static bool line_is_free(const struct session *session, enum frames_level level)
 /* What is known of the scene, by this session or by others; 0: nothing. */
 static double ns_per_pixel(const struct session *session)
 {
-    const double own = session->frames->ns_per_pixel;
+    const double own = session->stream->ns_per_pixel;
 
     return own > 0 ? own : session->room->ns_per_pixel;
 }
 
-static double pixels_of(const struct frames_view *view, int step)
+static double pixels_of(const struct stream_view *view, int step)
 {
     const struct record *picture = &view->picture.picture;
 
@@ -233,14 +233,14 @@ static double pixels_of(const struct frames_view *view, int step)
            scales[step];
 }
 
-static double predicted_ms(const struct session *session, const struct frames_view *view, int step)
+static double predicted_ms(const struct session *session, const struct stream_view *view, int step)
 {
     return ns_per_pixel(session) * pixels_of(view, step) * 1e-6;
 }
 
-static int last_step(const struct frames_view *view)
+static int last_step(const struct stream_view *view)
 {
-    int step = quality_rules[view->quality].last_step;
+    int step = preference_rules[view->preference].last_step;
 
     while (step >= USUAL_STEPS && pixels_of(view, step) < LEAST_PIXELS) {
         step--;
@@ -248,9 +248,9 @@ static int last_step(const struct frames_view *view)
     return step;
 }
 
-static bool is_too_large(const struct session *session, const struct frames_view *view, int step)
+static bool is_too_large(const struct session *session, const struct stream_view *view, int step)
 {
-    const double target_ms = quality_rules[view->quality].target_ms;
+    const double target_ms = preference_rules[view->preference].target_ms;
 
     if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
         return pixels_of(view, step) >
@@ -258,36 +258,36 @@ static bool is_too_large(const struct session *session, const struct frames_view
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >
-           target_ms * (step < session->frames->step ? 0.8 : 1.1);
+           target_ms * (step < session->stream->step ? 0.8 : 1.1);
 }
 
-static void choose_step(struct session *session, const struct frames_view *view)
+static void choose_step(struct session *session, const struct stream_view *view)
 {
     int step = 0;
 
     while (step < last_step(view) && is_too_large(session, view, step)) {
         step++;
     }
-    session->frames->step = step;
+    session->stream->step = step;
 }
 
 /* The step of the picture between moving and still ones; the current one: none is worth while. */
-static int larger_step(const struct session *session, const struct frames_view *view)
+static int larger_step(const struct session *session, const struct stream_view *view)
 {
-    const int moving = session->frames->step;
+    const int moving = session->stream->step;
     int step = 0;
 
-    while (step < moving && predicted_ms(session, view, step) > FRAMES_LARGER_MS) {
+    while (step < moving && predicted_ms(session, view, step) > STREAM_LARGER_MS) {
         step++;
     }
     return step ? step : moving; /* 0: the still picture itself comes as soon */
 }
 
-static double scale_of(const struct session *session, const struct frames_view *view,
-                       enum frames_level level)
+static double scale_of(const struct session *session, const struct stream_view *view,
+                       enum stream_stage stage)
 {
-    return level >= FRAMES_STILL    ? 1
-           : level == FRAMES_MOVING ? scales[session->frames->step]
+    return stage >= STREAM_STILL    ? 1
+           : stage == STREAM_MOVING ? scales[session->stream->step]
                                     : scales[larger_step(session, view)];
 }
 
@@ -299,38 +299,38 @@ static double mixed(double known, double took)
 /* Waiting for others' pictures counts: who shares the machine gets smaller pictures, not fewer. */
 static void learn(struct session *session)
 {
-    struct frames *frames = session->frames;
-    double took = (double)(clock_us() - frames->job_asked_us) * 1e3 / (double)frames->job_pixels;
+    struct stream *stream = session->stream;
+    double took = (double)(clock_us() - stream->job_asked_us) * 1e3 / (double)stream->job_pixels;
 
-    frames->ns_per_pixel = mixed(frames->ns_per_pixel, took);
+    stream->ns_per_pixel = mixed(stream->ns_per_pixel, took);
     session->room->ns_per_pixel = mixed(session->room->ns_per_pixel, took);
 }
 
 /* --- asking and receiving --- */
 
 /* The room of a frame that is shown, or given up, is free. */
-static void free_flight(struct frames *frames, uint32_t number)
+static void free_flight(struct stream *stream, uint32_t number)
 {
-    const int slot = flight_slot(frames, number);
+    const int slot = flight_slot(stream, number);
 
     if (slot >= 0) {
-        frames->flight[slot].number = 0;
+        stream->flight[slot].number = 0;
     }
 }
 
-static void take_flight(struct frames *frames, uint32_t number)
+static void take_flight(struct stream *stream, uint32_t number)
 {
-    const int slot = flight_slot(frames, 0);
+    const int slot = flight_slot(stream, 0);
 
     if (slot >= 0) {
-        frames->flight[slot].number = number;
-        frames->flight[slot].sent_ms = clock_ms();
+        stream->flight[slot].number = number;
+        stream->flight[slot].sent_ms = clock_ms();
     }
 }
 
-static uint8_t flags_of(const struct frames *frames, const struct packet_frame *frame, bool newest)
+static uint8_t flags_of(const struct stream *stream, const struct packet_frame *frame, bool newest)
 {
-    const uint8_t flags = level_rules[frames->job_level].flags;
+    const uint8_t flags = stage_rules[stream->job_stage].flags;
 
     return (frame->more ? flags & ~FRAME_LOSSLESS : flags) | (frame->key ? FRAME_KEY : 0) |
            (newest ? 0 : FRAME_STALE);
@@ -339,19 +339,19 @@ static uint8_t flags_of(const struct frames *frames, const struct packet_frame *
 static struct frame_header header_of(struct session *session, const struct picture_answer *answer,
                                      bool newest)
 {
-    struct frames *frames = session->frames;
+    struct stream *stream = session->stream;
     const struct packet_frame *frame = answer->frame;
     struct frame_header header = {
         .codec = frame->codec,
-        .flags = flags_of(frames, frame, newest),
-        .number = ++frames->last_number,
+        .flags = flags_of(stream, frame, newest),
+        .number = ++stream->last_number,
         .payload_bytes = (uint32_t)answer->length,
         .revision = frame->revision,
-        .input = frames->job_seq,
+        .input = stream->job_seq,
         .width = (uint16_t)frame->width,
         .height = (uint16_t)frame->height,
-        .view_width = (uint16_t)frames->job_view_width,
-        .view_height = (uint16_t)frames->job_view_height,
+        .view_width = (uint16_t)stream->job_view_width,
+        .view_height = (uint16_t)stream->job_view_height,
         .round = (uint8_t)frame->rounds.done,
         .rounds = (uint8_t)frame->rounds.count,
     };
@@ -362,7 +362,7 @@ static struct frame_header header_of(struct session *session, const struct pictu
 
 static void send_frame(struct session *session, const struct picture_answer *answer)
 {
-    struct frames *frames = session->frames;
+    struct stream *stream = session->stream;
     const struct room *room = session->room;
     const uint64_t revision = answer->frame->revision;
     const bool newest = answer->frame->newest &&
@@ -371,42 +371,42 @@ static void send_frame(struct session *session, const struct picture_answer *ans
     struct blob *payload = blob_create(answer->bytes, answer->length);
     const uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
 
-    if (frames->job_level == FRAMES_STILL && header.codec == CODEC_JPEG && newest &&
-        newest_view(frames)->picture.isolate.count == 0) {
+    if (stream->job_stage == STREAM_STILL && header.codec == CODEC_JPEG && newest &&
+        newest_view(stream)->picture.isolate.count == 0) {
         poster_set(session->room, payload);
     }
     blob_unref(payload);
     if (given_up) {
-        free_flight(frames, given_up);
+        free_flight(stream, given_up);
         metric_add(&session->hub->metrics, METRIC_FRAMES_DROPPED, 1);
     }
     if (given_up != header.number) {
-        take_flight(frames, header.number);
+        take_flight(stream, header.number);
     }
-    frames->stale = !newest;
-    frames->revision = revision;
+    stream->stale = !newest;
+    stream->revision = revision;
     session->wake(session->connection);
 }
 
 static void on_picture(void *data, const struct picture_answer *answer, const struct error *err)
 {
     struct session *session = data;
-    struct frames *frames = session->frames;
+    struct stream *stream = session->stream;
 
-    frames->job = 0;
+    stream->job = 0;
     if (!answer) {
         /* Another worker is asked again; a refusal would only be repeated. */
         if (err->kind == ERROR_UNAVAILABLE) {
-            frames->done = FRAMES_NOTHING;
+            stream->done = STREAM_NOTHING;
         }
         return;
     }
-    if (frames->job_level == FRAMES_MOVING) {
+    if (stream->job_stage == STREAM_MOVING) {
         learn(session);
     }
     send_frame(session, answer);
-    if (frames->stale && session->room->shown > frames->revision) {
-        frames_changed(session);
+    if (stream->stale && session->room->shown > stream->revision) {
+        stream_changed(session);
     }
 }
 
@@ -415,19 +415,19 @@ static void on_round(void *data, const struct picture_answer *answer)
 {
     struct session *session = data;
 
-    if (has_credit(session->frames, clock_ms()) &&
-        line_is_free(session, session->frames->job_level)) {
+    if (has_credit(session->stream, clock_ms()) &&
+        line_is_free(session, session->stream->job_stage)) {
         send_frame(session, answer);
     } else {
         outbox_skip(&session->outbox);
     }
 }
 
-void frames_shown(struct session *session)
+void stream_shown(struct session *session)
 {
-    if (session->frames->stale) {
-        session->frames->stale = false;
-        frames_changed(session);
+    if (session->stream->stale) {
+        session->stream->stale = false;
+        stream_changed(session);
     }
 }
 
@@ -438,12 +438,12 @@ static bool may_be_jpeg(const struct session *session, const struct record *pict
            record_number(&session->room->scene->render, "transparent") == 0;
 }
 
-/* The view as a picture of this level. */
-static void make_request(struct session *session, const struct frames_view *view,
-                         enum frames_level level, struct render_request *out)
+/* The view as a picture of this stage. */
+static void make_request(struct session *session, const struct stream_view *view,
+                         enum stream_stage stage, struct render_request *out)
 {
-    const struct level_rule *rule = &level_rules[level];
-    const double scale = scale_of(session, view, level);
+    const struct stage_rule *rule = &stage_rules[stage];
+    const double scale = scale_of(session, view, stage);
     struct record *picture = &out->picture, *delivery = &out->delivery;
 
     render_request_copy(out, &view->picture);
@@ -457,63 +457,63 @@ static void make_request(struct session *session, const struct frames_view *view
     record_put(delivery, "chroma_halved", rule->chroma_halved);
     record_put(delivery, "fast", true);
     record_put(delivery, "exact", rule->exact);
-    record_put(delivery, "in_rounds", level == FRAMES_LOSSLESS);
+    record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
     record_put(delivery, "key", outbox_wants_key(&session->outbox));
     out->codec = may_be_jpeg(session, picture) ? rule->codec : CODEC_PNG;
 }
 
-static void ask(struct session *session, enum frames_level level)
+static void ask(struct session *session, enum stream_stage stage)
 {
-    struct frames *frames = session->frames;
-    const struct frames_view *view = newest_view(frames);
+    struct stream *stream = session->stream;
+    const struct stream_view *view = newest_view(stream);
 
     choose_step(session, view);
     struct render_order order = {
         .room = session->room,
-        .priority = level_rules[level].priority,
-        .account = frames->reads ? session->id : NEWCOMERS,
+        .priority = stage_rules[stage].priority,
+        .account = stream->reads ? session->id : NEWCOMERS,
         .on_done = on_picture,
         .on_more = on_round,
         .data = session,
     };
-    make_request(session, view, level, &order.request);
-    frames->done = level;
-    frames->job_level = level;
-    frames->job_pixels = render_request_pixels(&order.request);
-    frames->job_seq = view->seq;
-    frames->job_view_width = render_request_int(&view->picture, "width");
-    frames->job_view_height = render_request_int(&view->picture, "height");
-    frames->job_asked_us = clock_us();
-    frames->job = render_queue_submit(session->hub, &order, NULL);
+    make_request(session, view, stage, &order.request);
+    stream->done = stage;
+    stream->job_stage = stage;
+    stream->job_pixels = render_request_pixels(&order.request);
+    stream->job_seq = view->seq;
+    stream->job_view_width = render_request_int(&view->picture, "width");
+    stream->job_view_height = render_request_int(&view->picture, "height");
+    stream->job_asked_us = clock_us();
+    stream->job = render_queue_submit(session->hub, &order, NULL);
 }
 
-bool frames_is_waiting(const struct frames *frames)
+bool stream_is_waiting(const struct stream *stream)
 {
-    return frames->has_view && frames->views[frames->newest].visible &&
-           (frames->job || frames->stale || frames->done < FRAMES_LOSSLESS);
+    return stream->has_view && stream->views[stream->newest].visible &&
+           (stream->job || stream->stale || stream->done < STREAM_LOSSLESS);
 }
 
-int64_t frames_pump(struct session *session, int64_t now_ms)
+int64_t stream_pump(struct session *session, int64_t now_ms)
 {
-    struct frames *frames = session->frames;
-    const struct frames_view *view = newest_view(frames);
+    struct stream *stream = session->stream;
+    const struct stream_view *view = newest_view(stream);
 
     if (!view || !view->visible || !session->room || session->room->left_out.kind != ERROR_NONE ||
-        session->close_code || !session->hub->render_queue->ready || frames->job ||
-        frames->done >= FRAMES_LOSSLESS || !has_credit(frames, now_ms)) {
+        session->close_code || !session->hub->render_queue->ready || stream->job ||
+        stream->done >= STREAM_LOSSLESS || !has_credit(stream, now_ms)) {
         return 0;
     }
-    enum frames_level level = frames->done + 1;
-    if (level == FRAMES_LARGER && larger_step(session, view) == frames->step) {
-        level = FRAMES_STILL;
+    enum stream_stage stage = stream->done + 1;
+    if (stage == STREAM_LARGER && larger_step(session, view) == stream->step) {
+        stage = STREAM_STILL;
     }
-    if (!line_is_free(session, level)) {
+    if (!line_is_free(session, stage)) {
         return 0; /* session_next wakes */
     }
-    int64_t due = frames->changed_at + level_rules[level].after_ms;
+    int64_t due = stream->changed_at + stage_rules[stage].after_ms;
     if (now_ms < due) {
         return due;
     }
-    ask(session, level);
+    ask(session, stage);
     return 0;
 }
