@@ -6,11 +6,11 @@
 
 #include "compiles.h"
 #include "hub_rooms.h"
-#include "problem.h"
 #include "protocol/json.h"
 #include "protocol/messages.h"
 #include "room.h"
 #include "room_authors.h"
+#include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "server_message.h"
@@ -146,7 +146,7 @@ void hello_receive(struct session *session, const char *scene, const cJSON *mess
     enter_room(session, room, author);
     send_welcome(session, key);
     bring_up_to_date(session, message);
-    problem_tell(session, room);
+    scene_error_tell(session, room);
     compiles_tell(session, room, clock_ms());
     if (!hub_accepts_scene(hub, room->scene, &err)) {
         error_set(&err, ERROR_FORBIDDEN, err.place,

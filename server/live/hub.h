@@ -27,7 +27,7 @@ struct pictures;
 struct quarantine;
 struct render_queue;
 struct room;
-struct uploads;
+struct asset_index;
 struct ws;
 
 struct hub {
@@ -46,7 +46,7 @@ struct hub {
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */
 
     struct catalog *catalog;
-    struct uploads *uploads;
+    struct asset_index *assets;
     struct room *rooms;
     struct render_queue *render_queue;
     struct quarantine *quarantine;

@@ -6,14 +6,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "asset_index.h"
 #include "catalog.h"
 #include "compiles.h"
-#include "fallback.h"
 #include "hub_rooms.h"
+#include "last_good.h"
 #include "picker.h"
 #include "pictures.h"
 #include "poster.h"
-#include "problem.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/schema.h"
@@ -22,11 +22,11 @@
 #include "room.h"
 #include "room_snapshot.h"
 #include "room_worker.h"
+#include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
 #include "stream.h"
-#include "uploads.h"
 
 /* --- events of the worker --- */
 
@@ -141,11 +141,11 @@ static void compiled(struct hub *hub, const struct packet_state *state, bool bro
     }
     if (broken) {
         quarantine_shape(state->shape, room->refused_shape);
-        problem_set(room, &state->error, revision);
+        scene_error_set(room, &state->error, revision);
     } else {
         room->shown = revision;
-        fallback_proven(room, revision);
-        problem_cure(room, revision);
+        last_good_proven(room, revision);
+        scene_error_cure(room, revision);
         for (struct session *session = room->sessions; session; session = session->next) {
             stream_shown(session);
         }
@@ -160,7 +160,7 @@ static void warned(struct hub *hub, const struct packet_state *state)
         [WARNING_LIPSCHITZ] = "lipschitz", [WARNING_ASSET] = "asset"};
     struct room *room = hub_find_room(hub, state->scene);
 
-    if (room && problem_is_refusal(&state->error)) {
+    if (room && scene_error_is_refusal(&state->error)) {
         quarantine_keeps_image(room, &state->error, state->revision);
     } else if (room) {
         room_tell_all(room, "warning", codes[state->warning], state->error.place,
@@ -269,7 +269,7 @@ static void add_to_catalog(void *data, const struct store_scene *scene)
 /* The payload of a packet. */
 static void *load_file(void *data, const char *id, size_t *out_length)
 {
-    return uploads_load(data, id, out_length, NULL);
+    return asset_index_load(data, id, out_length, NULL);
 }
 
 struct hub *hub_create(const struct hub_params *params, struct error *err)
@@ -281,7 +281,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     pthread_mutex_init(&hub->load_lock[1], NULL);
     pthread_cond_init(&hub->released, NULL);
     hub->catalog = memory_alloc(1, sizeof(*hub->catalog));
-    hub->uploads = memory_alloc(1, sizeof(*hub->uploads));
+    hub->assets = memory_alloc(1, sizeof(*hub->assets));
     hub->render_queue = memory_alloc(1, sizeof(*hub->render_queue));
     hub->quarantine = memory_alloc(1, sizeof(*hub->quarantine));
     hub->compiles = memory_alloc(1, sizeof(*hub->compiles));
@@ -292,9 +292,9 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->code_refused = params->code_refused;
     build_schema(hub);
     hub->store = store_open(params->data_dir, &hub->metrics, err);
-    uploads_add_embedded(hub->uploads);
+    asset_index_add_embedded(hub->assets);
     if (!hub->store || !store_list(hub->store, add_to_catalog, hub->catalog, err) ||
-        !store_list_assets(hub->store, uploads_add, hub->uploads, err) ||
+        !store_list_assets(hub->store, asset_index_add, hub->assets, err) ||
         !(hub->picker = picker_create(hub, err)) ||
         !(hub->tasks = tasks_create(&hub->metrics, err))) {
         hub_destroy(hub);
@@ -363,9 +363,9 @@ void hub_destroy(struct hub *hub)
     render_queue_finish(hub->render_queue);
     pictures_finish(hub->pictures);
     catalog_finish(hub->catalog);
-    uploads_finish(hub->uploads);
+    asset_index_finish(hub->assets);
     free(hub->catalog);
-    free(hub->uploads);
+    free(hub->assets);
     free(hub->render_queue);
     free(hub->quarantine);
     free(hub->compiles);

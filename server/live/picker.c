@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fallback.h"
 #include "hub.h"
+#include "last_good.h"
 #include "protocol/code_text.h"
 #include "protocol/memory.h"
 #include "renderer/pick.h"
@@ -146,7 +146,7 @@ static struct scene *copy_scene(struct room *room, const struct picker_field *pi
                                 uint64_t *out_revision)
 {
     const struct scene *good =
-        room->problem.kind != ERROR_NONE ? fallback_state(room, out_revision) : NULL;
+        room->scene_error.kind != ERROR_NONE ? last_good_state(room, out_revision) : NULL;
 
     if (!good) {
         *out_revision = room->revision;

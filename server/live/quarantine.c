@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fallback.h"
 #include "hub.h"
-#include "problem.h"
+#include "last_good.h"
 #include "protocol/code_text.h"
 #include "room_state.h"
+#include "scene_error.h"
 #include "server/log.h"
 
 /* --- what is known of shapes --- */
@@ -169,7 +169,7 @@ static const char *place_of(const struct room *room, const struct scene *good,
 
 static void tell(struct room *room, const struct error *err, const char *shape, uint64_t revision)
 {
-    problem_set(room, err, revision);
+    scene_error_set(room, err, revision);
     snprintf(room->refused_shape, sizeof(room->refused_shape), "%s", shape);
 }
 
@@ -210,7 +210,7 @@ static void seclude(struct room *room, const struct quarantine_case *known, uint
     struct error err = {0};
     char place[ERROR_PLACE_BYTES];
     uint64_t good_revision;
-    const struct scene *good = fallback_state(room, &good_revision);
+    const struct scene *good = last_good_state(room, &good_revision);
 
     describe_refusal(known, place_of(room, good, place),
                      code_text_in_scene(room->scene) ? "code" : "scene",

@@ -6,18 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset_index.h"
 #include "hub.h"
 #include "image_queue.h"
-#include "problem.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "quarantine.h"
 #include "room_state.h"
 #include "room_worker.h"
+#include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
-#include "uploads.h"
 
 void render_queue_init(struct render_queue *queue)
 {
@@ -97,7 +97,7 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
     cJSON *document = json_parse(entry->document, strlen(entry->document), NULL);
     const cJSON *environment = cJSON_GetObjectItemCaseSensitive(document, "environment");
 
-    uploads_send(hub, json_member_text(environment, "image", ""));
+    asset_index_send(hub, json_member_text(environment, "image", ""));
     scene_name(entry, name);
     room_worker_send_scene(hub, name, 1, document);
 }
@@ -185,8 +185,9 @@ static bool admits_image(struct hub *hub, const struct render_order *order, stru
 {
     const struct room *room = order->room;
 
-    if (room && room->problem.kind != ERROR_NONE && room->problem_revision == room->revision) {
-        *err = room->problem; /* an older state would be the wrong picture */
+    if (room && room->scene_error.kind != ERROR_NONE &&
+        room->scene_error_revision == room->revision) {
+        *err = room->scene_error; /* an older state would be the wrong picture */
         return false;
     }
     return image_queue_admits(hub, order, err);
@@ -378,7 +379,7 @@ static void describe_end(const struct room *room, const struct supervisor_end *e
 static void leave_out(struct room *room, const struct error *why)
 {
     log_error("render_queue", "scene %s is left out: %s", room->id, why->message);
-    problem_leave_out(room, why);
+    scene_error_leave_out(room, why);
 }
 
 void render_queue_worker_ready(struct hub *hub)

@@ -4,27 +4,27 @@
 #include <string.h>
 
 #include "hub.h"
-#include "problem.h"
 #include "quarantine.h"
 #include "room_state.h"
+#include "scene_error.h"
 #include "session.h"
 #include "stream.h"
 
 static bool is_meant(const struct error *err, const char *place)
 {
-    return problem_is_refusal(err) && (!place || strcmp(err->place, place) == 0);
+    return scene_error_is_refusal(err) && (!place || strcmp(err->place, place) == 0);
 }
 
 /* The worker is told at once; if it does not hold the scene, when it is. */
 static bool retry_refused(struct room *room)
 {
-    const struct error old = room->problem;
+    const struct error old = room->scene_error;
 
     if (!quarantine_pardon(room->hub, room->refused_shape)) {
         return false;
     }
-    room->problem = (struct error){0};
-    problem_tell_retry(room, old.place);
+    room->scene_error = (struct error){0};
+    scene_error_tell_retry(room, old.place);
     return true;
 }
 
@@ -32,7 +32,7 @@ static void retry_left_out(struct room *room)
 {
     room->patience = room->patience < LIMIT_RETRY_TIMES ? room->patience * LIMIT_RETRY_FACTOR
                                                         : LIMIT_RETRY_TIMES;
-    problem_let_in(room);
+    scene_error_let_in(room);
     for (struct session *session = room->sessions; session; session = session->next) {
         stream_changed(session);
     }
@@ -41,7 +41,7 @@ static void retry_left_out(struct room *room)
 bool retry_place(struct room *room, const char *place, struct error *err)
 {
     const bool out = is_meant(&room->left_out, place);
-    const bool refused = is_meant(&room->problem, place) && retry_refused(room);
+    const bool refused = is_meant(&room->scene_error, place) && retry_refused(room);
 
     if (out) {
         retry_left_out(room);

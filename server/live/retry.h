@@ -10,7 +10,7 @@
 struct room;
 
 /* What was refused, or the scene that was left out, is tried again with more time. `place`: of the
- * problem; NULL: whatever it is. False and `err` where nothing there waits for it. */
+ * error; NULL: whatever it is. False and `err` where nothing there waits for it. */
 bool retry_place(struct room *room, const char *place, struct error *err);
 
 #endif

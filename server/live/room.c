@@ -7,11 +7,10 @@
 #include <sys/random.h>
 
 #include "catalog.h"
-#include "fallback.h"
 #include "hub.h"
+#include "last_good.h"
 #include "picker.h"
 #include "poster.h"
-#include "problem.h"
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -20,6 +19,7 @@
 #include "room_snapshot.h"
 #include "room_store.h"
 #include "room_worker.h"
+#include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "server_message.h"
@@ -49,7 +49,7 @@ struct room *room_create(struct hub *hub, const char *id, struct scene *scene, u
     room->revision = room->durable = room->log_from = revision;
     room->idle_since = clock_ms();
     room->patience = 1;
-    room->fallback.code = code_text_in_scene(scene);
+    room->last_good.code = code_text_in_scene(scene);
     make_epoch(room->epoch);
     room->destroy = room_destroy;
     return room;
@@ -61,7 +61,7 @@ void room_destroy(struct room *room)
         return;
     }
     room_log_clear(room);
-    fallback_finish(room);
+    last_good_finish(room);
     poster_finish(room);
     picker_finish_room(room);
     room_forget_text(room);
@@ -178,7 +178,7 @@ static void commit_change(struct room *room, const struct room_change *change, c
     }
     room_log_add(room, change, text);
     tell_others(room, change, text);
-    problem_let_in(room); /* it may have helped */
+    scene_error_let_in(room); /* it may have helped */
     room_worker_edit(room, ops, text);
     room_store_push(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
@@ -225,7 +225,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
-    fallback_before_edit(room, ops);
+    last_good_before_edit(room, ops);
     if (!check_open(room, err) || !hub_accepts_edit(room->hub, ops, err) ||
         !room_apply(room, &order, &work, err)) {
         metric_add(&room->hub->metrics, METRIC_EDITS_REJECTED, 1);
@@ -265,7 +265,7 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
     if (outcome != ROOM_APPLIED) {
         return outcome;
     }
-    fallback_before_edit(room, NULL);
+    last_good_before_edit(room, NULL);
     const bool ok = move_step(room, change, redo, &move, &work, err);
     *out_skipped = move.skipped;
     if (!ok) {
@@ -304,7 +304,7 @@ static void tell_document(struct room *room, const char *text)
 struct scene *room_replace(struct room *room, struct scene *scene, char *text,
                            const struct room_change *change)
 {
-    struct scene *before = fallback_before_replace(room, scene) ? NULL : room->scene;
+    struct scene *before = last_good_before_replace(room, scene) ? NULL : room->scene;
 
     room->scene = scene;
     history_destroy(room->history);
@@ -312,7 +312,7 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
     room->revision++;
     room->edits_since_snapshot = 0;
     room_keep_text(room, text);
-    problem_let_in(room); /* it may have helped */
+    scene_error_let_in(room); /* it may have helped */
     room_log_clear(room);
     room_worker_replace(room);
     tell_document(room, text);

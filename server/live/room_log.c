@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fallback.h"
+#include "last_good.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 
@@ -25,7 +25,7 @@ void room_log_clear(struct room *room)
 
 static void forget_oldest(struct room *room)
 {
-    fallback_forget(room, room->log_from + 1);
+    last_good_forget(room, room->log_from + 1);
     struct room_entry *entry = entry_at(room, ++room->log_from);
 
     room->log_bytes -= strlen(entry->ops);

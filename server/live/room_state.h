@@ -17,8 +17,8 @@
 struct hub;
 struct session;
 
-/* fallback.h */
-struct fallback {
+/* last_good.h */
+struct last_good {
     bool code;           /* there is code in the scene, or there was */
     uint64_t proven;     /* newest revision that a worker could draw; 0: none */
     struct scene *scene; /* NULL: none */
@@ -95,12 +95,13 @@ struct room {
     double ns_per_pixel;        /* of moving pictures, by all who look: stream.h; 0: none yet */
     int patience;               /* times the usual time that a tile of it may take */
     struct error left_out;      /* why it is not drawn until it is edited; ERROR_NONE: it is */
-    struct fallback fallback;
+    struct last_good last_good;
     struct blob *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;
-    struct error problem; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
-    uint64_t problem_revision;                   /* that it is about */
-    char refused_shape[ASSET_ID_CHARACTERS + 1]; /* of a problem that is too slow, or crashed */
+    struct error
+        scene_error; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */
+    uint64_t scene_error_revision;               /* that it is about */
+    char refused_shape[ASSET_ID_CHARACTERS + 1]; /* of one that is too slow, or crashed */
 };
 
 struct room_change {

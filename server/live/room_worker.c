@@ -4,22 +4,22 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "fallback.h"
+#include "asset_index.h"
 #include "hub.h"
+#include "last_good.h"
 #include "protocol/code_text.h"
 #include "quarantine.h"
 #include "room_log.h"
 #include "room_state.h"
-#include "uploads.h"
 
 /* The file that the environment names, which the worker keeps as long as its scene does. */
 static void send_image(struct room *room, const struct scene *scene)
 {
     const char *image = record_text(&scene->environment, "image");
 
-    if (*image && strcmp(image, room->image) != 0 && uploads_find(room->hub->uploads, image)) {
+    if (*image && strcmp(image, room->image) != 0 && asset_index_find(room->hub->assets, image)) {
         snprintf(room->image, sizeof(room->image), "%s", image);
-        uploads_send(room->hub, image);
+        asset_index_send(room->hub, image);
     }
 }
 
@@ -64,8 +64,8 @@ void room_worker_open(struct room *room)
 {
     uint64_t revision = 0;
     const bool doubtful =
-        room->problem.kind != ERROR_NONE || quarantine_is_tried_again(room->hub, room);
-    const struct scene *good = doubtful ? fallback_state(room, &revision) : NULL;
+        room->scene_error.kind != ERROR_NONE || quarantine_is_tried_again(room->hub, room);
+    const struct scene *good = doubtful ? last_good_state(room, &revision) : NULL;
 
     if (room->sent == 0) {
         room->image[0] = '\0';

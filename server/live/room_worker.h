@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the worker is told of a room. A scene whose newest state has a problem, or is tried again,
+/* What the worker is told of a room. A scene whose newest state has an error, or is tried again,
  * is told in its last good state first, so that there is something to show. Every function is
  * called under the hub's lock. */
 #ifndef SERVER_ROOM_WORKER_H

@@ -365,8 +365,8 @@ static void send_frame(struct session *session, const struct picture_answer *ans
     struct stream *stream = session->stream;
     const struct room *room = session->room;
     const uint64_t revision = answer->frame->revision;
-    const bool newest = answer->frame->newest &&
-                        !(room->problem.kind != ERROR_NONE && revision < room->problem_revision);
+    const bool newest = answer->frame->newest && !(room->scene_error.kind != ERROR_NONE &&
+                                                   revision < room->scene_error_revision);
     const struct frame_header header = header_of(session, answer, newest);
     struct blob *payload = blob_create(answer->bytes, answer->length);
     const uint32_t given_up = outbox_frame(&session->outbox, &header, payload);

@@ -7,13 +7,13 @@
 #include "routes.h"
 #include "server/digest.h"
 #include "server/embedded.h"
+#include "server/live/asset_index.h"
+#include "server/live/asset_uses.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/room.h"
 #include "server/live/room_worker.h"
 #include "server/live/session.h"
 #include "server/live/stream.h"
-#include "server/live/upload_names.h"
-#include "server/live/uploads.h"
 
 /* A file on its way to the disk. */
 struct waiting {
@@ -22,15 +22,15 @@ struct waiting {
     struct store_asset asset; /* without its bytes, which the store may have freed */
 };
 
-static cJSON *describe(const struct upload *upload)
+static cJSON *describe(const struct asset_entry *entry)
 {
     cJSON *json = cJSON_CreateObject();
 
-    cJSON_AddStringToObject(json, "id", upload->id);
-    cJSON_AddStringToObject(json, "type", upload->type);
-    cJSON_AddNumberToObject(json, "width", upload->width);
-    cJSON_AddNumberToObject(json, "height", upload->height);
-    cJSON_AddNumberToObject(json, "bytes", (double)upload->length);
+    cJSON_AddStringToObject(json, "id", entry->id);
+    cJSON_AddStringToObject(json, "type", entry->type);
+    cJSON_AddNumberToObject(json, "width", entry->width);
+    cJSON_AddNumberToObject(json, "height", entry->height);
+    cJSON_AddNumberToObject(json, "bytes", (double)entry->length);
     return json;
 }
 
@@ -41,8 +41,8 @@ void assets_list(struct request *request)
     cJSON *list = cJSON_AddArrayToObject(json, "assets");
 
     hub_lock(hub);
-    for (size_t i = 0; i < hub->uploads->count; i++) {
-        cJSON_AddItemToArray(list, describe(&hub->uploads->items[i]));
+    for (size_t i = 0; i < hub->assets->count; i++) {
+        cJSON_AddItemToArray(list, describe(&hub->assets->items[i]));
     }
     hub_unlock(hub);
     request_reply_json(request, 200, json);
@@ -77,11 +77,11 @@ static void on_stored(void *data)
     cJSON *json;
 
     hub_lock(hub);
-    hub->uploads->pending_count--;
-    hub->uploads->pending_bytes -= waiting->asset.length;
-    uploads_add(hub->uploads, &waiting->asset);
+    hub->assets->pending_count--;
+    hub->assets->pending_bytes -= waiting->asset.length;
+    asset_index_add(hub->assets, &waiting->asset);
     tell_rooms(hub, waiting->asset.id);
-    json = describe(uploads_find(hub->uploads, waiting->asset.id));
+    json = describe(asset_index_find(hub->assets, waiting->asset.id));
     hub_unlock(hub);
     reply(waiting->request, 201, json, waiting->asset.id);
     free(waiting);
@@ -94,8 +94,8 @@ static void store_asset(struct request *request, struct store_asset *asset)
     struct store_write *write = memory_alloc(1, sizeof(*write));
 
     hub_lock(request->hub);
-    request->hub->uploads->pending_count++;
-    request->hub->uploads->pending_bytes += asset->length;
+    request->hub->assets->pending_count++;
+    request->hub->assets->pending_bytes += asset->length;
     hub_unlock(request->hub);
     *waiting = (struct waiting){request, request->hub, *asset};
     *write = (struct store_write){
@@ -114,18 +114,18 @@ static void remove_asset(struct hub *hub, const char *id, void (*on_durable)(voi
                                   .on_durable = on_durable,
                                   .data = data};
     snprintf(write->asset->id, sizeof(write->asset->id), "%s", id);
-    uploads_remove(hub->uploads, id);
+    asset_index_remove(hub->assets, id);
     store_push(hub->store, write);
 }
 
 /* Under the hub's lock: removes what no scene names, oldest first, until there is room. */
-static void remove_unnamed(struct hub *hub, const struct upload_names *names, size_t length)
+static void remove_unnamed(struct hub *hub, const struct asset_uses *names, size_t length)
 {
-    for (size_t i = 0; i < names->count && !uploads_have_room(hub->uploads, length); i++) {
+    for (size_t i = 0; i < names->count && !asset_index_have_room(hub->assets, length); i++) {
         const char *id = names->items[i].id;
 
-        if (!upload_names_scene(names, id) && !example_files_find(id) &&
-            uploads_find(hub->uploads, id)) {
+        if (!asset_uses_scene(names, id) && !example_files_find(id) &&
+            asset_index_find(hub->assets, id)) {
             remove_asset(hub, id, NULL, NULL);
         }
     }
@@ -134,27 +134,27 @@ static void remove_unnamed(struct hub *hub, const struct upload_names *names, si
 /* False and `err`: all that is kept is named by scenes. */
 static bool make_room(struct hub *hub, size_t length, struct error *err)
 {
-    struct upload_names names;
+    struct asset_uses names;
 
     hub_lock(hub);
-    bool room = uploads_have_room(hub->uploads, length);
+    bool room = asset_index_have_room(hub->assets, length);
     hub_unlock(hub);
     if (room) {
         return true;
     }
-    if (!upload_names_read(hub, &names, err)) {
+    if (!asset_uses_read(hub, &names, err)) {
         return false;
     }
     hub_lock(hub);
-    upload_names_add_open(&names, hub);
+    asset_uses_add_open(&names, hub);
     remove_unnamed(hub, &names, length);
-    room = uploads_have_room(hub->uploads, length) ||
+    room = asset_index_have_room(hub->assets, length) ||
            error_set(err, ERROR_FULL, "/v1/assets",
                      "%zu files of %zu bytes, all named by scenes, are kept; the limits are %d "
                      "files and %d bytes",
-                     hub->uploads->count, hub->uploads->bytes, LIMIT_ASSETS, LIMIT_ASSETS_BYTES);
+                     hub->assets->count, hub->assets->bytes, LIMIT_ASSETS, LIMIT_ASSETS_BYTES);
     hub_unlock(hub);
-    upload_names_finish(&names);
+    asset_uses_finish(&names);
     return room;
 }
 
@@ -170,8 +170,8 @@ void assets_create(struct request *request)
         asset_inspect((const uint8_t *)request->body, request->body_length, &asset->info, &err)) {
         digest_text(request->body, request->body_length, asset->id);
         hub_lock(hub);
-        const struct upload *upload = uploads_find(hub->uploads, asset->id);
-        known = upload ? describe(upload) : NULL;
+        const struct asset_entry *entry = asset_index_find(hub->assets, asset->id);
+        known = entry ? describe(entry) : NULL;
         hub_unlock(hub);
     }
     if (known) {
@@ -194,15 +194,15 @@ void assets_read(struct request *request)
     struct hub *hub = request->hub;
     struct response response = {.status = 200};
     struct error err = {0};
-    char type[sizeof(hub->uploads->items->type)] = "";
+    char type[sizeof(hub->assets->items->type)] = "";
 
     hub_lock(hub);
-    const struct upload *upload = uploads_find(hub->uploads, request->capture[0]);
-    if (upload) {
-        memcpy(type, upload->type, sizeof(type));
+    const struct asset_entry *entry = asset_index_find(hub->assets, request->capture[0]);
+    if (entry) {
+        memcpy(type, entry->type, sizeof(type));
     }
     hub_unlock(hub);
-    response.body = uploads_load(hub, request->capture[0], &response.length, &err);
+    response.body = asset_index_load(hub, request->capture[0], &response.length, &err);
     if (!response.body) {
         request_reply_error(request, &err);
         return;
@@ -220,12 +220,12 @@ static void on_removed(void *data)
 }
 
 /* Under the hub's lock. Whether the file may go; `names` is NULL where nothing was read yet. */
-static bool check_removal(struct hub *hub, const char *id, const struct upload_names *names,
+static bool check_removal(struct hub *hub, const char *id, const struct asset_uses *names,
                           struct error *err)
 {
-    const char *scene = names ? upload_names_scene(names, id) : NULL;
+    const char *scene = names ? asset_uses_scene(names, id) : NULL;
 
-    if (!uploads_find(hub->uploads, id)) {
+    if (!asset_index_find(hub->assets, id)) {
         return error_set(err, ERROR_NOT_FOUND, "", "there is no asset %s", id);
     }
     if (example_files_find(id)) {
@@ -238,20 +238,20 @@ void assets_delete(struct request *request)
 {
     struct hub *hub = request->hub;
     const char *id = request->capture[0];
-    struct upload_names names = {0};
+    struct asset_uses names = {0};
     struct error err = {0};
 
     hub_lock(hub);
     bool ok = check_removal(hub, id, NULL, &err);
     hub_unlock(hub);
-    if (ok && upload_names_read(hub, &names, &err)) {
+    if (ok && asset_uses_read(hub, &names, &err)) {
         hub_lock(hub);
-        upload_names_add_open(&names, hub);
+        asset_uses_add_open(&names, hub);
         if (check_removal(hub, id, &names, &err)) {
             remove_asset(hub, id, on_removed, request);
         }
         hub_unlock(hub);
-        upload_names_finish(&names);
+        asset_uses_finish(&names);
     }
     if (err.kind != ERROR_NONE) {
         request_reply_error(request, &err);

@@ -10,12 +10,12 @@
 #include "protocol/messages.h"
 #include "routes.h"
 #include "server/embedded.h"
+#include "server/live/asset_index.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/image_queue.h"
 #include "server/live/pictures.h"
 #include "server/live/render_queue.h"
 #include "server/live/room.h"
-#include "server/live/uploads.h"
 
 /* A picture on its way to a client. */
 struct waiting {
@@ -43,7 +43,7 @@ static char *make_key(const struct hub *hub, const struct render_request *asked,
     FILE *out = open_memstream(&key, &length);
 
     /* A file that was not there when the picture was drawn may be by now. */
-    fprintf(out, "%s %zu ", text, hub->uploads->count);
+    fprintf(out, "%s %zu ", text, hub->assets->count);
     if (room) {
         fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
     } else {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which uploaded files are named by scenes as they are now, stored or open. */
-#ifndef SERVER_UPLOAD_NAMES_H
-#define SERVER_UPLOAD_NAMES_H
+#ifndef SERVER_ASSET_USES_H
+#define SERVER_ASSET_USES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,23 +12,23 @@
 
 struct hub;
 
-struct upload_name {
+struct asset_use {
     char id[ASSET_ID_CHARACTERS + 1];
     char scene[LIMIT_ID_BYTES + 1]; /* one that names it; "": none does */
 };
 
 /* The files that were there when it was read, oldest first. */
-struct upload_names {
-    struct upload_name *items;
+struct asset_uses {
+    struct asset_use *items;
     size_t count;
 };
 
 /* Without the hub's lock; reads every scene, and waits for the disk. */
-bool upload_names_read(struct hub *hub, struct upload_names *out, struct error *err);
-void upload_names_finish(struct upload_names *names);
+bool asset_uses_read(struct hub *hub, struct asset_uses *out, struct error *err);
+void asset_uses_finish(struct asset_uses *names);
 /* Under the hub's lock: adds what open scenes name since. */
-void upload_names_add_open(struct upload_names *names, const struct hub *hub);
+void asset_uses_add_open(struct asset_uses *names, const struct hub *hub);
 /* A scene that names it; NULL: none. A file that was not there yet counts as named by "". */
-const char *upload_names_scene(const struct upload_names *names, const char *id);
+const char *asset_uses_scene(const struct asset_uses *names, const char *id);
 
 #endif

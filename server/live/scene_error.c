@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "problem.h"
+#include "scene_error.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "server_message.h"
 #include "session.h"
 
-bool problem_is_refusal(const struct error *err)
+bool scene_error_is_refusal(const struct error *err)
 {
     return err->kind == ERROR_TOO_SLOW || err->kind == ERROR_CRASHED;
 }
@@ -17,8 +17,8 @@ bool problem_is_refusal(const struct error *err)
 /* Whatever rule is broken, it is the newest state that does not compile. */
 static struct blob *message(const struct error *err)
 {
-    return message_fault("error",
-                         error_kind_name(problem_is_refusal(err) ? err->kind : ERROR_COMPILE), err);
+    return message_fault(
+        "error", error_kind_name(scene_error_is_refusal(err) ? err->kind : ERROR_COMPILE), err);
 }
 
 static void tell_all(const struct room *room, struct blob *text)
@@ -31,75 +31,75 @@ static void tell_all(const struct room *room, struct blob *text)
 
 static void end(struct room *room)
 {
-    tell_all(room,
-             message_notice("info", "compiled", room->problem.place, "The scene is drawn again."));
-    room->problem = (struct error){0};
+    tell_all(room, message_notice("info", "compiled", room->scene_error.place,
+                                  "The scene is drawn again."));
+    room->scene_error = (struct error){0};
 }
 
 static bool is_same(const struct error *a, const struct error *b)
 {
     /* Of a quarantine the next worker knows less than was told when it began. */
-    return a->kind == b->kind && (problem_is_refusal(a) ||
+    return a->kind == b->kind && (scene_error_is_refusal(a) ||
                                   (strcmp(a->place, b->place) == 0 && a->line == b->line &&
                                    a->column == b->column && strcmp(a->message, b->message) == 0));
 }
 
-void problem_set(struct room *room, const struct error *err, uint64_t revision)
+void scene_error_set(struct room *room, const struct error *err, uint64_t revision)
 {
-    const struct error *old = &room->problem;
+    const struct error *old = &room->scene_error;
 
-    room->problem_revision = revision;
+    room->scene_error_revision = revision;
     if (is_same(old, err)) {
         return;
     }
     if (old->kind != ERROR_NONE && strcmp(old->place, err->place) != 0) {
         end(room);
     }
-    room->problem = *err;
+    room->scene_error = *err;
     tell_all(room, message(err));
 }
 
 /* A picture that is refused keeps nothing from being drawn, and is refused still. */
 static bool is_of_image(const struct room *room)
 {
-    return problem_is_refusal(&room->problem) &&
+    return scene_error_is_refusal(&room->scene_error) &&
            strcmp(record_text(&room->scene->environment, "image"), room->refused_shape) == 0;
 }
 
-void problem_cure(struct room *room, uint64_t revision)
+void scene_error_cure(struct room *room, uint64_t revision)
 {
-    if (room->problem.kind != ERROR_NONE && revision > room->problem_revision &&
+    if (room->scene_error.kind != ERROR_NONE && revision > room->scene_error_revision &&
         !is_of_image(room)) {
         end(room);
     }
 }
 
-void problem_tell_retry(const struct room *room, const char *place)
+void scene_error_tell_retry(const struct room *room, const char *place)
 {
     tell_all(room, message_notice("info", "retrying", place, "It is tried again."));
 }
 
-void problem_leave_out(struct room *room, const struct error *why)
+void scene_error_leave_out(struct room *room, const struct error *why)
 {
     room->left_out = *why;
     tell_all(room, message_fault("error", "scene_left_out", why));
 }
 
-void problem_let_in(struct room *room)
+void scene_error_let_in(struct room *room)
 {
     if (room->left_out.kind != ERROR_NONE) {
-        problem_tell_retry(room, room->left_out.place);
+        scene_error_tell_retry(room, room->left_out.place);
     }
     room->left_out = (struct error){0};
     room->deaths = 0;
 }
 
-void problem_tell(struct session *session, const struct room *room)
+void scene_error_tell(struct session *session, const struct room *room)
 {
     if (room->left_out.kind != ERROR_NONE) {
         session_say(session, message_fault("error", "scene_left_out", &room->left_out));
     }
-    if (room->problem.kind != ERROR_NONE) {
-        session_say(session, message(&room->problem));
+    if (room->scene_error.kind != ERROR_NONE) {
+        session_say(session, message(&room->scene_error));
     }
 }

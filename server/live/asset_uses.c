@@ -2,19 +2,19 @@
 /* A name is looked for in the texts of documents and of edits behind them: 64 hexadecimal digits.
  * An edit that is not yet part of a document may have been undone; then a file counts as named for
  * a while. */
-#include "upload_names.h"
+#include "asset_uses.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset_index.h"
 #include "catalog.h"
 #include "hub.h"
 #include "protocol/memory.h"
 #include "room_snapshot.h"
-#include "uploads.h"
 
-static struct upload_name *find(const struct upload_names *names, const char *id, size_t length)
+static struct asset_use *find(const struct asset_uses *names, const char *id, size_t length)
 {
     for (size_t i = 0; length == ASSET_ID_CHARACTERS && i < names->count; i++) {
         if (memcmp(names->items[i].id, id, length) == 0) {
@@ -24,9 +24,9 @@ static struct upload_name *find(const struct upload_names *names, const char *id
     return NULL;
 }
 
-static void add(struct upload_names *names, const char *id, size_t length, const char *scene)
+static void add(struct asset_uses *names, const char *id, size_t length, const char *scene)
 {
-    struct upload_name *name = find(names, id, length);
+    struct asset_use *name = find(names, id, length);
 
     if (name) {
         snprintf(name->scene, sizeof(name->scene), "%s", scene);
@@ -46,12 +46,12 @@ static void read_text(void *data, const char *scene, const char *text)
 }
 
 /* Under the hub's lock. */
-static void begin(struct hub *hub, struct upload_names *out)
+static void begin(struct hub *hub, struct asset_uses *out)
 {
-    out->count = hub->uploads->count;
+    out->count = hub->assets->count;
     out->items = memory_alloc(out->count, sizeof(*out->items));
     for (size_t i = 0; i < out->count; i++) {
-        memcpy(out->items[i].id, hub->uploads->items[i].id, sizeof(out->items[i].id));
+        memcpy(out->items[i].id, hub->assets->items[i].id, sizeof(out->items[i].id));
     }
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->edits_since_snapshot && !room->deleted) {
@@ -60,26 +60,26 @@ static void begin(struct hub *hub, struct upload_names *out)
     }
 }
 
-bool upload_names_read(struct hub *hub, struct upload_names *out, struct error *err)
+bool asset_uses_read(struct hub *hub, struct asset_uses *out, struct error *err)
 {
     hub_lock(hub);
     begin(hub, out);
     hub_unlock(hub);
     store_flush(hub->store);
     if (!store_list_texts(hub->store, read_text, out, err)) {
-        upload_names_finish(out);
+        asset_uses_finish(out);
         return false;
     }
     return true;
 }
 
-void upload_names_finish(struct upload_names *names)
+void asset_uses_finish(struct asset_uses *names)
 {
     free(names->items);
-    *names = (struct upload_names){0};
+    *names = (struct asset_uses){0};
 }
 
-void upload_names_add_open(struct upload_names *names, const struct hub *hub)
+void asset_uses_add_open(struct asset_uses *names, const struct hub *hub)
 {
     for (const struct room *room = hub->rooms; room; room = room->next) {
         const char *image = record_text(&room->scene->environment, "image");
@@ -90,9 +90,9 @@ void upload_names_add_open(struct upload_names *names, const struct hub *hub)
     }
 }
 
-const char *upload_names_scene(const struct upload_names *names, const char *id)
+const char *asset_uses_scene(const struct asset_uses *names, const char *id)
 {
-    const struct upload_name *name = find(names, id, strlen(id));
+    const struct asset_use *name = find(names, id, strlen(id));
 
     return !name ? "" : *name->scene ? name->scene : NULL;
 }
