@@ -195,9 +195,9 @@ static bool admits_image(struct hub *hub, const struct render_order *order, stru
 
 static bool admits(struct hub *hub, const struct render_order *order, struct error *err)
 {
-    if (order->room && order->room->left_out.kind != ERROR_NONE) {
+    if (order->room && order->room->suspended.kind != ERROR_NONE) {
         if (err) {
-            *err = order->room->left_out;
+            *err = order->room->suspended;
         }
         return false;
     }
@@ -342,7 +342,7 @@ static void count_times(struct hub *hub, const struct job_times *times)
     }
 }
 
-/* --- scenes that are left out --- */
+/* --- suspended scenes --- */
 
 static const char *root_place(const struct room *room, char place[ERROR_PLACE_BYTES])
 {
@@ -376,10 +376,10 @@ static void describe_end(const struct room *room, const struct supervisor_end *e
     }
 }
 
-static void leave_out(struct room *room, const struct error *why)
+static void suspend(struct room *room, const struct error *why)
 {
-    log_error("render_queue", "scene %s is left out: %s", room->id, why->message);
-    scene_error_leave_out(room, why);
+    log_error("render_queue", "scene %s is suspended: %s", room->id, why->message);
+    scene_error_suspend(room, why);
 }
 
 void render_queue_worker_ready(struct hub *hub)
@@ -388,7 +388,7 @@ void render_queue_worker_ready(struct hub *hub)
     dispatch(hub);
 }
 
-/* A picture was begun and cannot be drawn. What viewers see of the scene is left out for that; a
+/* A picture was begun and cannot be drawn. The scene is suspended for viewers; a
  * picture that was ordered may have been a larger wish. */
 static void undrawn(const struct render_entry *entry, struct error *err)
 {
@@ -396,8 +396,8 @@ static void undrawn(const struct render_entry *entry, struct error *err)
 
     if (room && err->kind == ERROR_TOO_SLOW) {
         describe_slow(room, err->measured_ms, err->limit_ms, err);
-        if (entry->order.priority < RENDER_LOSSLESS && room->left_out.kind == ERROR_NONE) {
-            leave_out(room, err);
+        if (entry->order.priority < RENDER_LOSSLESS && room->suspended.kind == ERROR_NONE) {
+            suspend(room, err);
         }
     }
 }
@@ -470,7 +470,7 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
             asked = r->sent && r->order.room == room;
         }
         room->sent = room->shown = room->settled = 0;
-        if (!quarantine_blames(hub, room->id, asked) || room->left_out.kind != ERROR_NONE) {
+        if (!quarantine_blames(hub, room->id, asked) || room->suspended.kind != ERROR_NONE) {
             continue;
         }
         const struct render_entry *drawn = find(hub->render_queue, hub->quarantine->drawn.job);
@@ -480,7 +480,7 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
             struct error why = {0};
 
             describe_end(room, end, &why);
-            leave_out(room, &why);
+            suspend(room, &why);
         }
     }
 }
@@ -488,7 +488,7 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
 static bool gives_up(const struct render_entry *entry)
 {
     return !entry->order.again ||
-           (entry->order.room ? entry->order.room->left_out.kind != ERROR_NONE
+           (entry->order.room ? entry->order.room->suspended.kind != ERROR_NONE
                               : entry->deaths >= RENDER_DEATHS);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures asked of the worker and not yet answered. Survives the worker: what was asked
- * is asked again of the next one, and a scene that kills workers is left out. Every function is
+ * is asked again of the next one, and a scene that kills workers is suspended. Every function is
  * called under the hub's lock. */
 #ifndef SERVER_RENDER_QUEUE_H
 #define SERVER_RENDER_QUEUE_H
@@ -17,8 +17,8 @@ struct room;
 
 void render_queue_init(struct render_queue *queue);
 void render_queue_finish(struct render_queue *queue);
-/* Id of the order; 0 and `err` when too many wait, in all or of one account, or the scene is left
- * out. */
+/* Id of the order; 0 and `err` when too many wait, in all or of one account, or the scene is
+ * suspended. */
 uint32_t render_queue_submit(struct hub *hub, struct render_order *order, struct error *err);
 void render_queue_cancel(struct hub *hub, uint32_t id);
 /* Answers every order of the room with ERROR_NOT_FOUND. */

@@ -28,11 +28,11 @@ static bool retry_refused(struct room *room)
     return true;
 }
 
-static void retry_left_out(struct room *room)
+static void retry_suspended(struct room *room)
 {
     room->patience = room->patience < LIMIT_RETRY_TIMES ? room->patience * LIMIT_RETRY_FACTOR
                                                         : LIMIT_RETRY_TIMES;
-    scene_error_let_in(room);
+    scene_error_resume(room);
     for (struct session *session = room->sessions; session; session = session->next) {
         stream_changed(session);
     }
@@ -40,11 +40,11 @@ static void retry_left_out(struct room *room)
 
 bool retry_place(struct room *room, const char *place, struct error *err)
 {
-    const bool out = is_meant(&room->left_out, place);
+    const bool out = is_meant(&room->suspended, place);
     const bool refused = is_meant(&room->scene_error, place) && retry_refused(room);
 
     if (out) {
-        retry_left_out(room);
+        retry_suspended(room);
     }
     return out || refused ||
            error_set(err, ERROR_NOT_FOUND, "/place", "nothing at \"%s\" waits to be tried again",

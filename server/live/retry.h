@@ -9,7 +9,7 @@
 
 struct room;
 
-/* What was refused, or the scene that was left out, is tried again with more time. `place`: of the
+/* What was refused, or the suspended scene, is tried again with more time. `place`: of the
  * error; NULL: whatever it is. False and `err` where nothing there waits for it. */
 bool retry_place(struct room *room, const char *place, struct error *err);
 

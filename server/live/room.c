@@ -178,7 +178,7 @@ static void commit_change(struct room *room, const struct room_change *change, c
     }
     room_log_add(room, change, text);
     tell_others(room, change, text);
-    scene_error_let_in(room); /* it may have helped */
+    scene_error_resume(room); /* it may have helped */
     room_worker_edit(room, ops, text);
     room_store_push(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
@@ -312,7 +312,7 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
     room->revision++;
     room->edits_since_snapshot = 0;
     room_keep_text(room, text);
-    scene_error_let_in(room); /* it may have helped */
+    scene_error_resume(room); /* it may have helped */
     room_log_clear(room);
     room_worker_replace(room);
     tell_document(room, text);

@@ -94,7 +94,7 @@ struct room {
     struct render_demand fatal; /* the last with a picture of so much: another one ends `deaths` */
     double ns_per_pixel;        /* of moving pictures, by all who look: stream.h; 0: none yet */
     int patience;               /* times the usual time that a tile of it may take */
-    struct error left_out;      /* why it is not drawn until it is edited; ERROR_NONE: it is */
+    struct error suspended;     /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct last_good last_good;
     struct blob *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;

@@ -79,25 +79,25 @@ void scene_error_tell_retry(const struct room *room, const char *place)
     tell_all(room, message_notice("info", "retrying", place, "It is tried again."));
 }
 
-void scene_error_leave_out(struct room *room, const struct error *why)
+void scene_error_suspend(struct room *room, const struct error *why)
 {
-    room->left_out = *why;
+    room->suspended = *why;
     tell_all(room, message_fault("error", "scene_left_out", why));
 }
 
-void scene_error_let_in(struct room *room)
+void scene_error_resume(struct room *room)
 {
-    if (room->left_out.kind != ERROR_NONE) {
-        scene_error_tell_retry(room, room->left_out.place);
+    if (room->suspended.kind != ERROR_NONE) {
+        scene_error_tell_retry(room, room->suspended.place);
     }
-    room->left_out = (struct error){0};
+    room->suspended = (struct error){0};
     room->deaths = 0;
 }
 
 void scene_error_tell(struct session *session, const struct room *room)
 {
-    if (room->left_out.kind != ERROR_NONE) {
-        session_say(session, message_fault("error", "scene_left_out", &room->left_out));
+    if (room->suspended.kind != ERROR_NONE) {
+        session_say(session, message_fault("error", "scene_left_out", &room->suspended));
     }
     if (room->scene_error.kind != ERROR_NONE) {
         session_say(session, message(&room->scene_error));

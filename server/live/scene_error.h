@@ -18,10 +18,10 @@ bool scene_error_is_refusal(const struct error *err);
 void scene_error_set(struct room *room, const struct error *err, uint64_t revision);
 /* The scene can be drawn as of this revision: tells that the error of an older one is over. */
 void scene_error_cure(struct room *room, uint64_t revision);
-/* The scene is left out for this reason. */
-void scene_error_leave_out(struct room *room, const struct error *why);
+/* The scene is suspended for this reason. */
+void scene_error_suspend(struct room *room, const struct error *why);
 /* It is drawn again, since it was edited. */
-void scene_error_let_in(struct room *room);
+void scene_error_resume(struct room *room);
 /* What is at this place is tried again. */
 void scene_error_tell_retry(const struct room *room, const char *place);
 /* For somebody who has just come; nothing where there is none. */

@@ -498,7 +498,7 @@ int64_t stream_pump(struct session *session, int64_t now_ms)
     struct stream *stream = session->stream;
     const struct stream_view *view = newest_view(stream);
 
-    if (!view || !view->visible || !session->room || session->room->left_out.kind != ERROR_NONE ||
+    if (!view || !view->visible || !session->room || session->room->suspended.kind != ERROR_NONE ||
         session->close_code || !session->hub->render_queue->ready || stream->job ||
         stream->done >= STREAM_LOSSLESS || !has_credit(stream, now_ms)) {
         return 0;

@@ -219,7 +219,7 @@ test('who has nothing to do with it hears no word of a crash', async () => {
     await Promise.all([still, moving, live].map((one) => one.close()));
 });
 
-test('a scene whose smallest part takes too long is left out with its measure', async () => {
+test('a scene whose smallest part takes too long is suspended with its measure', async () => {
     const daemon = await start('--tile-time', '500');
     const live = await open(daemon, 'heavy', DRAW_HARDLY, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
@@ -241,7 +241,7 @@ test('a scene whose smallest part takes too long is left out with its measure', 
     await live.close();
 });
 
-test('a scene that keeps two processes at work for too long is left out too', async () => {
+test('a scene that keeps two processes at work for too long is suspended too', async () => {
     const daemon = await start('--worker-busy', '400');
     const live = await open(daemon, 'busy', DRAW_HARDLY, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });

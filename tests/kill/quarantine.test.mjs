@@ -164,7 +164,7 @@ test('a document sent along with an order is answered', async () => {
     await othersGoOn();
 });
 
-test('code that crashes while it draws is left out the second time', async () => {
+test('code that crashes while it draws is suspended the second time', async () => {
     const live = await open('later', CRASH_LATER);
     await live.next('notice', { code: 'scene_left_out' });
     await othersGoOn();

@@ -90,7 +90,7 @@ test('a picture that was asked for is drawn by the next worker', async () => {
     assert.equal((await answer).status, 200);
 });
 
-test('a scene that ends workers is left out until it is edited, others go on', async () => {
+test('a scene that ends workers is suspended until it is edited, others go on', async () => {
     await ask(daemon, 'POST', '/v1/scenes?id=bad', DOCUMENT);
     const bad = await Live.open(daemon, 'bad');
     const good = await Live.open(daemon, 's');
