@@ -21,7 +21,7 @@
 #include "render_queue.h"
 #include "room.h"
 #include "room_snapshot.h"
-#include "room_worker.h"
+#include "room_sync.h"
 #include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -150,7 +150,7 @@ static void compiled(struct hub *hub, const struct packet_state *state, bool bro
             stream_shown(session);
         }
     }
-    room_worker_done(room, revision);
+    room_sync_done(room, revision);
 }
 
 /* Nothing that keeps it from being drawn. */

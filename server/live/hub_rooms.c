@@ -11,7 +11,7 @@
 #include "room.h"
 #include "room_apart.h"
 #include "room_store.h"
-#include "room_worker.h"
+#include "room_sync.h"
 #include "server/log.h"
 #include "session_life.h"
 
@@ -31,7 +31,7 @@ void hub_remove_room(struct hub *hub, struct room *room)
     }
     *link = room->next;
     metric_add(&hub->metrics, METRIC_ROOMS, -1);
-    room_worker_close(room);
+    room_sync_close(room);
 }
 
 static struct room *load_room(struct hub *hub, const char *id, struct error *err)

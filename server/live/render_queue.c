@@ -14,7 +14,7 @@
 #include "protocol/messages.h"
 #include "quarantine.h"
 #include "room_state.h"
-#include "room_worker.h"
+#include "room_sync.h"
 #include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -90,7 +90,7 @@ static void send_drop(struct hub *hub, const struct render_entry *entry)
 static void send_scene(struct hub *hub, const struct render_entry *entry)
 {
     if (entry->order.room) {
-        room_worker_open(entry->order.room);
+        room_sync_open(entry->order.room);
         return;
     }
     char name[LIMIT_ID_BYTES + 16];
@@ -99,7 +99,7 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
 
     asset_index_send(hub, json_member_text(environment, "image", ""));
     scene_name(entry, name);
-    room_worker_send_scene(hub, name, 1, document);
+    room_sync_send_scene(hub, name, 1, document);
 }
 
 static struct render_demand render_demand(const struct render_order *order)

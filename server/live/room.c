@@ -18,7 +18,7 @@
 #include "room_log.h"
 #include "room_snapshot.h"
 #include "room_store.h"
-#include "room_worker.h"
+#include "room_sync.h"
 #include "scene_error.h"
 #include "server/clock.h"
 #include "server/log.h"
@@ -179,7 +179,7 @@ static void commit_change(struct room *room, const struct room_change *change, c
     room_log_add(room, change, text);
     tell_others(room, change, text);
     scene_error_resume(room); /* it may have helped */
-    room_worker_edit(room, ops, text);
+    room_sync_edit(room, ops, text);
     room_store_push(room, STORE_EDIT, change, text, step);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);
     if (++room->edits_since_snapshot >= ROOM_SNAPSHOT_EDITS) {
@@ -314,7 +314,7 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
     room_keep_text(room, text);
     scene_error_resume(room); /* it may have helped */
     room_log_clear(room);
-    room_worker_replace(room);
+    room_sync_replace(room);
     tell_document(room, text);
     room_store_push(room, STORE_REPLACE, change, text, NULL);
     metric_add(&room->hub->metrics, METRIC_EDITS, 1);

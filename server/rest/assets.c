@@ -11,7 +11,7 @@
 #include "server/live/asset_uses.h"
 #include "server/live/hub_rooms.h"
 #include "server/live/room.h"
-#include "server/live/room_worker.h"
+#include "server/live/room_sync.h"
 #include "server/live/session.h"
 #include "server/live/stream.h"
 
@@ -52,7 +52,7 @@ void assets_list(struct request *request)
 static void tell_rooms(struct hub *hub, const char *id)
 {
     for (struct room *room = hub->rooms; room; room = room->next) {
-        if (!room_worker_upload(room, id)) {
+        if (!room_sync_upload(room, id)) {
             continue;
         }
         for (struct session *session = room->sessions; session; session = session->next) {

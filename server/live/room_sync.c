@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "room_worker.h"
+#include "room_sync.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static void send_image(struct room *room, const struct scene *scene)
 }
 
 /* Takes `document`. Where code is not allowed, none reaches the worker. */
-void room_worker_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document)
+void room_sync_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document)
 {
     if (hub->code_refused) {
         code_text_remove(document);
@@ -54,13 +54,13 @@ static void send_scene(struct room *room, const struct scene *scene, uint64_t re
     const bool printed = room->text && scene == room->scene && !room->hub->code_refused;
 
     send_image(room, scene);
-    room_worker_send_scene(room->hub, room->id, revision,
-                           printed ? cJSON_CreateRaw((const char *)room->text->bytes)
-                                   : scene_to_json(scene));
+    room_sync_send_scene(room->hub, room->id, revision,
+                         printed ? cJSON_CreateRaw((const char *)room->text->bytes)
+                                 : scene_to_json(scene));
     room->sent = revision;
 }
 
-void room_worker_open(struct room *room)
+void room_sync_open(struct room *room)
 {
     uint64_t revision = 0;
     const bool doubtful =
@@ -73,7 +73,7 @@ void room_worker_open(struct room *room)
     }
 }
 
-void room_worker_done(struct room *room, uint64_t revision)
+void room_sync_done(struct room *room, uint64_t revision)
 {
     if (room->sent == 0 || room->sent >= room->revision || revision < room->sent) {
         return;
@@ -85,23 +85,23 @@ void room_worker_done(struct room *room, uint64_t revision)
     send_edit(room, room_log_since(room, room->sent));
 }
 
-void room_worker_edit(struct room *room, const cJSON *ops, const char *text)
+void room_sync_edit(struct room *room, const cJSON *ops, const char *text)
 {
     if (room->sent == 0 || room->sent + 1 != room->revision) {
-        return; /* room_worker_done sends all at once */
+        return; /* room_sync_done sends all at once */
     }
     /* A text has no members that code_text_remove could find. */
     send_edit(room, room->hub->code_refused ? cJSON_Duplicate(ops, true) : cJSON_CreateRaw(text));
 }
 
-void room_worker_replace(struct room *room)
+void room_sync_replace(struct room *room)
 {
     if (room->sent > 0 && room->sent + 1 == room->revision) {
         send_scene(room, room->scene, room->revision);
     }
 }
 
-bool room_worker_upload(struct room *room, const char *id)
+bool room_sync_upload(struct room *room, const char *id)
 {
     const bool named = strcmp(record_text(&room->scene->environment, "image"), id) == 0;
 
@@ -111,7 +111,7 @@ bool room_worker_upload(struct room *room, const char *id)
     return named;
 }
 
-void room_worker_close(struct room *room)
+void room_sync_close(struct room *room)
 {
     if (room->sent > 0) {
         supervisor_send(room->hub->supervisor,
