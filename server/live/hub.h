@@ -23,7 +23,7 @@
 struct catalog;
 struct compiles;
 struct picker;
-struct pictures;
+struct image_cache;
 struct quarantine;
 struct render_queue;
 struct room;
@@ -51,7 +51,7 @@ struct hub {
     struct render_queue *render_queue;
     struct quarantine *quarantine;
     struct compiles *compiles;
-    struct pictures *pictures;
+    struct image_cache *image_cache;
     struct renderer_info renderer; /* of the newest worker; name "" before the first */
     int64_t next_cleaning;         /* clock_ms */
     atomic_bool draining;

@@ -10,9 +10,9 @@
 #include "catalog.h"
 #include "compiles.h"
 #include "hub_rooms.h"
+#include "image_cache.h"
 #include "last_good.h"
 #include "picker.h"
-#include "pictures.h"
 #include "poster.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -285,7 +285,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->render_queue = memory_alloc(1, sizeof(*hub->render_queue));
     hub->quarantine = memory_alloc(1, sizeof(*hub->quarantine));
     hub->compiles = memory_alloc(1, sizeof(*hub->compiles));
-    hub->pictures = memory_alloc(1, sizeof(*hub->pictures));
+    hub->image_cache = memory_alloc(1, sizeof(*hub->image_cache));
     render_queue_init(hub->render_queue);
     hub->access = params->access;
     hub->web_dir = params->web_dir;
@@ -361,7 +361,7 @@ void hub_destroy(struct hub *hub)
         room_destroy(room);
     }
     render_queue_finish(hub->render_queue);
-    pictures_finish(hub->pictures);
+    image_cache_finish(hub->image_cache);
     catalog_finish(hub->catalog);
     asset_index_finish(hub->assets);
     free(hub->catalog);
@@ -369,7 +369,7 @@ void hub_destroy(struct hub *hub)
     free(hub->render_queue);
     free(hub->quarantine);
     free(hub->compiles);
-    free(hub->pictures);
+    free(hub->image_cache);
     free(hub->schema);
     pthread_cond_destroy(&hub->released);
     pthread_mutex_destroy(&hub->load_lock[1]);

@@ -12,8 +12,8 @@
 #include "server/embedded.h"
 #include "server/live/asset_index.h"
 #include "server/live/hub_rooms.h"
+#include "server/live/image_cache.h"
 #include "server/live/image_queue.h"
-#include "server/live/pictures.h"
 #include "server/live/render_queue.h"
 #include "server/live/room.h"
 
@@ -90,8 +90,8 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
         const uint64_t revision = answer->frame->revision;
 
         if (revision == waiting->revision) {
-            pictures_add(waiting->hub->pictures, waiting->key, answer->frame->codec, revision,
-                         answer->bytes, answer->length);
+            image_cache_add(waiting->hub->image_cache, waiting->key, answer->frame->codec, revision,
+                            answer->bytes, answer->length);
         }
         reply_picture(waiting, revision, answer->frame->codec, answer->bytes, answer->length);
     } else {
@@ -115,7 +115,7 @@ static void on_gone(void *data)
 /* The client has it, or it was drawn before. */
 static bool reply_at_once(const struct waiting *waiting)
 {
-    const struct picture *picture;
+    const struct cached_image *picture;
     char tag[48];
 
     make_tag(waiting, waiting->revision, tag);
@@ -126,7 +126,7 @@ static bool reply_at_once(const struct waiting *waiting)
         request_reply(waiting->request, &response);
         return true;
     }
-    picture = pictures_find(waiting->hub->pictures, waiting->key);
+    picture = image_cache_find(waiting->hub->image_cache, waiting->key);
     if (picture) {
         metric_add(&waiting->hub->metrics, METRIC_PICTURES_REUSED, 1);
         reply_picture(waiting, picture->revision, picture->codec, picture->bytes, picture->length);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Finished pictures, kept for those who ask for the same again; the longest unused goes first.
  * Under the hub's lock. */
-#ifndef SERVER_PICTURES_H
-#define SERVER_PICTURES_H
+#ifndef SERVER_IMAGE_CACHE_H
+#define SERVER_IMAGE_CACHE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
 #include "protocol/codec.h"
 
-struct picture {
-    struct picture *before, *after;
+struct cached_image {
+    struct cached_image *before, *after;
     char *key; /* all that the pixels and their encoding depend on */
     enum codec codec;
     uint64_t revision;
@@ -19,16 +19,16 @@ struct picture {
 };
 
 /* The newest used is `first`. */
-struct pictures {
-    struct picture *first, *last;
+struct image_cache {
+    struct cached_image *first, *last;
     size_t bytes;
 };
 
-void pictures_finish(struct pictures *pictures);
+void image_cache_finish(struct image_cache *cache);
 /* NULL: not there. Valid until the next addition. */
-const struct picture *pictures_find(struct pictures *pictures, const char *key);
+const struct cached_image *image_cache_find(struct image_cache *cache, const char *key);
 /* Copies all it is given. What is larger than a part of the limit is not kept. */
-void pictures_add(struct pictures *pictures, const char *key, enum codec codec, uint64_t revision,
-                  const void *bytes, size_t length);
+void image_cache_add(struct image_cache *cache, const char *key, enum codec codec,
+                     uint64_t revision, const void *bytes, size_t length);
 
 #endif
