@@ -18,20 +18,20 @@ static const struct route table[] = {
     {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
     {"GET", "/v1/queue", images_queue, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/v1/examples", pages_examples, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/v1/examples/{}", pages_example, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/v1/examples/{}/card.jpg", pages_card, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples", site_examples, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples/{}", site_example, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/examples/{}/card.jpg", site_card, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}/image.{}", images_of_example, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/v1/reference/{}.jpg", pages_reference, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/v1/schema.json", pages_schema, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/metrics", pages_metrics, BODY_NONE, GUARDED, SCENE_NONE},
-    {"GET", "/healthz", pages_health, BODY_NONE, OPEN, SCENE_NONE},
-    {"GET", "/readyz", pages_ready, BODY_NONE, OPEN, SCENE_NONE},
-    {"GET", "/", pages_app, BODY_NONE, PAGE, SCENE_NONE},
-    {"GET", "/s/{}", pages_app, BODY_NONE, PAGE, SCENE_NONE},
+    {"GET", "/v1/reference/{}.jpg", site_reference, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/schema.json", site_schema, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/metrics", site_metrics, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/healthz", site_health, BODY_NONE, OPEN, SCENE_NONE},
+    {"GET", "/readyz", site_ready, BODY_NONE, OPEN, SCENE_NONE},
+    {"GET", "/", site_app, BODY_NONE, PAGE, SCENE_NONE},
+    {"GET", "/s/{}", site_app, BODY_NONE, PAGE, SCENE_NONE},
 };
 
 /* Everything else that can be read is a file of the page. */
-static const struct route asset_route = {"GET", "", pages_asset, BODY_NONE, OPEN, SCENE_NONE};
+static const struct route asset_route = {"GET", "", site_asset, BODY_NONE, OPEN, SCENE_NONE};
 
 const struct route_table routes = {table, sizeof(table) / sizeof(*table), &asset_route};

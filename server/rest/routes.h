@@ -25,15 +25,15 @@ void images_of_scene(struct request *request);
 void images_of_example(struct request *request);
 void images_render(struct request *request);
 void images_queue(struct request *request);
-void pages_app(struct request *request);
-void pages_asset(struct request *request);
-void pages_examples(struct request *request);
-void pages_example(struct request *request);
-void pages_card(struct request *request);
-void pages_reference(struct request *request);
-void pages_schema(struct request *request);
-void pages_health(struct request *request);
-void pages_ready(struct request *request);
-void pages_metrics(struct request *request);
+void site_app(struct request *request);
+void site_asset(struct request *request);
+void site_examples(struct request *request);
+void site_example(struct request *request);
+void site_card(struct request *request);
+void site_reference(struct request *request);
+void site_schema(struct request *request);
+void site_health(struct request *request);
+void site_ready(struct request *request);
+void site_metrics(struct request *request);
 
 #endif

@@ -114,7 +114,7 @@ static bool reply_file(struct request *request, const char *path)
     return true;
 }
 
-void pages_app(struct request *request)
+void site_app(struct request *request)
 {
     if (!reply_file(request, "/index.html")) {
         struct response response = response_problem(
@@ -124,7 +124,7 @@ void pages_app(struct request *request)
     }
 }
 
-void pages_asset(struct request *request)
+void site_asset(struct request *request)
 {
     if (!reply_file(request, request->path)) {
         reply_not_found(request);
@@ -205,7 +205,7 @@ static void add_example(cJSON *list, const struct embedded *example, int group)
     scene_destroy(scene);
 }
 
-void pages_examples(struct request *request)
+void site_examples(struct request *request)
 {
     cJSON *json = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(json, "examples");
@@ -224,7 +224,7 @@ void pages_examples(struct request *request)
     request_reply_json(request, 200, json);
 }
 
-void pages_example(struct request *request)
+void site_example(struct request *request)
 {
     const struct embedded *example = examples_find(request->capture[0]);
 
@@ -255,19 +255,19 @@ static void reply_picture(struct request *request, const struct embedded *pictur
     request_reply(request, &response);
 }
 
-void pages_card(struct request *request)
+void site_card(struct request *request)
 {
     reply_picture(request, cards_find(request->capture[0]));
 }
 
-void pages_reference(struct request *request)
+void site_reference(struct request *request)
 {
     reply_picture(request, references_find(request->capture[0]));
 }
 
 /* --- about the server --- */
 
-void pages_schema(struct request *request)
+void site_schema(struct request *request)
 {
     struct hub *hub = request->hub;
     struct response response = {.status = 304, .body = "", .borrowed = true};
@@ -283,7 +283,7 @@ void pages_schema(struct request *request)
     request_reply(request, &response);
 }
 
-void pages_health(struct request *request)
+void site_health(struct request *request)
 {
     cJSON *json = cJSON_CreateObject();
 
@@ -292,7 +292,7 @@ void pages_health(struct request *request)
     request_reply_json(request, 200, json);
 }
 
-void pages_ready(struct request *request)
+void site_ready(struct request *request)
 {
     struct hub *hub = request->hub;
     struct renderer_info info;
@@ -325,7 +325,7 @@ void pages_ready(struct request *request)
     request_reply_json(request, 200, json);
 }
 
-void pages_metrics(struct request *request)
+void site_metrics(struct request *request)
 {
     struct response response = response_text(200, "text/plain; version=0.0.4; charset=utf-8",
                                              metrics_print(&request->hub->metrics));
