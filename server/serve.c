@@ -57,7 +57,7 @@ static bool live_scene(const char *target, char out[LIMIT_ID_BYTES + 1])
 }
 
 /* False: HTTP answers, and says why. */
-static bool on_upgrade(void *data, int fd, const struct head *head)
+static bool on_upgrade(void *data, int fd, const struct http_head *head)
 {
     struct server *server = data;
     char scene[LIMIT_ID_BYTES + 1], skipped[LIMIT_HEAD_BYTES];
@@ -68,7 +68,7 @@ static bool on_upgrade(void *data, int fd, const struct head *head)
         .protocols = head->field[HEAD_WS_PROTOCOL],
     };
 
-    if (!head_is_upgrade(head, WS_SUBPROTOCOL) || !live_scene(head->target, scene) ||
+    if (!http_head_is_upgrade(head, WS_SUBPROTOCOL) || !live_scene(head->target, scene) ||
         access_check(&server->hub->access, &request, false, NULL) != 0 ||
         ws_count(server->ws) >= LIMIT_SESSIONS || atomic_load(&server->hub->draining) ||
         !hub_has_scene(server->hub, scene)) {

@@ -54,7 +54,7 @@ struct acceptor {
     bool running;
     struct client_list lists[STATE_COUNT];
     char bytes[LIMIT_HEAD_BYTES + 1];
-    struct head head;
+    struct http_head head;
 };
 
 /* What epoll hands back for the descriptors that are no clients. */
@@ -172,9 +172,9 @@ static void hand_over(struct acceptor *acceptor, struct client *client)
 
 static void decide(struct acceptor *acceptor, struct client *client, size_t length)
 {
-    struct head_fault fault;
+    struct http_head_fault fault;
 
-    if (!head_read(acceptor->bytes, length, &acceptor->head, &fault)) {
+    if (!http_head_read(acceptor->bytes, length, &acceptor->head, &fault)) {
         refuse(acceptor, client, fault.status, fault.message);
     } else if (acceptor->events.http_count(acceptor->events.data) >= acceptor->events.http_limit) {
         refuse(acceptor, client, 503, "too many connections are open");
@@ -212,7 +212,7 @@ static void look(struct acceptor *acceptor, struct client *client, bool ended)
         }
         return;
     }
-    long head = head_end(acceptor->bytes, (size_t)length, client->seen);
+    long head = http_head_end(acceptor->bytes, (size_t)length, client->seen);
     client->seen = (size_t)length;
     if (head > 0) {
         decide(acceptor, client, (size_t)head);

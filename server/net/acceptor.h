@@ -10,7 +10,7 @@
 
 #include <sys/socket.h>
 
-#include "head.h"
+#include "http_head.h"
 #include "protocol/error.h"
 #include "server/metrics.h"
 
@@ -20,7 +20,7 @@ struct acceptor;
 struct acceptor_events {
     void *data;
     /* Takes `fd` when it returns true; the head has been read from it. False: http gets it. */
-    bool (*upgrade)(void *data, int fd, const struct head *head);
+    bool (*upgrade)(void *data, int fd, const struct http_head *head);
     /* Takes `fd`, nothing has been read from it. */
     void (*http)(void *data, int fd, const struct sockaddr *address, socklen_t length);
     /* Connections http serves now; above `http_limit` new ones get 503. */

@@ -12,10 +12,10 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
-#include "admit.h"
 #include "body.h"
 #include "protocol/memory.h"
 #include "request.h"
+#include "request_checks.h"
 #include "route.h"
 #include "safety.h"
 #include "server/clock.h"
@@ -273,7 +273,7 @@ static enum MHD_Result answer_now(struct exchange *exchange, const struct respon
 
 static size_t body_limit(const struct exchange *exchange)
 {
-    return admit_body_limit(exchange->route);
+    return request_checks_body_limit(exchange->route);
 }
 
 static void refuse_memory(struct exchange *exchange)
@@ -382,18 +382,20 @@ static enum MHD_Result begin(struct exchange *exchange, const char *version)
 {
     struct response response = {0};
 
-    if (!admit_framing(&exchange->request, exchange->connection, version, &response)) {
+    if (!request_checks_framing(&exchange->request, exchange->connection, version, &response)) {
         return answer_now(exchange, &response);
     }
-    if (admit_request(&exchange->http->app, &exchange->request, exchange->target, &exchange->route,
-                      &response)) {
-        const uint64_t announced = admit_announced_bytes(&exchange->request);
+    if (request_checks_pass(&exchange->http->app, &exchange->request, exchange->target,
+                            &exchange->route, &response)) {
+        const uint64_t announced = request_checks_announced_bytes(&exchange->request);
 
         exchange->body.most = announced ? (size_t)announced : body_limit(exchange);
         return MHD_YES;
     }
-    if (admit_has_body(&exchange->request) && !request_header(&exchange->request, "Expect") &&
-        admit_announced_bytes(&exchange->request) <= BODY_PATIENCE * body_limit(exchange)) {
+    if (request_checks_has_body(&exchange->request) &&
+        !request_header(&exchange->request, "Expect") &&
+        request_checks_announced_bytes(&exchange->request) <=
+            BODY_PATIENCE * body_limit(exchange)) {
         request_reply(&exchange->request, &response);
         return MHD_YES;
     }

@@ -94,7 +94,7 @@ static void wake(void *connection)
 
 /* --- adopting --- */
 
-void ws_adopt(struct ws *ws, int fd, const struct head *head, const char *scene)
+void ws_adopt(struct ws *ws, int fd, const struct http_head *head, const char *scene)
 {
     struct link *link = memory_alloc(1, sizeof(*link));
 

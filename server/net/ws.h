@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "head.h"
+#include "http_head.h"
 #include "protocol/error.h"
 
 #define WS_SUBPROTOCOL "fieldcast.v1"
@@ -54,7 +54,7 @@ struct ws_app {
 
 struct ws *ws_create(const struct ws_app *app, struct error *err);
 /* Any thread; takes `fd`, from which the head has been read. */
-void ws_adopt(struct ws *ws, int fd, const struct head *head, const char *scene);
+void ws_adopt(struct ws *ws, int fd, const struct http_head *head, const char *scene);
 /* Connections adopted and not yet gone; any thread. */
 int ws_count(const struct ws *ws);
 /* Says goodbye to everybody and waits at most `wait_ms` for them to go. */

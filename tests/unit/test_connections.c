@@ -11,16 +11,16 @@
 
 #include "protocol/memory.h"
 #include "server/net/access.h"
-#include "server/net/head.h"
+#include "server/net/http_head.h"
 #include "server/net/outbox.h"
 
 /* --- heads --- */
 
 static int status_of(const char *text)
 {
-    struct head *head = memory_alloc(1, sizeof(*head));
-    struct head_fault fault = {0};
-    int status = head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
+    struct http_head *head = memory_alloc(1, sizeof(*head));
+    struct http_head_fault fault = {0};
+    int status = http_head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
 
     free(head);
     return status;
@@ -33,13 +33,13 @@ static void finds_the_end(void **state)
 
     (void)state;
     for (size_t seen = 0; seen <= (size_t)end - 1; seen++) {
-        assert_int_equal(head_end(text, seen, 0), 0);
-        assert_int_equal(head_end(text, sizeof(text) - 1, seen), end);
+        assert_int_equal(http_head_end(text, seen, 0), 0);
+        assert_int_equal(http_head_end(text, sizeof(text) - 1, seen), end);
     }
-    assert_int_equal(head_end("GET /\n", 6, 0), -1);
-    assert_int_equal(head_end("GET /\r", 6, 0), 0);
-    assert_int_equal(head_end("GET /\rx", 7, 6), -1);
-    assert_int_equal(head_end("G\0T", 3, 0), -1);
+    assert_int_equal(http_head_end("GET /\n", 6, 0), -1);
+    assert_int_equal(http_head_end("GET /\r", 6, 0), 0);
+    assert_int_equal(http_head_end("GET /\rx", 7, 6), -1);
+    assert_int_equal(http_head_end("G\0T", 3, 0), -1);
 }
 
 static void refuses_what_two_could_read_differently(void **state)
@@ -59,23 +59,23 @@ static void refuses_what_two_could_read_differently(void **state)
 /* Values of one list header are joined; so many that they would not fit are refused. */
 static void joins_lists_within_bounds(void **state)
 {
-    struct head *head = memory_alloc(1, sizeof(*head));
-    struct head_fault fault = {0};
+    struct http_head *head = memory_alloc(1, sizeof(*head));
+    struct http_head_fault fault = {0};
     char text[LIMIT_HEAD_BYTES];
     size_t used = (size_t)sprintf(text, "GET / HTTP/1.1\r\nHost: x\r\nConnection: a\r\n"
                                         "Connection: Upgrade\r\n\r\n");
 
     (void)state;
-    assert_true(head_read(text, used, head, &fault));
+    assert_true(http_head_read(text, used, head, &fault));
     assert_string_equal(head->field[HEAD_CONNECTION], "a, Upgrade");
-    assert_true(head_list_has(head->field[HEAD_CONNECTION], "upgrade"));
-    assert_false(head_list_has(head->field[HEAD_CONNECTION], "up"));
+    assert_true(http_head_list_has(head->field[HEAD_CONNECTION], "upgrade"));
+    assert_false(http_head_list_has(head->field[HEAD_CONNECTION], "up"));
     used -= 2;
     while (used + 40 < sizeof(text)) {
         used += (size_t)sprintf(text + used, "Upgrade: websocket\r\n");
     }
     used += (size_t)sprintf(text + used, "\r\n");
-    assert_false(head_read(text, used, head, &fault));
+    assert_false(http_head_read(text, used, head, &fault));
     assert_int_equal(fault.status, 431);
     free(head);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "head.h"
+#include "http_head.h"
 
 #include <string.h>
 #include <strings.h>
@@ -22,7 +22,7 @@ static const struct field_rule rules[HEAD_FIELD_COUNT] = {
     [HEAD_WS_PROTOCOL] = {"Sec-WebSocket-Protocol", true},
 };
 
-static bool refuse(struct head_fault *fault, int status, const char *message)
+static bool refuse(struct http_head_fault *fault, int status, const char *message)
 {
     fault->status = status;
     fault->message = message;
@@ -49,7 +49,7 @@ static bool is_token(const char *text, size_t length)
     return length > 0;
 }
 
-long head_end(const char *bytes, size_t length, size_t seen)
+long http_head_end(const char *bytes, size_t length, size_t seen)
 {
     size_t from = seen > 3 ? seen - 3 : 0;
 
@@ -65,7 +65,7 @@ long head_end(const char *bytes, size_t length, size_t seen)
     return 0;
 }
 
-static char *keep(struct head *head, const char *text, size_t length)
+static char *keep(struct http_head *head, const char *text, size_t length)
 {
     char *copy = head->text + head->used;
 
@@ -75,8 +75,8 @@ static char *keep(struct head *head, const char *text, size_t length)
     return copy;
 }
 
-static bool read_version(const char *text, size_t length, struct head *head,
-                         struct head_fault *fault)
+static bool read_version(const char *text, size_t length, struct http_head *head,
+                         struct http_head_fault *fault)
 {
     if (length != 8 || strncmp(text, "HTTP/", 5) != 0 || text[6] != '.' || text[5] < '0' ||
         text[5] > '9' || text[7] < '0' || text[7] > '9') {
@@ -89,8 +89,8 @@ static bool read_version(const char *text, size_t length, struct head *head,
     return true;
 }
 
-static bool read_request_line(const char *line, size_t length, struct head *head,
-                              struct head_fault *fault)
+static bool read_request_line(const char *line, size_t length, struct http_head *head,
+                              struct http_head_fault *fault)
 {
     const char *first = memchr(line, ' ', length);
     const char *last = memrchr(line, ' ', length);
@@ -128,8 +128,8 @@ static bool is_framing(const char *name, size_t length)
            is_name(name, length, rules[HEAD_TRANSFER_ENCODING].name);
 }
 
-bool head_field_check(const char *name, size_t name_length, const char *value, size_t value_length,
-                      struct head_fault *fault)
+bool http_head_field_check(const char *name, size_t name_length, const char *value,
+                           size_t value_length, struct http_head_fault *fault)
 {
     if (!is_token(name, name_length)) {
         return refuse(fault, 400, "a header name holds a character that none may hold");
@@ -147,8 +147,8 @@ bool head_field_check(const char *name, size_t name_length, const char *value, s
     return true;
 }
 
-static bool store_field(struct head *head, const char *name, size_t name_length, const char *value,
-                        size_t value_length, struct head_fault *fault)
+static bool store_field(struct http_head *head, const char *name, size_t name_length,
+                        const char *value, size_t value_length, struct http_head_fault *fault)
 {
     for (int i = 0; i < HEAD_FIELD_COUNT; i++) {
         if (!is_name(name, name_length, rules[i].name)) {
@@ -175,7 +175,8 @@ static bool store_field(struct head *head, const char *name, size_t name_length,
     return true;
 }
 
-static bool read_field(const char *line, size_t length, struct head *head, struct head_fault *fault)
+static bool read_field(const char *line, size_t length, struct http_head *head,
+                       struct http_head_fault *fault)
 {
     const char *colon = memchr(line, ':', length);
 
@@ -190,7 +191,7 @@ static bool read_field(const char *line, size_t length, struct head *head, struc
         value++;
     }
     size_t name_length = (size_t)(colon - line);
-    if (!head_field_check(line, name_length, value, (size_t)(end - value), fault)) {
+    if (!http_head_field_check(line, name_length, value, (size_t)(end - value), fault)) {
         return false;
     }
     while (end > value && (end[-1] == ' ' || end[-1] == '\t')) {
@@ -206,8 +207,9 @@ static bool is_authority(const char *host)
                                  "-._~%!$&'()*+;=:[]") == strlen(host);
 }
 
-bool head_framing_check(const char *host, const char *content_length, const char *transfer_encoding,
-                        int minor, struct head_fault *fault)
+bool http_head_framing_check(const char *host, const char *content_length,
+                             const char *transfer_encoding, int minor,
+                             struct http_head_fault *fault)
 {
     if (!host && minor >= 1) {
         return refuse(fault, 400, "the Host header is missing");
@@ -227,7 +229,8 @@ bool head_framing_check(const char *host, const char *content_length, const char
     return true;
 }
 
-bool head_read(const char *bytes, size_t length, struct head *out, struct head_fault *fault)
+bool http_head_read(const char *bytes, size_t length, struct http_head *out,
+                    struct http_head_fault *fault)
 {
     const char *line = bytes, *end = bytes + length;
     bool first = true;
@@ -259,11 +262,11 @@ bool head_read(const char *bytes, size_t length, struct head *out, struct head_f
     if (first) {
         return refuse(fault, 400, "the request is empty");
     }
-    return head_framing_check(out->field[HEAD_HOST], out->field[HEAD_CONTENT_LENGTH],
-                              out->field[HEAD_TRANSFER_ENCODING], out->minor, fault);
+    return http_head_framing_check(out->field[HEAD_HOST], out->field[HEAD_CONTENT_LENGTH],
+                                   out->field[HEAD_TRANSFER_ENCODING], out->minor, fault);
 }
 
-bool head_list_has(const char *list, const char *token)
+bool http_head_list_has(const char *list, const char *token)
 {
     size_t wanted = strlen(token);
 
@@ -290,14 +293,14 @@ static bool is_key(const char *key)
            strspn(key, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/") == 22;
 }
 
-bool head_is_upgrade(const struct head *head, const char *subprotocol)
+bool http_head_is_upgrade(const struct http_head *head, const char *subprotocol)
 {
     const char *const *field = (const char *const *)head->field;
 
     return strcmp(head->method, "GET") == 0 && head->minor == 1 && field[HEAD_UPGRADE] &&
            strcasecmp(field[HEAD_UPGRADE], "websocket") == 0 &&
-           head_list_has(field[HEAD_CONNECTION], "upgrade") && field[HEAD_WS_VERSION] &&
+           http_head_list_has(field[HEAD_CONNECTION], "upgrade") && field[HEAD_WS_VERSION] &&
            strcmp(field[HEAD_WS_VERSION], "13") == 0 && is_key(field[HEAD_WS_KEY]) &&
-           head_list_has(field[HEAD_WS_PROTOCOL], subprotocol) && !field[HEAD_CONTENT_LENGTH] &&
-           !field[HEAD_TRANSFER_ENCODING];
+           http_head_list_has(field[HEAD_WS_PROTOCOL], subprotocol) &&
+           !field[HEAD_CONTENT_LENGTH] && !field[HEAD_TRANSFER_ENCODING];
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "admit.h"
+#include "request_checks.h"
 
 #include <inttypes.h>
 #include <microhttpd.h>
@@ -11,8 +11,8 @@
 #include <strings.h>
 
 #include "access.h"
-#include "head.h"
 #include "http_app.h"
+#include "http_head.h"
 #include "route.h"
 
 /* --- framing --- */
@@ -21,7 +21,7 @@ enum { SINGLE_HOST, SINGLE_LENGTH, SINGLE_CODING, SINGLE_COUNT };
 static const char *const single[SINGLE_COUNT] = {"Host", "Content-Length", "Transfer-Encoding"};
 
 struct field_check {
-    struct head_fault fault;
+    struct http_head_fault fault;
     bool seen[SINGLE_COUNT];
     bool ok;
 };
@@ -41,9 +41,9 @@ static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const ch
 
     (void)kind;
     check->ok =
-        head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
+        http_head_field_check(name, name_length, value ? value : "", value_length, &check->fault);
     if (check->ok && is_folded(name, name_length, value)) {
-        check->fault = (struct head_fault){400, "a header is folded over lines"};
+        check->fault = (struct http_head_fault){400, "a header is folded over lines"};
         check->ok = false;
     }
     for (int i = 0; i < SINGLE_COUNT && check->ok; i++) {
@@ -51,7 +51,7 @@ static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const ch
             continue;
         }
         if (check->seen[i]) {
-            check->fault = (struct head_fault){400, "a header that may come once comes twice"};
+            check->fault = (struct http_head_fault){400, "a header that may come once comes twice"};
             check->ok = false;
         }
         check->seen[i] = true;
@@ -59,8 +59,8 @@ static enum MHD_Result check_field(void *data, enum MHD_ValueKind kind, const ch
     return check->ok ? MHD_YES : MHD_NO;
 }
 
-bool admit_framing(const struct request *request, struct MHD_Connection *connection,
-                   const char *version, struct response *out)
+bool request_checks_framing(const struct request *request, struct MHD_Connection *connection,
+                            const char *version, struct response *out)
 {
     struct field_check check = {.ok = true};
     const char *values[SINGLE_COUNT] = {NULL};
@@ -72,8 +72,8 @@ bool admit_framing(const struct request *request, struct MHD_Connection *connect
         values[i] = check.seen[i] && !value ? "" : value;
     }
     if (check.ok &&
-        head_framing_check(values[SINGLE_HOST], values[SINGLE_LENGTH], values[SINGLE_CODING],
-                           strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
+        http_head_framing_check(values[SINGLE_HOST], values[SINGLE_LENGTH], values[SINGLE_CODING],
+                                strcmp(version, "HTTP/1.0") != 0, &check.fault)) {
         return true;
     }
     *out = response_problem(check.fault.status, "syntax", "", check.fault.message);
@@ -83,23 +83,23 @@ bool admit_framing(const struct request *request, struct MHD_Connection *connect
 
 /* --- bodies --- */
 
-size_t admit_body_limit(const struct route *route)
+size_t request_checks_body_limit(const struct route *route)
 {
     const bool file = route && route->body == BODY_FILE;
 
     return file ? LIMIT_ASSET_BYTES : LIMIT_DOCUMENT_BYTES;
 }
 
-uint64_t admit_announced_bytes(const struct request *request)
+uint64_t request_checks_announced_bytes(const struct request *request)
 {
     const char *length = request_header(request, "Content-Length");
 
     return length ? strtoull(length, NULL, 10) : 0;
 }
 
-bool admit_has_body(const struct request *request)
+bool request_checks_has_body(const struct request *request)
 {
-    return admit_announced_bytes(request) > 0 ||
+    return request_checks_announced_bytes(request) > 0 ||
            request_header(request, "Transfer-Encoding") != NULL;
 }
 
@@ -118,14 +118,14 @@ static bool is_json(const char *type)
 static bool check_body(const struct request *request, const struct route *route,
                        struct response *out)
 {
-    uint64_t length = admit_announced_bytes(request);
+    uint64_t length = request_checks_announced_bytes(request);
     char detail[100];
 
-    if (route->body == BODY_NONE && admit_has_body(request)) {
+    if (route->body == BODY_NONE && request_checks_has_body(request)) {
         *out = response_problem(400, "syntax", "", "this request takes no body");
-    } else if (length > admit_body_limit(route)) {
+    } else if (length > request_checks_body_limit(route)) {
         snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %zu",
-                 length, admit_body_limit(route));
+                 length, request_checks_body_limit(route));
         *out = response_problem(413, "too_large", "", detail);
     } else if (route->body == BODY_JSON && !is_json(request_header(request, "Content-Type"))) {
         *out =
@@ -179,8 +179,8 @@ static struct response preflight(void)
     return response;
 }
 
-bool admit_request(const struct http_app *app, struct request *request, const char *target,
-                   const struct route **out_route, struct response *out)
+bool request_checks_pass(const struct http_app *app, struct request *request, const char *target,
+                         const struct route **out_route, struct response *out)
 {
     struct error err = {0};
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* The head of an HTTP/1 request, read strictly (RFC 9112): whatever two parsers could understand
  * differently is refused. Pure: no sockets. */
-#ifndef SERVER_HEAD_H
-#define SERVER_HEAD_H
+#ifndef SERVER_HTTP_HEAD_H
+#define SERVER_HTTP_HEAD_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "protocol/limits.h"
 
-enum head_field {
+enum http_head_field {
     HEAD_HOST,
     HEAD_ORIGIN,
     HEAD_AUTHORIZATION,
@@ -25,7 +25,7 @@ enum head_field {
 
 /* The values that matter, as copies that end with NUL; NULL where the field is absent. Fields
  * which may be lists and come twice are joined by ", "; the others are refused when they do. */
-struct head {
+struct http_head {
     char *method, *target;
     int minor;     /* HTTP/1.minor */
     size_t length; /* bytes that were read */
@@ -35,27 +35,29 @@ struct head {
 };
 
 /* A refusal: HTTP status and what is wrong. */
-struct head_fault {
+struct http_head_fault {
     int status;
     const char *message;
 };
 
 /* Looks for the end of a head in `length` bytes of which the first `seen` have been looked at.
  * Bytes of the head including the empty line; 0: more are needed; -1: a byte that no head holds. */
-long head_end(const char *bytes, size_t length, size_t seen);
-/* Reads `length` bytes that head_end delimited. */
-bool head_read(const char *bytes, size_t length, struct head *out, struct head_fault *fault);
+long http_head_end(const char *bytes, size_t length, size_t seen);
+/* Reads `length` bytes that http_head_end delimited. */
+bool http_head_read(const char *bytes, size_t length, struct http_head *out,
+                    struct http_head_fault *fault);
 /* The same rule for one field of a request that somebody else parsed: duplicates excepted. `value`
  * is what stands behind the colon, with the white space behind it. */
-bool head_field_check(const char *name, size_t name_length, const char *value, size_t value_length,
-                      struct head_fault *fault);
+bool http_head_field_check(const char *name, size_t name_length, const char *value,
+                           size_t value_length, struct http_head_fault *fault);
 /* Rules between fields: one length at most, a transfer coding that is known, a Host. */
-bool head_framing_check(const char *host, const char *content_length, const char *transfer_encoding,
-                        int minor, struct head_fault *fault);
+bool http_head_framing_check(const char *host, const char *content_length,
+                             const char *transfer_encoding, int minor,
+                             struct http_head_fault *fault);
 
 /* True when the comma-separated `list` (may be NULL) holds `token`, case ignored. */
-bool head_list_has(const char *list, const char *token);
+bool http_head_list_has(const char *list, const char *token);
 /* A WebSocket handshake after RFC 6455 that offers the subprotocol. */
-bool head_is_upgrade(const struct head *head, const char *subprotocol);
+bool http_head_is_upgrade(const struct http_head *head, const char *subprotocol);
 
 #endif
