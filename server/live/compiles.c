@@ -48,7 +48,7 @@ int64_t compiles_expected(const struct compiles *compiles, size_t nodes)
     return sorted[count / 2];
 }
 
-static struct blob *message(const struct room *room, bool over, int64_t now_ms)
+static struct shared_buffer *message(const struct room *room, bool over, int64_t now_ms)
 {
     const int64_t expected = compiles_expected(room->hub->compiles, room->scene->node_count);
     cJSON *json = message_begin("compiling");
@@ -64,12 +64,12 @@ static struct blob *message(const struct room *room, bool over, int64_t now_ms)
 
 static void tell_all(const struct room *room, bool over, int64_t now_ms)
 {
-    struct blob *text = message(room, over, now_ms);
+    struct shared_buffer *text = message(room, over, now_ms);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, text);
     }
-    blob_unref(text);
+    shared_buffer_unref(text);
 }
 
 /* The worker has been told of a state of which it has not said yet whether it can be drawn. */

@@ -242,7 +242,8 @@ static cJSON *vector_or_null(const struct pick_result *result, const double v[3]
     return result->hit ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
 }
 
-static struct blob *picked_message(double pick, uint64_t revision, const struct pick_result *result)
+static struct shared_buffer *picked_message(double pick, uint64_t revision,
+                                            const struct pick_result *result)
 {
     cJSON *message = message_begin("picked");
 

@@ -9,13 +9,13 @@
 #include "protocol/memory.h"
 #include "room_state.h"
 
-void poster_set(struct room *room, struct blob *jpeg)
+void poster_set(struct room *room, struct shared_buffer *jpeg)
 {
     if (jpeg->length > LIMIT_POSTER_BYTES || jpeg == room->poster) {
         return;
     }
     poster_finish(room);
-    room->poster = blob_ref(jpeg);
+    room->poster = shared_buffer_ref(jpeg);
     room->poster_stored = false;
 }
 
@@ -39,33 +39,33 @@ void poster_store(struct room *room)
 void poster_finish(struct room *room)
 {
     if (room->poster) {
-        blob_unref(room->poster);
+        shared_buffer_unref(room->poster);
     }
     room->poster = NULL;
 }
 
-static struct blob *find_open(struct hub *hub, const char *scene)
+static struct shared_buffer *find_open(struct hub *hub, const char *scene)
 {
-    struct blob *poster = NULL;
+    struct shared_buffer *poster = NULL;
 
     hub_lock(hub);
     for (struct room *room = hub->rooms; room && !poster; room = room->next) {
         if (strcmp(room->id, scene) == 0 && room->poster) {
-            poster = blob_ref(room->poster);
+            poster = shared_buffer_ref(room->poster);
         }
     }
     hub_unlock(hub);
     return poster;
 }
 
-struct blob *poster_find(struct hub *hub, const char *scene)
+struct shared_buffer *poster_find(struct hub *hub, const char *scene)
 {
-    struct blob *poster = find_open(hub, scene);
+    struct shared_buffer *poster = find_open(hub, scene);
     size_t length = 0;
     void *bytes = NULL;
 
     if (!poster && store_load_poster(hub->store, scene, &bytes, &length, NULL)) {
-        poster = blob_create(bytes, length);
+        poster = shared_buffer_create(bytes, length);
     }
     free(bytes);
     return poster;

@@ -8,16 +8,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct blob;
+struct shared_buffer;
 struct hub;
 struct room;
 
 /* Takes a reference. A picture above LIMIT_POSTER_BYTES is passed over. */
-void poster_set(struct room *room, struct blob *jpeg);
+void poster_set(struct room *room, struct shared_buffer *jpeg);
 /* Queues a write where there is a new one. */
 void poster_store(struct room *room);
 void poster_finish(struct room *room);
 /* Takes the lock. A reference for the caller; NULL: there is none. */
-struct blob *poster_find(struct hub *hub, const char *scene);
+struct shared_buffer *poster_find(struct hub *hub, const char *scene);
 
 #endif

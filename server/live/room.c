@@ -156,7 +156,8 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
 
 static void tell_others(struct room *room, const struct room_change *change, const char *ops)
 {
-    struct blob *message = message_changed(room->revision, room_change_name(change), ops, 0);
+    struct shared_buffer *message =
+        message_changed(room->revision, room_change_name(change), ops, 0);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         if (session != change->session) {
@@ -164,7 +165,7 @@ static void tell_others(struct room *room, const struct room_change *change, con
         }
         stream_changed(session);
     }
-    blob_unref(message);
+    shared_buffer_unref(message);
 }
 
 /* The scene holds the change already; gives it a revision and tells everybody but the author. Takes
@@ -291,14 +292,14 @@ bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
 
 static void tell_document(struct room *room, const char *text)
 {
-    struct blob *message =
+    struct shared_buffer *message =
         room->sessions ? message_document(room->revision, text, strlen(text)) : NULL;
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
         stream_changed(session);
     }
-    blob_unref(message);
+    shared_buffer_unref(message);
 }
 
 struct scene *room_replace(struct room *room, struct scene *scene, char *text,
@@ -323,17 +324,18 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
 
 /* --- what others ask of it --- */
 
-struct blob *room_document_message(struct room *room)
+struct shared_buffer *room_document_message(struct room *room)
 {
-    struct blob *text = room_text(room);
-    struct blob *message =
+    struct shared_buffer *text = room_text(room);
+    struct shared_buffer *message =
         message_document(room->revision, (const char *)text->bytes, text->length - 1);
 
-    blob_unref(text);
+    shared_buffer_unref(text);
     return message;
 }
 
-struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client)
+struct shared_buffer *room_changed_message(const struct room *room, uint64_t revision,
+                                           const char *client)
 {
     const struct room_entry *entry = room_entry_of(room, revision);
     bool own = strcmp(entry->author, client) == 0;
@@ -344,10 +346,10 @@ struct blob *room_changed_message(const struct room *room, uint64_t revision, co
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
                    const char *text)
 {
-    struct blob *message = message_notice(level, code, place, text);
+    struct shared_buffer *message = message_notice(level, code, place, text);
 
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, message);
     }
-    blob_unref(message);
+    shared_buffer_unref(message);
 }

@@ -32,10 +32,11 @@ struct scene *room_replace(struct room *room, struct scene *scene, char *text,
                            const struct room_change *change);
 
 /* The `document` message, made of room_text; caller unrefs. */
-struct blob *room_document_message(struct room *room);
+struct shared_buffer *room_document_message(struct room *room);
 /* The `changed` message of a logged revision for `client`: `edit` only where that is the author.
  * Caller unrefs. */
-struct blob *room_changed_message(const struct room *room, uint64_t revision, const char *client);
+struct shared_buffer *room_changed_message(const struct room *room, uint64_t revision,
+                                           const char *client);
 void room_tell_all(struct room *room, const char *level, const char *code, const char *place,
                    const char *text);
 

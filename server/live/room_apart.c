@@ -26,9 +26,9 @@ bool room_is_heavy(const struct room *room)
 
 /* --- text --- */
 
-static struct blob *with_end(const char *text)
+static struct shared_buffer *with_end(const char *text)
 {
-    return blob_create(text, strlen(text) + 1);
+    return shared_buffer_create(text, strlen(text) + 1);
 }
 
 void room_keep_text(struct room *room, const char *text)
@@ -41,33 +41,33 @@ void room_keep_text(struct room *room, const char *text)
 
 void room_forget_text(struct room *room)
 {
-    blob_unref(room->text);
+    shared_buffer_unref(room->text);
     room->text = NULL;
 }
 
-static struct blob *print(const struct room *room)
+static struct shared_buffer *print(const struct room *room)
 {
     char *text = scene_print(room->scene, false);
-    struct blob *blob = with_end(text);
+    struct shared_buffer *buffer = with_end(text);
 
     free(text);
-    return blob;
+    return buffer;
 }
 
-struct blob *room_text(struct room *room)
+struct shared_buffer *room_text(struct room *room)
 {
     if (room->text) {
-        return blob_ref(room->text);
+        return shared_buffer_ref(room->text);
     }
     if (!room_is_heavy(room)) {
         return print(room);
     }
     room_hold(room);
     hub_unlock(room->hub);
-    struct blob *text = print(room);
+    struct shared_buffer *text = print(room);
     hub_lock(room->hub);
-    blob_unref(room->text);
-    room->text = blob_ref(text);
+    shared_buffer_unref(room->text);
+    room->text = shared_buffer_ref(text);
     room_release(room);
     return text;
 }

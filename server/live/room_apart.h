@@ -33,7 +33,7 @@ void room_release(struct room *room);
 
 /* What the document prints as. One of many nodes is printed without the lock and kept until the
  * next edit; only on threads of tasks then. A text with its NUL; caller unrefs. */
-struct blob *room_text(struct room *room);
+struct shared_buffer *room_text(struct room *room);
 /* Nobody may hold the room. With many operations it lets go of the lock. */
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err);

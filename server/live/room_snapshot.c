@@ -38,7 +38,7 @@ static void store_snapshot(void *data, bool dropped)
     }
     if (room) {
         room->snapshot_soon = false;
-        blob_unref(room_text(room));
+        shared_buffer_unref(room_text(room));
         room_snapshot(room);
     }
     hub_unlock(hub);

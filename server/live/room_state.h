@@ -12,7 +12,7 @@
 #include "protocol/id_set.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
-#include "server/net/outbox.h"
+#include "server/net/send_queue.h"
 
 struct hub;
 struct session;
@@ -78,8 +78,8 @@ struct room {
     int edits_since_snapshot;
     bool snapshot_soon; /* a task will store one */
     bool deleted;
-    struct blob *text;  /* what the document prints as; NULL: not known */
-    int64_t idle_since; /* clock_ms; 0: in use */
+    struct shared_buffer *text; /* what the document prints as; NULL: not known */
+    int64_t idle_since;         /* clock_ms; 0: in use */
     struct picker_field picks[PICKER_FIELDS];
 
     /* What the worker has of it. */
@@ -96,7 +96,7 @@ struct room {
     int patience;               /* times the usual time that a tile of it may take */
     struct error suspended;     /* why it is not drawn until it is edited; ERROR_NONE: it is */
     struct last_good last_good;
-    struct blob *poster; /* the last picture; NULL: none since the room was opened */
+    struct shared_buffer *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;
     struct error
         scene_error; /* why it cannot be drawn as it is; ERROR_NONE: it can, as far as known */

@@ -15,18 +15,18 @@ bool scene_error_is_refusal(const struct error *err)
 }
 
 /* Whatever rule is broken, it is the newest state that does not compile. */
-static struct blob *message(const struct error *err)
+static struct shared_buffer *message(const struct error *err)
 {
     return message_fault(
         "error", error_kind_name(scene_error_is_refusal(err) ? err->kind : ERROR_COMPILE), err);
 }
 
-static void tell_all(const struct room *room, struct blob *text)
+static void tell_all(const struct room *room, struct shared_buffer *text)
 {
     for (struct session *session = room->sessions; session; session = session->next) {
         session_send(session, text);
     }
-    blob_unref(text);
+    shared_buffer_unref(text);
 }
 
 static void end(struct room *room)

@@ -7,14 +7,14 @@
 
 #include "protocol/json.h"
 
-struct blob *message_print(cJSON *message)
+struct shared_buffer *message_print(cJSON *message)
 {
     char *text = json_print(message, false);
-    struct blob *blob = blob_create(text, strlen(text));
+    struct shared_buffer *buffer = shared_buffer_create(text, strlen(text));
 
     free(text);
     cJSON_Delete(message);
-    return blob;
+    return buffer;
 }
 
 cJSON *message_begin(const char *type)
@@ -25,15 +25,15 @@ cJSON *message_begin(const char *type)
     return message;
 }
 
-static struct blob *joined(char *text, size_t length)
+static struct shared_buffer *joined(char *text, size_t length)
 {
-    struct blob *blob = blob_create(text, length);
+    struct shared_buffer *buffer = shared_buffer_create(text, length);
 
     free(text);
-    return blob;
+    return buffer;
 }
 
-struct blob *message_document(uint64_t revision, const char *document, size_t bytes)
+struct shared_buffer *message_document(uint64_t revision, const char *document, size_t bytes)
 {
     char *text = NULL;
     size_t length = 0;
@@ -47,7 +47,8 @@ struct blob *message_document(uint64_t revision, const char *document, size_t by
 }
 
 /* An author's id needs no escapes: letters, digits, - and _ only. */
-struct blob *message_changed(uint64_t revision, const char *author, const char *ops, int64_t edit)
+struct shared_buffer *message_changed(uint64_t revision, const char *author, const char *ops,
+                                      int64_t edit)
 {
     char *text = NULL;
     size_t length = 0;
@@ -70,8 +71,8 @@ static void add_skipped(cJSON *message, const cJSON *skipped)
     }
 }
 
-struct blob *message_applied(int64_t edit, uint64_t revision, bool durable, size_t undo,
-                             size_t redo, const cJSON *skipped)
+struct shared_buffer *message_applied(int64_t edit, uint64_t revision, bool durable, size_t undo,
+                                      size_t redo, const cJSON *skipped)
 {
     cJSON *message = message_begin("applied");
 
@@ -102,7 +103,7 @@ static void add_error(cJSON *message, const struct error *err)
     }
 }
 
-struct blob *message_rejected(int64_t edit, const struct error *err, const cJSON *skipped)
+struct shared_buffer *message_rejected(int64_t edit, const struct error *err, const cJSON *skipped)
 {
     cJSON *message = message_begin("rejected");
 
@@ -113,7 +114,7 @@ struct blob *message_rejected(int64_t edit, const struct error *err, const cJSON
     return message_print(message);
 }
 
-struct blob *message_fault(const char *level, const char *code, const struct error *err)
+struct shared_buffer *message_fault(const char *level, const char *code, const struct error *err)
 {
     cJSON *message = message_begin("notice");
 
@@ -123,8 +124,8 @@ struct blob *message_fault(const char *level, const char *code, const struct err
     return message_print(message);
 }
 
-struct blob *message_notice(const char *level, const char *code, const char *place,
-                            const char *text)
+struct shared_buffer *message_notice(const char *level, const char *code, const char *place,
+                                     const char *text)
 {
     struct error err = {0};
 
@@ -132,7 +133,7 @@ struct blob *message_notice(const char *level, const char *code, const char *pla
     return message_fault(level, code, &err);
 }
 
-struct blob *message_bye(const char *reason, int retry_ms)
+struct shared_buffer *message_bye(const char *reason, int retry_ms)
 {
     cJSON *message = message_begin("bye");
 

@@ -7,25 +7,26 @@
 #include <cjson/cJSON.h>
 
 #include "protocol/error.h"
-#include "server/net/outbox.h"
+#include "server/net/send_queue.h"
 
 /* The text of a message; takes `message`. */
-struct blob *message_print(cJSON *message);
+struct shared_buffer *message_print(cJSON *message);
 /* An object with its `type` already in. */
 cJSON *message_begin(const char *type);
 /* {type, revision, document}: the parts as text, since documents are large. */
-struct blob *message_document(uint64_t revision, const char *document, size_t bytes);
+struct shared_buffer *message_document(uint64_t revision, const char *document, size_t bytes);
 /* `author`'s operations; `edit` 0 is left out. */
-struct blob *message_changed(uint64_t revision, const char *author, const char *ops, int64_t edit);
+struct shared_buffer *message_changed(uint64_t revision, const char *author, const char *ops,
+                                      int64_t edit);
 /* `skipped`: operations that an undo or redo left out; NULL: none. */
-struct blob *message_applied(int64_t edit, uint64_t revision, bool durable, size_t undo,
-                             size_t redo, const cJSON *skipped);
-struct blob *message_rejected(int64_t edit, const struct error *err, const cJSON *skipped);
-struct blob *message_notice(const char *level, const char *code, const char *place,
-                            const char *text);
+struct shared_buffer *message_applied(int64_t edit, uint64_t revision, bool durable, size_t undo,
+                                      size_t redo, const cJSON *skipped);
+struct shared_buffer *message_rejected(int64_t edit, const struct error *err, const cJSON *skipped);
+struct shared_buffer *message_notice(const char *level, const char *code, const char *place,
+                                     const char *text);
 /* A notice of something that is wrong, perhaps in a text. */
-struct blob *message_fault(const char *level, const char *code, const struct error *err);
+struct shared_buffer *message_fault(const char *level, const char *code, const struct error *err);
 /* `retry_ms` < 0: do not come back. */
-struct blob *message_bye(const char *reason, int retry_ms);
+struct shared_buffer *message_bye(const char *reason, int retry_ms);
 
 #endif

@@ -10,12 +10,12 @@
 #include "server/log.h"
 #include "server_message.h"
 
-void session_send(struct session *session, struct blob *message)
+void session_send(struct session *session, struct shared_buffer *message)
 {
     if (session->close_code) {
         return;
     }
-    if (!outbox_text(&session->outbox, message)) {
+    if (!send_queue_text(&session->send_queue, message)) {
         /* It can resume later; nothing more is kept for it. */
         log_info("session", "%s reads too slowly and is closed", session->id);
         session->close_code = CLOSE_TRY_LATER;
@@ -24,10 +24,10 @@ void session_send(struct session *session, struct blob *message)
     session->wake(session->connection);
 }
 
-void session_say(struct session *session, struct blob *message)
+void session_say(struct session *session, struct shared_buffer *message)
 {
     session_send(session, message);
-    blob_unref(message);
+    shared_buffer_unref(message);
 }
 
 void session_error(struct session *session, const struct error *err)
@@ -58,9 +58,10 @@ static void count_frame(struct session *session, size_t bytes)
     supervisor_wake(session->hub->supervisor);
 }
 
-bool session_next(struct session *session, uint8_t *out, struct outbox_piece *piece, int *out_code)
+bool session_next(struct session *session, uint8_t *out, struct send_queue_piece *piece,
+                  int *out_code)
 {
-    if (session->close_now || !outbox_next(&session->outbox, out, piece)) {
+    if (session->close_now || !send_queue_next(&session->send_queue, out, piece)) {
         *out_code = session->close_code;
         return false;
     }

@@ -26,7 +26,7 @@ struct session *session_create(struct hub *hub, void (*wake)(void *connection), 
     session->hub = hub;
     session->wake = wake;
     session->connection = connection;
-    outbox_init(&session->outbox);
+    send_queue_init(&session->send_queue);
     session->stream = memory_alloc(1, sizeof(*session->stream));
     stream_init(session->stream);
     metric_add(&hub->metrics, METRIC_SESSIONS, 1);
@@ -62,7 +62,7 @@ static void session_destroy(struct session *session)
     stream_finish(session);
     free(session->stream);
     session_leave_room(session);
-    outbox_finish(&session->outbox);
+    send_queue_finish(&session->send_queue);
     metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
     free(session);
 }

@@ -212,7 +212,8 @@ static bool line_is_free(const struct session *session, enum stream_stage stage)
 {
     bool precious;
 
-    return !outbox_has_frame(&session->outbox, &precious) || (stage == STREAM_MOVING && !precious);
+    return !send_queue_has_frame(&session->send_queue, &precious) ||
+           (stage == STREAM_MOVING && !precious);
 }
 
 /* --- how large a moving picture is --- */
@@ -368,14 +369,14 @@ static void send_frame(struct session *session, const struct picture_answer *ans
     const bool newest = answer->frame->newest && !(room->scene_error.kind != ERROR_NONE &&
                                                    revision < room->scene_error_revision);
     const struct frame_header header = header_of(session, answer, newest);
-    struct blob *payload = blob_create(answer->bytes, answer->length);
-    const uint32_t given_up = outbox_frame(&session->outbox, &header, payload);
+    struct shared_buffer *payload = shared_buffer_create(answer->bytes, answer->length);
+    const uint32_t given_up = send_queue_frame(&session->send_queue, &header, payload);
 
     if (stream->job_stage == STREAM_STILL && header.codec == CODEC_JPEG && newest &&
         newest_view(stream)->picture.isolate.count == 0) {
         poster_set(session->room, payload);
     }
-    blob_unref(payload);
+    shared_buffer_unref(payload);
     if (given_up) {
         free_flight(stream, given_up);
         metric_add(&session->hub->metrics, METRIC_FRAMES_DROPPED, 1);
@@ -419,7 +420,7 @@ static void on_round(void *data, const struct picture_answer *answer)
         line_is_free(session, session->stream->job_stage)) {
         send_frame(session, answer);
     } else {
-        outbox_skip(&session->outbox);
+        send_queue_skip(&session->send_queue);
     }
 }
 
@@ -458,7 +459,7 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "fast", true);
     record_put(delivery, "exact", rule->exact);
     record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
-    record_put(delivery, "key", outbox_wants_key(&session->outbox));
+    record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
     out->codec = may_be_jpeg(session, picture) ? rule->codec : CODEC_PNG;
 }
 

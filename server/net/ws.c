@@ -12,9 +12,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "outbox.h"
 #include "protocol/memory.h"
 #include "protocol/utf8.h"
+#include "send_queue.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "server/metrics.h"
@@ -63,7 +63,7 @@ struct ws {
     struct link *adopted;
     /* The service thread's. */
     struct link *links, *adopting;
-    uint8_t scratch[LWS_PRE + FRAME_HEADER_BYTES + OUTBOX_PART_BYTES];
+    uint8_t scratch[LWS_PRE + FRAME_HEADER_BYTES + SEND_QUEUE_PART_BYTES];
 };
 
 static const lws_retry_bo_t idle_policy = {.secs_since_valid_ping = PING_SECONDS,
@@ -328,11 +328,11 @@ static void on_timer(struct link *link)
 
 /* --- writing --- */
 
-static enum lws_write_protocol write_mode(const struct outbox_piece *piece)
+static enum lws_write_protocol write_mode(const struct send_queue_piece *piece)
 {
-    int mode = !piece->first                ? LWS_WRITE_CONTINUATION
-               : piece->kind == OUTBOX_TEXT ? LWS_WRITE_TEXT
-                                            : LWS_WRITE_BINARY;
+    int mode = !piece->first                    ? LWS_WRITE_CONTINUATION
+               : piece->kind == SEND_QUEUE_TEXT ? LWS_WRITE_TEXT
+                                                : LWS_WRITE_BINARY;
 
     return (enum lws_write_protocol)(mode | (piece->last ? 0 : LWS_WRITE_NO_FIN));
 }
@@ -365,7 +365,7 @@ static int on_peer_close(struct link *link)
 static int write_piece(struct link *link)
 {
     struct ws *ws = link->ws;
-    struct outbox_piece piece;
+    struct send_queue_piece piece;
     int code = 0;
 
     ws->app.lock(ws->app.hub);

@@ -24,7 +24,7 @@ enum {
 
 struct hub;
 struct metrics;
-struct outbox_piece;
+struct send_queue_piece;
 struct session;
 struct ws;
 
@@ -48,7 +48,8 @@ struct ws_app {
     bool (*said_hello)(const struct session *session);
     /* The next piece to write. False: there is none, and the connection is to be closed with
      * `*out_code`, if that is not 0. */
-    bool (*next)(struct session *session, uint8_t *out, struct outbox_piece *piece, int *out_code);
+    bool (*next)(struct session *session, uint8_t *out, struct send_queue_piece *piece,
+                 int *out_code);
     void (*close)(struct session *session, int code, const char *reason, int retry_ms);
 };
 

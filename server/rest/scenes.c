@@ -132,13 +132,13 @@ void scenes_read(struct request *request)
     tag_of(room, tag);
     struct response response = {.status = 304, .body = "", .borrowed = true};
     if (!request_tag_listed(request_header(request, "If-None-Match"), tag)) {
-        struct blob *text = room_text(room);
+        struct shared_buffer *text = room_text(room);
 
         response = (struct response){.status = 200, .type = "application/json"};
         response.length = text->length - 1;
         response.body = memory_alloc(text->length, 1);
         memcpy(response.body, text->bytes, text->length);
-        blob_unref(text);
+        shared_buffer_unref(text);
         response_add(&response, "Fieldcast-Revision", "%" PRIu64, room->revision);
     }
     hub_unlock(request->hub);
@@ -150,7 +150,7 @@ void scenes_read(struct request *request)
 void scenes_poster(struct request *request)
 {
     struct hub *hub = request->hub;
-    struct blob *poster = poster_find(hub, request->capture[0]);
+    struct shared_buffer *poster = poster_find(hub, request->capture[0]);
     struct response response = {.status = 204, .body = "", .borrowed = true};
     struct error err = {0};
 
@@ -167,7 +167,7 @@ void scenes_poster(struct request *request)
     response.length = poster->length;
     response.body = memory_alloc(poster->length, 1);
     memcpy(response.body, poster->bytes, poster->length);
-    blob_unref(poster);
+    shared_buffer_unref(poster);
     response_add(&response, "Cache-Control", "no-cache");
     request_reply(request, &response);
 }
@@ -190,7 +190,7 @@ static bool check_match(const struct request *request, const struct room *room, 
 
 /* Takes `scene` and `notes`. `poster`: what it looks like; NULL: that is not known. */
 static void create(struct request *request, const char *id, struct scene *scene, cJSON *notes,
-                   struct blob *poster)
+                   struct shared_buffer *poster)
 {
     struct error err = {0};
     struct waiting *waiting = wait_for(request, 201, id);
@@ -267,12 +267,12 @@ static struct scene *scene_from(struct hub *hub, const cJSON *json, struct error
 }
 
 /* Of what a new scene is made. */
-static struct blob *poster_from(struct hub *hub, const cJSON *json)
+static struct shared_buffer *poster_from(struct hub *hub, const cJSON *json)
 {
     const char *from = json_member_text(json, "from", "");
     const struct embedded *card = strncmp(from, "example:", 8) == 0 ? cards_find(from + 8) : NULL;
 
-    return card                              ? blob_create(card->bytes, card->length)
+    return card                              ? shared_buffer_create(card->bytes, card->length)
            : strncmp(from, "scene:", 6) == 0 ? poster_find(hub, from + 6)
                                              : NULL;
 }
@@ -284,7 +284,7 @@ void scenes_create(struct request *request)
     const char *id = request_query(request, "id");
     cJSON *json = NULL;
     struct scene *scene = NULL;
-    struct blob *poster = NULL;
+    struct shared_buffer *poster = NULL;
 
     if (request_check_query(request, queries, &err)) {
         json = json_parse(request->body ? request->body : "", request->body_length, &err);
@@ -298,7 +298,7 @@ void scenes_create(struct request *request)
     }
     create(request, id ? id : "", scene, NULL, poster);
     if (poster) {
-        blob_unref(poster);
+        shared_buffer_unref(poster);
     }
 }
 

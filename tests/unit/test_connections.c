@@ -12,7 +12,7 @@
 #include "protocol/memory.h"
 #include "server/net/access.h"
 #include "server/net/http_head.h"
-#include "server/net/outbox.h"
+#include "server/net/send_queue.h"
 
 /* --- heads --- */
 
@@ -120,103 +120,103 @@ static void keeps_strangers_out(void **state)
     assert_int_equal(verdict(&guarded, "any", "https://evil.example", "Bearer secret", NULL), 403);
 }
 
-/* --- outbox --- */
+/* --- send queue --- */
 
-static struct blob *letters(char letter, size_t length)
+static struct shared_buffer *letters(char letter, size_t length)
 {
     char *bytes = memory_alloc(length, 1);
-    struct blob *blob;
+    struct shared_buffer *buffer;
 
     memset(bytes, letter, length);
-    blob = blob_create(bytes, length);
+    buffer = shared_buffer_create(bytes, length);
     free(bytes);
-    return blob;
+    return buffer;
 }
 
-static void add_text(struct outbox *outbox, char letter, size_t length, bool fits)
+static void add_text(struct send_queue *queue, char letter, size_t length, bool fits)
 {
-    struct blob *blob = letters(letter, length);
+    struct shared_buffer *buffer = letters(letter, length);
 
-    assert_int_equal(outbox_text(outbox, blob), fits);
-    blob_unref(blob);
+    assert_int_equal(send_queue_text(queue, buffer), fits);
+    shared_buffer_unref(buffer);
 }
 
-static uint32_t add_frame(struct outbox *outbox, uint32_t number, uint8_t flags, size_t length)
+static uint32_t add_frame(struct send_queue *queue, uint32_t number, uint8_t flags, size_t length)
 {
-    struct blob *blob = letters('f', length);
+    struct shared_buffer *buffer = letters('f', length);
     struct frame_header header = {
         .number = number, .flags = flags, .payload_bytes = (uint32_t)length};
-    uint32_t given_up = outbox_frame(outbox, &header, blob);
+    uint32_t given_up = send_queue_frame(queue, &header, buffer);
 
-    blob_unref(blob);
+    shared_buffer_unref(buffer);
     return given_up;
 }
 
-static uint8_t scratch[FRAME_HEADER_BYTES + OUTBOX_PART_BYTES];
+static uint8_t scratch[FRAME_HEADER_BYTES + SEND_QUEUE_PART_BYTES];
 
 static void texts_go_between_the_parts_of_a_frame(void **state)
 {
-    struct outbox outbox;
-    struct outbox_piece piece;
+    struct send_queue queue;
+    struct send_queue_piece piece;
 
     (void)state;
-    outbox_init(&outbox);
-    add_frame(&outbox, 1, FRAME_KEY, 2 * OUTBOX_PART_BYTES + 10);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    send_queue_init(&queue);
+    add_frame(&queue, 1, FRAME_KEY, 2 * SEND_QUEUE_PART_BYTES + 10);
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_memory_equal(scratch, "FCF1", 4);
     assert_int_equal(piece.frame_done, 0);
-    add_text(&outbox, 't', OUTBOX_PART_BYTES + 1, true);
-    assert_true(outbox_next(&outbox, scratch, &piece));
-    assert_true(piece.kind == OUTBOX_TEXT && piece.first && !piece.last);
-    assert_true(outbox_next(&outbox, scratch, &piece));
-    assert_true(piece.kind == OUTBOX_TEXT && !piece.first && piece.last && piece.length == 1);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    add_text(&queue, 't', SEND_QUEUE_PART_BYTES + 1, true);
+    assert_true(send_queue_next(&queue, scratch, &piece));
+    assert_true(piece.kind == SEND_QUEUE_TEXT && piece.first && !piece.last);
+    assert_true(send_queue_next(&queue, scratch, &piece));
+    assert_true(piece.kind == SEND_QUEUE_TEXT && !piece.first && piece.last && piece.length == 1);
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_memory_equal(scratch, "FCFP", 4);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_int_equal(piece.frame_done, 1);
     assert_int_equal(piece.length, FRAME_PART_HEADER_BYTES + 10);
-    assert_true(outbox_is_empty(&outbox));
-    outbox_finish(&outbox);
+    assert_true(send_queue_is_empty(&queue));
+    send_queue_finish(&queue);
 }
 
 static void the_newest_frame_wins(void **state)
 {
-    struct outbox outbox;
-    struct outbox_piece piece;
+    struct send_queue queue;
+    struct send_queue_piece piece;
 
     (void)state;
-    outbox_init(&outbox);
-    assert_int_equal(add_frame(&outbox, 1, FRAME_KEY, 10), 0);
-    assert_int_equal(add_frame(&outbox, 2, FRAME_KEY, 2 * OUTBOX_PART_BYTES), 1);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    send_queue_init(&queue);
+    assert_int_equal(add_frame(&queue, 1, FRAME_KEY, 10), 0);
+    assert_int_equal(add_frame(&queue, 2, FRAME_KEY, 2 * SEND_QUEUE_PART_BYTES), 1);
+    assert_true(send_queue_next(&queue, scratch, &piece));
     /* A moving one that is begun is finished, and only the one behind it can be replaced. */
-    assert_int_equal(add_frame(&outbox, 3, FRAME_KEY, 10), 0);
-    assert_int_equal(add_frame(&outbox, 4, FRAME_KEY, 10), 3);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_int_equal(add_frame(&queue, 3, FRAME_KEY, 10), 0);
+    assert_int_equal(add_frame(&queue, 4, FRAME_KEY, 10), 3);
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_int_equal(piece.frame_done, 2);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_int_equal(piece.frame_done, 4);
     /* A still one is given up even when it is begun. */
-    add_frame(&outbox, 5, FRAME_KEY | FRAME_STILL, 3 * OUTBOX_PART_BYTES);
-    assert_true(outbox_next(&outbox, scratch, &piece));
-    assert_int_equal(add_frame(&outbox, 6, FRAME_KEY, 10), 5);
-    assert_true(outbox_next(&outbox, scratch, &piece));
+    add_frame(&queue, 5, FRAME_KEY | FRAME_STILL, 3 * SEND_QUEUE_PART_BYTES);
+    assert_true(send_queue_next(&queue, scratch, &piece));
+    assert_int_equal(add_frame(&queue, 6, FRAME_KEY, 10), 5);
+    assert_true(send_queue_next(&queue, scratch, &piece));
     assert_int_equal(piece.frame_done, 6);
-    assert_true(outbox_is_empty(&outbox));
-    outbox_finish(&outbox);
+    assert_true(send_queue_is_empty(&queue));
+    send_queue_finish(&queue);
 }
 
 static void what_waits_is_bounded(void **state)
 {
-    struct outbox outbox;
+    struct send_queue queue;
 
     (void)state;
-    outbox_init(&outbox);
-    add_text(&outbox, 'd', 10 * OUTBOX_TEXT_BYTES, true); /* a first message may be large */
-    add_text(&outbox, 'c', OUTBOX_TEXT_BYTES, true);
-    add_text(&outbox, 'c', 1, true);
-    add_text(&outbox, 'c', 1, false);
-    outbox_finish(&outbox);
+    send_queue_init(&queue);
+    add_text(&queue, 'd', 10 * SEND_QUEUE_TEXT_BYTES, true); /* a first message may be large */
+    add_text(&queue, 'c', SEND_QUEUE_TEXT_BYTES, true);
+    add_text(&queue, 'c', 1, true);
+    add_text(&queue, 'c', 1, false);
+    send_queue_finish(&queue);
 }
 
 int main(void)

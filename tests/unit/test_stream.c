@@ -12,7 +12,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/stream_encoder.h"
-#include "server/net/outbox.h"
+#include "server/net/send_queue.h"
 
 /* --- an encoder whose pictures depend on each other --- */
 
@@ -64,8 +64,8 @@ static bool delta_end(void *state, struct stream_packet *out, struct error *err)
 
 static const struct stream_class deltas = {delta_open, delta_begin, delta_add, delta_end, free};
 
-/* A picture as a blob. */
-static struct blob *push(struct stream_encoder *stream, struct stream_packet *out)
+/* A picture as a buffer. */
+static struct shared_buffer *push(struct stream_encoder *stream, struct stream_packet *out)
 {
     static const struct image shapes[AOV_COUNT];
     char *bytes = NULL;
@@ -75,16 +75,16 @@ static struct blob *push(struct stream_encoder *stream, struct stream_packet *ou
     assert_true(stream_encoder_begin(stream, shapes, &(struct encode_params){0}, file, NULL));
     assert_true(stream_encoder_end(stream, out, NULL));
     fclose(file);
-    struct blob *blob = blob_create(bytes, length);
+    struct shared_buffer *buffer = shared_buffer_create(bytes, length);
     free(bytes);
-    return blob;
+    return buffer;
 }
 
 static bool push_is_key(struct stream_encoder *stream)
 {
     struct stream_packet packet;
 
-    blob_unref(push(stream, &packet));
+    shared_buffer_unref(push(stream, &packet));
     return packet.key;
 }
 
@@ -142,7 +142,7 @@ static void pictures_are_keys(void **state)
 
 /* A viewer behind a line. */
 struct viewer {
-    struct outbox outbox;
+    struct send_queue send_queue;
     struct stream_encoder *stream;
     uint32_t number, decoded; /* the newest picture made, and seen */
     int keys, shown, dropped;
@@ -151,44 +151,44 @@ struct viewer {
 static void start(struct viewer *viewer)
 {
     *viewer = (struct viewer){.stream = stream_encoder_open(&deltas)};
-    outbox_init(&viewer->outbox);
+    send_queue_init(&viewer->send_queue);
 }
 
 static void finish(struct viewer *viewer)
 {
-    outbox_finish(&viewer->outbox);
+    send_queue_finish(&viewer->send_queue);
     stream_encoder_close(viewer->stream);
 }
 
-/* Returns what outbox_frame does. */
+/* Returns what send_queue_frame does. */
 static uint32_t show(struct viewer *viewer, uint8_t flags)
 {
     struct stream_packet packet;
 
-    if (outbox_wants_key(&viewer->outbox)) {
+    if (send_queue_wants_key(&viewer->send_queue)) {
         stream_encoder_ask_key(viewer->stream);
     }
-    struct blob *bytes = push(viewer->stream, &packet);
+    struct shared_buffer *bytes = push(viewer->stream, &packet);
     const struct frame_header header = {.codec = packet.codec,
                                         .flags = flags | (packet.key ? FRAME_KEY : 0),
                                         .number = ++viewer->number,
                                         .payload_bytes = (uint32_t)bytes->length};
-    const uint32_t given_up = outbox_frame(&viewer->outbox, &header, bytes);
+    const uint32_t given_up = send_queue_frame(&viewer->send_queue, &header, bytes);
 
     viewer->keys += packet.key;
     viewer->dropped += given_up > 0;
-    blob_unref(bytes);
+    shared_buffer_unref(bytes);
     return given_up;
 }
 
 /* The line takes a piece. A whole frame is one that can be decoded. */
 static void take(struct viewer *viewer)
 {
-    static uint8_t bytes[OUTBOX_PART_BYTES + FRAME_HEADER_BYTES];
-    struct outbox_piece piece;
+    static uint8_t bytes[SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES];
+    struct send_queue_piece piece;
     uint32_t base;
 
-    if (!outbox_next(&viewer->outbox, bytes, &piece) || !piece.frame_done) {
+    if (!send_queue_next(&viewer->send_queue, bytes, &piece) || !piece.frame_done) {
         return;
     }
     memcpy(&base, bytes + FRAME_HEADER_BYTES, sizeof(base));
@@ -226,9 +226,9 @@ static void a_frame_takes_no_place_that_it_needs(void **state)
     take(&viewer);
     assert_int_equal(show(&viewer, 0), 0);
     assert_int_equal(show(&viewer, 0), 3); /* itself */
-    assert_true(outbox_wants_key(&viewer.outbox));
+    assert_true(send_queue_wants_key(&viewer.send_queue));
     assert_int_equal(show(&viewer, 0), 2); /* a key */
-    assert_false(outbox_wants_key(&viewer.outbox));
+    assert_false(send_queue_wants_key(&viewer.send_queue));
     take(&viewer);
     assert_int_equal(viewer.decoded, 4);
     assert_int_equal(viewer.keys, 2);
@@ -239,24 +239,24 @@ static void a_frame_takes_no_place_that_it_needs(void **state)
 static void a_lost_frame_takes_its_dependants(void **state)
 {
     struct viewer viewer;
-    struct blob *bytes;
+    struct shared_buffer *bytes;
     struct stream_packet packet;
 
     (void)state;
     start(&viewer);
     show(&viewer, 0);
     take(&viewer);
-    blob_unref(push(viewer.stream, &packet));
+    shared_buffer_unref(push(viewer.stream, &packet));
     viewer.number++;
-    outbox_skip(&viewer.outbox);
-    assert_true(outbox_wants_key(&viewer.outbox));
+    send_queue_skip(&viewer.send_queue);
+    assert_true(send_queue_wants_key(&viewer.send_queue));
     for (int i = 0; i < 3; i++) { /* made before the wish for a key came */
         bytes = push(viewer.stream, &packet);
         const struct frame_header header = {.number = ++viewer.number, .payload_bytes = 4};
 
-        assert_int_equal(outbox_frame(&viewer.outbox, &header, bytes), viewer.number);
-        assert_true(outbox_is_empty(&viewer.outbox));
-        blob_unref(bytes);
+        assert_int_equal(send_queue_frame(&viewer.send_queue, &header, bytes), viewer.number);
+        assert_true(send_queue_is_empty(&viewer.send_queue));
+        shared_buffer_unref(bytes);
     }
     assert_int_equal(show(&viewer, 0), 0);
     take(&viewer);
@@ -280,10 +280,10 @@ static void what_arrives_can_be_decoded(void **state)
             }
             show(&viewer, (chance >> 24) % 3 == 0 ? FRAME_STILL : 0);
             if ((chance >> 20) % 16 == 0) {
-                outbox_skip(&viewer.outbox);
+                send_queue_skip(&viewer.send_queue);
             }
         }
-        while (!outbox_is_empty(&viewer.outbox)) {
+        while (!send_queue_is_empty(&viewer.send_queue)) {
             take(&viewer);
         }
         assert_true(viewer.shown > 0 && viewer.shown + viewer.dropped == 300);

@@ -5,10 +5,10 @@
  *
  * Frames are a stream: a key decodes alone, any other one with all frames since the last key. So
  * one that is lost takes those with it that follow until the next key, which is asked for
- * (outbox_wants_key). A key takes the place of what waits; no other frame does, since it needs
+ * (send_queue_wants_key). A key takes the place of what waits; no other frame does, since it needs
  * that. */
-#ifndef SERVER_OUTBOX_H
-#define SERVER_OUTBOX_H
+#ifndef SERVER_SEND_QUEUE_H
+#define SERVER_SEND_QUEUE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,22 +17,22 @@
 #include "protocol/messages.h"
 
 enum {
-    OUTBOX_PART_BYTES = 65536,
-    OUTBOX_TEXT_BYTES = 2097152, /* queued for one client at most, behind a first message */
+    SEND_QUEUE_PART_BYTES = 65536,
+    SEND_QUEUE_TEXT_BYTES = 2097152, /* queued for one client at most, behind a first message */
 };
 
 /* Immutable bytes shared by those who send them. */
-struct blob {
+struct shared_buffer {
     _Atomic int references;
     size_t length;
     uint8_t bytes[];
 };
-struct blob *blob_create(const void *bytes, size_t length);
-struct blob *blob_ref(struct blob *blob);
-void blob_unref(struct blob *blob);
+struct shared_buffer *shared_buffer_create(const void *bytes, size_t length);
+struct shared_buffer *shared_buffer_ref(struct shared_buffer *buffer);
+void shared_buffer_unref(struct shared_buffer *buffer);
 
-struct outbox_frame {
-    struct blob *payload; /* NULL: no frame */
+struct send_queue_frame {
+    struct shared_buffer *payload; /* NULL: no frame */
     uint8_t header[FRAME_HEADER_BYTES];
     uint32_t number;
     bool precious; /* a moving picture, which is finished once begun */
@@ -40,43 +40,43 @@ struct outbox_frame {
     bool begun;
 };
 
-struct outbox_text;
+struct send_queue_text;
 
-struct outbox {
-    struct outbox_text *first, **end;
+struct send_queue {
+    struct send_queue_text *first, **end;
     size_t text_bytes, text_offset;
-    struct outbox_frame current, next;
+    struct send_queue_frame current, next;
     bool linked; /* what comes next can build on the last frame: none has been lost since a key */
 };
 
-enum outbox_kind { OUTBOX_TEXT, OUTBOX_BINARY };
+enum send_queue_kind { SEND_QUEUE_TEXT, SEND_QUEUE_BINARY };
 
 /* One write: a piece of a text message or a whole binary message. */
-struct outbox_piece {
-    enum outbox_kind kind;
+struct send_queue_piece {
+    enum send_queue_kind kind;
     bool first, last; /* of its WebSocket message */
     size_t length;
     uint32_t frame_done; /* number of the frame that this completes; 0: none */
     size_t frame_bytes;
 };
 
-void outbox_init(struct outbox *outbox);
-void outbox_finish(struct outbox *outbox);
+void send_queue_init(struct send_queue *queue);
+void send_queue_finish(struct send_queue *queue);
 /* Takes a reference of its own. False: too much waits already; nothing was queued. */
-bool outbox_text(struct outbox *outbox, struct blob *text);
+bool send_queue_text(struct send_queue *queue, struct shared_buffer *text);
 /* Queues a frame. Returns the number of the frame that is given up: an older one, this one where it
  * cannot be decoded or would take the place of what it needs, or 0. */
-uint32_t outbox_frame(struct outbox *outbox, const struct frame_header *header,
-                      struct blob *payload);
+uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *header,
+                          struct shared_buffer *payload);
 /* A frame of the stream, a key or not, is not queued at all. */
-void outbox_skip(struct outbox *outbox);
+void send_queue_skip(struct send_queue *queue);
 /* No other frame than a key would be queued. */
-bool outbox_wants_key(const struct outbox *outbox);
-bool outbox_is_empty(const struct outbox *outbox);
+bool send_queue_wants_key(const struct send_queue *queue);
+bool send_queue_is_empty(const struct send_queue *queue);
 /* A frame waits to be written. `*out_precious`: it would not be given up for a newer one. */
-bool outbox_has_frame(const struct outbox *outbox, bool *out_precious);
-/* Copies the next piece to `out`, which holds OUTBOX_PART_BYTES + FRAME_HEADER_BYTES. False: there
- * is nothing. */
-bool outbox_next(struct outbox *outbox, uint8_t *out, struct outbox_piece *piece);
+bool send_queue_has_frame(const struct send_queue *queue, bool *out_precious);
+/* Copies the next piece to `out`, which holds SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES. False:
+ * there is nothing. */
+bool send_queue_next(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece);
 
 #endif
