@@ -26,9 +26,9 @@ enum {
 /* Whether somebody waits for the compiler, or a picture is read. */
 static bool is_compiling(const struct worker *w)
 {
-    for (const struct held *held = w->scenes; held; held = held->next) {
-        if (resident_shown_revision(held->resident) != resident_revision(held->resident) &&
-            resident_error(held->resident)->kind == ERROR_NONE) {
+    for (const struct worker_scene *entry = w->scenes; entry; entry = entry->next) {
+        if (resident_shown_revision(entry->resident) != resident_revision(entry->resident) &&
+            resident_error(entry->resident)->kind == ERROR_NONE) {
             return true;
         }
     }

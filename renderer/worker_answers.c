@@ -84,13 +84,13 @@ void worker_send_suspect(struct worker *w, enum packet_to_front kind,
 
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck)
 {
-    const struct held *held =
+    const struct worker_scene *entry =
         *stuck->image ? worker_find_image(w, stuck->image) : worker_find_shape(w, stuck->shape);
 
     worker_send_suspect(
         w, TO_FRONT_SLOW,
-        &(struct packet_suspect){.scene = held ? held->name : "",
-                                 .revision = held ? resident_revision(held->resident) : 0,
+        &(struct packet_suspect){.scene = entry ? entry->name : "",
+                                 .revision = entry ? resident_revision(entry->resident) : 0,
                                  .shape = *stuck->image ? 0 : stuck->shape,
                                  .asset = stuck->image,
                                  .still = stuck->still,

@@ -9,12 +9,12 @@
 #include "worker.h"
 
 /* A scene, and what the front was told of it. */
-struct held {
+struct worker_scene {
     char *name;
     struct resident *resident;
     uint64_t told_shown, told_broken;
     struct error told_warning;
-    struct held *next;
+    struct worker_scene *next;
 };
 
 /* A picture that was asked for. */
@@ -46,7 +46,7 @@ struct worker {
     struct packet_reader in;
     uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
     size_t out_sent, out_length, out_capacity;
-    struct held *scenes;
+    struct worker_scene *scenes;
     struct task *tasks;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
@@ -80,12 +80,12 @@ void worker_send_suspect(struct worker *w, enum packet_to_front kind,
 
 /* --- worker_scenes.c --- */
 
-struct held **worker_find_scene(struct worker *w, const char *name);
-void worker_drop_scene(struct held **at);
+struct worker_scene **worker_find_scene(struct worker *w, const char *name);
+void worker_drop_scene(struct worker_scene **at);
 /* One that needs this shape; NULL: none. */
-const struct held *worker_find_shape(const struct worker *w, uint64_t shape);
+const struct worker_scene *worker_find_shape(const struct worker *w, uint64_t shape);
 /* One whose environment is this file. */
-const struct held *worker_find_image(const struct worker *w, const char *image);
+const struct worker_scene *worker_find_image(const struct worker *w, const char *image);
 /* Tells the front what has become drawable, or never will. */
 void worker_announce(struct worker *w);
 /* renderer_params.on_compile; `data` is the worker. */

@@ -51,10 +51,10 @@ static bool begin_encoding(struct worker *w, struct task *task, struct error *er
 static bool begin_task(struct worker *w, const struct packet_render *packet, struct task *task,
                        struct error *err)
 {
-    const struct held *held = *worker_find_scene(w, task->scene);
+    const struct worker_scene *entry = *worker_find_scene(w, task->scene);
     struct job_desc desc = job_desc_of(packet->request);
 
-    if (!held) {
+    if (!entry) {
         return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
     }
     desc.careful = packet->careful;
@@ -65,12 +65,12 @@ static bool begin_task(struct worker *w, const struct packet_render *packet, str
         stream_encoder_ask_key(task->stream);
     }
     task->encode.limit_bytes = LIMIT_IMAGE_BYTES;
-    task->job = job_create(held->resident, &desc, err);
+    task->job = job_create(entry->resident, &desc, err);
     if (!task->job) {
         return false;
     }
     task->revision = job_revision(task->job);
-    task->newest = task->revision == resident_revision(held->resident);
+    task->newest = task->revision == resident_revision(entry->resident);
     return begin_encoding(w, task, err);
 }
 

@@ -6,9 +6,9 @@
 #include "protocol/memory.h"
 #include "worker_parts.h"
 
-struct held **worker_find_scene(struct worker *w, const char *name)
+struct worker_scene **worker_find_scene(struct worker *w, const char *name)
 {
-    struct held **at = &w->scenes;
+    struct worker_scene **at = &w->scenes;
 
     while (*at && strcmp((*at)->name, name) != 0) {
         at = &(*at)->next;
@@ -16,30 +16,30 @@ struct held **worker_find_scene(struct worker *w, const char *name)
     return at;
 }
 
-const struct held *worker_find_shape(const struct worker *w, uint64_t shape)
+const struct worker_scene *worker_find_shape(const struct worker *w, uint64_t shape)
 {
-    const struct held *held = w->scenes;
+    const struct worker_scene *entry = w->scenes;
 
-    while (held && resident_shape(held->resident) != shape) {
-        held = held->next;
+    while (entry && resident_shape(entry->resident) != shape) {
+        entry = entry->next;
     }
-    return held;
+    return entry;
 }
 
-const struct held *worker_find_image(const struct worker *w, const char *image)
+const struct worker_scene *worker_find_image(const struct worker *w, const char *image)
 {
-    const struct held *held = w->scenes;
+    const struct worker_scene *entry = w->scenes;
 
-    while (held &&
-           strcmp(record_text(&resident_scene(held->resident)->environment, "image"), image) != 0) {
-        held = held->next;
+    while (entry && strcmp(record_text(&resident_scene(entry->resident)->environment, "image"),
+                           image) != 0) {
+        entry = entry->next;
     }
-    return held;
+    return entry;
 }
 
-void worker_drop_scene(struct held **at)
+void worker_drop_scene(struct worker_scene **at)
 {
-    struct held *gone = *at;
+    struct worker_scene *gone = *at;
 
     *at = gone->next;
     resident_destroy(gone->resident);
@@ -47,65 +47,65 @@ void worker_drop_scene(struct held **at)
     free(gone);
 }
 
-static void announce_warning(struct worker *w, struct held *held)
+static void announce_warning(struct worker *w, struct worker_scene *entry)
 {
-    const struct warning *warning = resident_warning(held->resident);
+    const struct warning *warning = resident_warning(entry->resident);
     const struct error *err = &warning->error;
-    const bool known = strcmp(err->place, held->told_warning.place) == 0 &&
-                       strcmp(err->message, held->told_warning.message) == 0;
+    const bool known = strcmp(err->place, entry->told_warning.place) == 0 &&
+                       strcmp(err->message, entry->told_warning.message) == 0;
 
     if (err->kind != ERROR_NONE && !known) {
         worker_send(w, &(struct packet){.kind = TO_FRONT_WARNED,
-                                        .state = {.scene = held->name,
-                                                  .revision = resident_revision(held->resident),
+                                        .state = {.scene = entry->name,
+                                                  .revision = resident_revision(entry->resident),
                                                   .warning = warning->kind,
                                                   .error = *err}});
     }
-    held->told_warning = *err;
+    entry->told_warning = *err;
 }
 
 void worker_announce(struct worker *w)
 {
-    for (struct held *held = w->scenes; held; held = held->next) {
-        const uint64_t shown = resident_shown_revision(held->resident);
-        const uint64_t revision = resident_revision(held->resident);
-        const struct error *err = resident_error(held->resident);
+    for (struct worker_scene *entry = w->scenes; entry; entry = entry->next) {
+        const uint64_t shown = resident_shown_revision(entry->resident);
+        const uint64_t revision = resident_revision(entry->resident);
+        const struct error *err = resident_error(entry->resident);
 
-        if (shown != held->told_shown) {
+        if (shown != entry->told_shown) {
             worker_send(w, &(struct packet){.kind = TO_FRONT_SHOWN,
-                                            .state = {.scene = held->name, .revision = shown}});
-            held->told_shown = shown;
+                                            .state = {.scene = entry->name, .revision = shown}});
+            entry->told_shown = shown;
         }
-        if (err->kind != ERROR_NONE && held->told_broken != revision) {
-            worker_send_broken(w, held->name, revision, err,
-                               resident_refused_shape(held->resident));
-            held->told_broken = revision;
+        if (err->kind != ERROR_NONE && entry->told_broken != revision) {
+            worker_send_broken(w, entry->name, revision, err,
+                               resident_refused_shape(entry->resident));
+            entry->told_broken = revision;
         }
-        announce_warning(w, held);
+        announce_warning(w, entry);
     }
 }
 
 void worker_on_compile(void *data, uint64_t shape)
 {
     struct worker *w = data;
-    const struct held *held = w->scenes;
+    const struct worker_scene *entry = w->scenes;
     const struct task *task = w->tasks;
 
-    while (held && resident_shape_with_code(held->resident) != shape) {
-        held = held->next;
+    while (entry && resident_shape_with_code(entry->resident) != shape) {
+        entry = entry->next;
     }
     /* It may be left to a picture of an older state. */
     while (task && !(task->job && job_shape_with_code(task->job) == shape)) {
         task = task->next;
     }
-    if (shape == 0 || (!held && !task)) {
+    if (shape == 0 || (!entry && !task)) {
         worker_send_suspect(w, TO_FRONT_COMPILING, &(struct packet_suspect){0});
         return;
     }
     worker_send_suspect(w, TO_FRONT_COMPILING,
                         &(struct packet_suspect){
-                            .scene = held ? held->name : task->scene,
-                            .revision = held ? resident_revision(held->resident) : task->revision,
+                            .scene = entry ? entry->name : task->scene,
+                            .revision = entry ? resident_revision(entry->resident) : task->revision,
                             .shape = shape});
     worker_flush_all(w);
 }
@@ -113,12 +113,12 @@ void worker_on_compile(void *data, uint64_t shape)
 void worker_on_read(void *data, const char *image)
 {
     struct worker *w = data;
-    const struct held *held = *image ? worker_find_image(w, image) : NULL;
+    const struct worker_scene *entry = *image ? worker_find_image(w, image) : NULL;
 
     worker_send_suspect(
         w, TO_FRONT_READING,
-        &(struct packet_suspect){.scene = held ? held->name : "",
-                                 .revision = held ? resident_revision(held->resident) : 0,
+        &(struct packet_suspect){.scene = entry ? entry->name : "",
+                                 .revision = entry ? resident_revision(entry->resident) : 0,
                                  .asset = image});
     if (*image) {
         worker_flush_all(w);
@@ -127,39 +127,39 @@ void worker_on_read(void *data, const char *image)
 
 void worker_on_scene(struct worker *w, const struct packet_scene *packet)
 {
-    struct held *held = *worker_find_scene(w, packet->scene);
+    struct worker_scene *entry = *worker_find_scene(w, packet->scene);
     struct error err = {0};
     struct scene *scene = scene_read(packet->document, &err);
 
     if (!scene) {
         worker_send_broken(w, packet->scene, packet->revision, &err, 0);
-    } else if (held) {
-        resident_replace(held->resident, scene, packet->revision);
+    } else if (entry) {
+        resident_replace(entry->resident, scene, packet->revision);
     } else {
-        held = memory_alloc(1, sizeof *held);
-        held->name = memory_text(packet->scene);
-        held->resident = resident_create(w->renderer, scene, packet->revision);
-        held->next = w->scenes;
-        w->scenes = held;
+        entry = memory_alloc(1, sizeof *entry);
+        entry->name = memory_text(packet->scene);
+        entry->resident = resident_create(w->renderer, scene, packet->revision);
+        entry->next = w->scenes;
+        w->scenes = entry;
     }
 }
 
 void worker_on_edit(struct worker *w, const struct packet_edit *packet)
 {
-    struct held *held = *worker_find_scene(w, packet->scene);
+    struct worker_scene *entry = *worker_find_scene(w, packet->scene);
     struct error err = {0};
 
-    if (!held) {
+    if (!entry) {
         error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", packet->scene);
     }
-    if (!held || !resident_edit(held->resident, packet->ops, packet->revision, &err)) {
+    if (!entry || !resident_edit(entry->resident, packet->ops, packet->revision, &err)) {
         worker_send_broken(w, packet->scene, packet->revision, &err, 0);
     }
 }
 
 void worker_on_drop(struct worker *w, const char *scene)
 {
-    struct held **at = worker_find_scene(w, scene);
+    struct worker_scene **at = worker_find_scene(w, scene);
 
     if (*at) {
         worker_drop_scene(at);
