@@ -32,8 +32,8 @@ static bool is_compiling(const struct worker *w)
             return true;
         }
     }
-    for (const struct task *task = w->tasks; task; task = task->next) {
-        if (task->job && !job_step_possible(task->job)) {
+    for (const struct worker_job *job = w->jobs; job; job = job->next) {
+        if (job->drawing && !job_step_possible(job->drawing)) {
             return true;
         }
     }
@@ -132,20 +132,20 @@ static void run(struct worker *w)
         struct pollfd fds[2] = {{.fd = w->fd, .events = POLLIN},
                                 {.fd = w->wake_fd, .events = POLLIN}};
         const bool full = w->out_length - w->out_sent > OUT_FULL;
-        struct task *task = full ? NULL : worker_choose_task(w);
+        struct worker_job *job = full ? NULL : worker_choose_job(w);
 
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;
         }
-        if (!wait(w, fds, task ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1)) {
+        if (!wait(w, fds, job ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1)) {
             w->status = 1;
             return;
         }
         if (fds[0].revents & (POLLIN | POLLHUP | POLLERR)) {
             receive(w);
-            task = full || w->status >= 0 ? NULL : worker_choose_task(w);
+            job = full || w->status >= 0 ? NULL : worker_choose_job(w);
         }
-        worker_step(w, task);
+        worker_step(w, job);
         if (fds[1].revents) {
             worker_collect_encodings(w);
         }
@@ -185,8 +185,8 @@ static void finish(struct worker *w)
     }
     pulse_destroy(w->pulse);
     encoder_destroy(w->encoder);
-    while (w->tasks) {
-        worker_drop_task(w, &w->tasks);
+    while (w->jobs) {
+        worker_drop_job(w, &w->jobs);
     }
     renderer_destroy(w->renderer);
     packet_reader_finish(&w->in);

@@ -112,21 +112,21 @@ void worker_send_ready(struct worker *w)
                                               .why = w->confined.why}});
 }
 
-void worker_send_frame(struct worker *w, const struct task *task)
+void worker_send_frame(struct worker *w, const struct worker_job *job)
 {
-    const struct encoding *encoding = task->encoding;
+    const struct encoding *encoding = job->encoding;
 
     worker_send(w, &(struct packet){.kind = TO_FRONT_FRAME,
-                                    .frame = {.job = task->number,
-                                              .revision = task->revision,
-                                              .newest = task->newest,
-                                              .more = task->between,
-                                              .rounds = task->rounds,
-                                              .width = task->width,
-                                              .height = task->height,
+                                    .frame = {.job = job->number,
+                                              .revision = job->revision,
+                                              .newest = job->newest,
+                                              .more = job->between,
+                                              .rounds = job->rounds,
+                                              .width = job->width,
+                                              .height = job->height,
                                               .codec = encoding->packet.codec,
                                               .key = encoding->packet.key,
-                                              .times = task->times},
+                                              .times = job->times},
                                     .payload = encoding->bytes,
                                     .payload_length = encoding->length});
 }

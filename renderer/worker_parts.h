@@ -18,12 +18,12 @@ struct worker_scene {
 };
 
 /* A picture that was asked for. */
-struct task {
+struct worker_job {
     uint32_t number; /* the front's */
     char *scene;
     int priority;
-    struct turn *turn; /* its account's */
-    struct job *job;   /* NULL once it is drawn, or given up */
+    struct turn *turn;   /* its account's */
+    struct job *drawing; /* NULL once it is drawn, or given up */
     struct encode_params encode;
     struct stream_encoder *stream; /* of its rounds */
     struct encoding *encoding;
@@ -35,7 +35,7 @@ struct task {
     int width, height;
     struct job_times times;
     struct picture_rounds rounds;
-    struct task *next; /* in order of arrival */
+    struct worker_job *next; /* in order of arrival */
 };
 
 struct worker {
@@ -47,7 +47,7 @@ struct worker {
     uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
     size_t out_sent, out_length, out_capacity;
     struct worker_scene *scenes;
-    struct task *tasks;
+    struct worker_job *jobs;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
     uint32_t told_job;        /* that the front thinks is drawn; 0: none */
@@ -71,7 +71,7 @@ void worker_send_failed(struct worker *w, uint32_t job, const struct error *err,
 void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
                         const struct error *err, uint64_t shape);
 void worker_send_ready(struct worker *w);
-void worker_send_frame(struct worker *w, const struct task *task);
+void worker_send_frame(struct worker *w, const struct worker_job *job);
 /* A compiler may never end, and this process will. */
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
 /* What is compiled, read or drawn from here on, and may end this process. */
@@ -99,15 +99,15 @@ void worker_on_judge(struct worker *w, const struct packet_judge *packet);
 
 /* --- worker_pictures.c --- */
 
-void worker_drop_task(struct worker *w, struct task **at);
+void worker_drop_job(struct worker *w, struct worker_job **at);
 /* The picture whose turn it is; NULL: none can go on. */
-struct task *worker_choose_task(struct worker *w);
+struct worker_job *worker_choose_job(struct worker *w);
 /* Draws one tile of it, or with NULL tells that nothing is drawn. */
-void worker_step(struct worker *w, struct task *task);
+void worker_step(struct worker *w, struct worker_job *job);
 void worker_collect_encodings(struct worker *w);
 /* `malformed`: what is wrong with its members, if anything. */
 void worker_on_render(struct worker *w, const struct packet_render *packet,
                       const struct error *malformed);
-void worker_on_cancel(struct worker *w, uint32_t job);
+void worker_on_cancel(struct worker *w, uint32_t number);
 
 #endif

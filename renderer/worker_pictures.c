@@ -21,216 +21,216 @@ static uint64_t now_us(void)
     return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
 }
 
-void worker_drop_task(struct worker *w, struct task **at)
+void worker_drop_job(struct worker *w, struct worker_job **at)
 {
-    struct task *gone = *at;
+    struct worker_job *gone = *at;
 
     *at = gone->next;
     turns_leave(&w->turns, gone->turn);
-    job_destroy(gone->job);
+    job_destroy(gone->drawing);
     stream_encoder_close(gone->stream);
     free(gone->scene);
     free(gone);
 }
 
-static bool begin_encoding(struct worker *w, struct task *task, struct error *err)
+static bool begin_encoding(struct worker *w, struct worker_job *job, struct error *err)
 {
     struct image shapes[AOV_COUNT];
 
     for (int i = 0; i < AOV_COUNT; i++) {
-        shapes[i] = job_image_shape(task->job, (enum aov)i);
-        task->width = shapes[i].width ? shapes[i].width : task->width;
-        task->height = shapes[i].width ? shapes[i].height : task->height;
+        shapes[i] = job_image_shape(job->drawing, (enum aov)i);
+        job->width = shapes[i].width ? shapes[i].width : job->width;
+        job->height = shapes[i].width ? shapes[i].height : job->height;
     }
-    task->encoding =
-        encoder_begin(w->encoder, task->stream, shapes, &task->encode, task->priority, task, err);
-    return task->encoding;
+    job->encoding =
+        encoder_begin(w->encoder, job->stream, shapes, &job->encode, job->priority, job, err);
+    return job->encoding;
 }
 
 /* The picture's job and its encoding. */
-static bool begin_task(struct worker *w, const struct packet_render *packet, struct task *task,
-                       struct error *err)
+static bool begin_job(struct worker *w, const struct packet_render *packet, struct worker_job *job,
+                      struct error *err)
 {
-    const struct worker_scene *entry = *worker_find_scene(w, task->scene);
+    const struct worker_scene *entry = *worker_find_scene(w, job->scene);
     struct job_desc desc = job_desc_of(packet->request);
 
     if (!entry) {
-        return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", task->scene);
+        return error_set(err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", job->scene);
     }
     desc.careful = packet->careful;
     desc.patience = packet->patience;
-    task->encode = encode_params_of(packet->request);
-    task->stream = stream_encoder_open(&picture_stream);
+    job->encode = encode_params_of(packet->request);
+    job->stream = stream_encoder_open(&picture_stream);
     if (render_request_is(packet->request, "key")) {
-        stream_encoder_ask_key(task->stream);
+        stream_encoder_ask_key(job->stream);
     }
-    task->encode.limit_bytes = LIMIT_IMAGE_BYTES;
-    task->job = job_create(entry->resident, &desc, err);
-    if (!task->job) {
+    job->encode.limit_bytes = LIMIT_IMAGE_BYTES;
+    job->drawing = job_create(entry->resident, &desc, err);
+    if (!job->drawing) {
         return false;
     }
-    task->revision = job_revision(task->job);
-    task->newest = task->revision == resident_revision(entry->resident);
-    return begin_encoding(w, task, err);
+    job->revision = job_revision(job->drawing);
+    job->newest = job->revision == resident_revision(entry->resident);
+    return begin_encoding(w, job, err);
 }
 
 /* Somebody else's picture waits too. */
 static bool has_company(const struct worker *w, const struct turn *turn)
 {
-    const struct task *task = w->tasks;
+    const struct worker_job *job = w->jobs;
 
-    while (task && task->turn == turn) {
-        task = task->next;
+    while (job && job->turn == turn) {
+        job = job->next;
     }
-    return task;
+    return job;
 }
 
 void worker_on_render(struct worker *w, const struct packet_render *packet,
                       const struct error *malformed)
 {
-    struct task *task = memory_alloc(1, sizeof *task);
-    struct task **last = &w->tasks;
+    struct worker_job *job = memory_alloc(1, sizeof *job);
+    struct worker_job **last = &w->jobs;
     struct error err = *malformed;
 
-    task->number = packet->job;
-    task->scene = memory_text(packet->scene);
-    task->turn = turns_join(&w->turns, *packet->account ? packet->account : packet->scene);
-    task->priority = packet->priority;
-    task->received_us = task->told_us = now_us();
-    if (err.kind != ERROR_NONE || !begin_task(w, packet, task, &err)) {
-        worker_send_failed(w, task->number, &err, false);
-        worker_drop_task(w, &task);
+    job->number = packet->job;
+    job->scene = memory_text(packet->scene);
+    job->turn = turns_join(&w->turns, *packet->account ? packet->account : packet->scene);
+    job->priority = packet->priority;
+    job->received_us = job->told_us = now_us();
+    if (err.kind != ERROR_NONE || !begin_job(w, packet, job, &err)) {
+        worker_send_failed(w, job->number, &err, false);
+        worker_drop_job(w, &job);
         return;
     }
-    if (has_company(w, task->turn)) {
-        w->shared_until_us = task->received_us + SHARED_US;
+    if (has_company(w, job->turn)) {
+        w->shared_until_us = job->received_us + SHARED_US;
     }
     while (*last) {
         last = &(*last)->next;
     }
-    *last = task;
+    *last = job;
 }
 
 /* It stays until the encoder gives it back. */
-static void give_up(struct worker *w, struct task *task)
+static void give_up(struct worker *w, struct worker_job *job)
 {
-    task->answered = true;
-    job_destroy(task->job);
-    task->job = NULL;
-    if (!task->between) {
-        encoder_end(w->encoder, task->encoding, false);
+    job->answered = true;
+    job_destroy(job->drawing);
+    job->drawing = NULL;
+    if (!job->between) {
+        encoder_end(w->encoder, job->encoding, false);
     }
 }
 
-void worker_on_cancel(struct worker *w, uint32_t job)
+void worker_on_cancel(struct worker *w, uint32_t number)
 {
-    for (struct task *task = w->tasks; task; task = task->next) {
-        if (task->number == job) {
-            give_up(w, task);
+    for (struct worker_job *job = w->jobs; job; job = job->next) {
+        if (job->number == number) {
+            give_up(w, job);
             return;
         }
     }
 }
 
-static bool is_drawing(const struct task *task)
+static bool is_drawing(const struct worker_job *job)
 {
-    return task->job && !task->between;
+    return job->drawing && !job->between;
 }
 
 /* In the middle of a tile; NULL: none. */
-static struct task *find_within_tile(const struct worker *w)
+static struct worker_job *find_within_tile(const struct worker *w)
 {
-    struct task *task = w->tasks;
+    struct worker_job *job = w->jobs;
 
-    while (task && !(is_drawing(task) && job_is_within_tile(task->job))) {
-        task = task->next;
+    while (job && !(is_drawing(job) && job_is_within_tile(job->drawing))) {
+        job = job->next;
     }
-    return task;
+    return job;
 }
 
 /* Waits for neither a compiler nor the encoder. */
-static bool can_go_on(const struct worker *w, const struct task *task)
+static bool can_go_on(const struct worker *w, const struct worker_job *job)
 {
-    return job_step_possible(task->job) && !encoder_is_full(w->encoder, task->encoding);
+    return job_step_possible(job->drawing) && !encoder_is_full(w->encoder, job->encoding);
 }
 
 /* That of the account whose turn it is. Who would need the textures that another's tile is in lets
  * that go on in its own turn, so the tile is as urgent as whatever waits for it. */
-struct task *worker_choose_task(struct worker *w)
+struct worker_job *worker_choose_job(struct worker *w)
 {
-    struct task *within = find_within_tile(w);
+    struct worker_job *within = find_within_tile(w);
 
     turns_begin(&w->turns);
-    for (struct task *task = w->tasks; task; task = task->next) {
-        if (is_drawing(task) && (task == within || can_go_on(w, task))) {
-            const struct turns_offer offer = {task->priority,
-                                              (uint64_t)task->width * (uint64_t)task->height,
-                                              within && job_is_sampled(task->job) ? within : task};
+    for (struct worker_job *job = w->jobs; job; job = job->next) {
+        if (is_drawing(job) && (job == within || can_go_on(w, job))) {
+            const struct turns_offer offer = {
+                job->priority, (uint64_t)job->width * (uint64_t)job->height,
+                within && job_is_sampled(job->drawing) ? within : job};
 
-            turns_offer(&w->turns, task->turn, &offer);
+            turns_offer(&w->turns, job->turn, &offer);
         }
     }
     return turns_choose(&w->turns);
 }
 
-static void hand_rows_over(struct worker *w, struct task *task)
+static void hand_rows_over(struct worker *w, struct worker_job *job)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
         const enum aov aov = (enum aov)i;
 
-        if (job_image_shape(task->job, aov).width > 0) {
-            encoder_add(w->encoder, task->encoding, aov, job_take_rows(task->job, aov));
+        if (job_image_shape(job->drawing, aov).width > 0) {
+            encoder_add(w->encoder, job->encoding, aov, job_take_rows(job->drawing, aov));
         }
     }
-    if (now_us() - task->told_us > PROGRESS_US) {
-        task->told_us = now_us();
-        worker_send(w, &(struct packet){.kind = TO_FRONT_PROGRESS, .job = {task->number}});
+    if (now_us() - job->told_us > PROGRESS_US) {
+        job->told_us = now_us();
+        worker_send(w, &(struct packet){.kind = TO_FRONT_PROGRESS, .job = {job->number}});
     }
 }
 
-static void take_times(struct task *task)
+static void take_times(struct worker_job *job)
 {
-    task->times = job_times(task->job);
-    task->rounds = job_rounds(task->job);
-    task->times.us[FRAME_QUEUE] = (uint32_t)(task->begun_us - task->received_us);
+    job->times = job_times(job->drawing);
+    job->rounds = job_rounds(job->drawing);
+    job->times.us[FRAME_QUEUE] = (uint32_t)(job->begun_us - job->received_us);
 }
 
 /* The next one begins when this one is encoded. */
-static void finish_round(struct worker *w, struct task *task)
+static void finish_round(struct worker *w, struct worker_job *job)
 {
-    take_times(task);
-    task->between = true;
-    encoder_end(w->encoder, task->encoding, true);
+    take_times(job);
+    job->between = true;
+    encoder_end(w->encoder, job->encoding, true);
 }
 
-static void finish_drawing(struct worker *w, struct task *task)
+static void finish_drawing(struct worker *w, struct worker_job *job)
 {
-    take_times(task);
-    job_destroy(task->job);
-    task->job = NULL;
-    encoder_end(w->encoder, task->encoding, true);
+    take_times(job);
+    job_destroy(job->drawing);
+    job->drawing = NULL;
+    encoder_end(w->encoder, job->encoding, true);
 }
 
 /* What is drawn from here on, if anything: the front knows it should this be the end. */
-static void tell_drawing(struct worker *w, const struct task *task)
+static void tell_drawing(struct worker *w, const struct worker_job *job)
 {
-    const uint32_t job = task ? task->number : 0;
+    const uint32_t number = job ? job->number : 0;
 
-    if (job == w->told_job) {
+    if (number == w->told_job) {
         return;
     }
-    w->told_job = job;
+    w->told_job = number;
     worker_send_suspect(w, TO_FRONT_DRAWING,
-                        &(struct packet_suspect){.scene = task ? task->scene : "", .job = job});
-    if (task) {
+                        &(struct packet_suspect){.scene = job ? job->scene : "", .job = number});
+    if (job) {
         worker_flush_all(w);
     }
 }
 
 /* What its tiles have taken so far. */
-static uint64_t drawn_us(const struct task *task)
+static uint64_t drawn_us(const struct worker_job *job)
 {
-    const struct job_times times = job_times(task->job);
+    const struct job_times times = job_times(job->drawing);
     uint64_t us = 0;
 
     for (int i = 0; i < FRAME_STAGES; i++) {
@@ -239,64 +239,64 @@ static uint64_t drawn_us(const struct task *task)
     return us;
 }
 
-static enum job_state step(struct worker *w, struct task *task)
+static enum job_state step(struct worker *w, struct worker_job *job)
 {
     renderer_share(w->renderer, now_us() < w->shared_until_us);
-    const uint64_t before = drawn_us(task);
-    const enum job_state state = job_step(task->job);
+    const uint64_t before = drawn_us(job);
+    const enum job_state state = job_step(job->drawing);
 
-    turns_charge(&w->turns, task->turn, task->priority, drawn_us(task) - before);
+    turns_charge(&w->turns, job->turn, job->priority, drawn_us(job) - before);
     return state;
 }
 
-void worker_step(struct worker *w, struct task *task)
+void worker_step(struct worker *w, struct worker_job *job)
 {
-    tell_drawing(w, task);
-    if (!task) {
+    tell_drawing(w, job);
+    if (!job) {
         return;
     }
-    if (task->begun_us == 0) {
-        task->begun_us = now_us();
+    if (job->begun_us == 0) {
+        job->begun_us = now_us();
     }
-    switch (step(w, task)) {
+    switch (step(w, job)) {
     case JOB_WAITING:
     case JOB_RUNNING:
         break;
     case JOB_ROWS:
-        hand_rows_over(w, task);
+        hand_rows_over(w, job);
         break;
     case JOB_ROUND:
-        finish_round(w, task);
+        finish_round(w, job);
         break;
     case JOB_DONE:
-        finish_drawing(w, task);
+        finish_drawing(w, job);
         break;
     case JOB_FAILED:
-        worker_send_failed(w, task->number, job_error(task->job), true);
-        if (job_error(task->job)->kind == ERROR_UNAVAILABLE) {
+        worker_send_failed(w, job->number, job_error(job->drawing), true);
+        if (job_error(job->drawing)->kind == ERROR_UNAVAILABLE) {
             w->status = WORKER_DEVICE_LOST;
         }
-        give_up(w, task);
+        give_up(w, job);
         break;
     }
 }
 
 /* True when there is more to come. */
-static bool answer(struct worker *w, struct task *task)
+static bool answer(struct worker *w, struct worker_job *job)
 {
-    struct error err = task->encoding->error;
+    struct error err = job->encoding->error;
 
-    if (task->answered) {
+    if (job->answered) {
         return false;
     }
-    task->times.us[FRAME_ENCODE] = task->encoding->encode_us;
-    if (task->encoding->ok) {
-        worker_send_frame(w, task);
-        if (!task->between || begin_encoding(w, task, &err)) {
-            return task->between;
+    job->times.us[FRAME_ENCODE] = job->encoding->encode_us;
+    if (job->encoding->ok) {
+        worker_send_frame(w, job);
+        if (!job->between || begin_encoding(w, job, &err)) {
+            return job->between;
         }
     }
-    worker_send_failed(w, task->number, &err, false);
+    worker_send_failed(w, job->number, &err, false);
     return false;
 }
 
@@ -309,14 +309,14 @@ void worker_collect_encodings(struct worker *w)
         return;
     }
     while ((encoding = encoder_take(w->encoder))) {
-        struct task **at = &w->tasks;
+        struct worker_job **at = &w->jobs;
         while (*at != encoding->data) {
             at = &(*at)->next;
         }
         if (answer(w, *at)) {
             (*at)->between = false;
         } else {
-            worker_drop_task(w, at);
+            worker_drop_job(w, at);
         }
         encoding_destroy(encoding);
     }

@@ -89,23 +89,23 @@ void worker_on_compile(void *data, uint64_t shape)
 {
     struct worker *w = data;
     const struct worker_scene *entry = w->scenes;
-    const struct task *task = w->tasks;
+    const struct worker_job *job = w->jobs;
 
     while (entry && resident_shape_with_code(entry->resident) != shape) {
         entry = entry->next;
     }
     /* It may be left to a picture of an older state. */
-    while (task && !(task->job && job_shape_with_code(task->job) == shape)) {
-        task = task->next;
+    while (job && !(job->drawing && job_shape_with_code(job->drawing) == shape)) {
+        job = job->next;
     }
-    if (shape == 0 || (!entry && !task)) {
+    if (shape == 0 || (!entry && !job)) {
         worker_send_suspect(w, TO_FRONT_COMPILING, &(struct packet_suspect){0});
         return;
     }
     worker_send_suspect(w, TO_FRONT_COMPILING,
                         &(struct packet_suspect){
-                            .scene = entry ? entry->name : task->scene,
-                            .revision = entry ? resident_revision(entry->resident) : task->revision,
+                            .scene = entry ? entry->name : job->scene,
+                            .revision = entry ? resident_revision(entry->resident) : job->revision,
                             .shape = shape});
     worker_flush_all(w);
 }
