@@ -184,7 +184,7 @@ static void finish(struct worker *w)
         worker_drop_scene(&w->scenes);
     }
     pulse_destroy(w->pulse);
-    encoder_destroy(w->encoder);
+    encode_thread_destroy(w->encode_thread);
     while (w->jobs) {
         worker_drop_job(w, &w->jobs);
     }
@@ -224,8 +224,8 @@ int worker_run(int fd, const struct worker_params *params)
     renderer.on_read = worker_on_read;
     renderer.on_compile_data = &w;
     w.renderer = renderer_create(&renderer, &err);
-    w.encoder = w.renderer ? encoder_create(w.wake_fd, &err) : NULL;
-    if (w.wake_fd < 0 || !w.encoder || !seal(&w, params->confine, &err)) {
+    w.encode_thread = w.renderer ? encode_thread_create(w.wake_fd, &err) : NULL;
+    if (w.wake_fd < 0 || !w.encode_thread || !seal(&w, params->confine, &err)) {
         if (params->renderer.log) {
             params->renderer.log(params->renderer.log_data, err.message);
         }

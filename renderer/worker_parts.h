@@ -3,7 +3,7 @@
 #ifndef RENDERER_WORKER_PARTS_H
 #define RENDERER_WORKER_PARTS_H
 
-#include "encoder.h"
+#include "encode_thread.h"
 #include "pulse.h"
 #include "turns.h"
 #include "worker.h"
@@ -41,7 +41,7 @@ struct worker_job {
 struct worker {
     int fd, wake_fd;
     struct renderer *renderer;
-    struct encoder *encoder;
+    struct encode_thread *encode_thread;
     struct pulse *pulse;
     struct packet_reader in;
     uint8_t *out; /* bytes from out_sent to out_length are still to be sent */

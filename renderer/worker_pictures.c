@@ -42,8 +42,8 @@ static bool begin_encoding(struct worker *w, struct worker_job *job, struct erro
         job->width = shapes[i].width ? shapes[i].width : job->width;
         job->height = shapes[i].width ? shapes[i].height : job->height;
     }
-    job->encoding =
-        encoder_begin(w->encoder, job->stream, shapes, &job->encode, job->priority, job, err);
+    job->encoding = encode_thread_begin(w->encode_thread, job->stream, shapes, &job->encode,
+                                        job->priority, job, err);
     return job->encoding;
 }
 
@@ -111,14 +111,14 @@ void worker_on_render(struct worker *w, const struct packet_render *packet,
     *last = job;
 }
 
-/* It stays until the encoder gives it back. */
+/* It stays until the encoding thread gives it back. */
 static void give_up(struct worker *w, struct worker_job *job)
 {
     job->answered = true;
     job_destroy(job->drawing);
     job->drawing = NULL;
     if (!job->between) {
-        encoder_end(w->encoder, job->encoding, false);
+        encode_thread_end(w->encode_thread, job->encoding, false);
     }
 }
 
@@ -148,10 +148,11 @@ static struct worker_job *find_within_tile(const struct worker *w)
     return job;
 }
 
-/* Waits for neither a compiler nor the encoder. */
+/* Waits for neither a compiler nor the encoding thread. */
 static bool can_go_on(const struct worker *w, const struct worker_job *job)
 {
-    return job_step_possible(job->drawing) && !encoder_is_full(w->encoder, job->encoding);
+    return job_step_possible(job->drawing) &&
+           !encode_thread_is_full(w->encode_thread, job->encoding);
 }
 
 /* That of the account whose turn it is. Who would need the textures that another's tile is in lets
@@ -179,7 +180,8 @@ static void hand_rows_over(struct worker *w, struct worker_job *job)
         const enum aov aov = (enum aov)i;
 
         if (job_image_shape(job->drawing, aov).width > 0) {
-            encoder_add(w->encoder, job->encoding, aov, job_take_rows(job->drawing, aov));
+            encode_thread_add(w->encode_thread, job->encoding, aov,
+                              job_take_rows(job->drawing, aov));
         }
     }
     if (now_us() - job->told_us > PROGRESS_US) {
@@ -200,7 +202,7 @@ static void finish_round(struct worker *w, struct worker_job *job)
 {
     take_times(job);
     job->between = true;
-    encoder_end(w->encoder, job->encoding, true);
+    encode_thread_end(w->encode_thread, job->encoding, true);
 }
 
 static void finish_drawing(struct worker *w, struct worker_job *job)
@@ -208,7 +210,7 @@ static void finish_drawing(struct worker *w, struct worker_job *job)
     take_times(job);
     job_destroy(job->drawing);
     job->drawing = NULL;
-    encoder_end(w->encoder, job->encoding, true);
+    encode_thread_end(w->encode_thread, job->encoding, true);
 }
 
 /* What is drawn from here on, if anything: the front knows it should this be the end. */
@@ -308,7 +310,7 @@ void worker_collect_encodings(struct worker *w)
     if (read(w->wake_fd, &count, sizeof count) < 0) {
         return;
     }
-    while ((encoding = encoder_take(w->encoder))) {
+    while ((encoding = encode_thread_take(w->encode_thread))) {
         struct worker_job **at = &w->jobs;
         while (*at != encoding->data) {
             at = &(*at)->next;

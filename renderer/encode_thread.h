@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* A thread that encodes pictures as their rows come, so that a large one holds up neither drawing
  * nor answers. After a few rows of one picture it looks whether another is more urgent. */
-#ifndef RENDERER_ENCODER_H
-#define RENDERER_ENCODER_H
+#ifndef RENDERER_ENCODE_THREAD_H
+#define RENDERER_ENCODE_THREAD_H
 
 #include "renderer/renderer.h"
 #include "stream_encoder.h"
 
-struct encoder;
+struct encode_thread;
 
-/* A picture being encoded. It belongs to the encoder until encoder_take gives it back. */
+/* A picture being encoded. It belongs to the thread until encode_thread_take gives it back. */
 struct encoding {
     int priority;                /* the lowest goes first, then the oldest */
     void *data;                  /* the owner's */
@@ -22,26 +22,27 @@ struct encoding {
 };
 
 /* `wake_fd` is an eventfd that is raised when a picture is finished or no longer full. */
-struct encoder *encoder_create(int wake_fd, struct error *err);
+struct encode_thread *encode_thread_create(int wake_fd, struct error *err);
 /* Drops all pictures, their `data` excepted, which is not freed. */
-void encoder_destroy(struct encoder *encoder);
+void encode_thread_destroy(struct encode_thread *encode_thread);
 /* Begins the next picture of a stream, of these outputs (job_image_shape). The stream stays the
- * caller's, who leaves it alone until encoder_take has given the picture back. NULL and `err` where
- * the format cannot hold them. */
-struct encoding *encoder_begin(struct encoder *encoder, struct stream_encoder *stream,
-                               const struct image shapes[AOV_COUNT],
-                               const struct encode_params *params, int priority, void *data,
-                               struct error *err);
+ * caller's, who leaves it alone until encode_thread_take has given the picture back. NULL and
+ * `err` where the format cannot hold them. */
+struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
+                                     struct stream_encoder *stream,
+                                     const struct image shapes[AOV_COUNT],
+                                     const struct encode_params *params, int priority, void *data,
+                                     struct error *err);
 /* The next rows of an output; takes them. */
-void encoder_add(struct encoder *encoder, struct encoding *encoding, enum aov aov,
-                 struct image rows);
+void encode_thread_add(struct encode_thread *encode_thread, struct encoding *encoding, enum aov aov,
+                       struct image rows);
 /* No more rows come: the picture is whole, or is not wanted any more. */
-void encoder_end(struct encoder *encoder, struct encoding *encoding, bool whole);
+void encode_thread_end(struct encode_thread *encode_thread, struct encoding *encoding, bool whole);
 /* Whether so much waits that more rows would only fill memory. */
-bool encoder_is_full(struct encoder *encoder, const struct encoding *encoding);
+bool encode_thread_is_full(struct encode_thread *encode_thread, const struct encoding *encoding);
 /* The oldest that is finished, or NULL; the caller frees it with encoding_destroy. One that fails
  * is finished before its end. */
-struct encoding *encoder_take(struct encoder *encoder);
+struct encoding *encode_thread_take(struct encode_thread *encode_thread);
 void encoding_destroy(struct encoding *encoding);
 
 #endif

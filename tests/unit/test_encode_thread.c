@@ -13,12 +13,12 @@
 #include <cmocka.h>
 
 #include "protocol/memory.h"
-#include "renderer/encoder.h"
+#include "renderer/encode_thread.h"
 
 enum { WIDTH = 640, HEIGHT = 90, BAND = 30 };
 
 static int wake_fd;
-static struct encoder *encoder;
+static struct encode_thread *encode_thread;
 static struct stream_encoder *streams[2]; /* of the pictures that were begun */
 static int stream_count;
 
@@ -26,14 +26,14 @@ static int start(void **state)
 {
     (void)state;
     wake_fd = eventfd(0, EFD_CLOEXEC);
-    encoder = encoder_create(wake_fd, NULL);
-    return encoder ? 0 : -1;
+    encode_thread = encode_thread_create(wake_fd, NULL);
+    return encode_thread ? 0 : -1;
 }
 
 static int stop(void **state)
 {
     (void)state;
-    encoder_destroy(encoder);
+    encode_thread_destroy(encode_thread);
     while (stream_count > 0) {
         stream_encoder_close(streams[--stream_count]);
     }
@@ -60,7 +60,8 @@ static struct encoding *begin(const struct image *image, const struct encode_par
     struct image shapes[AOV_COUNT] = {[AOV_COLOR] = *image};
     struct error err = {0};
     struct stream_encoder *stream = streams[stream_count++] = stream_encoder_open(&picture_stream);
-    struct encoding *encoding = encoder_begin(encoder, stream, shapes, params, 0, NULL, &err);
+    struct encoding *encoding =
+        encode_thread_begin(encode_thread, stream, shapes, params, 0, NULL, &err);
 
     if (!encoding) {
         fail_msg("%s", err.message);
@@ -77,7 +78,7 @@ static void add(struct encoding *encoding, const struct image *image, int y, int
     rows.bytes = stride * (size_t)height;
     rows.pixels = memory_alloc(rows.bytes, 1);
     memcpy(rows.pixels, (const uint8_t *)image->pixels + (size_t)y * stride, rows.bytes);
-    encoder_add(encoder, encoding, AOV_COLOR, rows);
+    encode_thread_add(encode_thread, encoding, AOV_COLOR, rows);
 }
 
 static void sleep_until_woken(void)
@@ -91,7 +92,7 @@ static struct encoding *take(void)
 {
     struct encoding *encoding;
 
-    while (!(encoding = encoder_take(encoder))) {
+    while (!(encoding = encode_thread_take(encode_thread))) {
         sleep_until_woken();
     }
     return encoding;
@@ -112,8 +113,8 @@ static void test_turns(void **state)
         add(encodings[0], &images[0], y, BAND);
         add(encodings[1], &images[1], y, BAND);
     }
-    encoder_end(encoder, encodings[0], true);
-    encoder_end(encoder, encodings[1], true);
+    encode_thread_end(encode_thread, encodings[0], true);
+    encode_thread_end(encode_thread, encodings[1], true);
     for (int i = 0; i < 2; i++) {
         struct encoding *encoding = take();
         const int which = encoding->data == &images[1];
@@ -153,7 +154,7 @@ static void test_given_up(void **state)
 
     (void)state;
     add(encoding, &image, 0, BAND);
-    encoder_end(encoder, encoding, false);
+    encode_thread_end(encode_thread, encoding, false);
     back = take();
     assert_ptr_equal(back, encoding);
     assert_false(back->ok);
@@ -173,11 +174,11 @@ static void test_full(void **state)
 
     (void)state;
     add(encoding, &image, 0, image.height);
-    assert_true(encoder_is_full(encoder, encoding));
-    while (encoder_is_full(encoder, encoding)) {
+    assert_true(encode_thread_is_full(encode_thread, encoding));
+    while (encode_thread_is_full(encode_thread, encoding)) {
         sleep_until_woken();
     }
-    encoder_end(encoder, encoding, true);
+    encode_thread_end(encode_thread, encoding, true);
     encoding = take();
     assert_true(image_encode(&image, &params, &bytes, &length, NULL));
     assert_int_equal(encoding->length, length);
@@ -206,5 +207,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_left_behind, start, stop),
     };
 
-    return cmocka_run_group_tests_name("encoder", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("encode_thread", tests, NULL, NULL);
 }

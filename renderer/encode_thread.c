@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Two lists under one lock: pictures that are encoded, and those that are done. The thread works on
  * one picture without the lock; meanwhile others only append to its rows. */
-#include "encoder.h"
+#include "encode_thread.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ struct work {
     struct work *next;
 };
 
-struct encoder {
+struct encode_thread {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t change;
@@ -82,11 +82,11 @@ static void drop_rows(struct work *work)
 
 /* --- the thread --- */
 
-static struct work *most_urgent(const struct encoder *encoder)
+static struct work *most_urgent(const struct encode_thread *encode_thread)
 {
     struct work *best = NULL;
 
-    for (struct work *work = encoder->works; work; work = work->next) {
+    for (struct work *work = encode_thread->works; work; work = work->next) {
         if ((work->rows || work->ended) &&
             (!best || work->result.priority < best->result.priority)) {
             best = work;
@@ -116,35 +116,35 @@ static bool encode_slice(struct work *work, struct rows *rows)
     return stream_encoder_add(work->stream, rows->aov, &slice, &work->result.error);
 }
 
-static void wake_owner(const struct encoder *encoder)
+static void wake_owner(const struct encode_thread *encode_thread)
 {
     const uint64_t one = 1;
 
-    if (write(encoder->wake_fd, &one, sizeof one) < 0) {
+    if (write(encode_thread->wake_fd, &one, sizeof one) < 0) {
         /* The counter is full, so the reader is awake anyway. */
     }
 }
 
-static void finish(struct encoder *encoder, struct work *work)
+static void finish(struct encode_thread *encode_thread, struct work *work)
 {
-    struct work **at = &encoder->works;
+    struct work **at = &encode_thread->works;
 
     while (*at != work) {
         at = &(*at)->next;
     }
     *at = work->next;
-    append(&encoder->done, work);
-    wake_owner(encoder);
+    append(&encode_thread->done, work);
+    wake_owner(encode_thread);
 }
 
 /* One step of a picture, without the lock. */
-static void encode(struct encoder *encoder, struct work *work)
+static void encode(struct encode_thread *encode_thread, struct work *work)
 {
     struct rows *rows = work->rows;
     const bool wanted = !work->ended || work->whole;
     const uint64_t start = now_us();
 
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_mutex_unlock(&encode_thread->lock);
     if (wanted && rows) {
         work->failed = !encode_slice(work, rows);
     } else if (wanted) {
@@ -152,76 +152,78 @@ static void encode(struct encoder *encoder, struct work *work)
             stream_encoder_end(work->stream, &work->result.packet, &work->result.error);
     }
     work->result.encode_us += (uint32_t)(now_us() - start);
-    pthread_mutex_lock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
     if (!wanted || !rows || work->failed) {
-        finish(encoder, work);
+        finish(encode_thread, work);
     } else if (rows->taken == rows->image.height) {
         drop_rows(work);
-        wake_owner(encoder);
+        wake_owner(encode_thread);
     }
 }
 
 static void *thread_main(void *data)
 {
-    struct encoder *encoder = data;
+    struct encode_thread *encode_thread = data;
 
-    pthread_mutex_lock(&encoder->lock);
-    while (!encoder->stop) {
-        struct work *work = most_urgent(encoder);
+    pthread_mutex_lock(&encode_thread->lock);
+    while (!encode_thread->stop) {
+        struct work *work = most_urgent(encode_thread);
 
         if (work) {
-            encode(encoder, work);
+            encode(encode_thread, work);
         } else {
-            pthread_cond_wait(&encoder->change, &encoder->lock);
+            pthread_cond_wait(&encode_thread->change, &encode_thread->lock);
         }
     }
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_mutex_unlock(&encode_thread->lock);
     return NULL;
 }
 
 /* --- for the owner --- */
 
-struct encoder *encoder_create(int wake_fd, struct error *err)
+struct encode_thread *encode_thread_create(int wake_fd, struct error *err)
 {
-    struct encoder *encoder = memory_alloc(1, sizeof *encoder);
+    struct encode_thread *encode_thread = memory_alloc(1, sizeof *encode_thread);
 
-    encoder->wake_fd = wake_fd;
-    pthread_mutex_init(&encoder->lock, NULL);
-    pthread_cond_init(&encoder->change, NULL);
-    if (pthread_create(&encoder->thread, NULL, thread_main, encoder) != 0) {
+    encode_thread->wake_fd = wake_fd;
+    pthread_mutex_init(&encode_thread->lock, NULL);
+    pthread_cond_init(&encode_thread->change, NULL);
+    if (pthread_create(&encode_thread->thread, NULL, thread_main, encode_thread) != 0) {
         error_set(err, ERROR_UNAVAILABLE, "", "no thread for encoding pictures");
-        pthread_cond_destroy(&encoder->change);
-        pthread_mutex_destroy(&encoder->lock);
-        free(encoder);
+        pthread_cond_destroy(&encode_thread->change);
+        pthread_mutex_destroy(&encode_thread->lock);
+        free(encode_thread);
         return NULL;
     }
-    return encoder;
+    return encode_thread;
 }
 
-void encoder_destroy(struct encoder *encoder)
+void encode_thread_destroy(struct encode_thread *encode_thread)
 {
     struct work *left;
 
-    if (!encoder) {
+    if (!encode_thread) {
         return;
     }
-    pthread_mutex_lock(&encoder->lock);
-    encoder->stop = true;
-    pthread_cond_signal(&encoder->change);
-    pthread_mutex_unlock(&encoder->lock);
-    pthread_join(encoder->thread, NULL);
-    while ((left = take_first(&encoder->works)) || (left = take_first(&encoder->done))) {
+    pthread_mutex_lock(&encode_thread->lock);
+    encode_thread->stop = true;
+    pthread_cond_signal(&encode_thread->change);
+    pthread_mutex_unlock(&encode_thread->lock);
+    pthread_join(encode_thread->thread, NULL);
+    while ((left = take_first(&encode_thread->works)) ||
+           (left = take_first(&encode_thread->done))) {
         encoding_destroy(&left->result);
     }
-    pthread_cond_destroy(&encoder->change);
-    pthread_mutex_destroy(&encoder->lock);
-    free(encoder);
+    pthread_cond_destroy(&encode_thread->change);
+    pthread_mutex_destroy(&encode_thread->lock);
+    free(encode_thread);
 }
 
-struct encoding *encoder_begin(struct encoder *encoder, struct stream_encoder *stream,
-                               const struct image shapes[AOV_COUNT],
-                               const struct encode_params *params, int priority, void *data,
-                               struct error *err)
+struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
+                                     struct stream_encoder *stream,
+                                     const struct image shapes[AOV_COUNT],
+                                     const struct encode_params *params, int priority, void *data,
+                                     struct error *err)
 {
     struct work *work = memory_alloc(1, sizeof *work);
 
@@ -236,9 +238,9 @@ struct encoding *encoder_begin(struct encoder *encoder, struct stream_encoder *s
     }
     work->result.priority = priority;
     work->result.data = data;
-    pthread_mutex_lock(&encoder->lock);
-    append(&encoder->works, work);
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
+    append(&encode_thread->works, work);
+    pthread_mutex_unlock(&encode_thread->lock);
     return &work->result;
 }
 
@@ -247,52 +249,52 @@ static struct work *work_of(struct encoding *encoding)
     return (struct work *)(void *)encoding;
 }
 
-void encoder_add(struct encoder *encoder, struct encoding *encoding, enum aov aov,
-                 struct image image)
+void encode_thread_add(struct encode_thread *encode_thread, struct encoding *encoding, enum aov aov,
+                       struct image image)
 {
     struct work *work = work_of(encoding);
     struct rows *rows = memory_alloc(1, sizeof *rows), **end = &work->rows;
 
     *rows = (struct rows){.aov = aov, .image = image};
-    pthread_mutex_lock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
     while (*end) {
         end = &(*end)->next;
     }
     *end = rows;
     work->waiting_bytes += image.bytes;
-    pthread_cond_signal(&encoder->change);
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_cond_signal(&encode_thread->change);
+    pthread_mutex_unlock(&encode_thread->lock);
 }
 
-void encoder_end(struct encoder *encoder, struct encoding *encoding, bool whole)
+void encode_thread_end(struct encode_thread *encode_thread, struct encoding *encoding, bool whole)
 {
     struct work *work = work_of(encoding);
 
-    pthread_mutex_lock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
     work->ended = true;
     work->whole = whole;
-    pthread_cond_signal(&encoder->change);
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_cond_signal(&encode_thread->change);
+    pthread_mutex_unlock(&encode_thread->lock);
 }
 
-bool encoder_is_full(struct encoder *encoder, const struct encoding *encoding)
+bool encode_thread_is_full(struct encode_thread *encode_thread, const struct encoding *encoding)
 {
     const struct work *work = (const struct work *)(const void *)encoding;
     bool full;
 
-    pthread_mutex_lock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
     full = work->waiting_bytes > FULL_BYTES;
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_mutex_unlock(&encode_thread->lock);
     return full;
 }
 
-struct encoding *encoder_take(struct encoder *encoder)
+struct encoding *encode_thread_take(struct encode_thread *encode_thread)
 {
     struct work *work;
 
-    pthread_mutex_lock(&encoder->lock);
-    work = take_first(&encoder->done);
-    pthread_mutex_unlock(&encoder->lock);
+    pthread_mutex_lock(&encode_thread->lock);
+    work = take_first(&encode_thread->done);
+    pthread_mutex_unlock(&encode_thread->lock);
     if (!work) {
         return NULL;
     }
