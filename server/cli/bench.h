@@ -5,7 +5,7 @@
 
 #include <cjson/cJSON.h>
 
-#include "drawing.h"
+#include "local_render.h"
 #include "server/embedded.h"
 
 /* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
@@ -28,13 +28,13 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
                 struct job_times *out_times, struct error *err);
 
 /* Adds medians over the rounds: `ms` of the whole, and of each stage that took any. */
-bool bench_way(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
-               int rounds, cJSON *row, struct error *err);
+bool bench_medians(struct renderer *renderer, struct resident *resident,
+                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
 /* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and
  * one program from the camera to the light. */
-bool bench_compare_ways(struct renderer *renderer, struct resident *resident,
-                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
+bool bench_compare(struct renderer *renderer, struct resident *resident,
+                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
 /* `effects_off_ratio`: what the example takes with reflections and refractions off, by what it
  * takes where no material asks for any. */

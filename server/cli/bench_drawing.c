@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "drawing.h"
 #include "files.h"
+#include "local_render.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "server/clock.h"
@@ -122,7 +122,7 @@ static struct resident *open_example(struct renderer *renderer, const struct emb
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
     if (scene) {
-        drawing_give_example_file(renderer, scene);
+        local_render_give_example_file(renderer, scene);
     }
     return scene ? resident_create(renderer, scene, 1) : NULL;
 }
@@ -193,8 +193,8 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
     cJSON *row = cJSON_CreateObject();
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    if (!bench_way(renderer, resident, desc, rounds, row, err) ||
-        !bench_compare_ways(renderer, resident, desc, rounds, row, err)) {
+    if (!bench_medians(renderer, resident, desc, rounds, row, err) ||
+        !bench_compare(renderer, resident, desc, rounds, row, err)) {
         cJSON_Delete(row);
         return NULL;
     }

@@ -55,7 +55,7 @@ int command_bench(const struct options *options)
         fprintf(stderr, "fieldcast: --only: %s is no example\n", only);
         return EXIT_USAGE;
     }
-    drawing_params(options, &params);
+    local_render_params(options, &params);
     cJSON *result = cJSON_CreateObject();
     cJSON_AddStringToObject(result, "fieldcast", FIELDCAST_VERSION);
     cJSON_AddNumberToObject(result, "rounds", rounds);

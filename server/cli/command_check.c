@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* fieldcast check: are these documents right, and can they be drawn? */
 #include "command.h"
-#include "drawing.h"
+#include "local_render.h"
 #include "renderer/renderer.h"
 
 /* What is wrong at a place of the document in the file. */

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "drawing.h"
+#include "local_render.h"
 #include "protocol/memory.h"
 #include "renderer/worker.h"
 #include "server/embedded.h"
@@ -78,7 +78,7 @@ static int check_drawing(const struct options *options)
 {
     struct error err = {0};
     struct renderer_params params;
-    drawing_params(options, &params);
+    local_render_params(options, &params);
     list_devices(&params.device);
     struct renderer *renderer = renderer_create(&params, &err);
     if (!renderer) {
@@ -108,7 +108,7 @@ static int check_confinement(const struct options *options)
     };
     struct confinement confined = {0};
     struct error err = {0};
-    drawing_params(options, &params.renderer);
+    local_render_params(options, &params.renderer);
     fflush(stdout);
     bool draws = worker_try(&params, &confined, &err);
     if (params.confine == CONFINE_OFF) {

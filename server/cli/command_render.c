@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "drawing.h"
 #include "files.h"
+#include "local_render.h"
 
 enum { PATIENCE_MS = 50 };
 
@@ -126,10 +126,10 @@ static bool draw(struct scene *scene, const struct options *options, struct rend
     struct resident *resident = NULL;
     struct job *job = NULL;
     struct renderer_params device;
-    drawing_params(options, &device);
+    local_render_params(options, &device);
     struct renderer *renderer = renderer_create(&device, err);
     render_request_see_from(request, &scene->camera);
-    if (renderer && drawing_give_files(renderer, scene, options, err)) {
+    if (renderer && local_render_give_files(renderer, scene, options, err)) {
         const struct job_desc desc = job_desc_of(request);
         resident = resident_create(renderer, scene, 1);
         scene = NULL;

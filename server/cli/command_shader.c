@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "command.h"
-#include "drawing.h"
+#include "local_render.h"
 #include "renderer/renderer.h"
 
 int command_shader(const struct options *options)

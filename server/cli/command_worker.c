@@ -4,7 +4,7 @@
 #include <signal.h>
 
 #include "command.h"
-#include "drawing.h"
+#include "local_render.h"
 #include "renderer/worker.h"
 
 int command_worker(const struct options *options)
@@ -17,7 +17,7 @@ int command_worker(const struct options *options)
         .memory_limit_bytes = (size_t)option_int(options, OPTION_WORKER_MEMORY) << 20,
         .confine = (enum confine_mode)option_int(options, OPTION_CONFINE),
     };
-    drawing_params(options, &params.renderer);
+    local_render_params(options, &params.renderer);
     params.renderer.code_ms = option_int(options, OPTION_CODE_TIME);
     params.renderer.tile_ms = option_int(options, OPTION_TILE_TIME);
     return worker_run(WORKER_FD, &params);

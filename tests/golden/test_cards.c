@@ -16,7 +16,7 @@
 #include <turbojpeg.h>
 
 #include "renderer/renderer.h"
-#include "server/cli/drawing.h"
+#include "server/cli/local_render.h"
 #include "server/embedded.h"
 #include "tests/support/progress.h"
 
@@ -84,7 +84,7 @@ static double difference(const struct embedded *example, const struct embedded *
     cJSON *ops = cJSON_Parse("[{\"op\":\"set\",\"at\":\"/render/exposure\",\"value\":0}]");
 
     assert_non_null(scene);
-    drawing_give_example_file(renderer, scene);
+    local_render_give_example_file(renderer, scene);
     struct resident *resident = resident_create(renderer, scene, 1);
     if (exposure != 0) {
         cJSON_SetNumberValue(cJSON_GetObjectItem(ops->child, "value"), exposure);

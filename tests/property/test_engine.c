@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "renderer/engine/engine.h"
-#include "server/cli/drawing.h"
+#include "server/cli/local_render.h"
 #include "server/embedded.h"
 #include "tests/support/drawing.h"
 #include "tests/support/progress.h"
@@ -46,7 +46,7 @@ static struct image draw(struct renderer *renderer, const struct embedded *examp
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
 
     assert_non_null(scene);
-    drawing_give_example_file(renderer, scene);
+    local_render_give_example_file(renderer, scene);
     struct resident *resident = resident_create(renderer, scene, 1);
     desc.samples = samples;
     assert_true(renderer_render(resident, &desc, &image, &err));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the commands that draw have in common. */
-#include "drawing.h"
+#include "local_render.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static void print_line(void *data, const char *line)
     fprintf(stderr, "fieldcast: %s\n", line);
 }
 
-void drawing_params(const struct options *options, struct renderer_params *out)
+void local_render_params(const struct options *options, struct renderer_params *out)
 {
     const char *cache = option_text(options, OPTION_CACHE);
     struct error err = {0};
@@ -37,7 +37,7 @@ void drawing_params(const struct options *options, struct renderer_params *out)
     };
 }
 
-void drawing_give_example_file(struct renderer *renderer, const struct scene *scene)
+void local_render_give_example_file(struct renderer *renderer, const struct scene *scene)
 {
     const char *id = record_text(&scene->environment, "image");
     const struct embedded *file = example_files_find(id);
@@ -70,13 +70,13 @@ static bool give_file(struct renderer *renderer, const struct scene *scene, cons
     return ok;
 }
 
-bool drawing_give_files(struct renderer *renderer, const struct scene *scene,
-                        const struct options *options, struct error *err)
+bool local_render_give_files(struct renderer *renderer, const struct scene *scene,
+                             const struct options *options, struct error *err)
 {
     const char *paths = option_text(options, OPTION_ASSET);
     char *copy = memory_text(paths ? paths : ""), *rest = copy, *path;
     bool ok = true;
-    drawing_give_example_file(renderer, scene);
+    local_render_give_example_file(renderer, scene);
     while (ok && (path = strsep(&rest, "\n")) && *path) {
         ok = give_file(renderer, scene, path, err);
     }

@@ -45,8 +45,8 @@ static void add_stages(cJSON *row, double *numbers, int rounds)
     }
 }
 
-bool bench_way(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
-               int rounds, cJSON *row, struct error *err)
+bool bench_medians(struct renderer *renderer, struct resident *resident,
+                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
     double *numbers = memory_alloc((size_t)rounds * (FRAME_STAGES + 1), sizeof *numbers);
     double *whole = numbers + (ptrdiff_t)FRAME_STAGES * rounds;
@@ -70,16 +70,16 @@ bool bench_way(struct renderer *renderer, struct resident *resident, const struc
     return ok;
 }
 
-bool bench_compare_ways(struct renderer *renderer, struct resident *resident,
-                        const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+bool bench_compare(struct renderer *renderer, struct resident *resident,
+                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
-    struct job_desc way = *desc;
+    struct job_desc other = *desc;
     cJSON *passes = cJSON_CreateObject(), *at_once = cJSON_CreateObject();
-    way.level = QUALITY_STILL;
-    way.samples = 1;
-    bool ok = bench_way(renderer, resident, &way, rounds, passes, err);
-    way.from_camera = true;
-    ok = ok && bench_way(renderer, resident, &way, rounds, at_once, err);
+    other.level = QUALITY_STILL;
+    other.samples = 1;
+    bool ok = bench_medians(renderer, resident, &other, rounds, passes, err);
+    other.from_camera = true;
+    ok = ok && bench_medians(renderer, resident, &other, rounds, at_once, err);
     if (ok) {
         bench_add(row, "by_passes_ms", bench_number(passes, "ms"));
         bench_add(row, "from_camera_ms", bench_number(at_once, "ms"));
