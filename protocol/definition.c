@@ -10,7 +10,7 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
+#include "suggest.h"
 
 static const enum param_type types[] = {
     PARAM_FLOAT, PARAM_INT,   PARAM_BOOL,  PARAM_VEC2,  PARAM_VEC3,
@@ -66,21 +66,21 @@ static const char *canonical(const char *name)
 
 static bool read_type(struct param *out, const cJSON *json, const char *place, struct error *err)
 {
-    struct nearest nearest = {0};
+    struct suggestion suggestion = {0};
     char path[ERROR_PLACE_BYTES], hint[64];
-    if (!json_read_text(json, &nearest.text, place, row_members[ROW_TYPE], err)) {
+    if (!json_read_text(json, &suggestion.text, place, row_members[ROW_TYPE], err)) {
         return false;
     }
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
-        if (strcmp(param_type_name(types[i]), canonical(nearest.text)) == 0) {
+        if (strcmp(param_type_name(types[i]), canonical(suggestion.text)) == 0) {
             out->type = types[i];
             return true;
         }
-        nearest_consider(&nearest, param_type_name(types[i]));
+        suggest_consider(&suggestion, param_type_name(types[i]));
     }
     return error_set(err, ERROR_INVALID, error_place(path, place, row_members[ROW_TYPE]),
-                     "\"%.64s\" is no type of a parameter%s", nearest.text,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     "\"%.64s\" is no type of a parameter%s", suggestion.text,
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool read_range(struct param *out, const cJSON *json, const char *place, struct error *err)

@@ -8,7 +8,7 @@
 
 #include "edit_parts.h"
 #include "limits.h"
-#include "nearest.h"
+#include "suggest.h"
 
 /* --- places --- */
 
@@ -135,12 +135,12 @@ static bool fail_operation(const cJSON *op, const char *place, struct error *err
         return error_set(err, ERROR_SYNTAX, path,
                          "expected \"set\", \"insert\", \"remove\" or \"move\"");
     }
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     for (int i = 0; i < OPERATION_COUNT; i++) {
-        nearest_consider(&nearest, operations[i].name);
+        suggest_consider(&suggestion, operations[i].name);
     }
     return error_set(err, ERROR_SYNTAX, path, "unknown operation \"%.64s\"%s", name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool check_member(const cJSON *json, int member, const char *place, struct error *err)

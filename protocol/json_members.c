@@ -3,19 +3,19 @@
 #include <string.h>
 
 #include "json.h"
-#include "nearest.h"
+#include "suggest.h"
 
 static bool fail_member(const char *name, const char *const *names, const char *place,
                         struct error *err)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char path[ERROR_PLACE_BYTES], hint[64];
     for (int i = 0; names[i]; i++) {
-        nearest_consider(&nearest, names[i]);
+        suggest_consider(&suggestion, names[i]);
     }
     return error_set(err, ERROR_INVALID, error_place(path, place, name),
                      "there is no member \"%.64s\" here%s", name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 bool json_sort_members(const cJSON *object, const char *const *names, const cJSON **found,

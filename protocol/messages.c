@@ -9,8 +9,8 @@
 #include "id_set.h"
 #include "json.h"
 #include "limits.h"
-#include "nearest.h"
 #include "nodes.h"
+#include "suggest.h"
 
 enum field_kind {
     FIELD_VALUE,
@@ -246,13 +246,13 @@ static const struct field *find_field(const struct message_type *type, const cha
 static bool fail_member(const struct message_type *type, const char *name, const char *place,
                         struct error *err)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (const struct field *field = type->fields; field->param.name; field++) {
-        nearest_consider(&nearest, field->param.name);
+        suggest_consider(&suggestion, field->param.name);
     }
     return error_set(err, ERROR_SYNTAX, place, "\"%s\" has no member \"%.64s\"%s", type->name, name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool check_members(const struct message_type *type, const cJSON *json, struct error *err)
@@ -283,7 +283,7 @@ static bool find_kind(const cJSON *json, enum message_kind *out, struct error *e
     if (!cJSON_IsObject(json) || !name) {
         return error_set(err, ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
     }
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (int kind = 0; kind < MESSAGE_COUNT; kind++) {
         if (strcmp(client_messages[kind].name, name) == 0) {
@@ -292,10 +292,10 @@ static bool find_kind(const cJSON *json, enum message_kind *out, struct error *e
         }
     }
     for (int kind = 0; kind < MESSAGE_COUNT; kind++) {
-        nearest_consider(&nearest, client_messages[kind].name);
+        suggest_consider(&suggestion, client_messages[kind].name);
     }
     return error_set(err, ERROR_SYNTAX, "/type", "unknown message \"%.64s\"%s", name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 bool message_read(const char *text, size_t length, struct message *out, struct error *err)

@@ -10,8 +10,8 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
 #include "record.h"
+#include "suggest.h"
 
 static const struct {
     const char *name;
@@ -168,15 +168,15 @@ static bool read_vector(const struct param *param, const cJSON *json, double out
 static bool fail_choice(const struct param *param, const char *text, const char *place,
                         struct error *err)
 {
-    struct nearest nearest = {.text = text};
+    struct suggestion suggestion = {.text = text};
     char hint[64], list[160] = "";
     for (int i = 0; param->choices[i]; i++) {
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", param->choices[i]);
-        nearest_consider(&nearest, param->choices[i]);
+        suggest_consider(&suggestion, param->choices[i]);
     }
     return error_set(err, ERROR_INVALID, place, "\"%.64s\" is none of %s%s", text, list,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool read_choice(const struct param *param, const cJSON *json, double *out,

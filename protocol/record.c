@@ -8,7 +8,7 @@
 
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
+#include "suggest.h"
 
 bool record_name_valid(const char *name)
 {
@@ -47,13 +47,13 @@ int record_type_find(const struct record_type *type, const char *name)
 bool record_type_unknown(const struct record_type *type, const char *name, const char *place,
                          struct error *err)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (const struct param *param = type->params; param->name; param++) {
-        nearest_consider(&nearest, param->name);
+        suggest_consider(&suggestion, param->name);
     }
     return error_set(err, ERROR_INVALID, place, "%s has no member \"%.64s\"%s", type->name, name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 void record_init(struct record *record, const struct record_type *type)

@@ -8,8 +8,8 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
 #include "scene_parts.h"
+#include "suggest.h"
 
 /* clang-format off */
 const struct resource_kind resource_kinds[] = {
@@ -88,16 +88,16 @@ const struct record_type *resource_type(const struct scene *scene, const struct 
     if (type || *out_shader) {
         return type ? type : &(*out_shader)->definition->type;
     }
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[LIMIT_ID_BYTES + 32];
     for (type = kind->table; type->name; type++) {
-        nearest_consider(&nearest, type->name);
+        suggest_consider(&suggestion, type->name);
     }
     for (size_t i = 0; shaders && i < shaders->count; i++) {
-        nearest_consider(&nearest, shaders->items[i]->name);
+        suggest_consider(&suggestion, shaders->items[i]->name);
     }
     error_set(err, ERROR_INVALID, place, "unknown %s \"%.64s\"%s", kind->type, name,
-              nearest_hint(&nearest, hint, sizeof hint));
+              suggest_hint(&suggestion, hint, sizeof hint));
     return NULL;
 }
 

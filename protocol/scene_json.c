@@ -7,8 +7,8 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
 #include "scene_parts.h"
+#include "suggest.h"
 
 bool scene_read_id(const cJSON *json, const char **out, const char *place, struct error *err)
 {
@@ -34,13 +34,13 @@ bool scene_read_record(struct record *record, const cJSON *json, const char *pla
 
 bool node_type_unknown(const char *name, const char *place, struct error *err)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (size_t i = 0; i < node_type_count(); i++) {
-        nearest_consider(&nearest, node_type_at(i)->record.name);
+        suggest_consider(&suggestion, node_type_at(i)->record.name);
     }
     return error_set(err, ERROR_INVALID, place, "unknown type \"%.64s\"%s", name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 /* --- nodes --- */

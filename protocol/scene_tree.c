@@ -6,8 +6,8 @@
 
 #include "limits.h"
 #include "memory.h"
-#include "nearest.h"
 #include "scene_parts.h"
+#include "suggest.h"
 
 /* --- ids --- */
 
@@ -78,13 +78,13 @@ bool scene_check_name(const struct scene *scene, const struct resource_kind *kin
     if (!*name || resource_find(list, name)) {
         return true;
     }
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[LIMIT_ID_BYTES + 32];
     for (size_t i = 0; i < list->count; i++) {
-        nearest_consider(&nearest, list->items[i]->name);
+        suggest_consider(&suggestion, list->items[i]->name);
     }
     return error_set(err, ERROR_INVALID, place, "there is no %s \"%s\"%s", kind->item, name,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 /* What a node names: the callback sees each kind, name and the place of the name in the node. */

@@ -9,7 +9,7 @@
 
 #include "parts.h"
 #include "protocol/memory.h"
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 enum { NAME_BYTES = 48, NUMBERS_MAX = 2 * LIMIT_POINTS + 16 };
 
@@ -126,20 +126,20 @@ bool import_fail_type(const struct importing *importing, const struct import_ite
     const char *primitive = import_name_in(type->text, "Primitives");
     const size_t count = node_type_count();
     char(*names)[NAME_BYTES] = memory_alloc(count, sizeof *names), hint[96];
-    struct nearest nearest = {.text = type->text};
+    struct suggestion suggestion = {.text = type->text};
 
     for (size_t i = 0; i < OWN_TYPES; i++) {
-        nearest_consider(&nearest, own_types[i].name);
+        suggest_consider(&suggestion, own_types[i].name);
     }
     for (size_t i = 0; i < count; i++) {
         const char *const *groups = groups_of(node_type_at(i));
 
         if (groups) {
             make_name(node_type_at(i), *groups, names[i]);
-            nearest_consider(&nearest, names[i]);
+            suggest_consider(&suggestion, names[i]);
         }
     }
-    nearest_hint(&nearest, hint, sizeof hint);
+    suggest_hint(&suggestion, hint, sizeof hint);
     if (primitive) {
         import_fail(importing, item, type,
                     "no file has the primitive \"%.64s\", and it is not built in%s", primitive,

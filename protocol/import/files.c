@@ -6,8 +6,8 @@
 
 #include "parts.h"
 #include "protocol/memory.h"
-#include "protocol/nearest.h"
 #include "protocol/nodes.h"
+#include "protocol/suggest.h"
 #include "protocol/utf8.h"
 
 static const char extension[] = ".json";
@@ -51,16 +51,16 @@ bool import_check_members(const struct importing *importing, const struct import
                           const struct import_value *object, const char *const *names)
 {
     for (const struct import_value *member = object->first; member; member = member->next) {
-        struct nearest nearest = {.text = member->name};
+        struct suggestion suggestion = {.text = member->name};
         char hint[64];
         int i = 0;
 
         for (; names[i] && strcmp(names[i], member->name) != 0; i++) {
-            nearest_consider(&nearest, names[i]);
+            suggest_consider(&suggestion, names[i]);
         }
         if (!names[i]) {
             return import_fail(importing, item, member, "there is no member \"%.64s\" here%s",
-                               member->name, nearest_hint(&nearest, hint, sizeof hint));
+                               member->name, suggest_hint(&suggestion, hint, sizeof hint));
         }
     }
     return true;
@@ -96,7 +96,7 @@ struct import_item *import_find(const struct importing *importing, const struct 
                                 const struct import_value *value, enum import_role role,
                                 const char *name)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     struct import_item *found = NULL, *other = NULL;
     int best = 0;
     char hint[64];
@@ -109,9 +109,9 @@ struct import_item *import_find(const struct importing *importing, const struct 
         if (one->role != role) {
             continue;
         }
-        nearest_consider(&nearest, one->stem);
+        suggest_consider(&suggestion, one->stem);
         if (*one->name) {
-            nearest_consider(&nearest, one->name);
+            suggest_consider(&suggestion, one->name);
         }
         if (rank > best) {
             best = rank;
@@ -123,7 +123,7 @@ struct import_item *import_find(const struct importing *importing, const struct 
     }
     if (!found) {
         import_fail(importing, item, value, "no file has the %s \"%.64s\"%s", roles[role].what,
-                    name, nearest_hint(&nearest, hint, sizeof hint));
+                    name, suggest_hint(&suggestion, hint, sizeof hint));
     } else if (other) {
         import_fail(importing, item, value, "\"%.64s\" may be the %s of %.60s or of %.60s", name,
                     roles[role].what, found->path, other->path);

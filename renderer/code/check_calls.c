@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 enum { LIST_BYTES = 120 };
 
@@ -517,7 +517,7 @@ static bool unknown_function(struct checker *checker, const struct expr *expr)
     const struct function *below = find_below(checker->tree, expr->name);
     char hint[80];
     const char *name = expr->name->text, *advice = builtin_advice(name);
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     if (advice) {
         return CHECK_FAIL(checker, expr->at, "%.40s is not known here: %s", name, advice);
     }
@@ -526,16 +526,16 @@ static bool unknown_function(struct checker *checker, const struct expr *expr)
                           below->at.line);
     }
     for (const struct function *f = checker->tree->functions; f; f = f->next) {
-        nearest_consider(&nearest, f->name->text);
+        suggest_consider(&suggestion, f->name->text);
     }
     for (const struct builtin *row = builtin_table; row->name; row++) {
-        nearest_consider(&nearest, row->name);
+        suggest_consider(&suggestion, row->name);
     }
     for (size_t i = 0; type_name_at(i); i++) {
-        nearest_consider(&nearest, type_name_at(i));
+        suggest_consider(&suggestion, type_name_at(i));
     }
     return CHECK_FAIL(checker, expr->at, "there is no function %.40s%s", name,
-                      nearest_hint(&nearest, hint, sizeof hint));
+                      suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 bool check_call(struct checker *checker, struct expr *expr)

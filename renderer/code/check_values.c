@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "lower.h"
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 /* --- constants --- */
 
@@ -75,10 +75,10 @@ bool check_fold(struct checker *checker, struct expr *expr)
 static bool unknown_variable(struct checker *checker, const struct expr *expr)
 {
     char hint[80];
-    struct nearest nearest = {.text = expr->name->text};
+    struct suggestion suggestion = {.text = expr->name->text};
     for (int i = 0; i <= checker->scope; i++) {
         for (struct variable *v = checker->scopes[i]; v; v = v->next_in_scope) {
-            nearest_consider(&nearest, v->name->text);
+            suggest_consider(&suggestion, v->name->text);
         }
     }
     if (expr->name->functions || builtin_find(expr->name->text)) {
@@ -86,7 +86,7 @@ static bool unknown_variable(struct checker *checker, const struct expr *expr)
                           expr->name->text);
     }
     return CHECK_FAIL(checker, expr->at, "there is no variable %.40s%s", expr->name->text,
-                      nearest_hint(&nearest, hint, sizeof hint));
+                      suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool check_variable(struct checker *checker, struct expr *expr)
@@ -287,7 +287,7 @@ static bool check_fragment_member(struct checker *checker, struct expr *expr)
                                          "ray_direction", "ray_distance"};
     enum { FIELDS = sizeof fields / sizeof fields[0] };
     char hint[80];
-    struct nearest nearest = {.text = expr->name->text};
+    struct suggestion suggestion = {.text = expr->name->text};
     for (int i = 0; i < FIELDS; i++) {
         if (strcmp(fields[i], expr->name->text) == 0) {
             expr->kind = EXPR_FIELD;
@@ -297,16 +297,16 @@ static bool check_fragment_member(struct checker *checker, struct expr *expr)
             checker->tree->shading_used = true;
             return true;
         }
-        nearest_consider(&nearest, fields[i]);
+        suggest_consider(&suggestion, fields[i]);
     }
     return CHECK_FAIL(checker, expr->at, "FragmentProperties has no member %.40s%s",
-                      expr->name->text, nearest_hint(&nearest, hint, sizeof hint));
+                      expr->name->text, suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool check_surface_member(struct checker *checker, struct expr *expr)
 {
     char hint[80];
-    struct nearest nearest = {.text = expr->name->text};
+    struct suggestion suggestion = {.text = expr->name->text};
     for (int i = 0; i < SURFACE_MEMBERS; i++) {
         if (strcmp(surface_members[i].name, expr->name->text) == 0) {
             expr->kind = EXPR_PART;
@@ -316,10 +316,10 @@ static bool check_surface_member(struct checker *checker, struct expr *expr)
             checker->tree->clear |= strcmp(expr->name->text, "transmission") == 0;
             return check_fold(checker, expr);
         }
-        nearest_consider(&nearest, surface_members[i].name);
+        suggest_consider(&suggestion, surface_members[i].name);
     }
     return CHECK_FAIL(checker, expr->at, "Surface has no member %.40s%s", expr->name->text,
-                      nearest_hint(&nearest, hint, sizeof hint));
+                      suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool check_primitive_member(struct checker *checker, struct expr *expr)

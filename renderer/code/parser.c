@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 bool parser_enter(struct parser *parser)
 {
@@ -100,15 +100,15 @@ static bool unknown_word(struct parser *parser, const struct token *token)
 {
     char text[41], hint[80];
     snprintf(text, sizeof text, "%.*s", token->length < 40 ? token->length : 40, token->text);
-    struct nearest nearest = {.text = text};
+    struct suggestion suggestion = {.text = text};
     for (size_t i = 0; type_name_at(i); i++) {
-        nearest_consider(&nearest, type_name_at(i));
+        suggest_consider(&suggestion, type_name_at(i));
     }
     for (int kind = TOKEN_CONST; lexer_text((enum token_kind)kind); kind++) {
-        nearest_consider(&nearest, lexer_text((enum token_kind)kind));
+        suggest_consider(&suggestion, lexer_text((enum token_kind)kind));
     }
     return tree_fail(parser->tree, token->at, "there is no type %s%s", text,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 static bool expect_type(struct parser *parser, struct type *out)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 /* clang-format off */
 static const struct command table[COMMAND_COUNT] = {
@@ -75,15 +75,15 @@ static void print_help(FILE *out)
 
 static int unknown(const char *name)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (int i = 0; i < COMMAND_COUNT; i++) {
         if (!table[i].hidden) {
-            nearest_consider(&nearest, table[i].name);
+            suggest_consider(&suggestion, table[i].name);
         }
     }
     fprintf(stderr, "fieldcast: %s: is no command%s\n", name,
-            nearest_hint(&nearest, hint, sizeof hint));
+            suggest_hint(&suggestion, hint, sizeof hint));
     fputs("`fieldcast --help` lists the commands.\n", stderr);
     return EXIT_USAGE;
 }

@@ -8,7 +8,7 @@
 #include "files.h"
 #include "protocol/asset.h"
 #include "protocol/memory.h"
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 #include "server/digest.h"
 #include "server/embedded.h"
 
@@ -90,13 +90,13 @@ static struct scene *open_example(const char *name, const char *id, struct error
     if (example) {
         return scene_parse((const char *)example->bytes, example->length, err);
     }
-    struct nearest nearest = {.text = id};
+    struct suggestion suggestion = {.text = id};
     char hint[96];
     for (size_t i = 0; i < examples_count; i++) {
-        nearest_consider(&nearest, examples_table[i].path);
+        suggest_consider(&suggestion, examples_table[i].path);
     }
     error_set(err, ERROR_NOT_FOUND, name, "is no example%s",
-              nearest_hint(&nearest, hint, sizeof hint));
+              suggest_hint(&suggestion, hint, sizeof hint));
     return NULL;
 }
 

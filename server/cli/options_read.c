@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "options.h"
-#include "protocol/nearest.h"
+#include "protocol/suggest.h"
 
 static bool applies(const struct option_row *row, const struct command *command)
 {
@@ -35,16 +35,16 @@ static enum option find_option(const struct command *command, const char *name, 
 static bool unknown(const struct command *command, const char *place, const char *name,
                     const char *of, struct error *err)
 {
-    struct nearest nearest = {.text = name};
+    struct suggestion suggestion = {.text = name};
     char hint[64];
     for (int i = 0; i < OPTION_COUNT; i++) {
         const struct option_row *row = option_row((enum option)i);
         if (command ? applies(row, command) : row->stored) {
-            nearest_consider(&nearest, row->name);
+            suggest_consider(&suggestion, row->name);
         }
     }
     return error_set(err, ERROR_INVALID, place, "is no option of %s%s", of,
-                     nearest_hint(&nearest, hint, sizeof hint));
+                     suggest_hint(&suggestion, hint, sizeof hint));
 }
 
 /* --- config file --- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Nearest names by edit distance, two letters swapped counting as one change (Damerau 1964, in the
  * restricted form). For short names only. */
-#include "nearest.h"
+#include "suggest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -33,26 +33,26 @@ static size_t edit_distance(const char *a, size_t a_length, const char *b, size_
     return rows[a_length % 3][b_length];
 }
 
-void nearest_consider(struct nearest *nearest, const char *name)
+void suggest_consider(struct suggestion *suggestion, const char *name)
 {
-    size_t written = strnlen(nearest->text, LONGEST + 1), length = strnlen(name, LONGEST + 1);
+    size_t written = strnlen(suggestion->text, LONGEST + 1), length = strnlen(name, LONGEST + 1);
     if (written > LONGEST || length > LONGEST) {
         return;
     }
-    size_t distance = edit_distance(nearest->text, written, name, length);
+    size_t distance = edit_distance(suggestion->text, written, name, length);
     size_t allowed = length <= 3 ? 1 : length <= 7 ? 2 : 3;
     if (distance <= allowed && distance < length &&
-        (!nearest->best || distance < nearest->distance)) {
-        nearest->best = name;
-        nearest->distance = distance;
+        (!suggestion->best || distance < suggestion->distance)) {
+        suggestion->best = name;
+        suggestion->distance = distance;
     }
 }
 
-const char *nearest_hint(const struct nearest *nearest, char *out, size_t size)
+const char *suggest_hint(const struct suggestion *suggestion, char *out, size_t size)
 {
     *out = '\0';
-    if (nearest->best) {
-        snprintf(out, size, "; did you mean \"%s\"?", nearest->best);
+    if (suggestion->best) {
+        snprintf(out, size, "; did you mean \"%s\"?", suggestion->best);
     }
     return out;
 }
