@@ -202,10 +202,10 @@ bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
     }
     cJSON *old = record_get(record, index);
     record_set(record, index, value, at, NULL);
-    struct definition *before = resource->definition;
-    resource->definition = resource_define(kind, resource);
-    convert_users(editor, &(struct users){&before->type, &resource->definition->type});
-    definition_destroy(before);
+    struct declared_params *before = resource->declared;
+    resource->declared = resource_define(kind, resource);
+    convert_users(editor, &(struct users){&before->type, &resource->declared->type});
+    declared_params_destroy(before);
     edit_undo_by(editor, edit_set_operation(at, old));
     edit_did(editor, edit_set_operation(at, record_get(record, index)));
     return true;

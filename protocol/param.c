@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "definition.h"
+#include "declared_params.h"
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
@@ -273,7 +273,7 @@ bool param_read(const struct param *param, const cJSON *json, double out[4], con
     case PARAM_POINTS:
         return read_points(param, json, &out[0], place, err);
     case PARAM_ROWS:
-        return definition_check(json, NULL, place, err);
+        return declared_params_check(json, NULL, place, err);
     case PARAM_ENUM:
         return read_choice(param, json, &out[0], place, err);
     default:
@@ -350,7 +350,7 @@ bool param_value_set(const struct param *param, struct value *value, const cJSON
     if (param->type == PARAM_POINTS) {
         fresh.points = points_of(json, (size_t)fresh.number[0]);
     } else if (param->type == PARAM_ROWS) {
-        fresh.text = definition_text(json);
+        fresh.text = declared_params_text(json);
     } else if (param_is_text(param->type)) {
         fresh.text = memory_text(json->valuestring);
     }

@@ -30,7 +30,7 @@ enum param_type {
     PARAM_MODEL,    /* name of a model of the scene, or "" */
     PARAM_FUNCTION, /* name of a distance function among `primitives`, or "" */
     PARAM_ASSET,    /* an uploaded file: its SHA-256 in 64 small hex digits, or "" */
-    PARAM_ROWS,     /* parameters that a document declares (definition.h); `text` is their JSON */
+    PARAM_ROWS, /* parameters that a document declares (declared_params.h); `text` is their JSON */
 };
 
 enum { DIGEST_DIGITS = 64 }; /* of a SHA-256 */

@@ -72,7 +72,7 @@ void resource_destroy(struct resource *resource)
         return;
     }
     node_destroy(resource->root);
-    definition_destroy(resource->definition);
+    declared_params_destroy(resource->declared);
     record_finish(&resource->record);
     free(resource->name);
     free(resource);
@@ -86,7 +86,7 @@ const struct record_type *resource_type(const struct scene *scene, const struct 
     const struct resource_list *shaders = kind->table == shader_types ? &scene->shaders : NULL;
     *out_shader = shaders ? resource_find(shaders, name) : NULL;
     if (type || *out_shader) {
-        return type ? type : &(*out_shader)->definition->type;
+        return type ? type : &(*out_shader)->declared->type;
     }
     struct suggestion suggestion = {.text = name};
     char hint[LIMIT_ID_BYTES + 32];
@@ -126,14 +126,15 @@ static const struct record_type *extended(const struct resource_kind *kind)
 bool resource_check_rows(const struct resource_kind *kind, const cJSON *rows, const char *place,
                          struct error *err)
 {
-    return definition_check(rows, extended(kind), place, err);
+    return declared_params_check(rows, extended(kind), place, err);
 }
 
-struct definition *resource_define(const struct resource_kind *kind,
-                                   const struct resource *resource)
+struct declared_params *resource_define(const struct resource_kind *kind,
+                                        const struct resource *resource)
 {
     int rows = resource_rows(resource->record.type);
-    return definition_create(resource->name, extended(kind), resource->record.values[rows].text);
+    return declared_params_create(resource->name, extended(kind),
+                                  resource->record.values[rows].text);
 }
 
 /* --- lists --- */

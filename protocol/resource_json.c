@@ -46,7 +46,7 @@ static bool read_definition(struct resource *resource, const struct resource_kin
     if (rows && !resource_check_rows(kind, rows, error_place(path, place, name), err)) {
         return false;
     }
-    resource->definition = resource_define(kind, resource);
+    resource->declared = resource_define(kind, resource);
     return true;
 }
 

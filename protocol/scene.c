@@ -63,12 +63,12 @@ static struct resource *copy_resource(struct scene *scene, const struct resource
     to->users = from->users;
     to->level = from->level;
     record_copy(&to->record, &from->record);
-    if (from->definition) {
-        to->definition = resource_define(kind, to);
+    if (from->declared) {
+        to->declared = resource_define(kind, to);
     }
     if (from->shader) {
         to->shader = resource_find(&scene->shaders, from->shader->name);
-        to->record.type = &to->shader->definition->type;
+        to->record.type = &to->shader->declared->type;
     }
     if (from->root) {
         to->root = copy_node(scene, from->root);

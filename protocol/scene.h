@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "definition.h"
+#include "declared_params.h"
 #include "nodes.h"
 
 struct node {
@@ -30,12 +30,12 @@ struct resource {
     /* Of a light: its type's row in light_types. Of a material: its shader's row in shader_types,
      * or what a shader of the document declares. Else primitive_type, shader_type, model_type. */
     struct record record;
-    size_t users;                  /* nodes or materials that name it */
-    struct resource *shader;       /* a material's, where it is one of the document's; else NULL */
-    struct definition *definition; /* of a primitive or shader; else NULL */
-    struct node *root;             /* of a model; else NULL */
-    size_t level;                  /* of a model; private to scene_models.c */
-    int search;                    /* the same */
+    size_t users;            /* nodes or materials that name it */
+    struct resource *shader; /* a material's, where it is one of the document's; else NULL */
+    struct declared_params *declared; /* of a primitive or shader; else NULL */
+    struct node *root;                /* of a model; else NULL */
+    size_t level;                     /* of a model; private to scene_models.c */
+    int search;                       /* the same */
 };
 
 struct resource_list {

@@ -151,7 +151,7 @@ static const struct record_type *read_params_type(struct reader *reader,
                           path, reader->err)) {
         return NULL;
     }
-    return &resource_find(&reader->scene->primitives, name->valuestring)->definition->type;
+    return &resource_find(&reader->scene->primitives, name->valuestring)->declared->type;
 }
 
 static struct node *read_tree(struct reader *reader, const cJSON *json, const char *place,

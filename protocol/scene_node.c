@@ -170,7 +170,7 @@ const struct record_type *node_params_type(const struct scene *scene, const stru
 {
     const struct resource *primitive =
         named(&scene->primitives, type, KIND_CODE, params, "primitive");
-    return primitive ? &primitive->definition->type : &type->record;
+    return primitive ? &primitive->declared->type : &type->record;
 }
 
 const struct resource *node_material(const struct scene *scene, const struct node *node)

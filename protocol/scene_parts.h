@@ -20,7 +20,7 @@ struct resource_kind {
     int named_by;        /* the enum param_type of values that name one; 0: none */
     const char *type;    /* member that chooses a row of `table`; NULL: `table` is the row */
     const char *values;  /* member with the record's values; NULL: they stand beside the type */
-    const char *extends; /* node type whose rows a definition begins with; NULL: none */
+    const char *extends; /* node type whose rows its declared ones follow; NULL: none */
     const struct record_type *table;
 };
 
@@ -52,8 +52,8 @@ int resource_rows(const struct record_type *type);
 bool resource_check_rows(const struct resource_kind *kind, const cJSON *rows, const char *place,
                          struct error *err);
 /* From the rows that the record holds. */
-struct definition *resource_define(const struct resource_kind *kind,
-                                   const struct resource *resource);
+struct declared_params *resource_define(const struct resource_kind *kind,
+                                        const struct resource *resource);
 
 /* --- reading and printing (scene_json.c, resource_json.c, scene_print.c) --- */
 

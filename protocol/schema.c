@@ -310,11 +310,11 @@ static cJSON *declaration_schema(void)
     cJSON_AddStringToObject(name, "pattern", "^(?!gl_)(?!.*__)[A-Za-z_][A-Za-z0-9_]{0,63}$");
     cJSON_AddItemToObject(properties, "name", name);
     types = cJSON_AddArrayToObject(cJSON_AddObjectToObject(properties, "type"), "enum");
-    for (int i = 0; definition_types[i]; i++) {
-        cJSON_AddItemToArray(types, cJSON_CreateString(definition_types[i]));
+    for (int i = 0; declared_param_types[i]; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(declared_param_types[i]));
     }
-    for (int i = 0; definition_aliases[i].name; i++) {
-        cJSON_AddItemToArray(types, cJSON_CreateString(definition_aliases[i].name));
+    for (int i = 0; declared_param_aliases[i].name; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(declared_param_aliases[i].name));
     }
     cJSON_AddTrueToObject(properties, "default");
     cJSON_AddItemToObject(properties, "range", vector_schema(number_schema(&number), 2));
@@ -429,8 +429,8 @@ static cJSON *describe_resources(void)
     cJSON_AddItemToObject(resources, "primitive", describe_params(&primitive_type));
     cJSON_AddItemToObject(resources, "shader", describe_params(&shader_type));
     cJSON *types = cJSON_AddArrayToObject(resources, "declared_types");
-    for (int i = 0; definition_types[i]; i++) {
-        cJSON_AddItemToArray(types, cJSON_CreateString(definition_types[i]));
+    for (int i = 0; declared_param_types[i]; i++) {
+        cJSON_AddItemToArray(types, cJSON_CreateString(declared_param_types[i]));
     }
     return resources;
 }

@@ -225,7 +225,7 @@ static cJSON *random_params(struct random *random, const struct node_type *type,
     size_t index = random_below(random, primitives->count + 1);
     if (type->kind == KIND_CODE) {
         bool named = index < primitives->count;
-        params = named ? &primitives->items[index]->definition->type : params;
+        params = named ? &primitives->items[index]->declared->type : params;
         cJSON_AddStringToObject(object, "primitive", named ? params->name : "");
     }
     add_values(random, object, params, scene);
@@ -278,7 +278,7 @@ cJSON *random_resource(struct random *random, int kind, const struct scene *scen
         const char *name = random_type_name(random, kind, scene);
         const struct resource *shader = resource_find(&scene->shaders, name);
         type = record_type_in(row->table, name);
-        type = type ? type : &shader->definition->type;
+        type = type ? type : &shader->declared->type;
         cJSON_AddStringToObject(json, row->type, name);
     }
     if (row->values) {

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "protocol/definition.h"
+#include "protocol/declared_params.h"
 #include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/nodes.h"
@@ -286,11 +286,11 @@ static void test_definitions(void **state)
         "{\"name\":\"b\",\"type\":\"vec2\",\"range\":[-3,-2],\"doc\":\"B.\"},"
         "{\"name\":\"c\",\"type\":\"int\",\"default\":7},{\"name\":\"d\",\"type\":\"color\"}]";
     struct error err = {0};
-    struct definition *definition = definition_create("thing", &type, text);
-    const struct param *rows = definition->type.params + definition->first_declared;
-    assert_int_equal(definition->first_declared, record_type_count(&type));
-    assert_string_equal(definition->type.name, "thing");
-    assert_ptr_equal(definition->type.params[0].name, params[0].name);
+    struct declared_params *declared = declared_params_create("thing", &type, text);
+    const struct param *rows = declared->type.params + declared->first_declared;
+    assert_int_equal(declared->first_declared, record_type_count(&type));
+    assert_string_equal(declared->type.name, "thing");
+    assert_ptr_equal(declared->type.params[0].name, params[0].name);
     assert_true(rows[0].def[0] == 2 && rows[0].min == 2 && rows[0].max == 3);
     assert_true(rows[1].def[0] == -2 && rows[1].def[1] == -2);
     assert_string_equal(rows[1].doc, "B.");
@@ -299,12 +299,12 @@ static void test_definitions(void **state)
     assert_null(rows[4].name);
     cJSON *json = json_parse(text, strlen(text), NULL);
     const struct record_type taken = {.name = "field", .params = rows + 2};
-    assert_false(definition_check(json, &taken, "/p", &err));
+    assert_false(declared_params_check(json, &taken, "/p", &err));
     assert_string_equal(err.place, "/p/2/name");
     assert_string_equal(err.message, "every field has a \"c\" already");
     cJSON_Delete(json);
-    definition_destroy(definition);
-    definition_destroy(NULL);
+    declared_params_destroy(declared);
+    declared_params_destroy(NULL);
 }
 
 /* As many as allowed, and one more. */

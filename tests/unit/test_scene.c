@@ -154,14 +154,14 @@ static void test_resources_of_every_kind(void **state)
     const struct resource *king = resource_find(&copy->models, "king");
     const struct resource *pawn = resource_find(&copy->models, "pawn");
     assert_ptr_equal(node_primitive(copy, field), rod);
-    assert_ptr_equal(field->params.type, &rod->definition->type);
-    assert_int_equal(rod->definition->first_declared, record_type_count(&field->type->record));
+    assert_ptr_equal(field->params.type, &rod->declared->type);
+    assert_int_equal(rod->declared->first_declared, record_type_count(&field->type->record));
     assert_float_equal(record_number(&field->params, "r"), 0.7, 0);
     assert_float_equal(record_vector(&field->params, "h")[1], 0, 0);
     assert_null(node_primitive(copy, scene_find(copy, "g")));
     assert_ptr_equal(scene_find(copy, "g")->params.type, &field->type->record);
     assert_ptr_equal(veined->shader, marble);
-    assert_ptr_equal(veined->record.type, &marble->definition->type);
+    assert_ptr_equal(veined->record.type, &marble->declared->type);
     assert_null(resource_find(&copy->materials, "n")->shader);
     assert_ptr_equal(node_model(copy, scene_find(copy, "i")), king);
     assert_ptr_equal(node_model(copy, scene_find(copy, "k1")), pawn);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Declared parameters: from JSON to rows of a table. */
-#include "definition.h"
+#include "declared_params.h"
 
 #include <assert.h>
 #include <ctype.h>
@@ -17,10 +17,10 @@ static const enum param_type types[] = {
     PARAM_VEC4,  PARAM_IVEC2, PARAM_IVEC3, PARAM_IVEC4, PARAM_COLOR,
 };
 
-const char *const definition_types[] = {"float", "int",   "bool",  "vec2",  "vec3", "vec4",
-                                        "ivec2", "ivec3", "ivec4", "color", NULL};
+const char *const declared_param_types[] = {"float", "int",   "bool",  "vec2",  "vec3", "vec4",
+                                            "ivec2", "ivec3", "ivec4", "color", NULL};
 
-const struct definition_alias definition_aliases[] = {
+const struct declared_param_alias declared_param_aliases[] = {
     {"float2", "vec2"}, {"float3", "vec3"}, {"float4", "vec4"}, {"int2", "ivec2"},
     {"int3", "ivec3"},  {"int4", "ivec4"},  {NULL, NULL},
 };
@@ -58,10 +58,10 @@ static bool read_name(struct param *out, const cJSON *json, const char *place, s
 static const char *canonical(const char *name)
 {
     int i = 0;
-    while (definition_aliases[i].name && strcmp(definition_aliases[i].name, name) != 0) {
+    while (declared_param_aliases[i].name && strcmp(declared_param_aliases[i].name, name) != 0) {
         i++;
     }
-    return definition_aliases[i].name ? definition_aliases[i].type : name;
+    return declared_param_aliases[i].name ? declared_param_aliases[i].type : name;
 }
 
 static bool read_type(struct param *out, const cJSON *json, const char *place, struct error *err)
@@ -165,8 +165,8 @@ static cJSON *row_json(const struct param *row, const cJSON *json)
 
 /* --- all rows --- */
 
-bool definition_check(const cJSON *rows, const struct record_type *taken, const char *place,
-                      struct error *err)
+bool declared_params_check(const cJSON *rows, const struct record_type *taken, const char *place,
+                           struct error *err)
 {
     struct param seen[LIMIT_DECLARED + 1] = {{.name = NULL}};
     const struct record_type before = {.params = seen};
@@ -198,7 +198,7 @@ bool definition_check(const cJSON *rows, const struct record_type *taken, const 
     return true;
 }
 
-char *definition_text(const cJSON *rows)
+char *declared_params_text(const cJSON *rows)
 {
     cJSON *canonical = cJSON_CreateArray();
     for (const cJSON *row = rows->child; row; row = row->next) {
@@ -211,10 +211,10 @@ char *definition_text(const cJSON *rows)
     return text;
 }
 
-struct definition *definition_create(const char *name, const struct record_type *first,
-                                     const char *text)
+struct declared_params *declared_params_create(const char *name, const struct record_type *first,
+                                               const char *text)
 {
-    struct definition *definition = memory_alloc(1, sizeof *definition);
+    struct declared_params *declared = memory_alloc(1, sizeof *declared);
     size_t count = first ? record_type_count(first) : 0;
     cJSON *rows = json_parse(text, strlen(text), NULL);
     assert(rows);
@@ -223,28 +223,28 @@ struct definition *definition_create(const char *name, const struct record_type 
     if (first) {
         memcpy(params, first->params, count * sizeof *params);
     }
-    definition->first_declared = count;
-    definition->type = (struct record_type){.name = memory_text(name), .doc = "", .params = params};
+    declared->first_declared = count;
+    declared->type = (struct record_type){.name = memory_text(name), .doc = "", .params = params};
     for (const cJSON *row = rows->child; row; row = row->next, count++) {
         read_row(&params[count], row, "", NULL);
         params[count].name = memory_text(params[count].name);
         params[count].doc = memory_text(params[count].doc);
     }
     cJSON_Delete(rows);
-    return definition;
+    return declared;
 }
 
-void definition_destroy(struct definition *definition)
+void declared_params_destroy(struct declared_params *declared)
 {
-    if (!definition) {
+    if (!declared) {
         return;
     }
-    for (const struct param *row = definition->type.params + definition->first_declared; row->name;
+    for (const struct param *row = declared->type.params + declared->first_declared; row->name;
          row++) {
         free((char *)row->name);
         free((char *)row->doc);
     }
-    free((struct param *)definition->type.params);
-    free((char *)definition->type.name);
-    free(definition);
+    free((struct param *)declared->type.params);
+    free((char *)declared->type.name);
+    free(declared);
 }
