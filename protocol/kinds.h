@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Kinds that a document names by a word, and their numbers: each list makes an enum here, the words
- * in tables.c, and the names that GLSL has for them. Types of lights and volumes are the rows of
- * their tables; the words stand there. */
+ * in document_tables.c, and the names that GLSL has for them. Types of lights and volumes are the
+ * rows of their tables; the words stand there. */
 #ifndef PROTOCOL_KINDS_H
 #define PROTOCOL_KINDS_H
 

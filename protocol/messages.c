@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The messages of a live connection: their tables, reading and describing them. The binary header
- * is frames.c. */
+ * is frame_header.c. */
 #include "messages.h"
 
 #include <string.h>
@@ -12,29 +12,29 @@
 #include "nodes.h"
 #include "suggest.h"
 
-enum field_kind {
-    FIELD_VALUE,
-    FIELD_CLIENT,
-    FIELD_KEY,
-    FIELD_CAMERA,
-    FIELD_OPERATIONS,
-    FIELD_NODES,
-    FIELD_OBJECT
+enum member_kind {
+    MEMBER_VALUE,
+    MEMBER_CLIENT,
+    MEMBER_KEY,
+    MEMBER_CAMERA,
+    MEMBER_OPERATIONS,
+    MEMBER_NODES,
+    MEMBER_OBJECT
 };
 
-struct field {
-    struct param param; /* of FIELD_OBJECT and the like only name and doc */
+struct message_member {
+    struct param param; /* of MEMBER_OBJECT and the like only name and doc */
     bool required;
-    enum field_kind kind;
+    enum member_kind kind;
 };
 
 struct message_type {
     const char *name;
     const char *doc;
-    const struct field *fields; /* ends with a row without a name */
+    const struct message_member *members; /* ends with a row without a name */
 };
 
-#define FIELDS(...) ((const struct field[]){__VA_ARGS__, {.param = {.name = NULL}}})
+#define MEMBERS(...) ((const struct message_member[]){__VA_ARGS__, {.param = {.name = NULL}}})
 #define EXACT_MAX 9007199254740991.0 /* whole numbers up to here are exact in JSON */
 #define COUNT PARAM_INT, .min = 0, .max = EXACT_MAX
 #define SMALL PARAM_INT, .min = 0, .max = 4294967295.0
@@ -54,52 +54,52 @@ static const char *const levels[] = {"info", "warning", "error", NULL};
 #define SKIPPED \
     {.param = {"skipped", .doc = "Of an undo or redo: operations left out, since somebody else" \
                                  " has changed their places. An edit of them does them."}, \
-     .kind = FIELD_OPERATIONS}
+     .kind = MEMBER_OPERATIONS}
 #define REVISION {.param = {"revision", COUNT, .doc = "Revision of the scene."}, .required = true}
 
 static const struct message_type client_messages[MESSAGE_COUNT] = {
-    [MESSAGE_HELLO] = {"hello", "The first message.", FIELDS(
+    [MESSAGE_HELLO] = {"hello", "The first message.", MEMBERS(
         {.param = {"client", PARAM_TEXT, .doc = "8 to 64 of A-Z a-z 0-9 _ -: the author."},
-         .required = true, .kind = FIELD_CLIENT},
+         .required = true, .kind = MEMBER_CLIENT},
         {.param = {"key", PARAM_TEXT, .doc = "What welcome told this client: 32 of 0-9 a-f."},
-         .kind = FIELD_KEY},
+         .kind = MEMBER_KEY},
         {.param = {"name", PARAM_TEXT, .doc = "Shown to others."}},
         {.param = {"revision", COUNT, .doc = "The last one known, to resume."}},
         {.param = {"epoch", PARAM_TEXT, .doc = "The one that the revision belongs to."}})},
-    [MESSAGE_VIEW] = {"view", "What this client wants to see; only the newest counts.", FIELDS(
+    [MESSAGE_VIEW] = {"view", "What this client wants to see; only the newest counts.", MEMBERS(
         {.param = {"seq", SMALL, .doc = "Counts up; frames name the newest that they show."},
          .required = true},
         {.param = {"width", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"height", SIDE, .doc = "Device pixels."}, .required = true},
         {.param = {"camera", .doc = "What differs from the document's; absent: nothing."},
-         .kind = FIELD_CAMERA},
+         .kind = MEMBER_CAMERA},
         {.param = {"aov", PARAM_ENUM, .choices = aov_picture_names, .doc = "Which output."}},
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}},
         {.param = {"isolate", .doc = "Ids: this client's pictures and picks show these nodes and"
                                      " what is below them. Absent, or none in the scene: all."},
-         .kind = FIELD_NODES})},
-    [MESSAGE_EDIT] = {"edit", "Changes the scene.", FIELDS(
+         .kind = MEMBER_NODES})},
+    [MESSAGE_EDIT] = {"edit", "Changes the scene.", MEMBERS(
         EDIT_NUMBER,
-        {.param = {"ops", .doc = "The operations."}, .required = true, .kind = FIELD_OPERATIONS},
+        {.param = {"ops", .doc = "The operations."}, .required = true, .kind = MEMBER_OPERATIONS},
         {.param = {"group", PARAM_TEXT, .doc = "Edits of one group are one step of undo."}},
         {.param = {"label", PARAM_TEXT, .doc = "What the edit does, for people."}})},
-    [MESSAGE_UNDO] = {"undo", "Undoes this author's newest step.", FIELDS(EDIT_NUMBER)},
-    [MESSAGE_REDO] = {"redo", "Redoes this author's newest step undone.", FIELDS(EDIT_NUMBER)},
-    [MESSAGE_PICK] = {"pick", "Asks what is under the pointer.", FIELDS(
+    [MESSAGE_UNDO] = {"undo", "Undoes this author's newest step.", MEMBERS(EDIT_NUMBER)},
+    [MESSAGE_REDO] = {"redo", "Redoes this author's newest step undone.", MEMBERS(EDIT_NUMBER)},
+    [MESSAGE_PICK] = {"pick", "Asks what is under the pointer.", MEMBERS(
         {.param = {"pick", SMALL, .doc = "Comes back with the answer."}, .required = true},
         {.param = {"x", AT, .doc = "Pixels from the left."}, .required = true},
         {.param = {"y", AT, .doc = "Pixels from the top."}, .required = true},
         {.param = {"seq", SMALL, .doc = "The view meant."}})},
-    [MESSAGE_ACK] = {"ack", "A frame was shown.", FIELDS(
+    [MESSAGE_ACK] = {"ack", "A frame was shown.", MEMBERS(
         {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
-    [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", FIELDS(
+    [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", MEMBERS(
         {.param = {"place", PARAM_TEXT, .doc = "Of the notice; absent: whatever it is."}})},
 };
 
 static const struct message_type server_messages[] = {
-    {"welcome", "Answers hello.", FIELDS(
+    {"welcome", "Answers hello.", MEMBERS(
         {.param = {"session", PARAM_TEXT, .doc = "Name of this connection."}, .required = true},
         {.param = {"scene", PARAM_TEXT, .doc = "Id of the scene."}, .required = true},
         REVISION,
@@ -112,52 +112,52 @@ static const struct message_type server_messages[] = {
           .doc = "Secret of this client: who says its name has to show it."},
          .required = true},
         {.param = {"renderer", .doc = "name, version, software, device."}, .required = true,
-         .kind = FIELD_OBJECT},
+         .kind = MEMBER_OBJECT},
         {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
          .required = true},
         {.param = {"undo_labels", .doc = "Names of this client's newest steps, newest first."},
-         .kind = FIELD_OBJECT},
+         .kind = MEMBER_OBJECT},
         {.param = {"redo_labels", .doc = "The same of steps that can be redone."},
-         .kind = FIELD_OBJECT},
-        {.param = {"limits", .doc = "Limits by name."}, .required = true, .kind = FIELD_OBJECT})},
-    {"document", "Replaces everything.", FIELDS(
+         .kind = MEMBER_OBJECT},
+        {.param = {"limits", .doc = "Limits by name."}, .required = true, .kind = MEMBER_OBJECT})},
+    {"document", "Replaces everything.", MEMBERS(
         REVISION,
         {.param = {"document", .doc = "The scene document."},
-         .required = true, .kind = FIELD_OBJECT})},
-    {"applied", "The author's edit is in; once more after its commit.", FIELDS(
+         .required = true, .kind = MEMBER_OBJECT})},
+    {"applied", "The author's edit is in; once more after its commit.", MEMBERS(
         EDIT_NUMBER, REVISION,
         {.param = {"durable", PARAM_BOOL, .doc = "Whether it is committed."}, .required = true},
         {.param = {"undo", COUNT, .doc = "Steps left to undo."}, .required = true},
         {.param = {"redo", COUNT, .doc = "Steps left to redo."}, .required = true},
         SKIPPED)},
-    {"changed", "Somebody else's edit, or the result of one's own undo or redo.", FIELDS(
+    {"changed", "Somebody else's edit, or the result of one's own undo or redo.", MEMBERS(
         REVISION,
         {.param = {"author", PARAM_TEXT, .doc = "`author` of its welcome, or rest."},
          .required = true},
         {.param = {"ops", .doc = "The operations in canonical form."}, .required = true,
-         .kind = FIELD_OPERATIONS},
+         .kind = MEMBER_OPERATIONS},
         {.param = {"edit", COUNT, .doc = "Only to the author: number of the undo or redo."}})},
-    {"rejected", "An edit was refused; nothing was changed.", FIELDS(
+    {"rejected", "An edit was refused; nothing was changed.", MEMBERS(
         EDIT_NUMBER,
         {.param = {"code", PARAM_TEXT, .doc = "Kind of error."}, .required = true},
         {.param = {"place", PARAM_TEXT, .doc = "Where."}, .required = true},
         {.param = {"message", PARAM_TEXT, .doc = "Why, with value and limit."}, .required = true},
         TEXT_PLACE, SKIPPED)},
-    {"picked", "What is under the pointer; null where nothing is.", FIELDS(
+    {"picked", "What is under the pointer; null where nothing is.", MEMBERS(
         {.param = {"pick", SMALL, .doc = "Number of the question."}, .required = true},
         REVISION,
         {.param = {"node", PARAM_TEXT, .doc = "Id of the node, or null."}, .required = true},
         {.param = {"position", PARAM_VEC3, .doc = "Where it was hit."}},
         {.param = {"normal", PARAM_VEC3, .doc = "Direction of the surface."}},
         {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}})},
-    {"compiling", "The newest state is being made ready; the picture is of an older one.", FIELDS(
+    {"compiling", "The newest state is being made ready; the picture is of an older one.", MEMBERS(
         REVISION,
         {.param = {"over", PARAM_BOOL, .doc = "It can be drawn, or never will be."},
          .required = true},
         {.param = {"elapsed_ms", COUNT, .doc = "How long it has taken so far."}, .required = true},
         {.param = {"expected_ms", COUNT,
           .doc = "How long scenes of that size took before; absent: that is not known."}})},
-    {"notice", "Something to show.", FIELDS(
+    {"notice", "Something to show.", MEMBERS(
         {.param = {"level", PARAM_ENUM, .choices = levels, .doc = "How bad it is."},
          .required = true},
         {.param = {"code", PARAM_TEXT, .doc = "What it is, for programs."}, .required = true},
@@ -167,7 +167,7 @@ static const struct message_type server_messages[] = {
         {.param = {"measured", COUNT,
           .doc = "Of what was too slow: milliseconds of processor time that it took, and more."}},
         {.param = {"limit", COUNT, .doc = "Milliseconds that it might take."}})},
-    {"bye", "The last message.", FIELDS(
+    {"bye", "The last message.", MEMBERS(
         {.param = {"reason", PARAM_TEXT, .doc = "Why the connection ends."}, .required = true},
         {.param = {"retry_ms", COUNT, .doc = "When to come back; absent: never."}})},
 };
@@ -205,39 +205,39 @@ static bool check_nodes(const cJSON *json, const char *place, struct error *err)
     return ok;
 }
 
-static bool check_field(const struct field *field, const cJSON *json, const char *place,
-                        struct error *err)
+static bool check_member(const struct message_member *member, const cJSON *json, const char *place,
+                         struct error *err)
 {
     double number[4];
     struct record camera;
     bool ok;
-    switch (field->kind) {
-    case FIELD_CLIENT:
+    switch (member->kind) {
+    case MEMBER_CLIENT:
         return check_client(json, place, err);
-    case FIELD_KEY:
+    case MEMBER_KEY:
         return check_key(json, place, err);
-    case FIELD_CAMERA:
+    case MEMBER_CAMERA:
         record_init(&camera, &camera_type);
         ok = record_read(&camera, json, place, err);
         record_finish(&camera);
         return ok;
-    case FIELD_OPERATIONS:
+    case MEMBER_OPERATIONS:
         return edit_check(json, err);
-    case FIELD_NODES:
+    case MEMBER_NODES:
         return check_nodes(json, place, err);
-    case FIELD_OBJECT:
+    case MEMBER_OBJECT:
         return cJSON_IsObject(json) || error_set(err, ERROR_SYNTAX, place, "expected an object");
-    case FIELD_VALUE:
+    case MEMBER_VALUE:
         break;
     }
-    return param_read(&field->param, json, number, place, err);
+    return param_read(&member->param, json, number, place, err);
 }
 
-static const struct field *find_field(const struct message_type *type, const char *name)
+static const struct message_member *find_member(const struct message_type *type, const char *name)
 {
-    for (const struct field *field = type->fields; field->param.name; field++) {
-        if (strcmp(field->param.name, name) == 0) {
-            return field;
+    for (const struct message_member *member = type->members; member->param.name; member++) {
+        if (strcmp(member->param.name, name) == 0) {
+            return member;
         }
     }
     return NULL;
@@ -248,8 +248,8 @@ static bool fail_member(const struct message_type *type, const char *name, const
 {
     struct suggestion suggestion = {.text = name};
     char hint[64];
-    for (const struct field *field = type->fields; field->param.name; field++) {
-        suggest_consider(&suggestion, field->param.name);
+    for (const struct message_member *member = type->members; member->param.name; member++) {
+        suggest_consider(&suggestion, member->param.name);
     }
     return error_set(err, ERROR_SYNTAX, place, "\"%s\" has no member \"%.64s\"%s", type->name, name,
                      suggest_hint(&suggestion, hint, sizeof hint));
@@ -257,21 +257,21 @@ static bool fail_member(const struct message_type *type, const char *name, const
 
 static bool check_members(const struct message_type *type, const cJSON *json, struct error *err)
 {
-    for (const cJSON *member = json->child; member; member = member->next) {
-        const struct field *field = find_field(type, member->string);
+    for (const cJSON *item = json->child; item; item = item->next) {
+        const struct message_member *member = find_member(type, item->string);
         char place[ERROR_PLACE_BYTES];
-        error_place(place, "", member->string);
-        if (!field && strcmp(member->string, "type") != 0) {
-            return fail_member(type, member->string, place, err);
+        error_place(place, "", item->string);
+        if (!member && strcmp(item->string, "type") != 0) {
+            return fail_member(type, item->string, place, err);
         }
-        if (field && !check_field(field, member, place, err)) {
+        if (member && !check_member(member, item, place, err)) {
             return false;
         }
     }
-    for (const struct field *field = type->fields; field->param.name; field++) {
-        if (field->required && !cJSON_GetObjectItemCaseSensitive(json, field->param.name)) {
+    for (const struct message_member *member = type->members; member->param.name; member++) {
+        if (member->required && !cJSON_GetObjectItemCaseSensitive(json, member->param.name)) {
             return error_set(err, ERROR_SYNTAX, "", "\"%s\" lacks the member \"%s\"", type->name,
-                             field->param.name);
+                             member->param.name);
         }
     }
     return true;
@@ -341,25 +341,26 @@ bool json_member_bool(const cJSON *object, const char *name, bool fallback)
 
 /* --- describing --- */
 
-static cJSON *describe_field(const struct field *field)
+static cJSON *describe_member(const struct message_member *member)
 {
     static const char *const names[] = {
-        [FIELD_CAMERA] = "camera",
-        [FIELD_OPERATIONS] = "operations",
-        [FIELD_NODES] = "nodes",
-        [FIELD_OBJECT] = "object",
+        [MEMBER_CAMERA] = "camera",
+        [MEMBER_OPERATIONS] = "operations",
+        [MEMBER_NODES] = "nodes",
+        [MEMBER_OBJECT] = "object",
     };
     cJSON *row;
-    if (field->kind == FIELD_VALUE || field->kind == FIELD_CLIENT || field->kind == FIELD_KEY) {
-        row = param_describe(&field->param);
+    if (member->kind == MEMBER_VALUE || member->kind == MEMBER_CLIENT ||
+        member->kind == MEMBER_KEY) {
+        row = param_describe(&member->param);
         cJSON_DeleteItemFromObjectCaseSensitive(row, "default");
     } else {
         row = cJSON_CreateObject();
-        cJSON_AddStringToObject(row, "name", field->param.name);
-        cJSON_AddStringToObject(row, "type", names[field->kind]);
-        cJSON_AddStringToObject(row, "doc", field->param.doc);
+        cJSON_AddStringToObject(row, "name", member->param.name);
+        cJSON_AddStringToObject(row, "type", names[member->kind]);
+        cJSON_AddStringToObject(row, "doc", member->param.doc);
     }
-    cJSON_AddBoolToObject(row, "required", field->required);
+    cJSON_AddBoolToObject(row, "required", member->required);
     return row;
 }
 
@@ -371,8 +372,8 @@ static cJSON *describe_messages(const struct message_type *types, size_t count)
         cJSON_AddStringToObject(row, "type", types[i].name);
         cJSON_AddStringToObject(row, "doc", types[i].doc);
         cJSON *members = cJSON_AddArrayToObject(row, "members");
-        for (const struct field *field = types[i].fields; field->param.name; field++) {
-            cJSON_AddItemToArray(members, describe_field(field));
+        for (const struct message_member *member = types[i].members; member->param.name; member++) {
+            cJSON_AddItemToArray(members, describe_member(member));
         }
         cJSON_AddItemToArray(list, row);
     }
