@@ -10,7 +10,7 @@
 #include "limits.h"
 #include "suggest.h"
 
-/* --- places --- */
+/* --- paths --- */
 
 const char *edit_member_text(const cJSON *op, const char *name)
 {
@@ -19,23 +19,23 @@ const char *edit_member_text(const cJSON *op, const char *name)
 }
 
 /* The text begins with a slash and has no empty part (check_text). */
-bool place_split(struct place *place, const char *text, struct error *err)
+bool path_split(struct path *path, const char *text, struct error *err)
 {
     char *save = NULL;
-    place->count = 0;
-    snprintf(place->text, sizeof place->text, "%s", text);
-    for (char *part = strtok_r(place->text, "/", &save); part; part = strtok_r(NULL, "/", &save)) {
-        if (place->count == PLACE_PARTS) {
+    path->count = 0;
+    snprintf(path->text, sizeof path->text, "%s", text);
+    for (char *part = strtok_r(path->text, "/", &save); part; part = strtok_r(NULL, "/", &save)) {
+        if (path->count == PATH_PARTS) {
             return error_set(err, ERROR_NOT_FOUND, text, "there is no such place");
         }
-        place->part[place->count++] = part;
+        path->part[path->count++] = part;
     }
     return true;
 }
 
-bool place_is(const struct place *place, int index, const char *name)
+bool path_is(const struct path *path, int index, const char *name)
 {
-    return index < place->count && strcmp(place->part[index], name) == 0;
+    return index < path->count && strcmp(path->part[index], name) == 0;
 }
 
 struct node *edit_find_node(const struct editor *editor, const char *id, const char *place)
@@ -47,9 +47,9 @@ struct node *edit_find_node(const struct editor *editor, const char *id, const c
     return node;
 }
 
-const struct resource_kind *edit_find_kind(const struct place *place)
+const struct resource_kind *edit_find_kind(const struct path *path)
 {
-    return place->count > 0 ? resource_kind_find(place->part[0]) : NULL;
+    return path->count > 0 ? resource_kind_find(path->part[0]) : NULL;
 }
 
 struct resource *edit_find_resource(const struct editor *editor, const struct resource_kind *kind,
@@ -154,9 +154,9 @@ static bool check_member(const cJSON *json, int member, const char *place, struc
     }
     const char *text = json->valuestring;
     size_t length = strlen(text);
-    if (length > PLACE_TEXT_BYTES) {
+    if (length > PATH_TEXT_BYTES) {
         return error_set(err, ERROR_LIMIT, place, "%zu bytes are above the maximum %d", length,
-                         PLACE_TEXT_BYTES);
+                         PATH_TEXT_BYTES);
     }
     if ((member == MEMBER_AT || member == MEMBER_INTO) &&
         (text[0] != '/' || text[length - 1] == '/' || strstr(text, "//"))) {

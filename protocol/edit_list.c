@@ -56,11 +56,11 @@ static bool find_position(const struct editor *editor, const struct node *parent
     return !before || editor->lenient || fail_before(editor, place, before);
 }
 
-static bool insert_node(struct editor *editor, const struct place *place, const char *into,
+static bool insert_node(struct editor *editor, const struct path *path, const char *into,
                         const cJSON *op)
 {
-    char at[PLACE_TEXT_BYTES + 1], value_place[ERROR_PLACE_BYTES];
-    struct node *parent = edit_find_node(editor, place->part[1], into);
+    char at[PATH_TEXT_BYTES + 1], value_place[ERROR_PLACE_BYTES];
+    struct node *parent = edit_find_node(editor, path->part[1], into);
     size_t position;
     if (!parent || !find_position(editor, parent, op, into, &position)) {
         return false;
@@ -88,10 +88,10 @@ static bool fail_root(const struct editor *editor, const struct node *node, cons
                      node->model ? " of a model" : "", what);
 }
 
-static bool remove_node(struct editor *editor, const struct place *place, const char *at)
+static bool remove_node(struct editor *editor, const struct path *path, const char *at)
 {
-    char into[PLACE_TEXT_BYTES + 1];
-    struct node *node = edit_find_node(editor, place->part[1], at);
+    char into[PATH_TEXT_BYTES + 1];
+    struct node *node = edit_find_node(editor, path->part[1], at);
     if (!node) {
         return false;
     }
@@ -122,17 +122,17 @@ static bool check_move(const struct editor *editor, const struct node *node,
     return true;
 }
 
-static bool move_node(struct editor *editor, const struct place *place, const char *at,
+static bool move_node(struct editor *editor, const struct path *path, const char *at,
                       const char *into, const cJSON *op)
 {
-    struct place target;
-    char from[PLACE_TEXT_BYTES + 1];
+    struct path target;
+    char from[PATH_TEXT_BYTES + 1];
     size_t position;
-    struct node *node = edit_find_node(editor, place->part[1], at);
+    struct node *node = edit_find_node(editor, path->part[1], at);
     if (!node) {
         return false;
     }
-    if (!into || !place_split(&target, into, NULL) || !place_is(&target, 0, "nodes") ||
+    if (!into || !path_split(&target, into, NULL) || !path_is(&target, 0, "nodes") ||
         target.count != 2) {
         return error_set(editor->err, ERROR_NOT_FOUND, into ? into : at,
                          "a node moves into \"/nodes/ID\"");
@@ -177,7 +177,7 @@ static cJSON *insert_resource_operation(const struct resource_kind *kind,
                                         const struct resource_list *list, size_t position)
 {
     const struct resource *resource = list->items[position];
-    char home[PLACE_TEXT_BYTES + 1];
+    char home[PATH_TEXT_BYTES + 1];
     snprintf(home, sizeof home, "/%s", kind->list);
     return insert_operation(home, name_at(list, position + 1), kind->array ? NULL : resource->name,
                             resource_json(kind, resource));
@@ -201,7 +201,7 @@ static bool insert_resource(struct editor *editor, const struct resource_kind *k
                             const char *into, const cJSON *op)
 {
     const struct resource_list *list = resource_list_of(kind, editor->scene);
-    char at[PLACE_TEXT_BYTES + 1];
+    char at[PATH_TEXT_BYTES + 1];
     size_t position;
     if (list->count >= kind->limit) {
         return error_set(editor->err, ERROR_LIMIT, into, "%zu %s are above the maximum %zu",
@@ -225,10 +225,10 @@ static bool insert_resource(struct editor *editor, const struct resource_kind *k
 }
 
 static bool remove_resource(struct editor *editor, const struct resource_kind *kind,
-                            const struct place *place, const char *at)
+                            const struct path *path, const char *at)
 {
     const struct resource_list *list = resource_list_of(kind, editor->scene);
-    struct resource *resource = edit_find_resource(editor, kind, place->part[1], at);
+    struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
     if (!resource) {
         return false;
     }
@@ -245,12 +245,12 @@ static bool remove_resource(struct editor *editor, const struct resource_kind *k
 }
 
 static bool move_resource(struct editor *editor, const struct resource_kind *kind,
-                          const struct place *place, const char *at, const char *into,
+                          const struct path *path, const char *at, const char *into,
                           const cJSON *op)
 {
     struct resource_list *list = resource_list_of(kind, editor->scene);
-    struct resource *resource = edit_find_resource(editor, kind, place->part[1], at);
-    char home[PLACE_TEXT_BYTES + 1];
+    struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
+    char home[PATH_TEXT_BYTES + 1];
     size_t position;
     if (!resource) {
         return false;
@@ -280,15 +280,15 @@ static bool move_resource(struct editor *editor, const struct resource_kind *kin
 bool edit_insert(struct editor *editor, const cJSON *op)
 {
     const char *into = edit_member_text(op, "into");
-    struct place place;
-    if (!place_split(&place, into, editor->err)) {
+    struct path path;
+    if (!path_split(&path, into, editor->err)) {
         return false;
     }
-    if (place.count == 2 && place_is(&place, 0, "nodes")) {
-        return insert_node(editor, &place, into, op);
+    if (path.count == 2 && path_is(&path, 0, "nodes")) {
+        return insert_node(editor, &path, into, op);
     }
-    const struct resource_kind *kind = edit_find_kind(&place);
-    if (place.count == 1 && kind) {
+    const struct resource_kind *kind = edit_find_kind(&path);
+    if (path.count == 1 && kind) {
         return insert_resource(editor, kind, into, op);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, into, "nothing can be inserted at this place");
@@ -297,16 +297,16 @@ bool edit_insert(struct editor *editor, const cJSON *op)
 bool edit_remove(struct editor *editor, const cJSON *op)
 {
     const char *at = edit_member_text(op, "at");
-    struct place place;
-    if (!place_split(&place, at, editor->err)) {
+    struct path path;
+    if (!path_split(&path, at, editor->err)) {
         return false;
     }
-    if (place.count == 2 && place_is(&place, 0, "nodes")) {
-        return remove_node(editor, &place, at);
+    if (path.count == 2 && path_is(&path, 0, "nodes")) {
+        return remove_node(editor, &path, at);
     }
-    const struct resource_kind *kind = edit_find_kind(&place);
-    if (place.count == 2 && kind) {
-        return remove_resource(editor, kind, &place, at);
+    const struct resource_kind *kind = edit_find_kind(&path);
+    if (path.count == 2 && kind) {
+        return remove_resource(editor, kind, &path, at);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, at, "nothing can be removed at this place");
 }
@@ -314,16 +314,16 @@ bool edit_remove(struct editor *editor, const cJSON *op)
 bool edit_move(struct editor *editor, const cJSON *op)
 {
     const char *at = edit_member_text(op, "at"), *into = edit_member_text(op, "into");
-    struct place place;
-    if (!place_split(&place, at, editor->err)) {
+    struct path path;
+    if (!path_split(&path, at, editor->err)) {
         return false;
     }
-    if (place.count == 2 && place_is(&place, 0, "nodes")) {
-        return move_node(editor, &place, at, into, op);
+    if (path.count == 2 && path_is(&path, 0, "nodes")) {
+        return move_node(editor, &path, at, into, op);
     }
-    const struct resource_kind *kind = edit_find_kind(&place);
-    if (place.count == 2 && kind) {
-        return move_resource(editor, kind, &place, at, into, op);
+    const struct resource_kind *kind = edit_find_kind(&path);
+    if (path.count == 2 && kind) {
+        return move_resource(editor, kind, &path, at, into, op);
     }
     return error_set(editor->err, ERROR_NOT_FOUND, at, "nothing can be moved from this place");
 }

@@ -6,12 +6,12 @@
 #include "edit.h"
 #include "scene_parts.h"
 
-enum { PLACE_PARTS = 4, PLACE_TEXT_BYTES = 200 };
+enum { PATH_PARTS = 4, PATH_TEXT_BYTES = 200 };
 
 /* "/nodes/body/params/radius" cut at its slashes. */
-struct place {
-    char text[PLACE_TEXT_BYTES + 1];
-    const char *part[PLACE_PARTS];
+struct path {
+    char text[PATH_TEXT_BYTES + 1];
+    const char *part[PATH_PARTS];
     int count;
 };
 
@@ -29,14 +29,14 @@ bool edit_insert(struct editor *editor, const cJSON *op);
 bool edit_remove(struct editor *editor, const cJSON *op);
 bool edit_move(struct editor *editor, const cJSON *op);
 
-bool place_split(struct place *place, const char *text, struct error *err);
-bool place_is(const struct place *place, int index, const char *name);
+bool path_split(struct path *path, const char *text, struct error *err);
+bool path_is(const struct path *path, int index, const char *name);
 
 const char *edit_member_text(const cJSON *op, const char *name);
 /* NULL and an error where the id or name is not known. */
 struct node *edit_find_node(const struct editor *editor, const char *id, const char *place);
-/* The kind of resource whose list the place is in; NULL: none. */
-const struct resource_kind *edit_find_kind(const struct place *place);
+/* The kind of resource whose list the path is in; NULL: none. */
+const struct resource_kind *edit_find_kind(const struct path *path);
 struct resource *edit_find_resource(const struct editor *editor, const struct resource_kind *kind,
                                     const char *name, const char *place);
 
@@ -51,8 +51,8 @@ bool edit_set_resource_type(struct editor *editor, const struct resource_kind *k
 bool edit_set_rows(struct editor *editor, const struct resource_kind *kind,
                    struct resource *resource, int index, const char *at, const cJSON *value);
 
-/* A new operation with its place (`into` for insert, else `at`). */
-cJSON *edit_operation(const char *name, const char *place);
+/* A new operation with its path (`into` for insert, else `at`). */
+cJSON *edit_operation(const char *name, const char *at);
 /* Takes `value`; NULL means the default. */
 cJSON *edit_set_operation(const char *at, cJSON *value);
 /* Undoing goes backwards: each operation is put in front of those recorded before. */

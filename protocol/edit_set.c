@@ -95,48 +95,48 @@ static bool set_in_record(struct editor *editor, struct node *node, struct recor
     }
 }
 
-static bool set_in_node(struct editor *editor, const struct place *place, const char *at,
+static bool set_in_node(struct editor *editor, const struct path *path, const char *at,
                         const cJSON *value)
 {
-    struct node *node = edit_find_node(editor, place->part[1], at);
+    struct node *node = edit_find_node(editor, path->part[1], at);
     if (!node) {
         return false;
     }
-    if (place_is(place, 2, "transform")) {
-        return place->count == 3 ? set_record(editor, &node->transform, at, value)
-                                 : set_value(editor, &node->transform, place->part[3], at, value);
+    if (path_is(path, 2, "transform")) {
+        return path->count == 3 ? set_record(editor, &node->transform, at, value)
+                                : set_value(editor, &node->transform, path->part[3], at, value);
     }
-    if (place->count == 4) {
-        return place_is(place, 2, "params")
-                   ? set_in_record(editor, node, &node->params, place->part[3], at, value)
+    if (path->count == 4) {
+        return path_is(path, 2, "params")
+                   ? set_in_record(editor, node, &node->params, path->part[3], at, value)
                    : fail_place(editor, at);
     }
-    if (place_is(place, 2, "type")) {
+    if (path_is(path, 2, "type")) {
         return edit_set_node_type(editor, node, at, value);
     }
-    return record_type_find(&node_common_type, place->part[2]) < 0
+    return record_type_find(&node_common_type, path->part[2]) < 0
                ? fail_place(editor, at)
-               : set_in_record(editor, node, &node->common, place->part[2], at, value);
+               : set_in_record(editor, node, &node->common, path->part[2], at, value);
 }
 
-static bool set_in_resource(struct editor *editor, const struct place *place,
+static bool set_in_resource(struct editor *editor, const struct path *path,
                             const struct resource_kind *kind, const char *at, const cJSON *value)
 {
-    struct resource *resource = edit_find_resource(editor, kind, place->part[1], at);
+    struct resource *resource = edit_find_resource(editor, kind, path->part[1], at);
     if (!resource) {
         return false;
     }
-    if (place->count == 3 && kind->type && place_is(place, 2, kind->type)) {
+    if (path->count == 3 && kind->type && path_is(path, 2, kind->type)) {
         return edit_set_resource_type(editor, kind, resource, at, value);
     }
     int depth = kind->values ? 3 : 2;
-    if (place->count != depth + 1 || (kind->values && !place_is(place, 2, kind->values))) {
+    if (path->count != depth + 1 || (kind->values && !path_is(path, 2, kind->values))) {
         return fail_place(editor, at);
     }
     int rows = resource_rows(resource->record.type);
-    return rows >= 0 && place_is(place, depth, resource->record.type->params[rows].name)
+    return rows >= 0 && path_is(path, depth, resource->record.type->params[rows].name)
                ? edit_set_rows(editor, kind, resource, rows, at, value)
-               : set_value(editor, &resource->record, place->part[depth], at, value);
+               : set_value(editor, &resource->record, path->part[depth], at, value);
 }
 
 bool edit_set(struct editor *editor, const cJSON *op)
@@ -145,25 +145,25 @@ bool edit_set(struct editor *editor, const cJSON *op)
     const char *at = edit_member_text(op, "at");
     const cJSON *value = cJSON_GetObjectItemCaseSensitive(op, "value");
     struct record *const records[] = {&scene->camera, &scene->environment, &scene->render};
-    struct place place;
-    if (!place_split(&place, at, editor->err)) {
+    struct path path;
+    if (!path_split(&path, at, editor->err)) {
         return false;
     }
-    if (place.count == 1 && record_type_find(scene->info.type, place.part[0]) >= 0) {
-        return set_value(editor, &scene->info, place.part[0], at, value);
+    if (path.count == 1 && record_type_find(scene->info.type, path.part[0]) >= 0) {
+        return set_value(editor, &scene->info, path.part[0], at, value);
     }
     for (size_t i = 0; i < sizeof records / sizeof records[0]; i++) {
-        if (place_is(&place, 0, records[i]->type->name) && place.count <= 2) {
-            return place.count == 1 ? set_record(editor, records[i], at, value)
-                                    : set_value(editor, records[i], place.part[1], at, value);
+        if (path_is(&path, 0, records[i]->type->name) && path.count <= 2) {
+            return path.count == 1 ? set_record(editor, records[i], at, value)
+                                   : set_value(editor, records[i], path.part[1], at, value);
         }
     }
-    if (place.count >= 3 && place_is(&place, 0, "nodes")) {
-        return set_in_node(editor, &place, at, value);
+    if (path.count >= 3 && path_is(&path, 0, "nodes")) {
+        return set_in_node(editor, &path, at, value);
     }
-    const struct resource_kind *kind = edit_find_kind(&place);
-    if (place.count >= 3 && kind) {
-        return set_in_resource(editor, &place, kind, at, value);
+    const struct resource_kind *kind = edit_find_kind(&path);
+    if (path.count >= 3 && kind) {
+        return set_in_resource(editor, &path, kind, at, value);
     }
     return fail_place(editor, at);
 }

@@ -48,7 +48,7 @@ static void change(struct editor *editor, struct record *record, struct record c
 {
     for (int i = (int)record_type_count(record->type) - 1; i >= 0; i--) {
         if (!param_value_equal(&back.values[i], &record->values[i])) {
-            char place[PLACE_TEXT_BYTES + 1];
+            char place[PATH_TEXT_BYTES + 1];
             snprintf(place, sizeof place, "%s/%s", values, record->type->params[i].name);
             edit_undo_by(editor, edit_set_operation(place, record_get(record, i)));
         }
@@ -58,22 +58,22 @@ static void change(struct editor *editor, struct record *record, struct record c
     *record = changed;
 }
 
-static void node_values(char out[PLACE_TEXT_BYTES + 1], const struct node *node)
+static void node_values(char out[PATH_TEXT_BYTES + 1], const struct node *node)
 {
-    snprintf(out, PLACE_TEXT_BYTES + 1, "/nodes/%s/params", node->id);
+    snprintf(out, PATH_TEXT_BYTES + 1, "/nodes/%s/params", node->id);
 }
 
-static void resource_values(char out[PLACE_TEXT_BYTES + 1], const struct resource_kind *kind,
+static void resource_values(char out[PATH_TEXT_BYTES + 1], const struct resource_kind *kind,
                             const struct resource *resource)
 {
-    snprintf(out, PLACE_TEXT_BYTES + 1, "/%s/%s%s%s", kind->list, resource->name,
+    snprintf(out, PATH_TEXT_BYTES + 1, "/%s/%s%s%s", kind->list, resource->name,
              kind->values ? "/" : "", kind->values ? kind->values : "");
 }
 
 bool edit_set_node_type(struct editor *editor, struct node *node, const char *at,
                         const cJSON *value)
 {
-    char values[PLACE_TEXT_BYTES + 1];
+    char values[PATH_TEXT_BYTES + 1];
     if (!cJSON_IsString(value)) {
         return error_set(editor->err, ERROR_INVALID, at, "expected the name of a type");
     }
@@ -102,7 +102,7 @@ bool edit_set_primitive(struct editor *editor, struct node *node, int index, con
                         const cJSON *value)
 {
     struct record named, changed, back;
-    char values[PLACE_TEXT_BYTES + 1];
+    char values[PATH_TEXT_BYTES + 1];
     record_copy(&named, &node->params);
     if (!record_set(&named, index, value, at, editor->err) ||
         !scene_check_name(editor->scene, resource_kind_named_by(PARAM_FUNCTION),
@@ -128,7 +128,7 @@ bool edit_set_primitive(struct editor *editor, struct node *node, int index, con
 bool edit_set_resource_type(struct editor *editor, const struct resource_kind *kind,
                             struct resource *resource, const char *at, const cJSON *value)
 {
-    char values[PLACE_TEXT_BYTES + 1];
+    char values[PATH_TEXT_BYTES + 1];
     struct resource *shader;
     if (!cJSON_IsString(value)) {
         return error_set(editor->err, ERROR_INVALID, at, "expected the name of a %s", kind->type);
@@ -168,7 +168,7 @@ static void convert_nodes(struct editor *editor, const struct users *users, stru
 {
     for (struct node *node = top; node; node = node_next(node, top)) {
         if (node->params.type == users->old) {
-            char values[PLACE_TEXT_BYTES + 1];
+            char values[PATH_TEXT_BYTES + 1];
             node_values(values, node);
             convert_user(editor, users, &node->params, values);
         }
@@ -183,7 +183,7 @@ static void convert_users(struct editor *editor, const struct users *users)
         for (size_t i = 0; i < list->count; i++) {
             struct resource *resource = list->items[i];
             if (resource->record.type == users->old) {
-                char values[PLACE_TEXT_BYTES + 1];
+                char values[PATH_TEXT_BYTES + 1];
                 resource_values(values, kind, resource);
                 convert_user(editor, users, &resource->record, values);
             }
