@@ -2,21 +2,21 @@
 /* The page: the scene that the address names, or the start page; and what lies over both. */
 import { Component, type ReactNode, useEffect } from "react";
 import type { Editor } from "./editor.ts";
-import { EditorPage } from "./frame/Editor.tsx";
-import { useKeys } from "./frame/keys.ts";
-import { Notices } from "./frame/Notices.tsx";
-import { later, loadLater } from "./later.tsx";
-import { Button } from "./parts/Button.tsx";
-import { TipProvider } from "./parts/Tip.tsx";
+import { EditorPage } from "./layout/Editor.tsx";
+import { useKeys } from "./layout/keys.ts";
+import { Notices } from "./layout/Notices.tsx";
+import { lazyPart, loadLazyParts } from "./lazy.tsx";
 import { goTo, useRoute } from "./route.ts";
 import { EditorContext, useView } from "./state.ts";
 import { t } from "./texts.ts";
 import { useTheme } from "./theme.ts";
-import "./parts/theme.css";
-import "./parts/base.css";
+import { Button } from "./widgets/Button.tsx";
+import { TipProvider } from "./widgets/Tip.tsx";
+import "./widgets/theme.css";
+import "./widgets/base.css";
 
-const ScenesPage = later(() => import("./scenes/Scenes.tsx"));
-const Palettes = later(() => import("./palettes/index.tsx"));
+const ScenesPage = lazyPart(() => import("./scenes/Scenes.tsx"));
+const Palettes = lazyPart(() => import("./palettes/index.tsx"));
 
 export function App({ editor }: { editor: Editor }) {
     return (
@@ -35,7 +35,7 @@ function Pages({ editor }: { editor: Editor }) {
     const popup = useView((view) => view.popup);
     useTheme();
     useKeys(editor);
-    useEffect(loadLater, []);
+    useEffect(loadLazyParts, []);
     useEffect(() => {
         editor.open(scene);
     }, [editor, scene]);

@@ -25,7 +25,7 @@ import { ReferenceField } from "./fields/Reference.tsx";
 import { TextField } from "./fields/Text.tsx";
 import type { FieldProps } from "./fields/types.ts";
 import { VectorField } from "./fields/Vector.tsx";
-import { later } from "./later.tsx";
+import { lazyPart } from "./lazy.tsx";
 import { paramTitle, shortTitle, words } from "./names.ts";
 import { useDocument, useEditor, useView } from "./state.ts";
 import { sentence, t } from "./texts.ts";
@@ -43,10 +43,10 @@ const reference: Make = (param, props, place) => (
     <ReferenceField param={param} place={place} {...as<string>(props)} />
 );
 
-const AssetField = later(() => import("./fields/Asset.tsx"));
-const ColourField = later(() => import("./fields/Colour.tsx"));
-const PointsField = later(() => import("./fields/Points.tsx"));
-const RowsField = later(() => import("./fields/Rows.tsx"));
+const AssetField = lazyPart(() => import("./fields/Asset.tsx"));
+const ColourField = lazyPart(() => import("./fields/Colour.tsx"));
+const PointsField = lazyPart(() => import("./fields/Points.tsx"));
+const RowsField = lazyPart(() => import("./fields/Rows.tsx"));
 
 const fields: Record<string, Make> = {
     float: number,

@@ -9,11 +9,11 @@ import type { Problem } from "../../model/operation.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import type { Param } from "../../model/schema.ts";
 import { NEW_NODE_CODE } from "../../model/templates.ts";
-import { showPlace } from "../acts.ts";
-import { Button, IconButton } from "../parts/Button.tsx";
-import { Tip } from "../parts/Tip.tsx";
+import { showPlace } from "../insertions.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button, IconButton } from "../widgets/Button.tsx";
+import { Tip } from "../widgets/Tip.tsx";
 import type { CodeEditor } from "./mount.ts";
 import "./code.css";
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The editor of code, loaded later. */
-import { later } from "../later.tsx";
+import { lazyPart } from "../lazy.tsx";
 
-export const CodePanel = later(() => import("./CodePanel.tsx"));
+export const CodePanel = lazyPart(() => import("./CodePanel.tsx"));

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Code in a form: its first lines, and the way to the editor where it is written. */
 import { SquareCode } from "lucide-react";
-import { openCode } from "../acts.ts";
-import { Button } from "../parts/Button.tsx";
+import { openCode } from "../insertions.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 

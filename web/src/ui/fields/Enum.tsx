@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One of a few words: side by side up to four, else a list. */
 import { useRef } from "react";
-import { Select } from "../parts/Select.tsx";
+import { Select } from "../widgets/Select.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 

@@ -7,13 +7,13 @@ import { materialOf } from "../../model/document.ts";
 import { LISTS, nodeOfPlace } from "../../model/places.ts";
 import type { Param } from "../../model/schema.ts";
 import { listNamedBy, modelsFor, type NamedList, usersOf } from "../../model/usage.ts";
-import { addResource, makeMaterialUnique } from "../acts.ts";
-import { IconButton } from "../parts/Button.tsx";
-import { type Option, Select } from "../parts/Select.tsx";
+import { addResource, makeMaterialUnique } from "../insertions.ts";
 import { NewMaterial } from "../scene/NewMaterial.tsx";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
+import { type Option, Select } from "../widgets/Select.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* What is selected, as forms. */
-import { later } from "../later.tsx";
+import { lazyPart } from "../lazy.tsx";
 import { useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
 import "./inspector.css";
 
-const NodeInspector = later(() => import("./Node.tsx"));
-const ResourceInspector = later(() => import("./Resource.tsx"));
-const SetupInspector = later(() => import("./Setup.tsx"));
+const NodeInspector = lazyPart(() => import("./Node.tsx"));
+const ResourceInspector = lazyPart(() => import("./Resource.tsx"));
+const SetupInspector = lazyPart(() => import("./Setup.tsx"));
 
 export function Inspector() {
     const subject = useView((view) => view.subject);

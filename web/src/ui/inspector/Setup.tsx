@@ -2,11 +2,11 @@
 /* The forms of the camera, the environment and the render settings. */
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { Form } from "../form.tsx";
-import { CommandButton } from "../frame/Act.tsx";
-import { Button } from "../parts/Button.tsx";
+import { CommandButton } from "../layout/Act.tsx";
 import { setups } from "../scene/Resources.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
 import "./inspector.css";
 
 export default function SetupInspector({ kind }: { kind: "camera" | "environment" | "render" }) {

@@ -7,7 +7,7 @@ import type { SceneDocument } from "../../model/document.ts";
 import { WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
-import { addNode } from "../acts.ts";
+import { addNode } from "../insertions.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";

@@ -9,15 +9,15 @@ import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
 import { addNotice } from "../../model/stores.ts";
-import { addNode, addTyped, selectNode } from "../acts.ts";
 import type { Editor } from "../editor.ts";
-import { keyText } from "../frame/keys.ts";
+import { addNode, addTyped, selectNode } from "../insertions.ts";
+import { keyText } from "../layout/keys.ts";
 import { outputTitle, typeTitle } from "../names.ts";
-import { Glyph } from "../parts/Glyph.tsx";
 import { goTo } from "../route.ts";
 import { ResourceIcon, TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Glyph } from "../widgets/Glyph.tsx";
 import { offersOf, searchOffers } from "./additions.ts";
 import { type Face, type Group, Palette } from "./Palette.tsx";
 

@@ -2,10 +2,10 @@
 /* The sheet of keys, made from the table of commands, with the gestures beside them. */
 import { useRef } from "react";
 import { COMMANDS, type Command } from "../../model/commands.ts";
-import { keyText } from "../frame/keys.ts";
-import { Dialog } from "../parts/Dialog.tsx";
+import { keyText } from "../layout/keys.ts";
 import { useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { Dialog } from "../widgets/Dialog.tsx";
 import "./palettes.css";
 
 const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, string])[] }[] = [

@@ -2,8 +2,8 @@
 /* What palettes have in common: a dialog with a search field over groups of options, all by keys.
  * A palette says what its options are, how one looks, and what taking it does. */
 import { type ReactNode, useEffect, useMemo, useRef, useState } from "react";
-import { Dialog } from "../parts/Dialog.tsx";
 import { t } from "../texts.ts";
+import { Dialog } from "../widgets/Dialog.tsx";
 import { takeKept } from "./ahead.ts";
 import { useListbox } from "./listbox.ts";
 import { Foot, Search } from "./Search.tsx";

@@ -20,11 +20,11 @@ import { EnumField } from "../fields/Enum.tsx";
 import { FlagField } from "../fields/Flag.tsx";
 import { NumberField } from "../fields/Number.tsx";
 import { outputTitle, typeTitle } from "../names.ts";
-import { Button } from "../parts/Button.tsx";
-import { Dialog } from "../parts/Dialog.tsx";
-import { Select } from "../parts/Select.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
+import { Dialog } from "../widgets/Dialog.tsx";
+import { Select } from "../widgets/Select.tsx";
 import "./palettes.css";
 
 export function PictureDialog() {

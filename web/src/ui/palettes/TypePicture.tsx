@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The server's picture of a node type; its drawing where there is none. */
 import { useEffect, useState } from "react";
-import { Glyph } from "../parts/Glyph.tsx";
 import { useEditor } from "../state.ts";
+import { Glyph } from "../widgets/Glyph.tsx";
 import "./palettes.css";
 
 interface Props {

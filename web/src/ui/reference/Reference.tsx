@@ -4,13 +4,13 @@ import { Plus } from "lucide-react";
 import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import { nodeType } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
-import { addNode } from "../acts.ts";
+import { addNode } from "../insertions.ts";
 import { paramTitle } from "../names.ts";
 import { TypePicture } from "../palettes/TypePicture.tsx";
-import { Button } from "../parts/Button.tsx";
-import { Glyph } from "../parts/Glyph.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
+import { Glyph } from "../widgets/Glyph.tsx";
 import { conditionOf, defaultOf, rangeOf, type Topic, topicsOf, typeOf } from "./topics.ts";
 import "./reference.css";
 

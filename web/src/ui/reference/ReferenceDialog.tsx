@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The reference over the page. */
 import { useRef } from "react";
-import { Dialog } from "../parts/Dialog.tsx";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Dialog } from "../widgets/Dialog.tsx";
 import { Reference } from "./Reference.tsx";
 
 export function ReferenceDialog() {

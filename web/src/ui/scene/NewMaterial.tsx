@@ -4,13 +4,13 @@ import { Plus } from "lucide-react";
 import { PRESETS } from "../../model/presets.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { toHex } from "../../model/units.ts";
-import { addResource } from "../acts.ts";
+import { addResource } from "../insertions.ts";
 import { typeTitle } from "../names.ts";
-import { IconButton } from "../parts/Button.tsx";
-import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
-import { ball } from "../parts/Swatch.tsx";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
+import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
+import { ball } from "../widgets/Swatch.tsx";
 
 interface Props {
     title: string;

@@ -3,10 +3,10 @@
  * it opens before it is known what was clicked: until then only acts that need no node can run. */
 
 import { nameAll } from "../../model/edits.ts";
-import { ActItem } from "../frame/Act.tsx";
-import { MenuLine, type MenuPlace, MenuTitle, PointMenu } from "../parts/Menu.tsx";
+import { ActItem } from "../layout/Act.tsx";
 import { useDocument, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { MenuLine, type MenuPlace, MenuTitle, PointMenu } from "../widgets/Menu.tsx";
 
 /* What the menu is about: the selected nodes, nothing, or what is still being asked for. */
 export type Target = "selection" | "nothing" | "asked";

@@ -12,8 +12,8 @@ import {
 } from "lucide-react";
 import { findResource } from "../../model/document.ts";
 import type { ListName } from "../../model/places.ts";
-import { Swatch } from "../parts/Swatch.tsx";
 import { useDocument } from "../state.ts";
+import { Swatch } from "../widgets/Swatch.tsx";
 
 const icons: Record<ListName, LucideIcon> = {
     models: Component,

@@ -4,11 +4,11 @@ import { Copy, Ellipsis, PackagePlus, SquareCode, Trash2 } from "lucide-react";
 import type { Resource } from "../../model/document.ts";
 import type { ListName } from "../../model/places.ts";
 import { whyNotRemoved } from "../../model/usage.ts";
-import { addInstance, codePlace, duplicate, openCode, remove } from "../acts.ts";
-import { IconButton } from "../parts/Button.tsx";
-import { Menu, MenuItem, MenuLine, MenuNote } from "../parts/Menu.tsx";
+import { addInstance, codePlace, duplicate, openCode, remove } from "../insertions.ts";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
+import { Menu, MenuItem, MenuLine, MenuNote } from "../widgets/Menu.tsx";
 
 interface Props {
     list: ListName;

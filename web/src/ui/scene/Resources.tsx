@@ -23,13 +23,13 @@ import {
 import { problemIn } from "../../model/problems.ts";
 import { findParam } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
-import { addResource, addTyped } from "../acts.ts";
+import { addResource, addTyped } from "../insertions.ts";
 import { Section } from "../inspector/Section.tsx";
 import { typeTitle } from "../names.ts";
-import { IconButton } from "../parts/Button.tsx";
-import { Menu, MenuItem } from "../parts/Menu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { sentence, type TextKey, t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
+import { Menu, MenuItem } from "../widgets/Menu.tsx";
 import { NewMaterial } from "./NewMaterial.tsx";
 import { ResourceIcon, TypeIcon } from "./ResourceIcon.tsx";
 import { ResourceMenu } from "./ResourceMenu.tsx";

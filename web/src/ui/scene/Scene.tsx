@@ -2,9 +2,9 @@
 /* The scene panel: what can be added, a filter, the tree of nodes. */
 import { Plus, Search, X } from "lucide-react";
 import { useState } from "react";
-import { IconButton } from "../parts/Button.tsx";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
 import { Tree } from "./Tree.tsx";
 import { useTreeDocument } from "./treeDocument.ts";
 import "./scene.css";

@@ -2,9 +2,9 @@
 /* Why files were not opened: the file, the line, and what stands there. */
 
 import type { ImportProblem } from "../import.ts";
-import { Button } from "../parts/Button.tsx";
-import { Dialog } from "../parts/Dialog.tsx";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
+import { Dialog } from "../widgets/Dialog.tsx";
 import "./scenes.css";
 
 interface Props {

@@ -5,19 +5,19 @@ import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
 import { search } from "../../model/search.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
-import { ThemeButton } from "../frame/Bar.tsx";
 import { type ImportProblem, openFiles, readFiles, type TextFile } from "../import.ts";
-import { later } from "../later.tsx";
-import { Button, IconButton } from "../parts/Button.tsx";
-import { Logo } from "../parts/Logo.tsx";
+import { ThemeButton } from "../layout/Bar.tsx";
+import { lazyPart } from "../lazy.tsx";
 import { goTo } from "../route.ts";
 import { useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { Button, IconButton } from "../widgets/Button.tsx";
+import { Logo } from "../widgets/Logo.tsx";
 import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
 import { useDrop } from "./drop.ts";
 import "./scenes.css";
 
-const ImportFault = later(() => import("./ImportFault.tsx"));
+const ImportFault = lazyPart(() => import("./ImportFault.tsx"));
 
 /* What a new scene starts with. No shapes yet, but the first one will stand in the light. */
 const EMPTY_SCENE = {

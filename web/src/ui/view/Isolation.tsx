@@ -2,9 +2,9 @@
 /* That this page shows some nodes alone, and the way out of it. */
 import { Focus } from "lucide-react";
 import { nodeLabel } from "../../model/document.ts";
-import { Button } from "../parts/Button.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
 import "./view.css";
 
 export function Isolation() {

@@ -5,12 +5,12 @@ import { Layers2, X } from "lucide-react";
 import { outputsShown } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { COLOR, QUALITIES } from "../../model/view.ts";
-import { keyText } from "../frame/keys.ts";
+import { keyText } from "../layout/keys.ts";
 import { outputTitle } from "../names.ts";
-import { Menu, MenuItem, MenuLine } from "../parts/Menu.tsx";
-import { Tip } from "../parts/Tip.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
+import { Tip } from "../widgets/Tip.tsx";
 import "./view.css";
 
 export function Outputs() {

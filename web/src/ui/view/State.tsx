@@ -7,10 +7,10 @@ import type { Problem } from "../../model/operation.ts";
 import { type Pill, pillOf } from "../../model/pill.ts";
 import { brokenCode } from "../../model/problems.ts";
 import type { Compiling } from "../../model/stores.ts";
-import { showPlace } from "../acts.ts";
-import { Tip } from "../parts/Tip.tsx";
+import { showPlace } from "../insertions.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
+import { Tip } from "../widgets/Tip.tsx";
 import "./view.css";
 
 export function StatePill() {

@@ -4,10 +4,10 @@ import { Gauge } from "lucide-react";
 import type { Schema } from "../../model/schema.ts";
 import type { LinkState, Statistics as Numbers } from "../../model/stores.ts";
 import { words } from "../names.ts";
-import { Button } from "../parts/Button.tsx";
-import { Popover } from "../parts/Popover.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
+import { Popover } from "../widgets/Popover.tsx";
 import "./view.css";
 
 /* Where the time of a frame goes, in milliseconds. */

@@ -2,9 +2,9 @@
 /* The state of the connection when there is something to say: the last picture stays, edits are
  * kept and sent later. */
 import { CloudOff } from "lucide-react";
-import { Button } from "../parts/Button.tsx";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
 import "./view.css";
 
 export function Strip() {

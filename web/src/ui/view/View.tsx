@@ -3,13 +3,13 @@
  * picks; React draws only what lies over it. */
 import { useCallback, useEffect, useRef, useState } from "react";
 import { attachInput } from "../../overlay/input.ts";
-import { later } from "../later.tsx";
-import { Button } from "../parts/Button.tsx";
-import type { MenuPlace } from "../parts/Menu.tsx";
+import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
+import { Button } from "../widgets/Button.tsx";
+import type { MenuPlace } from "../widgets/Menu.tsx";
 import { Crumbs } from "./Crumbs.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
@@ -20,7 +20,7 @@ import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
 
-const StatisticsPill = later(() => import("./Statistics.tsx"));
+const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
     return (

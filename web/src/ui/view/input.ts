@@ -8,8 +8,8 @@ import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import type { InputActions } from "../../overlay/input.ts";
 import type { Editor } from "../editor.ts";
-import type { MenuPlace } from "../parts/Menu.tsx";
 import type { Target } from "../scene/NodeMenu.tsx";
+import type { MenuPlace } from "../widgets/Menu.tsx";
 import { questions } from "./questions.ts";
 
 /* The same place clicked again climbs to the parent. */

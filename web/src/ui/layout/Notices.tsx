@@ -6,10 +6,10 @@ import { memo, useEffect } from "react";
 import { findResource } from "../../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.ts";
-import { showPlace } from "../acts.ts";
-import { Button, IconButton } from "../parts/Button.tsx";
+import { showPlace } from "../insertions.ts";
 import { useDocument, useEditor, useNotices } from "../state.ts";
 import { t } from "../texts.ts";
+import { Button, IconButton } from "../widgets/Button.tsx";
 import "../view/view.css";
 
 const MOST_SHOWN = 3;

@@ -7,11 +7,11 @@ type Load<P> = () => Promise<{ default: ComponentType<P> }>;
 
 const loads: (() => Promise<unknown>)[] = [];
 
-export function later<P extends object>(load: Load<P>): ComponentType<P> {
+export function lazyPart<P extends object>(load: Load<P>): ComponentType<P> {
     const Part = lazy(load);
     loads.push(load);
     // biome-ignore lint/correctness/noComponentHookFactories: called once for each part, by its file
-    return function Later(props: P) {
+    return function LazyPart(props: P) {
         return (
             <Suspense fallback={null}>
                 <Part {...props} />
@@ -21,7 +21,7 @@ export function later<P extends object>(load: Load<P>): ComponentType<P> {
 }
 
 /* Begins to load what may be asked for later. */
-export function loadLater(): void {
+export function loadLazyParts(): void {
     const start = window.requestIdleCallback ?? ((run: () => void) => setTimeout(run, 500));
     start(() => {
         for (const load of loads) {

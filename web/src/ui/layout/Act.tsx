@@ -2,9 +2,9 @@
 /* A command as an icon button or a menu item: title, key and reason come from the table. */
 import type { ReactNode } from "react";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
-import { Button, IconButton } from "../parts/Button.tsx";
-import { MenuItem } from "../parts/Menu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
+import { Button, IconButton } from "../widgets/Button.tsx";
+import { MenuItem } from "../widgets/Menu.tsx";
 import { keyText } from "./keys.ts";
 
 interface Props {
