@@ -3,7 +3,7 @@
 import { expect, test } from "vitest";
 import { addNode, whatAdding } from "../src/model/add.ts";
 import { clip, paste } from "../src/model/clipboard.ts";
-import { declaredParams, whyNotIdentifier, whyNotRows } from "../src/model/declared.ts";
+import { declaredParams, whyNotIdentifier, whyNotRows } from "../src/model/declaredParams.ts";
 import {
     findResource,
     nodeParams,
@@ -15,6 +15,7 @@ import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { equalJson, type Json } from "../src/model/json.ts";
 import { newLightValues } from "../src/model/lights.ts";
 import { makeModel, unpackModel } from "../src/model/models.ts";
+import { type Change, mixedAt, multiEdit } from "../src/model/multiEdit.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
 import { placing } from "../src/model/placing.ts";
@@ -38,7 +39,6 @@ import {
 } from "../src/model/resources.ts";
 import type { DeclaredRow } from "../src/model/schema.ts";
 import { changeShader } from "../src/model/shading.ts";
-import { type Change, mixedAt, spread } from "../src/model/spread.ts";
 import { cycleThrough, modelsFor, usersOf, whyNotRemoved } from "../src/model/usage.ts";
 import { checkValue } from "../src/model/values.ts";
 import { SCHEMA, scene } from "./fixture.ts";
@@ -443,7 +443,7 @@ test("what another shader knows by the same name stays as it is", () => {
 /* --- several nodes at once --- */
 
 const all = (at: string, value: Json, selection: string[], change?: Change) =>
-    spread(SCHEMA, scene(), selection, at, value as never, change);
+    multiEdit(SCHEMA, scene(), selection, at, value as never, change);
 
 test("a typed value is the same for all selected nodes that can take it", () => {
     expect(all("/nodes/body/params/radius", 2, ["hat", "head", "body"])).toEqual([

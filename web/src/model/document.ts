@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A scene as the editor holds it: flat maps of nodes and resources, immutable, shared between
  * versions. Walks, names, and which row describes a value. Its JSON is documentJson.ts. */
-import { declaredParams } from "./declared.ts";
+import { declaredParams } from "./declaredParams.ts";
 import { LISTS, type ListName, parsePlace } from "./places.ts";
 import type { Param, Schema, TypeRow, Values } from "./schema.ts";
 import { findParam, nodeType } from "./schema.ts";

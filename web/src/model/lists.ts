@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The operations `insert`, `remove` and `move`, of nodes and of resources. */
 import { findResource, isInside, knowsType, type Resource, siblingAfter } from "./document.ts";
+import type { DocumentDraft } from "./documentDraft.ts";
 import { printNode, printResource, readResource } from "./documentJson.ts";
-import type { Draft } from "./draft.ts";
 import { isObject, type JsonObject } from "./json.ts";
 import { type Operation, Refusal } from "./operation.ts";
 import { ID_PATTERN, LISTS, type ListName, parsePlace, resourcePlace } from "./places.ts";
@@ -31,7 +31,12 @@ const itself = (id: string): string => id;
 const nameOf = (resource: Resource): string => resource.name;
 
 /* Refuses a node that is to come in. Values that are not of its rows are the server's matter. */
-function checkNewNode(draft: Draft, json: JsonObject, place: string, seen: Set<string>): void {
+function checkNewNode(
+    draft: DocumentDraft,
+    json: JsonObject,
+    place: string,
+    seen: Set<string>,
+): void {
     const type = typeof json.type === "string" ? json.type : "";
     const row = nodeType(draft.schema, type);
     if (!row) {
@@ -59,7 +64,7 @@ function checkNewNode(draft: Draft, json: JsonObject, place: string, seen: Set<s
 }
 
 function insertNode(
-    draft: Draft,
+    draft: DocumentDraft,
     parent: string,
     operation: Extract<Operation, { op: "insert" }>,
 ): Operation[] {
@@ -74,7 +79,7 @@ function insertNode(
 }
 
 /* Refuses a name that a list cannot take. */
-function checkNewName(draft: Draft, list: ListName, name: string, place: string): void {
+function checkNewName(draft: DocumentDraft, list: ListName, name: string, place: string): void {
     if (!ID_PATTERN.test(name)) {
         throw new Refusal("invalid", place, `"${name}" is not a name`);
     }
@@ -87,7 +92,7 @@ function checkNewName(draft: Draft, list: ListName, name: string, place: string)
 }
 
 function insertResource(
-    draft: Draft,
+    draft: DocumentDraft,
     list: ListName,
     operation: Extract<Operation, { op: "insert" }>,
 ): Operation[] {
@@ -106,7 +111,10 @@ function insertResource(
     return [{ op: "remove", at: resourcePlace(list, read.name) }];
 }
 
-export function insert(draft: Draft, operation: Extract<Operation, { op: "insert" }>): Operation[] {
+export function insert(
+    draft: DocumentDraft,
+    operation: Extract<Operation, { op: "insert" }>,
+): Operation[] {
     const place = parsePlace(operation.into);
     if (place?.kind === "node") {
         return insertNode(draft, place.id, operation);
@@ -117,7 +125,7 @@ export function insert(draft: Draft, operation: Extract<Operation, { op: "insert
     throw new Refusal("not_found", operation.into, "nothing can be inserted here");
 }
 
-function removeNode(draft: Draft, id: string, at: string): Operation[] {
+function removeNode(draft: DocumentDraft, id: string, at: string): Operation[] {
     const node = draft.node(id, at);
     if (node.parent === null) {
         throw new Refusal("conflict", at, "a root cannot be removed");
@@ -130,7 +138,12 @@ function removeNode(draft: Draft, id: string, at: string): Operation[] {
     return [{ op: "insert", into: `/nodes/${node.parent}`, before, value }];
 }
 
-function removeResource(draft: Draft, list: ListName, name: string, at: string): Operation[] {
+function removeResource(
+    draft: DocumentDraft,
+    list: ListName,
+    name: string,
+    at: string,
+): Operation[] {
     const resource = draft.resource(list, name, at);
     const used = whyNotRemoved(draft.schema, draft.snapshot(), list, name);
     if (used !== null) {
@@ -157,7 +170,7 @@ function removeResource(draft: Draft, list: ListName, name: string, at: string):
     ];
 }
 
-export function remove(draft: Draft, at: string): Operation[] {
+export function remove(draft: DocumentDraft, at: string): Operation[] {
     const place = parsePlace(at);
     if (place?.kind === "node") {
         return removeNode(draft, place.id, at);
@@ -169,7 +182,7 @@ export function remove(draft: Draft, at: string): Operation[] {
 }
 
 function moveNode(
-    draft: Draft,
+    draft: DocumentDraft,
     id: string,
     parent: string,
     operation: Extract<Operation, { op: "move" }>,
@@ -202,7 +215,10 @@ function moveNode(
     return [back];
 }
 
-export function move(draft: Draft, operation: Extract<Operation, { op: "move" }>): Operation[] {
+export function move(
+    draft: DocumentDraft,
+    operation: Extract<Operation, { op: "move" }>,
+): Operation[] {
     const { at, into, before } = operation;
     const place = parsePlace(at);
     const target = parsePlace(into);

@@ -2,7 +2,7 @@
 /* Edits: apply and inverse of set, insert, remove and move, as protocol/README.md states them.
  * Pure: documents share what did not change. Ranges are the schema's matter (checkValue). */
 import type { SceneDocument } from "./document.ts";
-import { Draft } from "./draft.ts";
+import { DocumentDraft } from "./documentDraft.ts";
 import { insert, move, remove } from "./lists.ts";
 import { type Operation, type Problem, Refusal } from "./operation.ts";
 import { parsePlace } from "./places.ts";
@@ -17,7 +17,7 @@ export type Applied =
       }
     | { readonly ok: false; readonly problem: Problem };
 
-function applyOne(draft: Draft, operation: Operation): Operation[] {
+function applyOne(draft: DocumentDraft, operation: Operation): Operation[] {
     switch (operation.op) {
         case "set":
             return set(draft, operation.at, operation.value);
@@ -36,7 +36,7 @@ export function apply(
     operations: readonly Operation[],
     schema: Schema,
 ): Applied {
-    const draft = new Draft(document, schema);
+    const draft = new DocumentDraft(document, schema);
     const inverse: Operation[][] = [];
     try {
         for (const operation of operations) {

@@ -2,7 +2,7 @@
 /* The operation `set`: single values, and types and declarations, which decide what values there
  * are. What a change of those takes away, its inverse brings back. */
 import { knowsType, nodeParams, resourceParams } from "./document.ts";
-import type { Draft } from "./draft.ts";
+import type { DocumentDraft } from "./documentDraft.ts";
 import { isObject, type Json } from "./json.ts";
 import { type Operation, Refusal } from "./operation.ts";
 import { type Place, parsePlace, valuesPlace } from "./places.ts";
@@ -53,7 +53,7 @@ function typeName(value: Json, place: string): string {
 }
 
 /* The values of a node that its rows, whatever they are by now, do not hold any more. */
-function convertNode(draft: Draft, id: string): Operation[] {
+function convertNode(draft: DocumentDraft, id: string): Operation[] {
     const node = draft.node(id, "");
     const params = nodeParams(draft.schema, draft.document, node);
     const { kept, restore } = keepKnown(node.params, params, (name) => paramPlace(id, name));
@@ -63,7 +63,7 @@ function convertNode(draft: Draft, id: string): Operation[] {
     return restore;
 }
 
-function convertMaterial(draft: Draft, name: string): Operation[] {
+function convertMaterial(draft: DocumentDraft, name: string): Operation[] {
     const material = draft.resource("materials", name, "");
     const params = resourceParams(draft.schema, draft.document, "materials", material.type);
     const base = valuesPlace("materials", name);
@@ -76,7 +76,7 @@ function convertMaterial(draft: Draft, name: string): Operation[] {
 
 const paramPlace = (id: string, name: string): string => `/nodes/${id}/params/${name}`;
 
-function setNodeType(draft: Draft, id: string, at: string, value: Json): Operation[] {
+function setNodeType(draft: DocumentDraft, id: string, at: string, value: Json): Operation[] {
     const node = draft.node(id, at);
     const type = typeName(value, at);
     if (!nodeType(draft.schema, type)) {
@@ -97,7 +97,7 @@ function setNodeType(draft: Draft, id: string, at: string, value: Json): Operati
 }
 
 function setResourceType(
-    draft: Draft,
+    draft: DocumentDraft,
     place: Extract<Place, { kind: "resource-type" }>,
     at: string,
     value: Json,
@@ -116,7 +116,7 @@ function setResourceType(
 }
 
 function setNodeValue(
-    draft: Draft,
+    draft: DocumentDraft,
     place: Extract<Place, { kind: "node-value" }>,
     at: string,
     value: Json,
@@ -141,7 +141,7 @@ function setNodeValue(
 
 /* New rows of a distance function or a shader: whoever uses it keeps what still fits. */
 function setResourceValue(
-    draft: Draft,
+    draft: DocumentDraft,
     place: Extract<Place, { kind: "resource-value" }>,
     at: string,
     value: Json,
@@ -170,7 +170,7 @@ function setResourceValue(
 }
 
 function setTransform(
-    draft: Draft,
+    draft: DocumentDraft,
     place: Extract<Place, { kind: "transform" }>,
     at: string,
     value: Json,
@@ -189,7 +189,7 @@ function setTransform(
 }
 
 /* Applies one set; answers what undoes it. */
-export function set(draft: Draft, at: string, value: Json): Operation[] {
+export function set(draft: DocumentDraft, at: string, value: Json): Operation[] {
     const place = parsePlace(at);
     const { document } = draft;
     switch (place?.kind) {

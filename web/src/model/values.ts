@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a row accepts: the checks that a field makes before it sends a value, and the nearest
  * number that passes them. */
-import { declaredParams, whyNotRows } from "./declared.ts";
+import { declaredParams, whyNotRows } from "./declaredParams.ts";
 import { components, type Param, type ParamType, type Value } from "./schema.ts";
 
 /* Numbers of a value; a single number where several are wanted stands for all (scale). */

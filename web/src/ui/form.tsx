@@ -5,6 +5,7 @@ import { Fragment, memo, type ReactNode, useEffect, useId, useRef, useState } fr
 import type { Gesture } from "../link/link.ts";
 import { paramAt, type SceneDocument } from "../model/document.ts";
 import { equalJson } from "../model/json.ts";
+import { type Change, mixedAt, multiEdit } from "../model/multiEdit.ts";
 import type { Operation } from "../model/operation.ts";
 import { problemIn } from "../model/problems.ts";
 import {
@@ -15,7 +16,6 @@ import {
     type Value,
     valueIn,
 } from "../model/schema.ts";
-import { type Change, mixedAt, spread } from "../model/spread.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { FlagField, FlagsField } from "./fields/Flag.tsx";
@@ -216,7 +216,7 @@ function useGesture(place: string, param: Param, owner: string) {
         const { schema, document } = stores.document.getState();
         const before = gesture.current === null ? document : start.current;
         const { selection } = stores.view.getState();
-        return before ? spread(schema, before, selection, place, value, change) : [];
+        return before ? multiEdit(schema, before, selection, place, value, change) : [];
     };
     return {
         onInput: (value: Value, change?: Change): void => {

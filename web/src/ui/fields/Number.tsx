@@ -2,8 +2,8 @@
 /* A number: drag to scrub, click to type (expressions allowed), arrows to step. Shows the value in
  * the unit that people think in; the document keeps its own. */
 import { memo, useRef, useState } from "react";
+import type { Change } from "../../model/multiEdit.ts";
 import type { Param } from "../../model/schema.ts";
-import type { Change } from "../../model/spread.ts";
 import { checkNumber, clampNumber } from "../../model/values.ts";
 import { t } from "../texts.ts";
 import { displayOf, sliderRange } from "./display.ts";

@@ -4,7 +4,7 @@
 import { ArrowDown, ArrowUp, ChevronRight, Ellipsis, Plus, Trash2 } from "lucide-react";
 import { type ReactNode, useId, useState } from "react";
 import { typeNaming } from "../../model/add.ts";
-import { declaredParams, mayHaveRange, whyNotIdentifier } from "../../model/declared.ts";
+import { declaredParams, mayHaveRange, whyNotIdentifier } from "../../model/declaredParams.ts";
 import { findResource } from "../../model/document.ts";
 import { resourceOfPlace } from "../../model/places.ts";
 import { renameDeclared } from "../../model/resources.ts";

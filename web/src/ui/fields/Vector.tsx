@@ -3,8 +3,8 @@
  * linked. */
 import { Link2, Link2Off } from "lucide-react";
 import { useState } from "react";
+import type { Change } from "../../model/multiEdit.ts";
 import { components, type Param } from "../../model/schema.ts";
-import type { Change } from "../../model/spread.ts";
 import { parseVector } from "../../model/units.ts";
 import { numbersOf } from "../../model/values.ts";
 import { t } from "../texts.ts";

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-import type { Change } from "../../model/spread.ts";
+import type { Change } from "../../model/multiEdit.ts";
 
 /* What every field gets. A gesture is any number of `onInput` calls ended by one `onCommit` or one
  * `onCancel`; a typed value is a commit alone. The form turns a gesture into one undo step. */

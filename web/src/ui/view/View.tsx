@@ -2,7 +2,7 @@
 /* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
  * picks; React draws only what lies over it. */
 import { useCallback, useEffect, useRef, useState } from "react";
-import { attachInput } from "../../overlay/input.ts";
+import { attachPointer } from "../../overlay/pointer.ts";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -13,9 +13,9 @@ import type { MenuPlace } from "../widgets/Menu.tsx";
 import { Crumbs } from "./Crumbs.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
-import { inputActions } from "./input.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
+import { pointerActions } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
@@ -61,7 +61,7 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
-        const stop = attachInput(element, inputActions(editor, element, open));
+        const stop = attachPointer(element, pointerActions(editor, element, open));
         const rest = watchHover(editor, element);
         return () => {
             rest();

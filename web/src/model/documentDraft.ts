@@ -16,7 +16,7 @@ import type { Param, Schema } from "./schema.ts";
 import { cycleThrough, listNamedBy } from "./usage.ts";
 
 /* Each part is copied when it is first touched. */
-export class Draft {
+export class DocumentDraft {
     document: SceneDocument;
     readonly schema: Schema;
     readonly #owned: Map<string, SceneNode>;

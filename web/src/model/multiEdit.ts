@@ -53,7 +53,7 @@ function othersAt(at: string, selection: readonly string[]): readonly string[] {
 
 /* `start`: the document before the change, so that a drag adds up to what its end says. Without
  * `change`, all become `value`. */
-export function spread(
+export function multiEdit(
     schema: Schema,
     start: SceneDocument,
     selection: readonly string[],

@@ -3,12 +3,12 @@
 import { beforeEach, expect, test } from "vitest";
 import { type Camera, DEFAULT_CAMERA, distance } from "../src/model/camera.ts";
 import type { Pointing } from "../src/model/view.ts";
-import { type InputActions, InputMachine, type Press } from "../src/overlay/input.ts";
+import { type PointerActions, PointerMachine, type Press } from "../src/overlay/pointer.ts";
 
 let camera: Camera;
 let log: string[];
 let pointing: Pointing;
-let machine: InputMachine;
+let machine: PointerMachine;
 let clock: number;
 
 beforeEach(() => {
@@ -16,7 +16,7 @@ beforeEach(() => {
     log = [];
     pointing = "mouse";
     clock = 0;
-    const actions: InputActions = {
+    const actions: PointerActions = {
         camera: () => camera,
         moveCamera: (next) => {
             camera = next;
@@ -27,7 +27,7 @@ beforeEach(() => {
         pointing: () => pointing,
         gesture: (kind) => void log.push(`${kind}`),
     };
-    machine = new InputMachine(actions);
+    machine = new PointerMachine(actions);
     machine.resize(640, 360);
 });
 

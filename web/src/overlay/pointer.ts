@@ -8,7 +8,7 @@ import type { Pointing, SelectMode } from "../model/view.ts";
 export type Gesture = "orbit" | "pan" | "dolly";
 
 /* What the machine asks of the page. Points are CSS pixels from the picture's left top. */
-export interface InputActions {
+export interface PointerActions {
     camera(): Camera;
     moveCamera(camera: Camera): void;
     /* A click or tap. `list`: Alt was held, show all that is there. */
@@ -84,8 +84,8 @@ type State =
           readonly before: Camera;
       };
 
-export class InputMachine {
-    readonly #actions: InputActions;
+export class PointerMachine {
+    readonly #actions: PointerActions;
     #state: State = { kind: "idle" };
     #fingers = new Map<number, Spot>();
     #size = { width: 1, height: 1 };
@@ -93,7 +93,7 @@ export class InputMachine {
     #lastTap: Press | null = null;
     #penAt = Number.NEGATIVE_INFINITY;
 
-    constructor(actions: InputActions) {
+    constructor(actions: PointerActions) {
         this.#actions = actions;
     }
 
@@ -329,8 +329,8 @@ function isTyping(target: EventTarget | null): boolean {
 }
 
 /* Connects a machine to the picture's element; the function answered disconnects it. */
-export function attachInput(element: HTMLElement, actions: InputActions): () => void {
-    const machine = new InputMachine(actions);
+export function attachPointer(element: HTMLElement, actions: PointerActions): () => void {
+    const machine = new PointerMachine(actions);
     const stop = new AbortController();
     const options = { signal: stop.signal };
     let timer: ReturnType<typeof setTimeout> | undefined;

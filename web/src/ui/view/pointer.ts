@@ -6,7 +6,7 @@ import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf } from "../../model/document.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
-import type { InputActions } from "../../overlay/input.ts";
+import type { PointerActions } from "../../overlay/pointer.ts";
 import type { Editor } from "../editor.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
 import type { MenuPlace } from "../widgets/Menu.tsx";
@@ -24,7 +24,11 @@ interface Click {
 /* Opens the menu at a point of the window; what it answers is told what was found there. */
 type OpenMenu = (at: MenuPlace) => (settle: () => Target) => void;
 
-export function inputActions(editor: Editor, element: HTMLElement, onMenu: OpenMenu): InputActions {
+export function pointerActions(
+    editor: Editor,
+    element: HTMLElement,
+    onMenu: OpenMenu,
+): PointerActions {
     const { stores } = editor;
     const pick = questions(editor, element);
     let last: Click | null = null;
