@@ -37,7 +37,7 @@ const ALONE = [
     'kill/patience',
     'kill/worker',
 ];
-const NOT_SUITES = ['bench', 'support', 'bad'];
+const NOT_SUITES = ['bench', 'support', 'invalid'];
 
 const root = path.dirname(path.dirname(new URL(import.meta.url).pathname));
 const build = path.resolve(process.argv[2] ?? 'build/asan');

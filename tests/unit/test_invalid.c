@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One bad document or edit in each file of tests/bad: refused with the expected kind, place and
+/* One invalid document or edit in each file of tests/invalid: refused with the expected kind, place and
  * message, and base.json, to which the edits are applied, stays as it is byte for byte. */
 #include <dirent.h>
 #include <setjmp.h>
@@ -16,7 +16,7 @@
 #include "protocol/messages.h"
 #include "tests/support/text_file.h"
 
-static const char folder[] = "tests/bad";
+static const char folder[] = "tests/invalid";
 enum { CASES = 133 }; /* and base.json */
 
 static struct scene *base;
@@ -26,7 +26,7 @@ static int set_up(void **state)
 {
     (void)state;
     size_t length;
-    char *text = text_file_read("tests/bad/base.json", &length);
+    char *text = text_file_read("tests/invalid/base.json", &length);
     base = scene_parse(text, length, NULL);
     free(text);
     base_text = base ? scene_print(base, true) : NULL;
@@ -119,7 +119,7 @@ static int is_case(const struct dirent *entry)
     return entry->d_name[0] != '.' && strcmp(entry->d_name, "base.json") != 0;
 }
 
-static void test_bad_ones_are_refused(void **state)
+static void test_invalid_ones_are_refused(void **state)
 {
     (void)state;
     struct dirent **entries;
@@ -135,7 +135,7 @@ static void test_bad_ones_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_bad_ones_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_invalid_ones_are_refused, set_up, tear_down),
     };
-    return cmocka_run_group_tests_name("bad", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("invalid", tests, NULL, NULL);
 }
