@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Shapes: what is inside is what the words say, and the distance is that of the nearest point of
- * the other side. Inside and outside are told by predicates; points of the surface are found by
+ * the other side. Inside and outside are told by an oracle; points of the surface are found by
  * halving the way between two sides, and the nearest by looking around. */
 #include <math.h>
 #include <setjmp.h>
@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "renderer/sdf/sdf.h"
-#include "tests/support/predicates.h"
+#include "tests/support/inside_oracle.h"
 #include "tests/support/random_scene.h"
 
 #define TOLERANCE 1e-3
@@ -81,13 +81,13 @@ static void unbend(double *n)
 static struct shape random_shape(struct random *random, const struct node_type *type)
 {
     const struct random_limits limits = {.plain = true};
-    const struct predicate *predicate = predicate_find(type->record.name);
+    const struct inside_oracle *oracle = inside_oracle_find(type->record.name);
     struct shape shape = {.type = type, .sdf = sdf_find(type)};
-    if (!predicate) {
+    if (!oracle) {
         fail_msg("no test knows what is inside of a %s", type->record.name);
         return shape;
     }
-    shape.inside = predicate->inside;
+    shape.inside = oracle->inside;
     struct scene *scene = random_scene(random, type, &limits);
     sdf_numbers(type->record.params, scene->root->params.values, shape.raw);
     scene_destroy(scene);
@@ -339,7 +339,7 @@ static void check_point(struct random *random, const struct shape *shape, const 
         fail_at(shape, "overstates", p, d, nearest);
     }
     bool bound = shape->type->exactness == BOUND || (d < 0 && is_bent(shape->type, shape->raw)) ||
-                 predicate_hollow(shape->type->record.name, shape->raw);
+                 inside_oracle_hollow(shape->type->record.name, shape->raw);
     if (!bound && fabs(d) < nearest - TOLERANCE && !is_reached(random, shape, p)) {
         fail_at(shape, "understates", p, d, nearest);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One invalid document or edit in each file of tests/invalid: refused with the expected kind, place and
- * message, and base.json, to which the edits are applied, stays as it is byte for byte. */
+/* One invalid document or edit in each file of tests/invalid: refused with the expected kind, place
+ * and message, and base.json, to which the edits are applied, stays as it is byte for byte. */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "predicates.h"
+#include "inside_oracle.h"
 
 #define PI 3.141592653589793
 #define PHI 1.618033988749895
@@ -348,7 +348,7 @@ static bool in_terrain(const double p[3], const double *n)
     return in_box(p, n) && p[1] < n[1] * (sum / most - 0.5);
 }
 
-const struct predicate predicates_flat_sided[] = {
+const struct inside_oracle inside_oracle_flat_sided[] = {
     {"box", in_box},
     {"plane", in_plane},
     {"hex_prism", in_hex_prism},

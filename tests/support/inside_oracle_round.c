@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "predicates.h"
+#include "inside_oracle.h"
 
 static double clamped(double x, double low, double high)
 {
@@ -161,7 +161,7 @@ static bool in_death_star(const double p[3], const double *n)
     return in_sphere(p, n) && !in_sphere(moved, n + 1);
 }
 
-const struct predicate predicates_round[] = {
+const struct inside_oracle inside_oracle_round[] = {
     {"sphere", in_sphere},
     {"ellipsoid", in_ellipsoid},
     {"round_box", in_round_box},
@@ -182,11 +182,12 @@ const struct predicate predicates_round[] = {
     {.type = NULL},
 };
 
-const struct predicate *predicate_find(const char *type)
+const struct inside_oracle *inside_oracle_find(const char *type)
 {
-    static const struct predicate *const tables[] = {predicates_round, predicates_flat_sided};
+    static const struct inside_oracle *const tables[] = {inside_oracle_round,
+                                                         inside_oracle_flat_sided};
     for (int i = 0; i < 2; i++) {
-        for (const struct predicate *row = tables[i]; row->type; row++) {
+        for (const struct inside_oracle *row = tables[i]; row->type; row++) {
             if (strcmp(row->type, type) == 0) {
                 return row;
             }
@@ -195,7 +196,7 @@ const struct predicate *predicate_find(const char *type)
     return NULL;
 }
 
-bool predicate_hollow(const char *type, const double *n)
+bool inside_oracle_hollow(const char *type, const double *n)
 {
     if (strcmp(type, "capped_cone") == 0 || strcmp(type, "round_cone") == 0) {
         return n[0] == 0 && n[1] == 0;
