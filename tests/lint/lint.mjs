@@ -5,6 +5,8 @@ import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 
+import { OLD_NAMES } from './names.mjs';
+
 const FUNCTION_LINES = { c: 60, script: 120 };
 const LINE_COLUMNS = 100;
 const CLANG_FORMAT = 14; // Debian 12's; others break lines a little differently
@@ -243,6 +245,25 @@ function checkText(files) {
     });
 }
 
+// --- names ---
+
+const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
+
+// The history may name what was.
+function checkNames(files) {
+    const names = OLD_NAMES.map(([old]) => escaped(old) + (/[_/]$/.test(old) ? '' : '(?!\\w)'));
+    const pattern = new RegExp(`(?<!\\w)(${names.join('|')})`);
+    const renamed = new Map(OLD_NAMES);
+    const own = files.filter((file) => !/^tests\/lint\/|^CHANGELOG\.md$/.test(file));
+    const see = ([, old], file, line) => {
+        report(file, line, 'name', `${old} is called ${renamed.get(old)}`);
+    };
+    for (const file of own.filter((file) => pattern.test(file))) {
+        see(pattern.exec(file), file, 1);
+    }
+    search(own.filter((file) => SOURCE.test(file) || TEXT.test(file)), pattern, see);
+}
+
 // --- other tools ---
 
 function run(rule, program, args, options = {}) {
@@ -298,6 +319,7 @@ checkImports(files);
 checkFunctionsC(files);
 checkFunctionsScript(files);
 checkText(files);
+checkNames(files);
 checkFormat(files);
 checkTools(files);
 if (faults.length > 0) {

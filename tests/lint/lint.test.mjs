@@ -69,6 +69,9 @@ const BREAKS = [
     ['blank', 'renderer/glsl/march.glsl', `${C}\tfloat f();\n`],
     ['word', 'renderer/draw/draw.h', `${C}/* TO${'DO'} */\n`],
     ['word', 'renderer/draw/draw.c', `${C}#if 0\n#endif\n`],
+    ['name', 'server/live/room.c', `${C}#include "fallback.h"\n\nvoid f(void)\n{\n    say_bye(0);\n}\n`],
+    ['name', 'server/live/fallback.h', C],
+    ['name', 'README.md', '`server/live/renders` asks again.\n'],
     ['format', 'renderer/draw/draw.c', `${C}int f(void) { return 0; }\n`],
     ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
 ];
