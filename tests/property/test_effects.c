@@ -14,20 +14,20 @@
 enum { WIDTH = 160, HEIGHT = 90 };
 
 #define SCENE(material, render)                                                                    \
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,0.5,4],\"target\":[0,0,0]},"          \
-    "\"lights\":[{\"id\":\"sun\",\"type\":\"directional\",\"shadow\":\"none\"}],"                  \
-    "\"environment\":{\"floor\":true,\"floor_height\":-1},"                                        \
-    "\"render\":{\"antialiasing\":\"none\",\"occlusion\":false," render "},"                       \
-    "\"materials\":{\"clear\":{\"shader\":\"standard\",\"properties\":{" material "}}},"           \
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["                                  \
-    "{\"id\":\"ball\",\"type\":\"sphere\",\"material\":\"clear\","                                 \
-    "\"params\":{\"radius\":0.7},\"transform\":{\"translation\":[-0.8,0,0]}},"                     \
-    "{\"id\":\"box\",\"type\":\"box\",\"transform\":{\"translation\":[0.8,0,0]}}]}}"
-#define MIRROR "\"metallic\":1,\"roughness\":0"
-#define GLASS "\"transmission\":1,\"roughness\":0"
-#define MATT "\"roughness\":1"
-#define ON "\"ray_depth\":1"
-#define OFF "\"reflections\":false,\"refractions\":false"
+    "{'format':'fieldcast/1','camera':{'position':[0,0.5,4],'target':[0,0,0]},"                    \
+    "'lights':[{'id':'sun','type':'directional','shadow':'none'}],"                                \
+    "'environment':{'floor':true,'floor_height':-1},"                                              \
+    "'render':{'antialiasing':'none','occlusion':false," render "},"                               \
+    "'materials':{'clear':{'shader':'standard','properties':{" material "}}},"                     \
+    "'root':{'id':'root','type':'union','children':["                                              \
+    "{'id':'ball','type':'sphere','material':'clear',"                                             \
+    "'params':{'radius':0.7},'transform':{'translation':[-0.8,0,0]}},"                             \
+    "{'id':'box','type':'box','transform':{'translation':[0.8,0,0]}}]}}"
+#define MIRROR "'metallic':1,'roughness':0"
+#define GLASS "'transmission':1,'roughness':0"
+#define MATT "'roughness':1"
+#define ON "'ray_depth':1"
+#define OFF "'reflections':false,'refractions':false"
 
 enum { BALL = 2 }; /* its number: after the root */
 
@@ -96,7 +96,7 @@ static void only_glass_gets_broken_rays(void **state)
 static void no_rays_without_need(void **state)
 {
     static const char *const texts[] = {SCENE(MATT, ON), SCENE(MIRROR, OFF), SCENE(GLASS, OFF),
-                                        SCENE(MIRROR, "\"level\":\"draft\"")};
+                                        SCENE(MIRROR, "'level':'draft'")};
 
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {

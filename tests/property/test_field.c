@@ -30,28 +30,28 @@ static void assert_near(double got, double want)
     }
 }
 
-#define AT(x, y, z) ",\"transform\":{\"translation\":[" #x "," #y "," #z "]}"
+#define AT(x, y, z) ",'transform':{'translation':[" #x "," #y "," #z "]}"
 #define MATERIALS                                                                                  \
-    "\"materials\":{\"m0\":{\"shader\":\"phong\"},\"m1\":{\"shader\":\"phong\"},"                  \
-    "\"m2\":{\"shader\":\"phong\"}},"
+    "'materials':{'m0':{'shader':'phong'},'m1':{'shader':'phong'},"                                \
+    "'m2':{'shader':'phong'}},"
 
 static void transforms_apply_scale_rotation_translation(void **state)
 {
     (void)state;
     /* (1, 0, 0), scaled by 2, a quarter turn about Z to (0, 2, 0), then moved. */
-    const char *moved = "{\"type\":\"group\",\"transform\":{\"translation\":[5,0,0],"
-                        "\"rotation\":[0,0,1.5707963267948966],\"scale\":[2,2,2]},"
-                        "\"children\":[{\"type\":\"sphere\",\"params\":{\"radius\":0.25},"
-                        "\"transform\":{\"translation\":[1,0,0]}}]}";
+    const char *moved = "{'type':'group','transform':{'translation':[5,0,0],"
+                        "'rotation':[0,0,1.5707963267948966],'scale':[2,2,2]},"
+                        "'children':[{'type':'sphere','params':{'radius':0.25},"
+                        "'transform':{'translation':[1,0,0]}}]}";
     assert_near(distance_of(moved, 5, 2, 0), -0.5);
     assert_near(distance_of(moved, 5, 5, 0), 2.5);
     /* Rx, then Ry, then Rz: +Z goes by Rx to -Y; Ry leaves it; Rz takes it to +X. */
-    const char *turned = "{\"type\":\"plane\",\"params\":{\"normal\":[0,0,1]},\"transform\":{"
-                         "\"rotation\":[1.5707963267948966,1.5707963267948966,"
+    const char *turned = "{'type':'plane','params':{'normal':[0,0,1]},'transform':{"
+                         "'rotation':[1.5707963267948966,1.5707963267948966,"
                          "1.5707963267948966]}}";
     assert_near(distance_of(turned, 3, 7, 9), 3);
-    const char *flat = "{\"type\":\"sphere\",\"params\":{\"radius\":1},\"transform\":{"
-                       "\"scale\":[4,0.5,-2]}}";
+    const char *flat = "{'type':'sphere','params':{'radius':1},'transform':{"
+                       "'scale':[4,0.5,-2]}}";
     assert_near(distance_of(flat, 8, 0, 0), 0.5); /* (8/4 - 1) * least scale */
     assert_near(distance_of(flat, 0, 0.5, 0), 0);
     assert_near(distance_of(flat, 0, 0, 2), 0);
@@ -60,41 +60,40 @@ static void transforms_apply_scale_rotation_translation(void **state)
 static void lengths_of_operations_are_scaled(void **state)
 {
     (void)state;
-    const char *scaled = "{\"type\":\"round\",\"params\":{\"radius\":0.5},\"transform\":{"
-                         "\"scale\":[3,3,3]},\"children\":[" BALL("") "]}";
+    const char *scaled = "{'type':'round','params':{'radius':0.5},'transform':{"
+                         "'scale':[3,3,3]},'children':[" BALL("") "]}";
     assert_near(distance_of(scaled, 10, 0, 0), 10 - 3 - 1.5);
-    const char *shell = "{\"type\":\"shell\",\"params\":{\"thickness\":0.25},\"transform\":{"
-                        "\"scale\":[2,2,2]},\"children\":[" BALL("") "]}";
+    const char *shell = "{'type':'shell','params':{'thickness':0.25},'transform':{"
+                        "'scale':[2,2,2]},'children':[" BALL("") "]}";
     assert_near(distance_of(shell, 0, 0, 0), 1.5);
     assert_near(distance_of(shell, 2, 0, 0), -0.5);
     /* Equal distances are lowered by k/4. */
     const char *blend =
-        "{\"type\":\"smooth_union\",\"params\":{\"k\":0.4},\"transform\":{"
-        "\"scale\":[2,2,2]},\"children\":[" BALL(AT(-2, 0, 0)) "," BALL(AT(2, 0, 0)) "]}";
+        "{'type':'smooth_union','params':{'k':0.4},'transform':{"
+        "'scale':[2,2,2]},'children':[" BALL(AT(-2, 0, 0)) "," BALL(AT(2, 0, 0)) "]}";
     assert_near(distance_of(blend, 0, 0, 0), 2 - 0.2);
 }
 
 static void operations_mean_what_they_say(void **state)
 {
     (void)state;
-#define TWO "\"children\":[" BALL(AT(-0.5, 0, 0)) "," BALL(AT(0.5, 0, 0)) "]}"
-    assert_near(distance_of("{\"type\":\"union\"," TWO, -2, 0, 0), 0.5);
-    assert_near(distance_of("{\"type\":\"intersection\"," TWO, -2, 0, 0), 1.5);
-    assert_near(distance_of("{\"type\":\"difference\"," TWO, -1, 0, 0), -0.5);
-    assert_near(distance_of("{\"type\":\"difference\"," TWO, 0, 0, 0), 0.5);
-    assert_near(distance_of("{\"type\":\"smooth_intersection\",\"params\":{\"k\":1}," TWO, 0, 0, 0),
+#define TWO "'children':[" BALL(AT(-0.5, 0, 0)) "," BALL(AT(0.5, 0, 0)) "]}"
+    assert_near(distance_of("{'type':'union'," TWO, -2, 0, 0), 0.5);
+    assert_near(distance_of("{'type':'intersection'," TWO, -2, 0, 0), 1.5);
+    assert_near(distance_of("{'type':'difference'," TWO, -1, 0, 0), -0.5);
+    assert_near(distance_of("{'type':'difference'," TWO, 0, 0, 0), 0.5);
+    assert_near(distance_of("{'type':'smooth_intersection','params':{'k':1}," TWO, 0, 0, 0),
                 -0.5 + 0.25);
     /* a = -0.5, -b = 0.5: they differ by k, so nothing is blended. */
-    assert_near(distance_of("{\"type\":\"smooth_difference\",\"params\":{\"k\":1}," TWO, 0, 0, 0),
-                0.5);
+    assert_near(distance_of("{'type':'smooth_difference','params':{'k':1}," TWO, 0, 0, 0), 0.5);
     /* a = -b = -0.5. */
-    assert_near(distance_of("{\"type\":\"smooth_difference\",\"params\":{\"k\":1}," TWO, -1, 0, 0),
+    assert_near(distance_of("{'type':'smooth_difference','params':{'k':1}," TWO, -1, 0, 0),
                 -0.5 + 0.25);
     /* A primitive with children is their union. */
-    assert_near(distance_of("{\"type\":\"sphere\",\"params\":{\"radius\":1},\"children\":[" BALL(
-                                AT(5, 0, 0)) "]}",
-                            5, 0, 0),
-                -1);
+    assert_near(
+        distance_of("{'type':'sphere','params':{'radius':1},'children':[" BALL(AT(5, 0, 0)) "]}", 5,
+                    0, 0),
+        -1);
 #undef TWO
 }
 
@@ -109,21 +108,21 @@ static void nothing_is_empty_space(void **state)
     } cases[] = {
         {NOTHING, FAR_AWAY},
         {HIDDEN, FAR_AWAY},
-        {"{\"type\":\"union\",\"children\":[" HIDDEN "," BALL("") "]}", -1},
-        {"{\"type\":\"union\",\"children\":[" NOTHING "," BALL("") "]}", -1},
-        {"{\"type\":\"intersection\",\"children\":[" HIDDEN "," BALL("") "]}", -1},
-        {"{\"type\":\"intersection\",\"children\":[" NOTHING "," BALL("") "]}", FAR_AWAY},
-        {"{\"type\":\"intersection\",\"children\":[" BALL("") "," NOTHING "]}", FAR_AWAY},
-        {"{\"type\":\"difference\",\"children\":[" HIDDEN "," BALL("") "]}", FAR_AWAY},
-        {"{\"type\":\"difference\",\"children\":[" NOTHING "," BALL("") "]}", FAR_AWAY},
-        {"{\"type\":\"difference\",\"children\":[" BALL("") "," NOTHING "," HIDDEN "]}", -1},
-        {"{\"type\":\"round\",\"children\":[" NOTHING "]}", FAR_AWAY},
-        {"{\"type\":\"repeat\",\"children\":[" NOTHING "]}", FAR_AWAY},
-        {"{\"type\":\"twist\",\"children\":[" HIDDEN "]}", FAR_AWAY},
-        {"{\"type\":\"smooth_union\",\"children\":[{\"type\":\"mirror\",\"children\":[" NOTHING
+        {"{'type':'union','children':[" HIDDEN "," BALL("") "]}", -1},
+        {"{'type':'union','children':[" NOTHING "," BALL("") "]}", -1},
+        {"{'type':'intersection','children':[" HIDDEN "," BALL("") "]}", -1},
+        {"{'type':'intersection','children':[" NOTHING "," BALL("") "]}", FAR_AWAY},
+        {"{'type':'intersection','children':[" BALL("") "," NOTHING "]}", FAR_AWAY},
+        {"{'type':'difference','children':[" HIDDEN "," BALL("") "]}", FAR_AWAY},
+        {"{'type':'difference','children':[" NOTHING "," BALL("") "]}", FAR_AWAY},
+        {"{'type':'difference','children':[" BALL("") "," NOTHING "," HIDDEN "]}", -1},
+        {"{'type':'round','children':[" NOTHING "]}", FAR_AWAY},
+        {"{'type':'repeat','children':[" NOTHING "]}", FAR_AWAY},
+        {"{'type':'twist','children':[" HIDDEN "]}", FAR_AWAY},
+        {"{'type':'smooth_union','children':[{'type':'mirror','children':[" NOTHING
          "]}," BALL("") "]}",
          -1},
-        {"{\"type\":\"group\",\"visible\":false,\"children\":[" BALL("") "]}", FAR_AWAY},
+        {"{'type':'group','visible':false,'children':[" BALL("") "]}", FAR_AWAY},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double got = distance_of(cases[i].root, 0, 0, 0);
@@ -144,18 +143,18 @@ static struct pair explicit_copies(const char *child, const double spacing[3], c
     FILE *out = open_memstream(&text, &length);
     const char *comma = "";
     assert_non_null(out);
-    fprintf(out, "{\"type\":\"union\",\"children\":[");
+    fprintf(out, "{'type':'union','children':[");
     int n[3];
     for (int i = 0; i < 3; i++) {
         n[i] = count[i] < 0 ? window[i] : count[i] == 0 ? 1 : count[i];
     }
     for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
         const int at[3] = {i % n[0], i / n[0] % n[1], i / n[0] / n[1]};
-        fprintf(out, "%s{\"type\":\"group\",\"transform\":{\"translation\":[", comma);
+        fprintf(out, "%s{'type':'group','transform':{'translation':[", comma);
         for (int j = 0; j < 3; j++) {
             fprintf(out, "%s%.17g", j ? "," : "", spacing[j] * (at[j] - (n[j] - 1) / 2.0));
         }
-        fprintf(out, "]},\"children\":[%s]}", child);
+        fprintf(out, "]},'children':[%s]}", child);
         comma = ",";
     }
     fprintf(out, "]}");
@@ -184,8 +183,8 @@ static void repetition_is_copies(void **state)
         random_node(&random, out, random_type(&random, KIND_SHAPE, &limits), &limits);
         fclose(out);
         if (asprintf(&repeat,
-                     "{\"type\":\"repeat\",\"params\":{\"spacing\":[%.17g,%.17g,%.17g],"
-                     "\"count\":[%d,%d,%d]},\"children\":[%s]}",
+                     "{'type':'repeat','params':{'spacing':[%.17g,%.17g,%.17g],"
+                     "'count':[%d,%d,%d]},'children':[%s]}",
                      spacing[0], spacing[1], spacing[2], count[0], count[1], count[2], child) < 0) {
             abort();
         }
@@ -220,15 +219,15 @@ static void repetition_counts_its_loops(void **state)
         uint32_t trips;
     } cases[] = {
         {BALL(""), 0},
-        {"{\"type\":\"repeat\",\"params\":{\"count\":[0,0,0]},\"children\":[" BALL("") "]}", 1},
-        {"{\"type\":\"repeat\",\"params\":{\"count\":[-1,0,1],\"spacing\":[4,4,4]},"
-         "\"children\":[" BALL("") "]}",
+        {"{'type':'repeat','params':{'count':[0,0,0]},'children':[" BALL("") "]}", 1},
+        {"{'type':'repeat','params':{'count':[-1,0,1],'spacing':[4,4,4]},"
+         "'children':[" BALL("") "]}",
          2},
-        {"{\"type\":\"repeat\",\"params\":{\"count\":[-1,-1,9],\"spacing\":[4,4,4]},"
-         "\"children\":[" BALL("") "]}",
+        {"{'type':'repeat','params':{'count':[-1,-1,9],'spacing':[4,4,4]},"
+         "'children':[" BALL("") "]}",
          8},
-        {"{\"type\":\"repeat\",\"params\":{\"count\":[2,0,0],\"spacing\":[4,4,4]},\"children\":["
-         "{\"type\":\"repeat\",\"params\":{\"count\":[3,0,0],\"spacing\":[2,2,2]},\"children\":"
+        {"{'type':'repeat','params':{'count':[2,0,0],'spacing':[4,4,4]},'children':["
+         "{'type':'repeat','params':{'count':[3,0,0],'spacing':[2,2,2]},'children':"
          "[" BALL("") "]}," BALL("") "]}",
          2 * (1 + 2)},
     };
@@ -237,8 +236,8 @@ static void repetition_counts_its_loops(void **state)
         assert_int_equal(pair.field->loop_trips, cases[i].trips);
         pair_finish(&pair);
     }
-    struct pair dense = pair_of("{\"type\":\"repeat\",\"params\":{\"count\":[-1,-1,-1],"
-                                "\"spacing\":[0.01,0.02,0.01]},\"children\":[" BALL("") "]}",
+    struct pair dense = pair_of("{'type':'repeat','params':{'count':[-1,-1,-1],"
+                                "'spacing':[0.01,0.02,0.01]},'children':[" BALL("") "]}",
                                 "");
     assert_true(dense.field->loop_trips <= SDF_REPEAT_CELLS_MAX);
     pair_finish(&dense);
@@ -256,8 +255,8 @@ static void twist_is_a_bound(void **state)
         double width = random_between(&random, 0.3, 2);
         char *root;
         if (asprintf(&root,
-                     "{\"type\":\"twist\",\"params\":{\"rate\":%.17g},\"children\":[{\"type\":"
-                     "\"box\",\"params\":{\"size\":[%.17g,%.17g,0.4]}}]}",
+                     "{'type':'twist','params':{'rate':%.17g},'children':[{'type':"
+                     "'box','params':{'size':[%.17g,%.17g,0.4]}}]}",
                      rate, width, height) < 0) {
             abort();
         }
@@ -298,7 +297,7 @@ static void twist_is_a_bound(void **state)
 static void twisted_planes_end_somewhere(void **state)
 {
     (void)state;
-    const char *root = "{\"type\":\"twist\",\"children\":[{\"type\":\"plane\"}]}";
+    const char *root = "{'type':'twist','children':[{'type':'plane'}]}";
     assert_true(distance_of(root, 0, -1, 0) < 0);
     assert_true(distance_of(root, SDF_TURN_RADIUS_MAX + 1, -1, 0) > 0);
 }
@@ -310,13 +309,13 @@ static void twisted_planes_end_somewhere(void **state)
 static void guards_change_no_surface(void **state)
 {
     (void)state;
-    char text[4096] = "{\"type\":\"union\",\"children\":[" BALL("");
+    char text[4096] = "{'type':'union','children':[" BALL("");
     for (int i = 1; i < 6; i++) {
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used,
-                 ",{\"type\":\"repeat\",\"params\":{\"spacing\":[1,0.8,1],\"count\":[0,3,0]},"
-                 "\"transform\":{\"translation\":[%d,0,%d],\"rotation\":[0,0,0.3]},"
-                 "\"children\":[{\"type\":\"sphere\",\"params\":{\"radius\":0.4}}]}",
+                 ",{'type':'repeat','params':{'spacing':[1,0.8,1],'count':[0,3,0]},"
+                 "'transform':{'translation':[%d,0,%d],'rotation':[0,0,0.3]},"
+                 "'children':[{'type':'sphere','params':{'radius':0.4}}]}",
                  2 * i, i % 2);
     }
     strcat(text, "]}");
@@ -348,15 +347,15 @@ static void guards_change_no_surface(void **state)
 static void leaves_are_numbered_in_pre_order(void **state)
 {
     (void)state;
-    struct pair pair = pair_of(
-        "{\"id\":\"root\",\"type\":\"union\",\"children\":["
-        "{\"type\":\"group\",\"visible\":false,\"children\":[" BALL("") "," BALL(
-            "") "]},"
-                "{\"type\":\"group\",\"children\":[{\"id\":\"left\",\"type\":\"sphere\","
-                "\"transform\":{"
-                "\"translation\":[-3,0,0]}},{\"id\":\"right\",\"type\":\"sphere\",\"transform\":{"
-                "\"translation\":[3,0,0]}}]}]}",
-        "");
+    struct pair pair =
+        pair_of("{'id':'root','type':'union','children':["
+                "{'type':'group','visible':false,'children':[" BALL("") "," BALL(
+                    "") "]},"
+                        "{'type':'group','children':[{'id':'left','type':'sphere',"
+                        "'transform':{"
+                        "'translation':[-3,0,0]}},{'id':'right','type':'sphere','transform':{"
+                        "'translation':[3,0,0]}}]}]}",
+                "");
     const double p[2][3] = {{-3, 0, 0}, {3, 0, 0}};
     assert_int_equal(field_surface(pair.field, p[0], NULL).number,
                      6); /* root 1, hidden 2 to 4, group 5 */
@@ -386,12 +385,12 @@ static void materials_mix_by_the_derivative(void **state)
             assert_true(fabs(fabs(by_b) - share) < 1e-4);
         }
     }
-    struct pair pair = pair_of(
-        "{\"type\":\"smooth_union\",\"params\":{\"k\":2},\"children\":["
-        "{\"type\":\"sphere\",\"material\":\"a\",\"transform\":{\"translation\":[-1,0,0]}},"
-        "{\"type\":\"sphere\",\"material\":\"b\",\"transform\":{\"translation\":[1,0,0]}}]}",
-        "\"materials\":{\"a\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0,0,0]}},"
-        "\"b\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[1,1,1]}}},");
+    struct pair pair =
+        pair_of("{'type':'smooth_union','params':{'k':2},'children':["
+                "{'type':'sphere','material':'a','transform':{'translation':[-1,0,0]}},"
+                "{'type':'sphere','material':'b','transform':{'translation':[1,0,0]}}]}",
+                "'materials':{'a':{'shader':'phong','properties':{'diffuse':[0,0,0]}},"
+                "'b':{'shader':'phong','properties':{'diffuse':[1,1,1]}}},");
     const double middle[3] = {0, 0, 0}, right[3] = {0.5, 0, 0};
     assert_near(field_surface(pair.field, middle, NULL).material[0], 0.5);
     /* Distances 1 and 0: h = 1/2, so three quarters of b. */
@@ -403,12 +402,12 @@ static void materials_mix_by_the_derivative(void **state)
 static void materials_are_inherited(void **state)
 {
     (void)state;
-    struct pair pair = pair_of(
-        "{\"type\":\"group\",\"material\":\"a\",\"children\":[" BALL(
-            "") ","
-                "{\"type\":\"group\",\"children\":[" BALL(AT(9, 0, 0) ",\"material\":\"b\"") "]}]}",
-        "\"materials\":{\"a\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.25,0,0]}},"
-        "\"b\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.5,0,0]}}},");
+    struct pair pair =
+        pair_of("{'type':'group','material':'a','children':[" BALL(
+                    "") ","
+                        "{'type':'group','children':[" BALL(AT(9, 0, 0) ",'material':'b'") "]}]}",
+                "'materials':{'a':{'shader':'phong','properties':{'diffuse':[0.25,0,0]}},"
+                "'b':{'shader':'phong','properties':{'diffuse':[0.5,0,0]}}},");
     const double p[2][3] = {{0, 0, 0}, {9, 0, 0}};
     assert_near(field_surface(pair.field, p[0], NULL).material[0], 0.25);
     assert_near(field_surface(pair.field, p[1], NULL).material[0], 0.5);
@@ -421,7 +420,7 @@ static void rays_stop_at_surfaces(void **state)
 {
     (void)state;
     struct pair pair =
-        pair_of("{\"type\":\"difference\",\"children\":[" BOX "," BALL(AT(0, 0, 1)) "]}", "");
+        pair_of("{'type':'difference','children':[" BOX "," BALL(AT(0, 0, 1)) "]}", "");
     const double origin[3] = {0.25, 0.125, 9}, forward[3] = {0, 0, -1}, away[3] = {0, 0, 1};
     double t = field_march(pair.field, origin, forward, 100, 1e-9);
     double dent = 1 - sqrt(1 - 0.25 * 0.25 - 0.125 * 0.125);
@@ -448,7 +447,7 @@ static void deep_and_wide_scenes_fit(void **state)
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
     for (int i = 0; i < LIMIT_NODE_DEPTH - 1; i++) {
-        fprintf(out, "{\"type\":\"%s\",\"children\":[" BALL("") ",", i % 2 ? "repeat" : "mirror");
+        fprintf(out, "{'type':'%s','children':[" BALL("") ",", i % 2 ? "repeat" : "mirror");
     }
     fprintf(out, BALL(""));
     for (int i = 0; i < LIMIT_NODE_DEPTH - 1; i++) {
@@ -463,10 +462,10 @@ static void deep_and_wide_scenes_fit(void **state)
     pair_finish(&deep);
     out = open_memstream(&text, &length);
     assert_non_null(out);
-    fprintf(out, "{\"type\":\"smooth_union\",\"children\":[");
+    fprintf(out, "{'type':'smooth_union','children':[");
     for (int i = 0; i < LIMIT_CHILDREN; i++) {
-        fprintf(out, "%s{\"type\":\"sphere\",\"transform\":{\"translation\":[%d,0,0]}}",
-                i ? "," : "", 2 * i);
+        fprintf(out, "%s{'type':'sphere','transform':{'translation':[%d,0,0]}}", i ? "," : "",
+                2 * i);
     }
     fprintf(out, "]}");
     fclose(out);

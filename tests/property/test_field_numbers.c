@@ -12,6 +12,7 @@
 #include "protocol/json.h"
 #include "renderer/field/shader.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/pair.h"
 #include "tests/support/random_scene.h"
 
@@ -20,17 +21,17 @@
 static void numbers_lie_where_the_header_says(void **state)
 {
     (void)state;
-    struct pair pair = pair_of(
-        "{\"type\":\"smooth_union\",\"params\":{\"k\":0.5},\"transform\":{\"scale\":[2,2,2]},"
-        "\"children\":[{\"type\":\"box\",\"visible\":false},"
-        "{\"type\":\"round_box\",\"material\":\"b\",\"params\":{\"size\":[3,4,5],\"radius\":0.25},"
-        "\"transform\":{\"translation\":[10,20,30]}},"
-        "{\"type\":\"capsule\",\"params\":{\"a\":[1,2,3],\"b\":[4,5,6],\"radius\":7}}]}",
-        "\"materials\":{\"a\":{\"shader\":\"phong\"},\"b\":{\"shader\":\"phong\",\"properties\":{"
-        "\"diffuse\":[0.125,0.25,0.5],\"specular\":[0.5,0.75,1],\"emission\":[4,5,6],"
-        "\"ambient\":[1,0.5,0.25],\"shininess\":99,\"reflectivity\":0.5,\"ior\":2,"
-        "\"opacity\":1,\"attenuation_distance\":2,"
-        "\"attenuation_color\":[1,0.36787944117144233,0]}}},");
+    struct pair pair =
+        pair_of("{'type':'smooth_union','params':{'k':0.5},'transform':{'scale':[2,2,2]},"
+                "'children':[{'type':'box','visible':false},"
+                "{'type':'round_box','material':'b','params':{'size':[3,4,5],'radius':0.25},"
+                "'transform':{'translation':[10,20,30]}},"
+                "{'type':'capsule','params':{'a':[1,2,3],'b':[4,5,6],'radius':7}}]}",
+                "'materials':{'a':{'shader':'phong'},'b':{'shader':'phong','properties':{"
+                "'diffuse':[0.125,0.25,0.5],'specular':[0.5,0.75,1],'emission':[4,5,6],"
+                "'ambient':[1,0.5,0.25],'shininess':99,'reflectivity':0.5,'ior':2,"
+                "'opacity':1,'attenuation_distance':2,"
+                "'attenuation_color':[1,0.36787944117144233,0]}}},");
     const struct field *field = pair.field;
     const float want[] = {
         0.5f * 2, 3,   0,     0, /* k, order */
@@ -66,17 +67,17 @@ static void transforms_that_overflow_are_refused(void **state)
 {
     (void)state;
     struct error err = {0};
-    char text[4096] = "{\"format\":\"fieldcast/1\",\"root\":";
+    char text[4096] = "{'format':'fieldcast/1','root':";
     for (int i = 0; i < 4; i++) {
         char level[128];
         snprintf(level, sizeof level,
-                 "{\"id\":\"g%d\",\"type\":\"group\",\"transform\":{\"scale\":0.000001},"
-                 "\"children\":[",
+                 "{'id':'g%d','type':'group','transform':{'scale':0.000001},"
+                 "'children':[",
                  i);
         strcat(text, level);
     }
     strcat(text, BALL("") "]}]}]}]}}");
-    struct scene *scene = scene_parse(text, strlen(text), &err);
+    struct scene *scene = json_text_scene(text, &err);
     assert_non_null(scene);
     assert_null(field_compile(scene, &err));
     assert_int_equal(err.kind, ERROR_LIMIT);
@@ -150,29 +151,29 @@ static void numeric_edits_keep_the_shape(void **state)
 static void structural_changes_change_the_shape(void **state)
 {
     (void)state;
-#define PAIR "\"children\":[" BALL("") "," BOX "]}"
+#define PAIR "'children':[" BALL("") "," BOX "]}"
     static const char *const roots[] = {
         NOTHING,
         BALL(""),
         BOX,
-        "{\"type\":\"union\"," PAIR,
-        "{\"type\":\"intersection\"," PAIR,
-        "{\"type\":\"difference\"," PAIR,
-        "{\"type\":\"smooth_union\"," PAIR,
-        "{\"type\":\"smooth_intersection\"," PAIR,
-        "{\"type\":\"smooth_difference\"," PAIR,
-        "{\"type\":\"round\"," PAIR,
-        "{\"type\":\"shell\"," PAIR,
-        "{\"type\":\"mirror\"," PAIR,
-        "{\"type\":\"repeat\"," PAIR,
-        "{\"type\":\"twist\"," PAIR,
-        "{\"type\":\"union\",\"children\":[" BOX "," BALL("") "]}",
-        "{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "]}",
-        "{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "," BALL("") "]}",
-        "{\"type\":\"union\",\"children\":[" BALL(
-            "") ",{\"type\":\"intersection\",\"children\":[" BALL("") "," BALL("") "]}]}",
-        "{\"type\":\"mirror\",\"children\":[{\"type\":\"round\"," PAIR "]}",
-        "{\"type\":\"round\",\"children\":[{\"type\":\"mirror\"," PAIR "]}",
+        "{'type':'union'," PAIR,
+        "{'type':'intersection'," PAIR,
+        "{'type':'difference'," PAIR,
+        "{'type':'smooth_union'," PAIR,
+        "{'type':'smooth_intersection'," PAIR,
+        "{'type':'smooth_difference'," PAIR,
+        "{'type':'round'," PAIR,
+        "{'type':'shell'," PAIR,
+        "{'type':'mirror'," PAIR,
+        "{'type':'repeat'," PAIR,
+        "{'type':'twist'," PAIR,
+        "{'type':'union','children':[" BOX "," BALL("") "]}",
+        "{'type':'union','children':[" BALL("") "," BALL("") "]}",
+        "{'type':'union','children':[" BALL("") "," BALL("") "," BALL("") "]}",
+        "{'type':'union','children':[" BALL("") ",{'type':'intersection','children':[" BALL(
+            "") "," BALL("") "]}]}",
+        "{'type':'mirror','children':[{'type':'round'," PAIR "]}",
+        "{'type':'round','children':[{'type':'mirror'," PAIR "]}",
     };
 #undef PAIR
     enum { COUNT = sizeof roots / sizeof roots[0] };
@@ -188,15 +189,15 @@ static void structural_changes_change_the_shape(void **state)
         pair_finish(&pair);
     }
     /* Hidden nodes are no part of it, nor are groups of one. */
-    struct pair a = pair_of("{\"type\":\"union\",\"children\":[" HIDDEN "," BALL("") "]}", "");
-    struct pair b = pair_of("{\"type\":\"group\",\"children\":[" BALL("") "]}", "");
+    struct pair a = pair_of("{'type':'union','children':[" HIDDEN "," BALL("") "]}", "");
+    struct pair b = pair_of("{'type':'group','children':[" BALL("") "]}", "");
     assert_true(a.field->shape_hash == hashes[1] && b.field->shape_hash == hashes[1]);
     pair_finish(&a);
     pair_finish(&b);
     /* Unions of unions are one. */
-    a = pair_of("{\"type\":\"union\",\"children\":[" BALL("") "," BALL("") "," BALL("") "]}", "");
-    b = pair_of("{\"type\":\"union\",\"children\":[" BALL(
-                    "") ",{\"type\":\"group\",\"children\":[" BALL("") "," BALL("") "]}]}",
+    a = pair_of("{'type':'union','children':[" BALL("") "," BALL("") "," BALL("") "]}", "");
+    b = pair_of("{'type':'union','children':[" BALL("") ",{'type':'group','children':[" BALL(
+                    "") "," BALL("") "]}]}",
                 "");
     assert_true(a.field->shape_hash == b.field->shape_hash);
     pair_finish(&a);

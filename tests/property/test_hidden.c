@@ -14,6 +14,7 @@
 #include "protocol/json.h"
 #include "renderer/field/shader.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
 
@@ -363,26 +364,11 @@ static const char document[] =
     "{'id':'body','type':'torus','material':'glass','transform':{'translation':[0,-1.5,0]},"
     "'children':[{'id':'knob','type':'sphere'}]}]}}";
 
-static struct scene *read_document(void)
-{
-    char text[sizeof document];
-    struct error err = {0};
-    memcpy(text, document, sizeof document);
-    for (char *at = text; *at; at++) {
-        *at = *at == '\'' ? '"' : *at;
-    }
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
-    return scene;
-}
-
 static void models_code_and_the_floor_are_no_exception(void **state)
 {
     (void)state;
     struct random random = {33};
-    struct scene *scene = read_document();
+    struct scene *scene = json_text_valid_scene(document);
     struct field *drawn = compile_field(scene);
     for (int i = 0; i < 300; i++) {
         hide_some(&random, scene->root, 4);
@@ -412,7 +398,7 @@ static double distance_at(const struct field *field, double x, double y, double 
 static void nodes_of_models_are_isolated_in_all_instances(void **state)
 {
     (void)state;
-    struct scene *scene = read_document();
+    struct scene *scene = json_text_valid_scene(document);
     struct field *drawn = compile_field(scene);
     struct field *code = compile_after(scene, drawn, &(struct isolated){{"code"}, 1});
     struct field *two = compile_after(scene, drawn, &(struct isolated){{"two"}, 1});
@@ -440,7 +426,7 @@ static void what_was_never_drawn_is_left_out(void **state)
 {
     (void)state;
     struct error err = {0};
-    struct scene *scene = read_document();
+    struct scene *scene = json_text_valid_scene(document);
     show(scene_find(scene, "cut"), false);
     struct field *drawn = compile_field(scene);
     show(scene_find(scene, "bead"), false);
@@ -592,7 +578,7 @@ static void glsl_agrees(void **state)
     if (batch.count > 0) {
         check_batch(&random, &probe, &batch);
     }
-    add_scene(&batch, read_document());
+    add_scene(&batch, json_text_valid_scene(document));
     check_batch(&random, &probe, &batch);
     probe_finish(&probe);
 }

@@ -58,14 +58,14 @@ static struct image draw_ball(const char *shadow)
     char *text;
 
     assert_true(asprintf(&text,
-                         "{\"format\": \"fieldcast/1\", \"camera\": {\"type\": \"orthographic\","
-                         " \"position\": [0, 9, 0], \"target\": [0, 0, 0], \"up\": [0, 0, -1],"
-                         " \"height\": %g}, \"lights\": [{\"type\": \"directional\","
-                         " \"direction\": [%.10g, %.10g, %.10g], \"shadow\": \"%s\","
-                         " \"size\": %g}], \"render\": {\"level\": \"final\"},"
-                         " \"root\": {\"type\": \"union\", \"children\": [{\"type\": \"plane\"},"
-                         " {\"type\": \"sphere\", \"params\": {\"radius\": %g},"
-                         " \"transform\": {\"translation\": [0, %g, 0]}}]}}",
+                         "{'format': 'fieldcast/1', 'camera': {'type': 'orthographic',"
+                         " 'position': [0, 9, 0], 'target': [0, 0, 0], 'up': [0, 0, -1],"
+                         " 'height': %g}, 'lights': [{'type': 'directional',"
+                         " 'direction': [%.10g, %.10g, %.10g], 'shadow': '%s',"
+                         " 'size': %g}], 'render': {'level': 'final'},"
+                         " 'root': {'type': 'union', 'children': [{'type': 'plane'},"
+                         " {'type': 'sphere', 'params': {'radius': %g},"
+                         " 'transform': {'translation': [0, %g, 0]}}]}}",
                          view_height, -towards[0], -towards[1], -towards[2], shadow, sharpness,
                          ball_radius, ball_height) > 0);
     struct image image = draw(text, SIDE, SIDE, AOV_SHADOW);
@@ -169,22 +169,22 @@ static void soft_shadow_has_no_rings(void **state)
 
 /* A bowl cut out of an egg, things grown together, a bump that is only a bound. */
 static const char still_life[] =
-    "{\"format\": \"fieldcast/1\", \"camera\": {\"type\": \"orthographic\", \"height\": 3,"
-    " \"position\": [1, 5, 4], \"target\": [0, 0.3, 0]}, \"lights\": [{\"type\":"
-    " \"directional\", \"direction\": [-0.6, -0.64, 0.48], \"size\": 7}],"
-    " \"render\": {\"level\": \"final\"},"
-    " \"root\": {\"type\": \"union\", \"children\": [{\"type\": \"plane\"},"
-    " {\"type\": \"difference\", \"transform\": {\"translation\": [-0.8, 0.25, 0.3]},"
-    " \"children\": [{\"type\": \"ellipsoid\", \"params\": {\"radii\": [0.7, 0.25, 0.5]}},"
-    " {\"type\": \"ellipsoid\", \"params\": {\"radii\": [0.6, 0.3, 0.4]},"
-    " \"transform\": {\"translation\": [0, 0.2, 0]}}]},"
-    " {\"type\": \"smooth_union\", \"params\": {\"k\": 0.3}, \"children\": ["
-    "{\"type\": \"box\", \"params\": {\"size\": [0.5, 0.5, 0.5]},"
-    " \"transform\": {\"translation\": [0.6, 0.25, 0]}}, {\"type\": \"torus\","
-    " \"transform\": {\"translation\": [0.7, 0.3, 0.5]}}]},"
-    " {\"type\": \"displace\", \"params\": {\"amplitude\": 0.03, \"frequency\": [12, 12, 12]},"
-    " \"transform\": {\"translation\": [0.1, 0.4, -0.7]}, \"children\": ["
-    "{\"type\": \"sphere\", \"params\": {\"radius\": 0.4}}]}]}}";
+    "{'format': 'fieldcast/1', 'camera': {'type': 'orthographic', 'height': 3,"
+    " 'position': [1, 5, 4], 'target': [0, 0.3, 0]}, 'lights': [{'type':"
+    " 'directional', 'direction': [-0.6, -0.64, 0.48], 'size': 7}],"
+    " 'render': {'level': 'final'},"
+    " 'root': {'type': 'union', 'children': [{'type': 'plane'},"
+    " {'type': 'difference', 'transform': {'translation': [-0.8, 0.25, 0.3]},"
+    " 'children': [{'type': 'ellipsoid', 'params': {'radii': [0.7, 0.25, 0.5]}},"
+    " {'type': 'ellipsoid', 'params': {'radii': [0.6, 0.3, 0.4]},"
+    " 'transform': {'translation': [0, 0.2, 0]}}]},"
+    " {'type': 'smooth_union', 'params': {'k': 0.3}, 'children': ["
+    "{'type': 'box', 'params': {'size': [0.5, 0.5, 0.5]},"
+    " 'transform': {'translation': [0.6, 0.25, 0]}}, {'type': 'torus',"
+    " 'transform': {'translation': [0.7, 0.3, 0.5]}}]},"
+    " {'type': 'displace', 'params': {'amplitude': 0.03, 'frequency': [12, 12, 12]},"
+    " 'transform': {'translation': [0.1, 0.4, -0.7]}, 'children': ["
+    "{'type': 'sphere', 'params': {'radius': 0.4}}]}]}}";
 
 /* The same as soft_shadow, of any field. */
 static double field_shadow(const struct field *field, const double from[3])
@@ -241,10 +241,9 @@ static void soft_shadows_of_any_field_have_no_rings(void **state)
 
 static void open_ground_is_not_occluded(void **state)
 {
-    struct image image =
-        draw("{\"format\": \"fieldcast/1\", \"camera\": {\"position\": [0, 1, 5]},"
-             " \"root\": {\"type\": \"plane\", \"params\": {\"normal\": [0.2, 1, 0.1]}}}",
-             80, 60, AOV_OCCLUSION);
+    struct image image = draw("{'format': 'fieldcast/1', 'camera': {'position': [0, 1, 5]},"
+                              " 'root': {'type': 'plane', 'params': {'normal': [0.2, 1, 0.1]}}}",
+                              80, 60, AOV_OCCLUSION);
     int ground = 0;
 
     (void)state;
@@ -270,21 +269,20 @@ static void white_furnace_hides_white_balls(void **state)
 
     (void)state;
     assert_non_null(out);
-    fprintf(out,
-            "{\"format\": \"fieldcast/1\", \"camera\": {\"type\": \"orthographic\", \"height\":"
-            " 4, \"position\": [4, 1, 9], \"target\": [4, 1, 0]}, \"environment\": {\"type\":"
-            " \"solid\", \"color\": [1, 1, 1]}, \"materials\": {");
+    fprintf(out, "{'format': 'fieldcast/1', 'camera': {'type': 'orthographic', 'height':"
+                 " 4, 'position': [4, 1, 9], 'target': [4, 1, 0]}, 'environment': {'type':"
+                 " 'solid', 'color': [1, 1, 1]}, 'materials': {");
     for (int i = 0; i < 2 * BALLS; i++) {
         fprintf(out,
-                "%s\"m%d\": {\"shader\": \"standard\", \"properties\": {\"base_color\": [1, 1, 1],"
-                " \"metallic\": %d, \"roughness\": %g}}",
+                "%s'm%d': {'shader': 'standard', 'properties': {'base_color': [1, 1, 1],"
+                " 'metallic': %d, 'roughness': %g}}",
                 i ? "," : "", i, i / BALLS, 0.2 + 0.2 * (i % BALLS));
     }
-    fprintf(out, "}, \"root\": {\"type\": \"union\", \"children\": [");
+    fprintf(out, "}, 'root': {'type': 'union', 'children': [");
     for (int i = 0; i < 2 * BALLS; i++) {
         fprintf(out,
-                "%s{\"type\": \"sphere\", \"params\": {\"radius\": 0.5}, \"material\": \"m%d\","
-                " \"transform\": {\"translation\": [%d, %d, 0]}}",
+                "%s{'type': 'sphere', 'params': {'radius': 0.5}, 'material': 'm%d',"
+                " 'transform': {'translation': [%d, %d, 0]}}",
                 i ? "," : "", i, 2 * (i % BALLS), 2 * (i / BALLS));
     }
     fprintf(out, "]}}");

@@ -13,6 +13,7 @@
 #include "protocol/scene.h"
 #include "renderer/glsl/interface.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
 
@@ -28,16 +29,9 @@ struct pair {
 static struct pair pair_of(const char *parts, const char *root)
 {
     char text[4096];
-    struct error err = {0};
     struct pair pair;
     snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':%s}", parts, root);
-    for (char *at = text; *at; at++) {
-        *at = *at == '\'' ? '"' : *at;
-    }
-    pair.scene = scene_parse(text, strlen(text), &err);
-    if (!pair.scene) {
-        fail_msg("%s: %s\n%s", err.place, err.message, text);
-    }
+    pair.scene = json_text_valid_scene(text);
     pair.field = compile_field(pair.scene);
     return pair;
 }

@@ -19,19 +19,19 @@ enum { SIDE = 48, FINE = 8, COLUMNS = 1024, ROWS = 512, LIGHT_EVERY = 16 };
 #define IMAGE_ID "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
 
 static const char scene_text[] =
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,0,2],\"fov\":60},\"lights\":[],"
-    "\"environment\":{\"type\":\"image\",\"image\":\"" IMAGE_ID "\"},"
-    "\"render\":{\"antialiasing\":\"none\",\"occlusion\":false,\"tone_map\":\"none\","
-    "\"max_distance\":100,\"ray_depth\":%d},"
-    "\"materials\":{\"m\":{\"shader\":\"standard\",\"properties\":{%s}}},"
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"material\":\"m\",\"children\":["
-    "{\"type\":\"sphere\",\"params\":{\"radius\":%g},\"transform\":{\"translation\":[%g,0,%g]}},"
-    "{\"type\":\"box\",\"params\":{\"size\":[%g,%g,1]},\"transform\":{\"translation\":[%g,0,-0.5]}}"
+    "{'format':'fieldcast/1','camera':{'position':[0,0,2],'fov':60},'lights':[],"
+    "'environment':{'type':'image','image':'" IMAGE_ID "'},"
+    "'render':{'antialiasing':'none','occlusion':false,'tone_map':'none',"
+    "'max_distance':100,'ray_depth':%d},"
+    "'materials':{'m':{'shader':'standard','properties':{%s}}},"
+    "'root':{'id':'root','type':'union','material':'m','children':["
+    "{'type':'sphere','params':{'radius':%g},'transform':{'translation':[%g,0,%g]}},"
+    "{'type':'box','params':{'size':[%g,%g,1]},'transform':{'translation':[%g,0,-0.5]}}"
     "]}}";
 
-#define MIRROR "\"metallic\":1,\"roughness\":0"
-#define DULL "\"metallic\":1,\"roughness\":0.1"
-#define GLASS "\"transmission\":1,\"roughness\":0,\"ior\":1.5"
+#define MIRROR "'metallic':1,'roughness':0"
+#define DULL "'metallic':1,'roughness':0.1"
+#define GLASS "'transmission':1,'roughness':0,'ior':1.5"
 
 /* A ball and a box, at places along x; which part of the error of narrow rays may stay. */
 static const struct looked {

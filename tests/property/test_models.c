@@ -13,25 +13,17 @@
 
 #include "protocol/scene.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/probe.h"
 #include "tests/support/random_scene.h"
 
 enum { POINTS = 2000 };
 
-/* Reads a document in which ' stands for ". */
 static struct scene *scene_of(const char *parts, const char *root)
 {
     char text[8192];
-    struct error err = {0};
     snprintf(text, sizeof text, "{'format':'fieldcast/1',%s'root':%s}", parts, root);
-    for (char *at = text; *at; at++) {
-        *at = *at == '\'' ? '"' : *at;
-    }
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    if (!scene) {
-        fail_msg("%s: %s\n%s", err.place, err.message, text);
-    }
-    return scene;
+    return json_text_valid_scene(text);
 }
 
 static void random_points(float out[POINTS][3], uint64_t seed)

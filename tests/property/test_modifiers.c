@@ -163,28 +163,27 @@ static void assert_tight(const char *root, double x, double y, double z)
 }
 
 #define DOT(x, y, z)                                                                               \
-    "\"children\":[{\"type\":\"sphere\",\"params\":{\"radius\":0.01},\"transform\":{"              \
-    "\"translation\":[" #x "," #y "," #z "]}}]}"
-#define FLOOR "\"children\":[{\"type\":\"plane\"}]}"
+    "'children':[{'type':'sphere','params':{'radius':0.01},'transform':{"                          \
+    "'translation':[" #x "," #y "," #z "]}}]}"
+#define FLOOR "'children':[{'type':'plane'}]}"
 
 static void factors_are_no_greater_than_they_must_be(void **state)
 {
     (void)state;
-    assert_tight("{\"type\":\"twist\",\"params\":{\"rate\":1.5}," DOT(1, 0, 0), 0.75, 0, 0);
-    assert_tight("{\"type\":\"bend\",\"params\":{\"rate\":1.5}," DOT(0, 1, 0), 0, 0.75, 0);
-    assert_tight("{\"type\":\"offset_space\",\"params\":{\"amplitude\":0.2,\"frequency\":8},"
-                 "\"children\":[{\"type\":\"plane\",\"params\":{\"normal\":[1,1,1]}}]}",
+    assert_tight("{'type':'twist','params':{'rate':1.5}," DOT(1, 0, 0), 0.75, 0, 0);
+    assert_tight("{'type':'bend','params':{'rate':1.5}," DOT(0, 1, 0), 0, 0.75, 0);
+    assert_tight("{'type':'offset_space','params':{'amplitude':0.2,'frequency':8},"
+                 "'children':[{'type':'plane','params':{'normal':[1,1,1]}}]}",
                  0, 0, 0);
-    assert_tight("{\"type\":\"offset_space\",\"params\":{\"amplitude\":[0,0.2,0],"
-                 "\"frequency\":8},\"children\":[{\"type\":\"plane\",\"params\":{"
-                 "\"normal\":[0,1,0.48]}}]}",
+    assert_tight("{'type':'offset_space','params':{'amplitude':[0,0.2,0],"
+                 "'frequency':8},'children':[{'type':'plane','params':{"
+                 "'normal':[0,1,0.48]}}]}",
                  0, 0, 0);
-    assert_tight(
-        "{\"type\":\"displace\",\"params\":{\"amplitude\":0.1,\"frequency\":[5,9,5]}," FLOOR,
-        PI / 10, 0, PI / 10);
+    assert_tight("{'type':'displace','params':{'amplitude':0.1,'frequency':[5,9,5]}," FLOOR,
+                 PI / 10, 0, PI / 10);
     /* From some way on a displaced field is the plain one less the amplitude. */
-    const char *noisy = "{\"type\":\"displace_noise\",\"params\":{\"amplitude\":0.25}," FLOOR;
-    const char *wavy = "{\"type\":\"displace\",\"params\":{\"amplitude\":0.25}," FLOOR;
+    const char *noisy = "{'type':'displace_noise','params':{'amplitude':0.25}," FLOOR;
+    const char *wavy = "{'type':'displace','params':{'amplitude':0.25}," FLOOR;
     assert_true(fabs(distance_at(noisy, 1, 9, 1) - 8.75) < 1e-6);
     assert_true(fabs(distance_at(wavy, 1, 9, 1) - 8.75) < 1e-6);
     assert_true(distance_at(noisy, 1, 0.3, 1) > 0.05 - 1e-6);
@@ -194,8 +193,8 @@ static void factors_are_no_greater_than_they_must_be(void **state)
 static struct field *scaled_field(const struct modified *modified, double scale)
 {
     char *text;
-    if (asprintf(&text, "{\"type\":\"group\",\"transform\":{\"scale\":%.17g},\"children\":[%s]}",
-                 scale, modified->text) < 0) {
+    if (asprintf(&text, "{'type':'group','transform':{'scale':%.17g},'children':[%s]}", scale,
+                 modified->text) < 0) {
         abort();
     }
     struct field *field = modified_field(text);
@@ -235,11 +234,11 @@ static void loops_are_counted(void **state)
         const char *root;
         uint32_t trips;
     } cases[] = {
-        {"{\"type\":\"repeat_polar\",\"params\":{\"count\":12,\"radius\":2}," DOT(0, 0, 0), 2},
-        {"{\"type\":\"repeat_polar\",\"params\":{\"count\":12,\"radius\":0}," DOT(0, 0, 0), 12},
-        {"{\"type\":\"displace_noise\",\"params\":{\"octaves\":3}," DOT(0, 0, 0), 3},
-        {"{\"type\":\"repeat_polar\",\"params\":{\"count\":5,\"radius\":0},\"children\":[{\"type\":"
-         "\"displace_noise\",\"params\":{\"octaves\":7}," DOT(0, 0, 0) "]}",
+        {"{'type':'repeat_polar','params':{'count':12,'radius':2}," DOT(0, 0, 0), 2},
+        {"{'type':'repeat_polar','params':{'count':12,'radius':0}," DOT(0, 0, 0), 12},
+        {"{'type':'displace_noise','params':{'octaves':3}," DOT(0, 0, 0), 3},
+        {"{'type':'repeat_polar','params':{'count':5,'radius':0},'children':[{'type':"
+         "'displace_noise','params':{'octaves':7}," DOT(0, 0, 0) "]}",
          5 * (1 + 7)},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -268,30 +267,30 @@ static void assert_same(const char *a, const char *b)
 static void sections_make_known_shapes(void **state)
 {
     (void)state;
-    assert_same("{\"type\":\"revolve\",\"params\":{\"offset\":0.7},\"children\":[{\"type\":"
-                "\"circle\",\"params\":{\"radius\":0.2}}]}",
-                "{\"type\":\"torus\",\"params\":{\"radius\":0.7,\"tube\":0.2}}");
-    assert_same("{\"type\":\"revolve\",\"children\":[{\"type\":\"rectangle\",\"params\":{\"size\":"
+    assert_same("{'type':'revolve','params':{'offset':0.7},'children':[{'type':"
+                "'circle','params':{'radius':0.2}}]}",
+                "{'type':'torus','params':{'radius':0.7,'tube':0.2}}");
+    assert_same("{'type':'revolve','children':[{'type':'rectangle','params':{'size':"
                 "[1.4,0.6]}}]}",
-                "{\"type\":\"cylinder\",\"params\":{\"radius\":0.7,\"height\":0.6}}");
-    assert_same("{\"type\":\"extrude\",\"params\":{\"height\":0.8},\"children\":[{\"type\":"
-                "\"rectangle\",\"params\":{\"size\":[1.4,0.6]}}]}",
-                "{\"type\":\"box\",\"params\":{\"size\":[1.4,0.6,0.8]}}");
-    assert_same("{\"type\":\"extrude\",\"params\":{\"height\":0.8},\"children\":[{\"type\":"
-                "\"circle\",\"params\":{\"radius\":0.6}}]}",
-                "{\"type\":\"cylinder\",\"params\":{\"radius\":0.6,\"height\":0.8},\"transform\":{"
-                "\"rotation\":[1.5707963267948966,0,0]}}");
-    assert_same("{\"type\":\"extrude\",\"params\":{\"height\":0.8,\"rounding\":0.2},\"children\":[{"
-                "\"type\":\"circle\",\"params\":{\"radius\":0.6}}]}",
-                "{\"type\":\"round_cylinder\",\"params\":{\"radius\":0.6,\"height\":0.8,"
-                "\"rounding\":0.2},\"transform\":{\"rotation\":[1.5707963267948966,0,0]}}");
-    assert_same("{\"type\":\"elongate\",\"params\":{\"size\":[0.3,0.4,0.5]},\"children\":[{"
-                "\"type\":\"box\",\"params\":{\"size\":[0.2,0.2,0.2]}}]}",
-                "{\"type\":\"box\",\"params\":{\"size\":[0.8,1,1.2]}}");
-    assert_same("{\"type\":\"elongate\",\"params\":{\"size\":[0,0.4,0]},\"children\":[{"
-                "\"type\":\"sphere\",\"params\":{\"radius\":0.5}}]}",
-                "{\"type\":\"capsule\",\"params\":{\"a\":[0,-0.4,0],\"b\":[0,0.4,0],"
-                "\"radius\":0.5}}");
+                "{'type':'cylinder','params':{'radius':0.7,'height':0.6}}");
+    assert_same("{'type':'extrude','params':{'height':0.8},'children':[{'type':"
+                "'rectangle','params':{'size':[1.4,0.6]}}]}",
+                "{'type':'box','params':{'size':[1.4,0.6,0.8]}}");
+    assert_same("{'type':'extrude','params':{'height':0.8},'children':[{'type':"
+                "'circle','params':{'radius':0.6}}]}",
+                "{'type':'cylinder','params':{'radius':0.6,'height':0.8},'transform':{"
+                "'rotation':[1.5707963267948966,0,0]}}");
+    assert_same("{'type':'extrude','params':{'height':0.8,'rounding':0.2},'children':[{"
+                "'type':'circle','params':{'radius':0.6}}]}",
+                "{'type':'round_cylinder','params':{'radius':0.6,'height':0.8,"
+                "'rounding':0.2},'transform':{'rotation':[1.5707963267948966,0,0]}}");
+    assert_same("{'type':'elongate','params':{'size':[0.3,0.4,0.5]},'children':[{"
+                "'type':'box','params':{'size':[0.2,0.2,0.2]}}]}",
+                "{'type':'box','params':{'size':[0.8,1,1.2]}}");
+    assert_same("{'type':'elongate','params':{'size':[0,0.4,0]},'children':[{"
+                "'type':'sphere','params':{'radius':0.5}}]}",
+                "{'type':'capsule','params':{'a':[0,-0.4,0],'b':[0,0.4,0],"
+                "'radius':0.5}}");
 }
 
 int main(void)

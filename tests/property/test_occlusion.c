@@ -16,7 +16,7 @@ enum { WIDTH = 160, HEIGHT = 40 };
 
 static const double view_height = 0.6, view_x = 0.25; /* seen from above, 5 up */
 static const double reach = 1;
-static const char own_reach[] = "\"occlusion_strength\":1,\"occlusion_reach\":1";
+static const char own_reach[] = "'occlusion_strength':1,'occlusion_reach':1";
 
 static struct renderer *renderer;
 
@@ -35,21 +35,21 @@ static int end(void **state)
 }
 
 /* A floor at 0, and a wall that begins at x = -1. */
-static const char wall[] = "{\"type\":\"plane\"},{\"type\":\"plane\",\"params\":{"
-                           "\"normal\":[1,0,0],\"offset\":-1}}";
+static const char wall[] = "{'type':'plane'},{'type':'plane','params':{"
+                           "'normal':[1,0,0],'offset':-1}}";
 /* A floor, and a ball that lies on it at x = -1.1. */
 static const double ball_radius = 0.5, ball_x = -1.1;
-static const char ball[] = "{\"type\":\"plane\"},{\"type\":\"sphere\",\"params\":{\"radius\":0.5},"
-                           "\"transform\":{\"translation\":[-1.1,0.5,0]}}";
+static const char ball[] = "{'type':'plane'},{'type':'sphere','params':{'radius':0.5},"
+                           "'transform':{'translation':[-1.1,0.5,0]}}";
 
 static struct image draw(const char *children, const char *render)
 {
     char text[1024];
 
     snprintf(text, sizeof text,
-             "{\"format\":\"fieldcast/1\",\"camera\":{\"type\":\"orthographic\",\"height\":%g,"
-             "\"position\":[%g,5,0],\"target\":[%g,0,0],\"up\":[0,0,-1]},\"render\":{%s},"
-             "\"root\":{\"type\":\"union\",\"children\":[%s]}}",
+             "{'format':'fieldcast/1','camera':{'type':'orthographic','height':%g,"
+             "'position':[%g,5,0],'target':[%g,0,0],'up':[0,0,-1]},'render':{%s},"
+             "'root':{'type':'union','children':[%s]}}",
              view_height, view_x, view_x, render, children);
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -64,7 +64,7 @@ static struct image draw_samples(const char *children, int samples)
 {
     char render[160];
 
-    snprintf(render, sizeof render, "%s,\"occlusion_samples\":%d", own_reach, samples);
+    snprintf(render, sizeof render, "%s,'occlusion_samples':%d", own_reach, samples);
     return draw(children, render);
 }
 
@@ -167,7 +167,7 @@ static void levels_darken_alike(void **state)
         double first = 0;
         for (int level = 0; level < QUALITY_COUNT; level++) {
             char render[160];
-            snprintf(render, sizeof render, "%s,\"level\":\"%s\"", own_reach, quality_names[level]);
+            snprintf(render, sizeof render, "%s,'level':'%s'", own_reach, quality_names[level]);
             struct image image = draw(scenes[s].children, render);
             const double mean = compare(&image, scenes[s].exact).mean;
             first = level == 0 ? mean : first;
@@ -184,8 +184,8 @@ static void levels_darken_alike(void **state)
 static void the_reach_follows_the_camera(void **state)
 {
     (void)state;
-    struct image own = draw(wall, "\"occlusion_reach\":0.3"), follows = draw(wall, "");
-    struct image farther = draw(wall, "\"occlusion_reach\":0.6");
+    struct image own = draw(wall, "'occlusion_reach':0.3"), follows = draw(wall, "");
+    struct image farther = draw(wall, "'occlusion_reach':0.6");
     assert_true(drawing_is_same(&own, &follows));
     assert_false(drawing_is_same(&own, &farther));
     image_finish(&own);
@@ -197,9 +197,9 @@ static void the_strength_scales_what_is_kept_off(void **state)
 {
     (void)state;
     struct image whole = draw(wall, own_reach);
-    struct image half = draw(wall, "\"occlusion_strength\":0.5,\"occlusion_reach\":1");
-    struct image none = draw(wall, "\"occlusion_strength\":0,\"occlusion_reach\":1");
-    struct image most = draw(wall, "\"occlusion_strength\":4,\"occlusion_reach\":1");
+    struct image half = draw(wall, "'occlusion_strength':0.5,'occlusion_reach':1");
+    struct image none = draw(wall, "'occlusion_strength':0,'occlusion_reach':1");
+    struct image most = draw(wall, "'occlusion_strength':4,'occlusion_reach':1");
     int black = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         assert_true(fabs(dark_at(&half, i) - 0.5 * dark_at(&whole, i)) < 1e-3);

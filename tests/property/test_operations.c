@@ -13,6 +13,7 @@
 #include "protocol/json.h"
 #include "renderer/field/field.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
 enum { OPERANDS_MAX = 8 };
@@ -347,15 +348,11 @@ static void blends_are_lowered_as_far_as_they_say(void **state)
 
 static struct scene *scene_of(const char *root)
 {
-    struct error err = {0};
     char *text;
-    if (asprintf(&text, "{\"format\":\"fieldcast/1\",\"root\":%s}", root) < 0) {
+    if (asprintf(&text, "{'format':'fieldcast/1','root':%s}", root) < 0) {
         abort();
     }
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    if (!scene) {
-        fail_msg("%s: %s\n%s", err.place, err.message, text);
-    }
+    struct scene *scene = json_text_valid_scene(text);
     free(text);
     return scene;
 }
@@ -370,9 +367,9 @@ static struct field *field_of(const char *root)
 
 /* Three balls and their distances. */
 #define BALLS                                                                                      \
-    "\"children\":[{\"type\":\"sphere\",\"params\":{\"radius\":0.7}},"                             \
-    "{\"type\":\"sphere\",\"params\":{\"radius\":0.5},\"transform\":{\"translation\":[0.6,0,0]}}," \
-    "{\"type\":\"sphere\",\"params\":{\"radius\":0.6},\"transform\":{\"translation\":[0,0.5,0]}}]"
+    "'children':[{'type':'sphere','params':{'radius':0.7}},"                                       \
+    "{'type':'sphere','params':{'radius':0.5},'transform':{'translation':[0.6,0,0]}},"             \
+    "{'type':'sphere','params':{'radius':0.6},'transform':{'translation':[0,0.5,0]}}]"
 
 static void balls(const double p[3], double out[3])
 {
@@ -386,13 +383,13 @@ static char *operation_text(const struct node_type *type, const double n[3], con
     const struct param *params = type->record.params;
     char *text, numbers[96] = "";
     if (params[0].name) {
-        snprintf(numbers, sizeof numbers, "\"%s\":%.9g", params[0].name, n[0]);
+        snprintf(numbers, sizeof numbers, "'%s':%.9g", params[0].name, n[0]);
     }
     if (kernels_of(type) > 1) {
         snprintf(numbers + strlen(numbers), sizeof numbers - strlen(numbers),
-                 ",\"kernel\":\"%s\",\"order\":%g", kernel_param()->choices[(size_t)n[1]], n[2]);
+                 ",'kernel':'%s','order':%g", kernel_param()->choices[(size_t)n[1]], n[2]);
     }
-    if (asprintf(&text, "{\"type\":\"%s\",\"params\":{%s}%s," BALLS "}", type->record.name, numbers,
+    if (asprintf(&text, "{'type':'%s','params':{%s}%s," BALLS "}", type->record.name, numbers,
                  more) < 0) {
         abort();
     }
@@ -403,7 +400,7 @@ static void check_in_scenes(struct random *random, const struct node_type *type,
 {
     char more[96];
     double scale = pow(2, random_between(random, -4, 4));
-    snprintf(more, sizeof more, ",\"transform\":{\"scale\":%.17g}", scale);
+    snprintf(more, sizeof more, ",'transform':{'scale':%.17g}", scale);
     char *plain = operation_text(type, n, ""), *scaled = operation_text(type, n, more);
     struct field *a = field_of(plain), *b = field_of(scaled);
     size_t operands = sdf_find(type)->operands;
@@ -446,7 +443,7 @@ static void exclusive_is_an_odd_number_of_children(void **state)
 {
     (void)state;
     struct random random = {37};
-    struct field *field = field_of("{\"type\":\"exclusive\"," BALLS "}");
+    struct field *field = field_of("{'type':'exclusive'," BALLS "}");
     int seen[4] = {0};
     for (int i = 0; i < 10000; i++) {
         double p[3], d[3];
@@ -473,15 +470,14 @@ static void a_power_is_at_least_one(void **state)
     assert_true(small[0] == 1 && one[0] == 1);
 }
 
-#define BALL(radius) "{\"type\":\"sphere\",\"params\":{\"radius\":" #radius "}}"
-#define NOTHING "{\"type\":\"group\"}"
+#define BALL(radius) "{'type':'sphere','params':{'radius':" #radius "}}"
+#define NOTHING "{'type':'group'}"
 
 static void morph_goes_from_the_first_to_the_second(void **state)
 {
     (void)state;
 #define MORPH(t, children)                                                                         \
-    distance_at("{\"type\":\"morph\",\"params\":{\"t\":" #t "},\"children\":[" children "]}", 3,   \
-                0, 0)
+    distance_at("{'type':'morph','params':{'t':" #t "},'children':[" children "]}", 3, 0, 0)
 #define THREE BALL(1) "," BALL(2) "," BALL(9)
     assert_true(fabs(MORPH(0, THREE) - 2) < 1e-6);
     assert_true(fabs(MORPH(0.25, THREE) - 1.75) < 1e-6);

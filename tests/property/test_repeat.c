@@ -11,13 +11,13 @@
 
 #include "tests/support/modified.h"
 
-#define BOX(x, y, z, more) "{\"type\":\"box\",\"params\":{\"size\":[" #x "," #y "," #z "]}" more "}"
-#define AT(x, y, z) ",\"transform\":{\"translation\":[" #x "," #y "," #z "]}"
+#define BOX(x, y, z, more) "{'type':'box','params':{'size':[" #x "," #y "," #z "]}" more "}"
+#define AT(x, y, z) ",'transform':{'translation':[" #x "," #y "," #z "]}"
 
 static struct modified around_axis(int count, const char *child)
 {
     char params[64];
-    snprintf(params, sizeof params, "{\"count\":%d,\"radius\":0}", count);
+    snprintf(params, sizeof params, "{'count':%d,'radius':0}", count);
     struct modified modified = modified_create("repeat_polar", params, child);
     modified.n[0] = count;
     return modified;

@@ -13,6 +13,7 @@
 
 #include "protocol/nodes.h"
 #include "tests/support/drawing.h"
+#include "tests/support/json_text.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
@@ -36,19 +37,19 @@ static int end(void **state)
 
 /* Near enough to light and lens for all that happens there; the row's list is still empty. */
 static const char around[] =
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0.3,1,2.4],\"target\":[0.1,-0.1,0]},"
-    "\"render\":{\"antialiasing\":\"none\",\"tone_map\":\"none\"},"
-    "\"environment\":{\"intensity\":0.3,\"floor\":true,\"floor_height\":-0.5},"
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-    "{\"id\":\"ball\",\"type\":\"sphere\",\"transform\":{\"translation\":[-0.4,0,0]}},"
-    "{\"id\":\"box\",\"type\":\"box\",\"params\":{\"size\":[0.2,0.3,0.2]},"
-    "\"transform\":{\"translation\":[0.5,-0.35,-0.2]}}]}}";
-static const char sun[] = "{\"type\":\"directional\",\"intensity\":2,\"direction\":[-1,-0.8,-0.7]}";
+    "{'format':'fieldcast/1','camera':{'position':[0.3,1,2.4],'target':[0.1,-0.1,0]},"
+    "'render':{'antialiasing':'none','tone_map':'none'},"
+    "'environment':{'intensity':0.3,'floor':true,'floor_height':-0.5},"
+    "'root':{'id':'root','type':'union','children':["
+    "{'id':'ball','type':'sphere','transform':{'translation':[-0.4,0,0]}},"
+    "{'id':'box','type':'box','params':{'size':[0.2,0.3,0.2]},"
+    "'transform':{'translation':[0.5,-0.35,-0.2]}}]}}";
+static const char sun[] = "{'type':'directional','intensity':2,'direction':[-1,-0.8,-0.7]}";
 
 /* The row as a member of the document, where it is looked at. */
 static cJSON *scene_of(const struct record_type *table, const cJSON *row)
 {
-    cJSON *scene = cJSON_Parse(around), *own = cJSON_Duplicate(row, true);
+    cJSON *scene = json_text_parse(around, NULL), *own = cJSON_Duplicate(row, true);
     cJSON *lights = cJSON_AddArrayToObject(scene, "lights");
 
     if (table == shader_types) {
@@ -63,7 +64,7 @@ static cJSON *scene_of(const struct record_type *table, const cJSON *row)
             table == light_types ? lights : cJSON_AddArrayToObject(scene, "volumes"), own);
     }
     if (table != light_types) {
-        cJSON_AddItemToArray(lights, cJSON_Parse(sun));
+        cJSON_AddItemToArray(lights, json_text_parse(sun, NULL));
     }
     return scene;
 }
@@ -356,18 +357,19 @@ static void steps_are_shown_by_their_scale(void **state)
 static void shadows_are_those_of_lights_that_throw_some(void **state)
 {
     static const char *const lights[] = {
-        "{\"type\":\"directional\",\"direction\":[-1,-1,0],\"shadow\":\"hard\"}",
-        "{\"type\":\"directional\",\"direction\":[1,-1,0],\"shadow\":\"none\"}"};
+        "{'type':'directional','direction':[-1,-1,0],'shadow':'hard'}",
+        "{'type':'directional','direction':[1,-1,0],'shadow':'none'}"};
     struct image images[3];
 
     (void)state;
     for (int i = 0; i < 3; i++) {
-        cJSON *scene = cJSON_Parse(around), *list = cJSON_AddArrayToObject(scene, "lights");
+        cJSON *scene = json_text_parse(around, NULL),
+              *list = cJSON_AddArrayToObject(scene, "lights");
         if (i < 2) {
-            cJSON_AddItemToArray(list, cJSON_Parse(lights[0]));
+            cJSON_AddItemToArray(list, json_text_parse(lights[0], NULL));
         }
         if (i > 0) {
-            cJSON_AddItemToArray(list, cJSON_Parse(lights[1]));
+            cJSON_AddItemToArray(list, json_text_parse(lights[1], NULL));
         }
         char *text = cJSON_PrintUnformatted(scene);
         struct resident *resident = resident_create(renderer, drawing_parse(text), 1);

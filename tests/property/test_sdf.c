@@ -13,6 +13,7 @@
 #include "protocol/json.h"
 #include "renderer/field/field.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
 #define PI 3.141592653589793
@@ -312,19 +313,16 @@ static void boxes_hold_what_they_bound(void **state)
  * farther towards its corners, which a turn makes sides of the box. */
 static void boxes_of_crossings_hold_when_turned(void **state)
 {
-    static const char text[] =
-        "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"intersection\",\"transform\":"
-        "{\"rotation\":[0.785,0,0]},\"children\":["
-        "{\"type\":\"box\",\"params\":{\"size\":[0.4,0.4,12]},"
-        "\"transform\":{\"translation\":[-0.4,0,0]}},"
-        "{\"type\":\"box\",\"params\":{\"size\":[0.4,12,0.4]},"
-        "\"transform\":{\"translation\":[0.4,0,0]}}]}}";
-    struct error err = {0};
-    struct scene *scene = scene_parse(text, sizeof text - 1, &err);
+    static const char text[] = "{'format':'fieldcast/1','root':{'type':'intersection','transform':"
+                               "{'rotation':[0.785,0,0]},'children':["
+                               "{'type':'box','params':{'size':[0.4,0.4,12]},"
+                               "'transform':{'translation':[-0.4,0,0]}},"
+                               "{'type':'box','params':{'size':[0.4,12,0.4]},"
+                               "'transform':{'translation':[0.4,0,0]}}]}}";
+    struct scene *scene = json_text_valid_scene(text);
     struct random random = {16};
 
     (void)state;
-    assert_non_null(scene);
     for (int round = 0; round < 20; round++) {
         assert_int_equal(check_box(&random, scene), 0);
     }

@@ -19,6 +19,7 @@
 
 #include "tests/support/compositions.h"
 #include "tests/support/drawing.h"
+#include "tests/support/json_text.h"
 #include "tests/support/oracle.h"
 #include "tests/support/text_file.h"
 
@@ -97,10 +98,10 @@ static cJSON *read_composition(const struct composition *composition)
 {
     char *text;
     assert_true(asprintf(&text,
-                         "{\"format\":\"fieldcast/1\",%s\"root\":{\"type\":\"group\","
-                         "\"children\":[{\"type\":\"group\",\"children\":[%s]}]}}",
+                         "{'format':'fieldcast/1',%s'root':{'type':'group',"
+                         "'children':[{'type':'group','children':[%s]}]}}",
                          composition->head, composition->root) > 0);
-    cJSON *document = cJSON_Parse(text);
+    cJSON *document = json_text_parse(text, NULL);
 
     if (!document) {
         fail_msg("%s: is no JSON: %s", composition->name, text);

@@ -37,21 +37,20 @@ static struct scene *scene_of(const char *material, const char *code)
 {
     char text[4096];
 
-    snprintf(
-        text, sizeof text,
-        "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0.4,1.1,3],\"target\":[0,0,0]},"
-        "\"lights\":[{\"id\":\"sun\",\"type\":\"directional\",\"intensity\":3,\"shadow\":\"hard\","
-        "\"direction\":[-0.6,-0.8,-0.4]}],"
-        "\"environment\":{\"floor\":true,\"floor_height\":-0.6},"
-        "\"render\":{\"level\":\"final\",\"antialiasing\":\"none\",\"occlusion\":false},"
-        "\"shaders\":{\"mine\":{\"properties\":[{\"name\":\"tint\",\"type\":\"color\","
-        "\"default\":[0.9,0.5,0.25]}],\"code\":\"%s\"}},"
-        "\"materials\":{\"own\":%s},\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-        "{\"id\":\"ball\",\"type\":\"sphere\",\"material\":\"own\",\"params\":{\"radius\":0.5},"
-        "\"transform\":{\"translation\":[-0.4,0,0]}},"
-        "{\"id\":\"box\",\"type\":\"box\",\"params\":{\"size\":[0.4,0.8,0.4]},"
-        "\"transform\":{\"translation\":[0.6,-0.2,-0.4],\"rotation\":[0,0.5,0]}}]}}",
-        code, material);
+    snprintf(text, sizeof text,
+             "{'format':'fieldcast/1','camera':{'position':[0.4,1.1,3],'target':[0,0,0]},"
+             "'lights':[{'id':'sun','type':'directional','intensity':3,'shadow':'hard',"
+             "'direction':[-0.6,-0.8,-0.4]}],"
+             "'environment':{'floor':true,'floor_height':-0.6},"
+             "'render':{'level':'final','antialiasing':'none','occlusion':false},"
+             "'shaders':{'mine':{'properties':[{'name':'tint','type':'color',"
+             "'default':[0.9,0.5,0.25]}],'code':'%s'}},"
+             "'materials':{'own':%s},'root':{'id':'root','type':'union','children':["
+             "{'id':'ball','type':'sphere','material':'own','params':{'radius':0.5},"
+             "'transform':{'translation':[-0.4,0,0]}},"
+             "{'id':'box','type':'box','params':{'size':[0.4,0.8,0.4]},"
+             "'transform':{'translation':[0.6,-0.2,-0.4],'rotation':[0,0.5,0]}}]}}",
+             code, material);
     return drawing_parse(text);
 }
 
@@ -64,8 +63,8 @@ static struct image draw(const char *material, const char *code)
     return image;
 }
 
-#define MINE "{\"shader\":\"mine\"}"
-#define OURS(properties) "{\"shader\":\"standard\",\"properties\":{" properties "}}"
+#define MINE "{'shader':'mine'}"
+#define OURS(properties) "{'shader':'standard','properties':{" properties "}}"
 #define SURFACE(members)                                                                           \
     "Surface shade(FragmentProperties at) { Surface s = Surface(tint); " members " return s; }"
 /* Unused by materials of ours, which have to be drawn with a shader beside them as well. */
@@ -76,15 +75,15 @@ static void a_copy_of_ours_is_the_same_picture(void **state)
     static const struct {
         const char *ours, *mine;
     } pairs[] = {
-        {OURS("\"base_color\":[0.9,0.5,0.25],\"metallic\":1,\"roughness\":0"),
+        {OURS("'base_color':[0.9,0.5,0.25],'metallic':1,'roughness':0"),
          SURFACE("s.metallic = 1.0; s.roughness = 0.0;")},
-        {OURS("\"base_color\":[0.9,0.5,0.25],\"transmission\":1,\"roughness\":0,\"ior\":1.4"),
+        {OURS("'base_color':[0.9,0.5,0.25],'transmission':1,'roughness':0,'ior':1.4"),
          SURFACE("s.transmission = 1.0; s.roughness = 0.0; s.ior = 1.4;")},
-        {OURS("\"base_color\":[0.9,0.5,0.25],\"roughness\":0.7,\"emission\":[0.5,0,0.25]"),
+        {OURS("'base_color':[0.9,0.5,0.25],'roughness':0.7,'emission':[0.5,0,0.25]"),
          SURFACE("s.roughness = 0.7; s.emission = vec3(0.5, 0, 0.25);")},
         /* What is left after one unit of length: exp(-absorption). */
-        {OURS("\"base_color\":[0.9,0.5,0.25],\"transmission\":1,\"roughness\":0,"
-              "\"attenuation_color\":[1,0.5,0.25]"),
+        {OURS("'base_color':[0.9,0.5,0.25],'transmission':1,'roughness':0,"
+              "'attenuation_color':[1,0.5,0.25]"),
          SURFACE("s.transmission = 1.0; s.roughness = 0.0;"
                  "s.absorption = -log(vec3(1.0, 0.5, 0.25));")},
     };
@@ -92,7 +91,7 @@ static void a_copy_of_ours_is_the_same_picture(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         struct image ours = draw(pairs[i].ours, UNUSED), mine = draw(MINE, pairs[i].mine);
-        struct image plain = draw(OURS("\"base_color\":[0.9,0.5,0.25]"), UNUSED);
+        struct image plain = draw(OURS("'base_color':[0.9,0.5,0.25]"), UNUSED);
         int differ = 0, seen = 0;
         for (int k = 0; k < WIDTH * HEIGHT; k++) {
             const uint32_t a = ((const uint32_t *)ours.pixels)[k];

@@ -35,13 +35,13 @@ static struct image draw(const char *material, const char *lights, bool floor)
     char text[1600];
 
     snprintf(text, sizeof text,
-             "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,3],\"target\":[0,0,0]},"
-             "\"lights\":[%s],\"render\":{\"antialiasing\":\"none\",\"ray_depth\":8,"
-             "\"occlusion\":false},\"environment\":{\"type\":\"solid\",\"color\":[1,1,1],"
-             "\"floor\":%s,\"floor_height\":-0.8,\"floor_color\":[1,1,1]},"
-             "\"materials\":{\"own\":%s},"
-             "\"root\":{\"id\":\"r\",\"type\":\"sphere\",\"material\":\"own\","
-             "\"params\":{\"radius\":0.7}}}",
+             "{'format':'fieldcast/1','camera':{'position':[0,1,3],'target':[0,0,0]},"
+             "'lights':[%s],'render':{'antialiasing':'none','ray_depth':8,"
+             "'occlusion':false},'environment':{'type':'solid','color':[1,1,1],"
+             "'floor':%s,'floor_height':-0.8,'floor_color':[1,1,1]},"
+             "'materials':{'own':%s},"
+             "'root':{'id':'r','type':'sphere','material':'own',"
+             "'params':{'radius':0.7}}}",
              lights, floor ? "true" : "false", material);
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -51,8 +51,8 @@ static struct image draw(const char *material, const char *lights, bool floor)
     return image;
 }
 
-#define MATERIAL(shader, properties) "{\"shader\":\"" shader "\",\"properties\":{" properties "}}"
-#define LAMP "{\"type\":\"directional\",\"intensity\":2,\"direction\":[0.3,-1,-0.2]}"
+#define MATERIAL(shader, properties) "{'shader':'" shader "','properties':{" properties "}}"
+#define LAMP "{'type':'directional','intensity':2,'direction':[0.3,-1,-0.2]}"
 
 static double value(const struct image *image, int x, int y, int channel)
 {
@@ -78,22 +78,21 @@ static void assert_unseen(const char *material)
 static void clear_things_cannot_be_seen_in_a_white_room(void **state)
 {
     (void)state;
-    assert_unseen(MATERIAL("phong", "\"diffuse\":[0,0,0],\"opacity\":0"));
-    assert_unseen(MATERIAL("blinn", "\"diffuse\":[0,0,0],\"opacity\":0,\"ior\":1"));
-    assert_unseen(MATERIAL("phong", "\"diffuse\":[1,0,0],\"opacity\":0,\"reflectivity\":0.1"));
-    assert_unseen(
-        MATERIAL("checker", "\"color1\":[0,0,1],\"color2\":[0,0,0],\"opacity\":0,\"scale\":0.2"));
-    assert_unseen(MATERIAL("standard", "\"base_color\":[1,1,1],\"transmission\":1,"
-                                       "\"roughness\":0"));
+    assert_unseen(MATERIAL("phong", "'diffuse':[0,0,0],'opacity':0"));
+    assert_unseen(MATERIAL("blinn", "'diffuse':[0,0,0],'opacity':0,'ior':1"));
+    assert_unseen(MATERIAL("phong", "'diffuse':[1,0,0],'opacity':0,'reflectivity':0.1"));
+    assert_unseen(MATERIAL("checker", "'color1':[0,0,1],'color2':[0,0,0],'opacity':0,'scale':0.2"));
+    assert_unseen(MATERIAL("standard", "'base_color':[1,1,1],'transmission':1,"
+                                       "'roughness':0"));
 }
 
 /* Nor does their colour fall on the floor. */
 static void light_through_phong_keeps_its_colour(void **state)
 {
-    struct image black = draw(
-        MATERIAL("phong", "\"specular\":[0,0,0],\"diffuse\":[0,0,0],\"opacity\":0"), LAMP, true);
-    struct image red = draw(
-        MATERIAL("phong", "\"specular\":[0,0,0],\"diffuse\":[1,0,0],\"opacity\":0"), LAMP, true);
+    struct image black =
+        draw(MATERIAL("phong", "'specular':[0,0,0],'diffuse':[0,0,0],'opacity':0"), LAMP, true);
+    struct image red =
+        draw(MATERIAL("phong", "'specular':[0,0,0],'diffuse':[1,0,0],'opacity':0"), LAMP, true);
 
     (void)state;
     assert_true(drawing_is_same(&black, &red));
@@ -120,24 +119,24 @@ static void what_dyes_is_what_the_reference_says(void **state)
 {
     (void)state;
     /* The standard colour once, where light enters; else what is inside, by its way of 1.4. */
-    const double once = left_of(
-        MATERIAL("standard", "\"base_color\":[1,0.5,0.5],\"transmission\":1,\"roughness\":0,"
-                             "\"ior\":1"));
+    const double once =
+        left_of(MATERIAL("standard", "'base_color':[1,0.5,0.5],'transmission':1,'roughness':0,"
+                                     "'ior':1"));
     assert_true(fabs(once - 0.5) < 0.01);
     const double inside =
-        left_of(MATERIAL("phong", "\"opacity\":0,\"ior\":1,\"attenuation_color\":[1,0.5,0.5],"
-                                  "\"attenuation_distance\":1.4"));
+        left_of(MATERIAL("phong", "'opacity':0,'ior':1,'attenuation_color':[1,0.5,0.5],"
+                                  "'attenuation_distance':1.4"));
     assert_true(fabs(inside - 0.5) < 0.01);
 }
 
 /* --- glass that is none --- */
 
 #define BALL(r, x, y, z)                                                                           \
-    "{\"type\":\"sphere\",\"material\":\"own\",\"params\":{\"radius\":" #r                         \
-    "},\"transform\":{\"translation\":[" #x "," #y "," #z "]}},"
+    "{'type':'sphere','material':'own','params':{'radius':" #r "},'transform':{'translation':[" #x \
+    "," #y "," #z "]}},"
 #define BLOCK(a, b, c, x, y, z)                                                                    \
-    "{\"type\":\"box\",\"material\":\"own\",\"params\":{\"size\":[" #a "," #b "," #c               \
-    "]},\"transform\":{\"translation\":[" #x "," #y "," #z "]}},"
+    "{'type':'box','material':'own','params':{'size':[" #a "," #b "," #c                           \
+    "]},'transform':{'translation':[" #x "," #y "," #z "]}},"
 
 /* Things on a floor at -0.7, each with a comma behind. */
 static const struct {
@@ -157,11 +156,11 @@ static const struct {
 };
 
 static const char *const views[] = {
-    "\"position\":[0,1,3.4],\"target\":[0,-0.2,0]",
-    "\"position\":[0,-0.4,3.4],\"target\":[0,-0.5,0]",
-    "\"position\":[0,4,1],\"target\":[0,-0.5,0]",
-    "\"position\":[0,6,20],\"target\":[0,-0.5,0],\"fov\":8",
-    "\"type\":\"orthographic\",\"height\":2.4,\"position\":[0,1,3.4],\"target\":[0,-0.2,0]",
+    "'position':[0,1,3.4],'target':[0,-0.2,0]",
+    "'position':[0,-0.4,3.4],'target':[0,-0.5,0]",
+    "'position':[0,4,1],'target':[0,-0.5,0]",
+    "'position':[0,6,20],'target':[0,-0.5,0],'fov':8",
+    "'type':'orthographic','height':2.4,'position':[0,1,3.4],'target':[0,-0.2,0]",
 };
 
 /* On a floor with two solid balls, in the light of the sun and of a lamp. */
@@ -170,22 +169,22 @@ static struct image draw_things(const char *things, const char *material, const 
 {
     char text[2400];
 
-    snprintf(text, sizeof text,
-             "{\"format\":\"fieldcast/1\",\"camera\":{%s},\"lights\":[" LAMP
-             ",{\"type\":\"point\",\"intensity\":4,\"position\":[1,2.5,1]}],"
-             "\"render\":{\"antialiasing\":\"none\",\"ray_depth\":8},"
-             "\"environment\":{\"type\":\"sky\",\"floor\":true,\"floor_height\":-0.7},"
-             "\"materials\":{\"own\":%s,\"red\":" MATERIAL(
-                 "phong",
-                 "\"diffuse\":[0.8,0.1,0.1]") "},"
-                                              "\"root\":{\"type\":\"group\",\"children\":[%s"
-                                              "{\"type\":\"sphere\",\"material\":\"red\","
-                                              "\"params\":{\"radius\":0.25},"
-                                              "\"transform\":{\"translation\":[0.9,-0.4,-1]}},"
-                                              "{\"type\":\"sphere\",\"material\":\"red\","
-                                              "\"params\":{\"radius\":0.2},"
-                                              "\"transform\":{\"translation\":[0,-0.3,-0.2]}}]}}",
-             view, material, things);
+    snprintf(
+        text, sizeof text,
+        "{'format':'fieldcast/1','camera':{%s},'lights':[" LAMP
+        ",{'type':'point','intensity':4,'position':[1,2.5,1]}],"
+        "'render':{'antialiasing':'none','ray_depth':8},"
+        "'environment':{'type':'sky','floor':true,'floor_height':-0.7},"
+        "'materials':{'own':%s,'red':" MATERIAL(
+            "phong", "'diffuse':[0.8,0.1,0.1]") "},"
+                                                "'root':{'type':'group','children':[%s"
+                                                "{'type':'sphere','material':'red',"
+                                                "'params':{'radius':0.25},"
+                                                "'transform':{'translation':[0.9,-0.4,-1]}},"
+                                                "{'type':'sphere','material':'red',"
+                                                "'params':{'radius':0.2},"
+                                                "'transform':{'translation':[0,-0.3,-0.2]}}]}}",
+        view, material, things);
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct job_desc desc = drawing_desc(width, height);
     desc.as_floats = true;
@@ -222,9 +221,8 @@ static void assert_none_seen(const struct image *with, const struct image *witho
 static void glass_of_index_one_is_invisible(void **state)
 {
     static const char *const materials[] = {
-        MATERIAL("phong", "\"diffuse\":[1,1,1],\"specular\":[0,0,0],\"opacity\":0,\"ior\":1"),
-        MATERIAL("standard",
-                 "\"base_color\":[1,1,1],\"transmission\":1,\"roughness\":0,\"ior\":1")};
+        MATERIAL("phong", "'diffuse':[1,1,1],'specular':[0,0,0],'opacity':0,'ior':1"),
+        MATERIAL("standard", "'base_color':[1,1,1],'transmission':1,'roughness':0,'ior':1")};
     static const int widths[] = {32, 64, 160};
     const size_t count = sizeof arrangements / sizeof arrangements[0];
     const size_t view_count = sizeof views / sizeof views[0];
@@ -253,27 +251,26 @@ static struct image draw_cut(const char *body, const char *tool, const char *pla
 
     snprintf(
         text, sizeof text,
-        "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1.5,3],\"target\":[0,-0.1,0]},"
-        "\"lights\":[{\"type\":\"directional\",\"intensity\":3,\"direction\":[0,-1,0]}],"
-        "\"render\":{\"antialiasing\":\"none\",\"ray_depth\":8,\"occlusion\":false},"
-        "\"environment\":{\"type\":\"solid\",\"color\":[0.5,0.5,0.5],\"floor\":true,"
-        "\"floor_height\":-0.8,\"floor_color\":[1,1,1]},"
-        "\"materials\":{\"clear\":" MATERIAL(
-            "phong",
-            "\"opacity\":0,\"ior\":1.01") ","
-                                          "\"red\":" MATERIAL(
-                                              "phong",
-                                              "\"diffuse\":[0.8,0,0]") "},"
-                                                                       "\"root\":{\"id\":\"r\","
-                                                                       "\"type\":\"intersection\","
-                                                                       "\"children\":["
-                                                                       "{\"id\":\"a\",\"type\":"
-                                                                       "\"sphere\",\"material\":\"%"
-                                                                       "s\",\"params\":{\"radius\":"
-                                                                       "0.7}},"
-                                                                       "{\"id\":\"b\",\"type\":"
-                                                                       "\"plane\",\"material\":\"%"
-                                                                       "s\",\"params\":{%s}}]}}",
+        "{'format':'fieldcast/1','camera':{'position':[0,1.5,3],'target':[0,-0.1,0]},"
+        "'lights':[{'type':'directional','intensity':3,'direction':[0,-1,0]}],"
+        "'render':{'antialiasing':'none','ray_depth':8,'occlusion':false},"
+        "'environment':{'type':'solid','color':[0.5,0.5,0.5],'floor':true,"
+        "'floor_height':-0.8,'floor_color':[1,1,1]},"
+        "'materials':{'clear':" MATERIAL(
+            "phong", "'opacity':0,'ior':1.01") ","
+                                               "'red':" MATERIAL(
+                                                   "phong",
+                                                   "'diffuse':[0.8,0,0]") "},"
+                                                                          "'root':{'id':'r',"
+                                                                          "'type':'intersection',"
+                                                                          "'children':["
+                                                                          "{'id':'a','type':"
+                                                                          "'sphere','material':'%"
+                                                                          "s','params':{'radius':"
+                                                                          "0.7}},"
+                                                                          "{'id':'b','type':"
+                                                                          "'plane','material':'%"
+                                                                          "s','params':{%s}}]}}",
         body, tool, plane);
     struct resident *resident = resident_create(renderer, drawing_parse(text), 1);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -283,8 +280,8 @@ static struct image draw_cut(const char *body, const char *tool, const char *pla
     return image;
 }
 
-#define BACK "\"normal\":[0,0,-1],\"offset\":0.2"
-#define TOP "\"normal\":[0,1,0],\"offset\":0.3"
+#define BACK "'normal':[0,0,-1],'offset':0.2"
+#define TOP "'normal':[0,1,0],'offset':0.3"
 
 static double redness(const struct image *image, int x, int y)
 {

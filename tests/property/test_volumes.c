@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/support/drawing.h"
+#include "tests/support/json_text.h"
 
 enum { WIDTH = 32, HEIGHT = 24 };
 
@@ -32,11 +33,11 @@ static int tear_down(void **state)
 
 /* Seen from z = 5, from above where that is said, or along z. One colour around, which lights
  * nothing where `ambient` is 0. */
-static const char *const perspective = "\"position\":[0,0,5],\"target\":[0,0,0],\"fov\":40";
+static const char *const perspective = "'position':[0,0,5],'target':[0,0,0],'fov':40";
 static const char *const along_z =
-    "\"type\":\"orthographic\",\"position\":[0,0,5],\"target\":[0,0,0],\"height\":2";
-static const char *const along_y = "\"type\":\"orthographic\",\"position\":[0,5,0],\"target\":[0,0,"
-                                   "0],\"up\":[0,0,-1],\"height\":2";
+    "'type':'orthographic','position':[0,0,5],'target':[0,0,0],'height':2";
+static const char *const along_y = "'type':'orthographic','position':[0,5,0],'target':[0,0,"
+                                   "0],'up':[0,0,-1],'height':2";
 
 struct setting {
     const char *camera, *volumes, *children, *lights, *render;
@@ -47,10 +48,10 @@ static struct image draw(const struct setting *s)
 {
     char text[4400];
     snprintf(text, sizeof text,
-             "{\"format\":\"fieldcast/1\",\"camera\":{%s},\"volumes\":[%s],\"lights\":[%s],"
-             "\"render\":{\"antialiasing\":\"none\"%s},"
-             "\"environment\":{\"type\":\"solid\",\"color\":[%g,%g,%g],\"intensity\":%g},"
-             "\"root\":{\"type\":\"union\",\"children\":[%s]}}",
+             "{'format':'fieldcast/1','camera':{%s},'volumes':[%s],'lights':[%s],"
+             "'render':{'antialiasing':'none'%s},"
+             "'environment':{'type':'solid','color':[%g,%g,%g],'intensity':%g},"
+             "'root':{'type':'union','children':[%s]}}",
              s->camera, s->volumes, s->lights ? s->lights : "", s->render ? s->render : "",
              s->around, s->around, s->around, s->ambient, s->children ? s->children : "");
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
@@ -118,16 +119,15 @@ static double way_in_egg(const double d[3], const double centre[3], const double
     return b * b > a * c ? 2 * sqrt(b * b - a * c) / a : 0;
 }
 
-#define PLAIN "\"source\":\"constant\",\"falloff\":0,"
-#define BLACK PLAIN "\"color\":[0,0,0],"
-#define A_BOX "{\"type\":\"box\"," BLACK "\"density\":0.8}"
-#define A_BALL "{\"type\":\"sphere\"," BLACK "\"density\":2,\"position\":[0.3,0.2,-1]}"
+#define PLAIN "'source':'constant','falloff':0,"
+#define BLACK PLAIN "'color':[0,0,0],"
+#define A_BOX "{'type':'box'," BLACK "'density':0.8}"
+#define A_BALL "{'type':'sphere'," BLACK "'density':2,'position':[0.3,0.2,-1]}"
 #define AN_EGG                                                                                     \
-    "{\"type\":\"ellipsoid\"," BLACK                                                               \
-    "\"density\":2,\"position\":[0.3,0.2,-1],\"radii\":[0.6,1.1,1.7]}"
+    "{'type':'ellipsoid'," BLACK "'density':2,'position':[0.3,0.2,-1],'radii':[0.6,1.1,1.7]}"
 #define TWO_BOXES                                                                                  \
-    "{\"type\":\"box\"," BLACK "\"density\":0.5},"                                                 \
-    "{\"type\":\"box\"," BLACK "\"density\":1.5,\"size\":[1,3,1],\"position\":[0.4,0,0.8]}"
+    "{'type':'box'," BLACK "'density':0.5},"                                                       \
+    "{'type':'box'," BLACK "'density':1.5,'size':[1,3,1],'position':[0.4,0,0.8]}"
 
 static void what_is_let_through(void **state)
 {
@@ -186,18 +186,18 @@ static void an_egg_lets_through_what_a_stretched_ball_does(void **state)
 static void density_grows_from_the_rim_of_an_egg(void **state)
 {
     (void)state;
-    static const char *const shapes[] = {"\"type\":\"sphere\",\"radius\":8",
-                                         "\"type\":\"ellipsoid\",\"radii\":[8,8,8]",
-                                         "\"type\":\"ellipsoid\",\"radii\":[30,50,8]"};
+    static const char *const shapes[] = {"'type':'sphere','radius':8",
+                                         "'type':'ellipsoid','radii':[8,8,8]",
+                                         "'type':'ellipsoid','radii':[30,50,8]"};
     double found[3];
     for (int i = 0; i < 3; i++) {
         char volume[300];
         snprintf(volume, sizeof volume,
-                 "{%s,\"source\":\"constant\",\"falloff\":2,\"color\":[0,0,0],"
-                 "\"position\":[0,0,-10],\"density\":0.1}",
+                 "{%s,'source':'constant','falloff':2,'color':[0,0,0],"
+                 "'position':[0,0,-10],'density':0.1}",
                  shapes[i]);
         struct image image = draw(&(struct setting){
-            .camera = along_z, .volumes = volume, .around = 1, .render = ",\"level\":\"final\""});
+            .camera = along_z, .volumes = volume, .around = 1, .render = ",'level':'final'"});
         found[i] = red(&image, WIDTH / 2, HEIGHT / 2);
         image_finish(&image);
     }
@@ -210,9 +210,9 @@ static void density_grows_from_the_rim_of_an_egg(void **state)
 static void emission_and_absorption(void **state)
 {
     (void)state;
-    struct image image = draw(&(struct setting){
-        .camera = perspective,
-        .volumes = "{\"type\":\"box\"," BLACK "\"density\":0.7,\"emission\":[1.5,0,0]}"});
+    struct image image = draw(
+        &(struct setting){.camera = perspective,
+                          .volumes = "{'type':'box'," BLACK "'density':0.7,'emission':[1.5,0,0]}"});
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             double d[3];
@@ -236,9 +236,9 @@ static void assert_all(const struct setting *s, double expected, double part, co
     image_finish(&image);
 }
 
-#define LAMP(direction) "{\"type\":\"directional\",\"intensity\":3,\"direction\":" direction "}"
+#define LAMP(direction) "{'type':'directional','intensity':3,'direction':" direction "}"
 /* 2 thick, endless to the sides. */
-#define SLAB(more) "{\"type\":\"box\"," PLAIN "\"density\":0.6,\"size\":[90,90,2]" more "}"
+#define SLAB(more) "{'type':'box'," PLAIN "'density':0.6,'size':[90,90,2]" more "}"
 
 /* Henyey and Greenstein's, times pi: in the unit of lamps. */
 static double phase(double cosine, double g)
@@ -251,28 +251,28 @@ static void light_scattered_once(void **state)
     (void)state;
     const double depth = 0.6 * 2, back = (1 - exp(-2 * depth)) / 2, forth = depth * exp(-depth);
     assert_all(&(struct setting){.camera = along_z,
-                                 .volumes = SLAB(",\"color\":[0.5,0,0]"),
+                                 .volumes = SLAB(",'color':[0.5,0,0]"),
                                  .lights = LAMP("[0,0,-1]")},
                3 * 0.5 * phase(-1, 0) * back, 0.01, "lit from the eye");
     assert_all(&(struct setting){.camera = along_z,
-                                 .volumes = SLAB(",\"color\":[1,1,1],\"anisotropy\":0.4"),
+                                 .volumes = SLAB(",'color':[1,1,1],'anisotropy':0.4"),
                                  .lights = LAMP("[0,0,-1]")},
                3 * phase(-1, 0.4) * back, 0.01, "lit from the eye, forwards");
     assert_all(&(struct setting){.camera = along_z,
-                                 .volumes = SLAB(",\"color\":[1,1,1],\"anisotropy\":0.4"),
+                                 .volumes = SLAB(",'color':[1,1,1],'anisotropy':0.4"),
                                  .lights = LAMP("[0,0,1]")},
                3 * phase(1, 0.4) * forth, 0.01, "lit from behind, forwards");
     assert_all(
         &(struct setting){
-            .camera = along_z, .volumes = SLAB(",\"color\":[1,1,1]"), .around = 1, .ambient = 1},
+            .camera = along_z, .volumes = SLAB(",'color':[1,1,1]"), .around = 1, .ambient = 1},
         1, 0.01, "white smoke in a white furnace");
 }
 
 static void what_is_behind_a_wall_is_not_there(void **state)
 {
     (void)state;
-    static const char wall[] = "{\"type\":\"box\",\"params\":{\"size\":[9,9,0.2]},"
-                               "\"transform\":{\"translation\":[0,0,2]}}";
+    static const char wall[] = "{'type':'box','params':{'size':[9,9,0.2]},"
+                               "'transform':{'translation':[0,0,2]}}";
     struct image with = draw(&(struct setting){
         .camera = perspective, .volumes = TWO_BOXES, .children = wall, .lights = LAMP("[0,0,-1]")});
     struct image without = draw(&(struct setting){
@@ -282,10 +282,10 @@ static void what_is_behind_a_wall_is_not_there(void **state)
     image_finish(&with);
     image_finish(&without);
 
-    static const char inside[] = "{\"type\":\"box\",\"params\":{\"size\":[9,9,1]},"
-                                 "\"transform\":{\"translation\":[0,0,-0.5]}}";
+    static const char inside[] = "{'type':'box','params':{'size':[9,9,1]},"
+                                 "'transform':{'translation':[0,0,-0.5]}}";
     assert_all(&(struct setting){.camera = along_z,
-                                 .volumes = SLAB(",\"color\":[0,0,0],\"emission\":[2,2,2]"),
+                                 .volumes = SLAB(",'color':[0,0,0],'emission':[2,2,2]"),
                                  .children = inside},
                2 * (1 - exp(-0.6)), 0.01, "a wall in the middle");
 }
@@ -294,8 +294,8 @@ static void order_does_not_matter(void **state)
 {
     (void)state;
     static const char *const volumes[] = {
-        "{\"id\":\"a\",\"type\":\"sphere\",\"density\":3,\"position\":[-1,0,1],\"seed\":4}",
-        "{\"id\":\"b\",\"type\":\"box\",\"density\":2,\"position\":[0.8,0,-1],\"size\":[1,1,1]}"};
+        "{'id':'a','type':'sphere','density':3,'position':[-1,0,1],'seed':4}",
+        "{'id':'b','type':'box','density':2,'position':[0.8,0,-1],'size':[1,1,1]}"};
     struct image images[2];
     for (int i = 0; i < 2; i++) {
         char text[400];
@@ -316,19 +316,19 @@ static void order_does_not_matter(void **state)
 static void the_scene_throws_shadows(void **state)
 {
     (void)state;
-    static const char wall[] = "{\"type\":\"box\",\"params\":{\"size\":[0.2,4,9]},"
-                               "\"transform\":{\"translation\":[2.5,-2,0]}}";
+    static const char wall[] = "{'type':'box','params':{'size':[0.2,4,9]},"
+                               "'transform':{'translation':[2.5,-2,0]}}";
     struct setting s = {.camera = along_z,
-                        .volumes = "{\"type\":\"box\"," PLAIN "\"density\":0.02,\"color\":[1,1,1]}",
+                        .volumes = "{'type':'box'," PLAIN "'density':0.02,'color':[1,1,1]}",
                         .children = wall,
-                        .lights = "{\"type\":\"directional\",\"intensity\":50,"
-                                  "\"direction\":[-1,0,0],\"size\":40}"};
+                        .lights = "{'type':'directional','intensity':50,"
+                                  "'direction':[-1,0,0],'size':40}"};
     const double lit = 50 * phase(0, 0) * (1 - exp(-0.02 * 2));
     struct image image = draw(&s);
     assert_near(red(&image, WIDTH / 2, HEIGHT / 4), lit, 0.05, "light", WIDTH / 2, HEIGHT / 4);
     assert_near(red(&image, WIDTH / 2, 3 * HEIGHT / 4), 0, 0, "shadow", WIDTH / 2, 3 * HEIGHT / 4);
     image_finish(&image);
-    s.render = ",\"shadows\":false";
+    s.render = ",'shadows':false";
     image = draw(&s);
     assert_near(red(&image, WIDTH / 2, 3 * HEIGHT / 4), lit, 0.05, "off", WIDTH / 2,
                 3 * HEIGHT / 4);
@@ -343,13 +343,13 @@ static void smoke_close_to_a_floor_dims_as_elsewhere(void **state)
     static const double density = 0.6, up = 0.2;
     const double across = sqrt(1 - up * up), all = 1 - exp(-density * 4);
     struct image image = draw(&(struct setting){
-        .camera = "\"type\":\"orthographic\",\"position\":[0,-0.75,5],\"target\":[0,-0.75,0],"
-                  "\"height\":0.1",
-        .volumes = "{\"type\":\"box\"," PLAIN "\"density\":0.6,\"color\":[1,1,1],"
-                   "\"position\":[4,0,0],\"size\":[16,1.6,4]}",
-        .children = "{\"type\":\"plane\",\"params\":{\"offset\":-0.8}}",
-        .lights = "{\"type\":\"directional\",\"intensity\":30,\"shadow\":\"hard\","
-                  "\"direction\":[-0.9797958971,-0.2,0]}"});
+        .camera = "'type':'orthographic','position':[0,-0.75,5],'target':[0,-0.75,0],"
+                  "'height':0.1",
+        .volumes = "{'type':'box'," PLAIN "'density':0.6,'color':[1,1,1],"
+                   "'position':[4,0,0],'size':[16,1.6,4]}",
+        .children = "{'type':'plane','params':{'offset':-0.8}}",
+        .lights = "{'type':'directional','intensity':30,'shadow':'hard',"
+                  "'direction':[-0.9797958971,-0.2,0]}"});
     for (int y = 0; y < HEIGHT - 1; y++) { /* the last row may be the floor */
         const double height = -0.75 + 0.1 * (0.5 - (y + 0.5) / HEIGHT);
         const double way = fmin((0.8 - height) / up, 12 / across);
@@ -363,13 +363,13 @@ static void smoke_close_to_a_floor_dims_as_elsewhere(void **state)
 static void smoke_throws_shadows(void **state)
 {
     (void)state;
-    static const char lamp[] = "{\"type\":\"directional\",\"intensity\":3,"
-                               "\"direction\":[0,-1,0]}";
+    static const char lamp[] = "{'type':'directional','intensity':3,"
+                               "'direction':[0,-1,0]}";
     struct setting s = {
-        .camera = along_y, .volumes = "", .children = "{\"type\":\"plane\"}", .lights = lamp};
+        .camera = along_y, .volumes = "", .children = "{'type':'plane'}", .lights = lamp};
     struct image clear = draw(&s);
-    s.volumes = "{\"type\":\"box\"," BLACK "\"density\":0.5,\"size\":[1,2,1],"
-                "\"position\":[0.5,7,0]}";
+    s.volumes = "{'type':'box'," BLACK "'density':0.5,'size':[1,2,1],"
+                "'position':[0.5,7,0]}";
     struct image dim = draw(&s);
     for (int y = 7; y < HEIGHT - 7; y++) {
         assert_near(red(&dim, WIDTH / 2 + 6, y), red(&clear, WIDTH / 2 + 6, y) * exp(-1), 0.01,
@@ -378,7 +378,7 @@ static void smoke_throws_shadows(void **state)
     }
     image_finish(&clear);
     image_finish(&dim);
-    s.render = ",\"shadows\":false";
+    s.render = ",'shadows':false";
     dim = draw(&s);
     s.volumes = "";
     clear = draw(&s);
@@ -403,11 +403,11 @@ static void density_by_field(void **state)
 {
     (void)state;
     const double depth = 4 * 0.2 * (1 - exp(-1.5 / 0.2));
-    const double mean = mean_of(&(struct setting){
-        .camera = along_y,
-        .volumes = "{\"type\":\"box\",\"size\":[9,3,9],\"source\":\"field\",\"reach\":0.2,"
-                   "\"falloff\":0,\"density\":4,\"color\":[0,0,0],\"emission\":[1,1,1]}",
-        .children = "{\"type\":\"plane\"}"});
+    const double mean = mean_of(
+        &(struct setting){.camera = along_y,
+                          .volumes = "{'type':'box','size':[9,3,9],'source':'field','reach':0.2,"
+                                     "'falloff':0,'density':4,'color':[0,0,0],'emission':[1,1,1]}",
+                          .children = "{'type':'plane'}"});
     assert_near(mean, 1 - exp(-depth), 0.01, "field", 0, 0);
 }
 
@@ -419,8 +419,8 @@ static void noise_fills_its_part(void **state)
         char volume[300];
         int filled = 0;
         snprintf(volume, sizeof volume,
-                 "{\"type\":\"box\",\"size\":[90,90,0.0005],\"density\":1000,\"frequency\":40,"
-                 "\"falloff\":0,\"color\":[0,0,0],\"cover\":%g}",
+                 "{'type':'box','size':[90,90,0.0005],'density':1000,'frequency':40,"
+                 "'falloff':0,'color':[0,0,0],'cover':%g}",
                  parts[i]);
         struct image image =
             draw(&(struct setting){.camera = along_z, .volumes = volume, .around = 1});
@@ -444,20 +444,20 @@ static void many_volumes_and_lights(void **state)
     for (int i = 0; i < LIMIT_VOLUMES; i++) {
         const size_t used = strlen(volumes);
         snprintf(volumes + used, sizeof volumes - used,
-                 "%s{\"type\":\"box\",\"size\":[9,9,%d],\"position\":[0,0,%d],\"falloff\":0,"
-                 "\"cover\":1,\"octaves\":6,\"color\":[0,0,0],\"density\":0.05}",
+                 "%s{'type':'box','size':[9,9,%d],'position':[0,0,%d],'falloff':0,"
+                 "'cover':1,'octaves':6,'color':[0,0,0],'density':0.05}",
                  i ? "," : "", 1 + i % 2, i / 2 - 2);
     }
     for (int i = 0; i < LIMIT_LIGHTS; i++) {
         const size_t used = strlen(lights);
-        snprintf(lights + used, sizeof lights - used,
-                 "%s{\"type\":\"point\",\"position\":[0,%d,3]}", i ? "," : "", i);
+        snprintf(lights + used, sizeof lights - used, "%s{'type':'point','position':[0,%d,3]}",
+                 i ? "," : "", i);
     }
     assert_all(&(struct setting){.camera = along_z,
                                  .volumes = volumes,
                                  .lights = lights,
                                  .around = 1,
-                                 .render = ",\"level\":\"final\""},
+                                 .render = ",'level':'final'"},
                exp(-0.05 * 12), 0.01, "eight volumes, sixteen lights");
 }
 
@@ -465,21 +465,19 @@ static void many_volumes_and_lights(void **state)
 static void numbers_compile_nothing(void **state)
 {
     (void)state;
-    static const char *const edits[] = {
-        "[{\"op\":\"insert\",\"into\":\"/volumes\",\"before\":null,"
-        "\"value\":{\"id\":\"a\",\"type\":\"box\",\"emission\":[1,1,1]}}]",
-        "[{\"op\":\"set\",\"at\":\"/volumes/a/source\",\"value\":\"field\"},"
-        "{\"op\":\"set\",\"at\":\"/volumes/a/type\",\"value\":\"sphere\"}]",
-        "[{\"op\":\"insert\",\"into\":\"/volumes\",\"before\":null,"
-        "\"value\":{\"type\":\"box\",\"position\":[1,0,0]}}]"};
-    struct scene *scene =
-        drawing_parse("{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"torus\"}}");
+    static const char *const edits[] = {"[{'op':'insert','into':'/volumes','before':null,"
+                                        "'value':{'id':'a','type':'box','emission':[1,1,1]}}]",
+                                        "[{'op':'set','at':'/volumes/a/source','value':'field'},"
+                                        "{'op':'set','at':'/volumes/a/type','value':'sphere'}]",
+                                        "[{'op':'insert','into':'/volumes','before':null,"
+                                        "'value':{'type':'box','position':[1,0,0]}}]"};
+    struct scene *scene = drawing_parse("{'format':'fieldcast/1','root':{'type':'torus'}}");
     struct resident *resident = resident_create(renderer, scene, 1);
     const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
     struct image before = drawing_of(resident, &desc, AOV_COLOR);
     for (int i = 0; i < 3; i++) {
         const uint64_t compiled = renderer_counters(renderer).compilations;
-        cJSON *ops = cJSON_Parse(edits[i]);
+        cJSON *ops = json_text_parse(edits[i], NULL);
         assert_true(resident_edit(resident, ops, (uint64_t)i + 2, NULL));
         cJSON_Delete(ops);
         struct image after = drawing_of(resident, &desc, AOV_COLOR);
@@ -503,17 +501,17 @@ static void numbers_stay_numbers(void **state)
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         char camera[200];
         snprintf(camera, sizeof camera,
-                 "\"type\":\"orthographic\",\"height\":%d,\"position\":%s,"
-                 "\"target\":[%.1s,%.1s,-9]",
+                 "'type':'orthographic','height':%d,'position':%s,"
+                 "'target':[%.1s,%.1s,-9]",
                  views[i].height, views[i].place, views[i].place + 1, views[i].place + 3);
-        struct image image = draw(&(struct setting){
-            .camera = camera,
-            .volumes = TWO_BOXES ",{\"type\":\"box\",\"size\":[3,3,3]},"
-                                 "{\"type\":\"sphere\",\"density\":1000}",
-            .lights = LAMP("[0,0,-1]") "," LAMP("[0,-1,0]") ",{\"type\":\"point\","
-                                                            "\"position\":[0,0,0]}",
-            .around = 1,
-            .ambient = 1});
+        struct image image = draw(
+            &(struct setting){.camera = camera,
+                              .volumes = TWO_BOXES ",{'type':'box','size':[3,3,3]},"
+                                                   "{'type':'sphere','density':1000}",
+                              .lights = LAMP("[0,0,-1]") "," LAMP("[0,-1,0]") ",{'type':'point',"
+                                                                              "'position':[0,0,0]}",
+                              .around = 1,
+                              .ambient = 1});
         for (int k = 0; k < WIDTH * HEIGHT; k++) {
             assert_true(isfinite(red(&image, k % WIDTH, k / WIDTH)));
         }

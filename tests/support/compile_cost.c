@@ -78,8 +78,7 @@ double compile_cost_plain(struct renderer *renderer)
     char text[128];
 
     for (int i = 0; i < SHAPES; i++) {
-        snprintf(text, sizeof text, "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"%s\"}}",
-                 shapes[i]);
+        snprintf(text, sizeof text, "{'format':'fieldcast/1','root':{'type':'%s'}}", shapes[i]);
         ms[i] = compile_cost_scene(renderer, drawing_parse(text));
     }
     qsort(ms, SHAPES, sizeof ms[0], compare);

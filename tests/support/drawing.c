@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "json_text.h"
 #include "text_file.h"
 
 struct renderer *drawing_renderer(int tile_side)
@@ -26,13 +27,7 @@ struct renderer *drawing_renderer(int tile_side)
 
 struct scene *drawing_parse(const char *text)
 {
-    struct error err = {0};
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
-    return scene;
+    return json_text_valid_scene(text);
 }
 
 struct scene *drawing_read(const char *path)

@@ -11,21 +11,23 @@
 
 #include <cmocka.h>
 
+#include "json_text.h"
 #include "protocol/json.h"
 
 cJSON *edits_parse(const char *text)
 {
     struct error err = {0};
-    cJSON *json = json_parse(text, strlen(text), &err);
+    cJSON *json = json_text_parse(text, &err);
     assert_non_null(json);
     return json;
 }
 
 void edits_assert_prints(cJSON *json, const char *expected)
 {
-    char *text = json_print(json, false);
-    assert_string_equal(text, expected);
+    char *text = json_print(json, false), *wanted = json_text(expected);
+    assert_string_equal(text, wanted);
     free(text);
+    free(wanted);
     cJSON_Delete(json);
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "compiled.h"
+#include "json_text.h"
 #include "protocol/json.h"
 #include "renderer/sdf/noise.h"
 
@@ -154,12 +155,12 @@ static struct scene *scene_of(const char *root)
     struct error err = {0};
     char *text;
     if (asprintf(&text,
-                 "{\"format\":\"fieldcast/1\",\"materials\":{\"m0\":{\"shader\":\"phong\"},\"m1\":{"
-                 "\"shader\":\"phong\"},\"m2\":{\"shader\":\"phong\"}},\"root\":%s}",
+                 "{'format':'fieldcast/1','materials':{'m0':{'shader':'phong'},'m1':{"
+                 "'shader':'phong'},'m2':{'shader':'phong'}},'root':%s}",
                  root) < 0) {
         abort();
     }
-    struct scene *scene = scene_parse(text, strlen(text), &err);
+    struct scene *scene = json_text_scene(text, &err);
     if (!scene) {
         error_print(&err, stderr);
         abort();
@@ -179,8 +180,8 @@ struct field *modified_field(const char *node)
 struct modified modified_create(const char *type, const char *params, const char *child)
 {
     struct modified modified = {.type = node_type_find(type)};
-    if (asprintf(&modified.text, "{\"type\":\"%s\",\"params\":%s,\"children\":[%s]}", type, params,
-                 child) < 0) {
+    if (asprintf(&modified.text, "{'type':'%s','params':%s,'children':[%s]}", type, params, child) <
+        0) {
         abort();
     }
     modified.whole = modified_field(modified.text);
@@ -198,7 +199,7 @@ static char *random_child(struct random *random, const struct random_limits *lim
     if (!out) {
         abort();
     }
-    fprintf(out, blend ? "{\"type\":\"smooth_union\",\"params\":{\"k\":0.3},\"children\":[" : "");
+    fprintf(out, blend ? "{'type':'smooth_union','params':{'k':0.3},'children':[" : "");
     random_node(random, out, random_type(random, kind, limits), limits);
     if (blend) {
         fprintf(out, ",");

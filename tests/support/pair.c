@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "json_text.h"
+
 struct pair pair_of(const char *root, const char *more)
 {
     struct error err = {0};
@@ -16,9 +18,9 @@ struct pair pair_of(const char *root, const char *more)
     size_t length;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    fprintf(out, "{\"format\":\"fieldcast/1\",%s\"root\":%s}", more, root);
+    fprintf(out, "{'format':'fieldcast/1',%s'root':%s}", more, root);
     fclose(out);
-    struct pair pair = {.scene = scene_parse(text, length, &err)};
+    struct pair pair = {.scene = json_text_scene(text, &err)};
     pair.field = pair.scene ? field_compile(pair.scene, &err) : NULL;
     if (!pair.field) {
         fail_msg("%s: %s\n%s", err.place, err.message, text);

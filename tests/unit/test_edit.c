@@ -11,17 +11,17 @@
 
 #include "protocol/limits.h"
 #include "tests/support/edits.h"
+#include "tests/support/json_text.h"
 
-static const char base[] =
-    "{\"format\":\"fieldcast/1\",\"materials\":{\"snow\":{\"shader\":\"phong\"},"
-    "\"coal\":{\"shader\":\"phong\"},\"wood\":{\"shader\":\"phong\"}},"
-    "\"lights\":[{\"id\":\"sun\",\"type\":\"directional\",\"intensity\":3},"
-    "{\"id\":\"lamp\",\"type\":\"point\"}],"
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-    "{\"id\":\"body\",\"type\":\"sphere\",\"material\":\"snow\",\"params\":{\"radius\":1}},"
-    "{\"id\":\"neck\",\"type\":\"group\",\"children\":["
-    "{\"id\":\"head\",\"type\":\"sphere\"},{\"id\":\"hat\",\"type\":\"cone\"}]},"
-    "{\"id\":\"stick\",\"type\":\"capsule\"}]}}";
+static const char base[] = "{'format':'fieldcast/1','materials':{'snow':{'shader':'phong'},"
+                           "'coal':{'shader':'phong'},'wood':{'shader':'phong'}},"
+                           "'lights':[{'id':'sun','type':'directional','intensity':3},"
+                           "{'id':'lamp','type':'point'}],"
+                           "'root':{'id':'root','type':'union','children':["
+                           "{'id':'body','type':'sphere','material':'snow','params':{'radius':1}},"
+                           "{'id':'neck','type':'group','children':["
+                           "{'id':'head','type':'sphere'},{'id':'hat','type':'cone'}]},"
+                           "{'id':'stick','type':'capsule'}]}}";
 
 static struct scene *scene;
 static struct error err;
@@ -29,7 +29,7 @@ static struct error err;
 static int set_up(void **state)
 {
     (void)state;
-    scene = scene_parse(base, strlen(base), &err);
+    scene = json_text_scene(base, &err);
     return scene ? 0 : -1;
 }
 
@@ -43,28 +43,27 @@ static int tear_down(void **state)
 static void test_set_values(void **state)
 {
     (void)state;
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":1.2}]",
-                 NULL, "[{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":1}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/head/params/radius\",\"value\":0.5}]",
-                 NULL, "[{\"op\":\"set\",\"at\":\"/nodes/head/params/radius\",\"value\":null}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":null}]",
-                 NULL, "[{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":1}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/name\",\"value\":\"Winter\"}]", NULL,
-                 "[{\"op\":\"set\",\"at\":\"/name\",\"value\":null}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/body/transform/scale\",\"value\":2}]",
-                 "[{\"op\":\"set\",\"at\":\"/nodes/body/transform/scale\",\"value\":[2,2,2]}]",
-                 NULL);
+    edits_assert(scene, "[{'op':'set','at':'/nodes/body/params/radius','value':1.2}]", NULL,
+                 "[{'op':'set','at':'/nodes/body/params/radius','value':1}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/head/params/radius','value':0.5}]", NULL,
+                 "[{'op':'set','at':'/nodes/head/params/radius','value':null}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/body/params/radius','value':null}]", NULL,
+                 "[{'op':'set','at':'/nodes/body/params/radius','value':1}]");
+    edits_assert(scene, "[{'op':'set','at':'/name','value':'Winter'}]", NULL,
+                 "[{'op':'set','at':'/name','value':null}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/body/transform/scale','value':2}]",
+                 "[{'op':'set','at':'/nodes/body/transform/scale','value':[2,2,2]}]", NULL);
     edits_assert(scene,
-                 "[{\"op\":\"set\",\"at\":\"/nodes/body/material\",\"value\":\"coal\"},"
-                 "{\"op\":\"set\",\"at\":\"/nodes/body/visible\",\"value\":false},"
-                 "{\"op\":\"set\",\"at\":\"/nodes/body/name\",\"value\":\"B\"}]",
+                 "[{'op':'set','at':'/nodes/body/material','value':'coal'},"
+                 "{'op':'set','at':'/nodes/body/visible','value':false},"
+                 "{'op':'set','at':'/nodes/body/name','value':'B'}]",
                  NULL, NULL);
     edits_assert(scene,
-                 "[{\"op\":\"set\",\"at\":\"/camera/fov\",\"value\":30},"
-                 "{\"op\":\"set\",\"at\":\"/environment/type\",\"value\":\"solid\"},"
-                 "{\"op\":\"set\",\"at\":\"/render/samples\",\"value\":4},"
-                 "{\"op\":\"set\",\"at\":\"/lights/sun/shadow\",\"value\":\"hard\"},"
-                 "{\"op\":\"set\",\"at\":\"/materials/snow/properties/shininess\",\"value\":8}]",
+                 "[{'op':'set','at':'/camera/fov','value':30},"
+                 "{'op':'set','at':'/environment/type','value':'solid'},"
+                 "{'op':'set','at':'/render/samples','value':4},"
+                 "{'op':'set','at':'/lights/sun/shadow','value':'hard'},"
+                 "{'op':'set','at':'/materials/snow/properties/shininess','value':8}]",
                  NULL, NULL);
 }
 
@@ -72,31 +71,28 @@ static void test_set_whole_records(void **state)
 {
     (void)state;
     edits_assert(scene,
-                 "[{\"op\":\"set\",\"at\":\"/camera\",\"value\":{\"fov\":30}},"
-                 "{\"op\":\"set\",\"at\":\"/camera\",\"value\":{\"up\":[0,0,1]}}]",
+                 "[{'op':'set','at':'/camera','value':{'fov':30}},"
+                 "{'op':'set','at':'/camera','value':{'up':[0,0,1]}}]",
                  NULL,
-                 "[{\"op\":\"set\",\"at\":\"/camera\",\"value\":{\"fov\":30}},"
-                 "{\"op\":\"set\",\"at\":\"/camera\",\"value\":{}}]");
-    edits_assert(
-        scene, "[{\"op\":\"set\",\"at\":\"/nodes/hat/transform\",\"value\":{\"scale\":3}}]",
-        "[{\"op\":\"set\",\"at\":\"/nodes/hat/transform\",\"value\":{\"scale\":[3,3,3]}}]", NULL);
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/render\",\"value\":null}]",
-                 "[{\"op\":\"set\",\"at\":\"/render\",\"value\":{}}]", NULL);
+                 "[{'op':'set','at':'/camera','value':{'fov':30}},"
+                 "{'op':'set','at':'/camera','value':{}}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/hat/transform','value':{'scale':3}}]",
+                 "[{'op':'set','at':'/nodes/hat/transform','value':{'scale':[3,3,3]}}]", NULL);
+    edits_assert(scene, "[{'op':'set','at':'/render','value':null}]",
+                 "[{'op':'set','at':'/render','value':{}}]", NULL);
 }
 
 static void test_types_keep_what_fits(void **state)
 {
     (void)state;
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"cylinder\"}]",
-                 NULL, "[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"sphere\"}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"box\"}]", NULL,
-                 "[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"sphere\"},"
-                 "{\"op\":\"set\",\"at\":\"/nodes/body/params/radius\",\"value\":1}]");
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/lights/sun/type\",\"value\":\"point\"}]", NULL,
-                 NULL);
-    edits_assert(scene, "[{\"op\":\"set\",\"at\":\"/materials/snow/shader\",\"value\":\"phong\"}]",
-                 NULL, NULL);
-    cJSON *ops = edits_parse("[{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"torus\"}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/body/type','value':'cylinder'}]", NULL,
+                 "[{'op':'set','at':'/nodes/body/type','value':'sphere'}]");
+    edits_assert(scene, "[{'op':'set','at':'/nodes/body/type','value':'box'}]", NULL,
+                 "[{'op':'set','at':'/nodes/body/type','value':'sphere'},"
+                 "{'op':'set','at':'/nodes/body/params/radius','value':1}]");
+    edits_assert(scene, "[{'op':'set','at':'/lights/sun/type','value':'point'}]", NULL, NULL);
+    edits_assert(scene, "[{'op':'set','at':'/materials/snow/shader','value':'phong'}]", NULL, NULL);
+    cJSON *ops = edits_parse("[{'op':'set','at':'/nodes/body/type','value':'torus'}]");
     assert_true(edit_apply(scene, ops, NULL, NULL, &err));
     assert_float_equal(record_number(&scene_find(scene, "body")->params, "radius"), 1, 0);
     cJSON_Delete(ops);
@@ -106,26 +102,26 @@ static void test_nodes_come_and_go(void **state)
 {
     (void)state;
     edits_assert(scene,
-                 "[{\"op\":\"insert\",\"into\":\"/nodes/neck\",\"before\":\"hat\","
-                 "\"value\":{\"type\":\"box\"}}]",
-                 "[{\"op\":\"insert\",\"into\":\"/nodes/neck\",\"before\":\"hat\","
-                 "\"value\":{\"id\":\"box-1\",\"type\":\"box\"}}]",
-                 "[{\"op\":\"remove\",\"at\":\"/nodes/box-1\"}]");
-    edits_assert(scene, "[{\"op\":\"remove\",\"at\":\"/nodes/neck\"}]", NULL,
-                 "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":\"stick\","
-                 "\"value\":{\"id\":\"neck\",\"type\":\"group\",\"children\":["
-                 "{\"id\":\"head\",\"type\":\"sphere\"},{\"id\":\"hat\",\"type\":\"cone\"}]}}]");
+                 "[{'op':'insert','into':'/nodes/neck','before':'hat',"
+                 "'value':{'type':'box'}}]",
+                 "[{'op':'insert','into':'/nodes/neck','before':'hat',"
+                 "'value':{'id':'box-1','type':'box'}}]",
+                 "[{'op':'remove','at':'/nodes/box-1'}]");
+    edits_assert(scene, "[{'op':'remove','at':'/nodes/neck'}]", NULL,
+                 "[{'op':'insert','into':'/nodes/root','before':'stick',"
+                 "'value':{'id':'neck','type':'group','children':["
+                 "{'id':'head','type':'sphere'},{'id':'hat','type':'cone'}]}}]");
     edits_assert(scene,
-                 "[{\"op\":\"move\",\"at\":\"/nodes/stick\",\"into\":\"/nodes/neck\","
-                 "\"before\":\"head\"}]",
+                 "[{'op':'move','at':'/nodes/stick','into':'/nodes/neck',"
+                 "'before':'head'}]",
                  NULL,
-                 "[{\"op\":\"move\",\"at\":\"/nodes/stick\",\"into\":\"/nodes/root\","
-                 "\"before\":null}]");
+                 "[{'op':'move','at':'/nodes/stick','into':'/nodes/root',"
+                 "'before':null}]");
     edits_assert(scene,
-                 "[{\"op\":\"move\",\"at\":\"/nodes/body\",\"into\":\"/nodes/root\","
-                 "\"before\":\"stick\"},"
-                 "{\"op\":\"move\",\"at\":\"/nodes/stick\",\"into\":\"/nodes/root\","
-                 "\"before\":\"neck\"}]",
+                 "[{'op':'move','at':'/nodes/body','into':'/nodes/root',"
+                 "'before':'stick'},"
+                 "{'op':'move','at':'/nodes/stick','into':'/nodes/root',"
+                 "'before':'neck'}]",
                  NULL, NULL);
 }
 
@@ -133,39 +129,38 @@ static void test_resources_come_and_go(void **state)
 {
     (void)state;
     edits_assert(scene,
-                 "[{\"op\":\"insert\",\"into\":\"/materials\",\"before\":\"coal\","
-                 "\"name\":\"ice\",\"value\":{\"shader\":\"phong\"}},"
-                 "{\"op\":\"set\",\"at\":\"/nodes/hat/material\",\"value\":\"ice\"}]",
+                 "[{'op':'insert','into':'/materials','before':'coal',"
+                 "'name':'ice','value':{'shader':'phong'}},"
+                 "{'op':'set','at':'/nodes/hat/material','value':'ice'}]",
                  NULL,
-                 "[{\"op\":\"set\",\"at\":\"/nodes/hat/material\",\"value\":null},"
-                 "{\"op\":\"remove\",\"at\":\"/materials/ice\"}]");
-    edits_assert(scene, "[{\"op\":\"remove\",\"at\":\"/materials/coal\"}]", NULL,
-                 "[{\"op\":\"insert\",\"into\":\"/materials\",\"before\":\"wood\","
-                 "\"name\":\"coal\",\"value\":{\"shader\":\"phong\"}}]");
+                 "[{'op':'set','at':'/nodes/hat/material','value':null},"
+                 "{'op':'remove','at':'/materials/ice'}]");
+    edits_assert(scene, "[{'op':'remove','at':'/materials/coal'}]", NULL,
+                 "[{'op':'insert','into':'/materials','before':'wood',"
+                 "'name':'coal','value':{'shader':'phong'}}]");
     edits_assert(scene,
-                 "[{\"op\":\"insert\",\"into\":\"/lights\",\"before\":\"sun\","
-                 "\"value\":{\"type\":\"point\",\"range\":3}}]",
-                 "[{\"op\":\"insert\",\"into\":\"/lights\",\"before\":\"sun\","
-                 "\"value\":{\"id\":\"point-1\",\"type\":\"point\",\"range\":3}}]",
+                 "[{'op':'insert','into':'/lights','before':'sun',"
+                 "'value':{'type':'point','range':3}}]",
+                 "[{'op':'insert','into':'/lights','before':'sun',"
+                 "'value':{'id':'point-1','type':'point','range':3}}]",
                  NULL);
-    edits_assert(scene, "[{\"op\":\"remove\",\"at\":\"/lights/sun\"}]", NULL, NULL);
-    edits_assert(scene, "[{\"op\":\"move\",\"at\":\"/materials/wood\",\"before\":\"snow\"}]",
-                 "[{\"op\":\"move\",\"at\":\"/materials/wood\",\"into\":\"/materials\","
-                 "\"before\":\"snow\"}]",
+    edits_assert(scene, "[{'op':'remove','at':'/lights/sun'}]", NULL, NULL);
+    edits_assert(scene, "[{'op':'move','at':'/materials/wood','before':'snow'}]",
+                 "[{'op':'move','at':'/materials/wood','into':'/materials',"
+                 "'before':'snow'}]",
                  NULL);
-    edits_assert(scene,
-                 "[{\"op\":\"move\",\"at\":\"/lights/sun\",\"into\":\"/lights\",\"before\":null}]",
-                 NULL, NULL);
+    edits_assert(scene, "[{'op':'move','at':'/lights/sun','into':'/lights','before':null}]", NULL,
+                 NULL);
 }
 
 static void test_all_or_none(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
-    cJSON *ops = edits_parse("[{\"op\":\"remove\",\"at\":\"/nodes/neck\"},"
-                             "{\"op\":\"set\",\"at\":\"/nodes/body/type\",\"value\":\"box\"},"
-                             "{\"op\":\"remove\",\"at\":\"/materials/coal\"},"
-                             "{\"op\":\"set\",\"at\":\"/nodes/hat/params/height\",\"value\":2}]");
+    cJSON *ops = edits_parse("[{'op':'remove','at':'/nodes/neck'},"
+                             "{'op':'set','at':'/nodes/body/type','value':'box'},"
+                             "{'op':'remove','at':'/materials/coal'},"
+                             "{'op':'set','at':'/nodes/hat/params/height','value':2}]");
     cJSON *applied = NULL, *inverse = NULL;
     assert_false(edit_apply(scene, ops, &applied, &inverse, &err));
     assert_int_equal(err.kind, ERROR_NOT_FOUND);
@@ -183,13 +178,13 @@ static void test_all_or_none(void **state)
 static void test_some_leaves_out_what_is_gone(void **state)
 {
     (void)state;
-    cJSON *ops = edits_parse("[{\"op\":\"set\",\"at\":\"/nodes/nobody/params/radius\",\"value\":1},"
-                             "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":\"nobody\","
-                             "\"value\":{\"type\":\"box\"}}]");
+    cJSON *ops = edits_parse("[{'op':'set','at':'/nodes/nobody/params/radius','value':1},"
+                             "{'op':'insert','into':'/nodes/root','before':'nobody',"
+                             "'value':{'type':'box'}}]");
     cJSON *applied;
     assert_true(edit_apply_some(scene, ops, &applied, NULL, &err));
-    edits_assert_prints(applied, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
-                                 "\"value\":{\"id\":\"box-1\",\"type\":\"box\"}}]");
+    edits_assert_prints(applied, "[{'op':'insert','into':'/nodes/root','before':null,"
+                                 "'value':{'id':'box-1','type':'box'}}]");
     cJSON_DeleteItemFromArray(ops, 1);
     assert_false(edit_apply_some(scene, ops, &applied, NULL, &err));
     assert_int_equal(err.kind, ERROR_NOT_FOUND);
@@ -199,10 +194,9 @@ static void test_some_leaves_out_what_is_gone(void **state)
 static void test_ids_are_not_used_again(void **state)
 {
     (void)state;
-    cJSON *ops =
-        edits_parse("[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}},"
-                    "{\"op\":\"remove\",\"at\":\"/nodes/box-1\"},"
-                    "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"value\":{\"type\":\"box\"}}]");
+    cJSON *ops = edits_parse("[{'op':'insert','into':'/nodes/root','value':{'type':'box'}},"
+                             "{'op':'remove','at':'/nodes/box-1'},"
+                             "{'op':'insert','into':'/nodes/root','value':{'type':'box'}}]");
     assert_true(edit_apply(scene, ops, NULL, NULL, &err));
     assert_null(scene_find(scene, "box-1"));
     assert_non_null(scene_find(scene, "box-2"));
@@ -235,8 +229,7 @@ static void test_depth_holds_in_edits(void **state)
     assert_string_equal(err.place, "/nodes/root");
     assert_string_equal(err.message, "65 levels of nodes are above the maximum 64");
     insert_chain("/nodes/root", LIMIT_NODE_DEPTH - 1, true);
-    cJSON *ops =
-        edits_parse("[{\"op\":\"move\",\"at\":\"/nodes/group-1\",\"into\":\"/nodes/neck\"}]");
+    cJSON *ops = edits_parse("[{'op':'move','at':'/nodes/group-1','into':'/nodes/neck'}]");
     assert_false(edit_apply(scene, ops, NULL, NULL, &err));
     assert_int_equal(err.kind, ERROR_LIMIT);
     cJSON_Delete(ops);
