@@ -11,19 +11,19 @@
 #include <string.h>
 
 #include "renderer/pick.h"
+#include "tests/support/json_text.h"
 
-static const char ball[] =
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],\"target\":[0,0,0]},"
-    "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1}}}";
+static const char ball[] = "{'format':'fieldcast/1','camera':{'position':[0,1,5],'target':[0,0,0]},"
+                           "'root':{'id':'ball','type':'sphere','params':{'radius':1}}}";
 static const char ball_on_floor[] =
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],\"target\":[0,0,0]},"
-    "\"environment\":{\"floor\":true,\"floor_height\":-1},"
-    "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1}}}";
+    "{'format':'fieldcast/1','camera':{'position':[0,1,5],'target':[0,0,0]},"
+    "'environment':{'floor':true,'floor_height':-1},"
+    "'root':{'id':'ball','type':'sphere','params':{'radius':1}}}";
 
 static struct pick_field *make_isolated(const char *text, const char *id)
 {
     struct error err = {0};
-    struct scene *scene = scene_parse(text, strlen(text), &err);
+    struct scene *scene = json_text_scene(text, &err);
 
     assert_non_null(scene);
     struct pick_field *field = pick_field_create(scene, &id, id != NULL, &err);
@@ -62,9 +62,9 @@ static void test_ball(void **state)
 static void test_isolated(void **state)
 {
     static const char nested[] =
-        "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,0,5],\"target\":[0,0,0]},"
-        "\"root\":{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":1},\"children\":["
-        "{\"id\":\"kernel\",\"type\":\"sphere\",\"params\":{\"radius\":0.5}}]}}";
+        "{'format':'fieldcast/1','camera':{'position':[0,0,5],'target':[0,0,0]},"
+        "'root':{'id':'ball','type':'sphere','params':{'radius':1},'children':["
+        "{'id':'kernel','type':'sphere','params':{'radius':0.5}}]}}";
     struct pick_field *all = make_field(nested), *one = make_isolated(nested, "kernel");
 
     (void)state;
@@ -96,7 +96,7 @@ static void test_camera(void **state)
 
     (void)state;
     record_init(&camera, &camera_type);
-    cJSON *json = cJSON_Parse("{\"position\":[0,0,9],\"target\":[0,0,0]}");
+    cJSON *json = json_text_parse("{'position':[0,0,9],'target':[0,0,0]}", NULL);
     assert_true(record_read(&camera, json, "/camera", NULL));
     cJSON_Delete(json);
     assert_true(fabs(pick_at(field, &question).distance - 8) < 1e-3);
@@ -113,15 +113,15 @@ static void test_work_is_bounded(void **state)
 
     (void)state;
     length += (size_t)snprintf(text, sizeof text,
-                               "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,5],"
-                               "\"target\":[0,0,0]},\"root\":");
+                               "{'format':'fieldcast/1','camera':{'position':[0,1,5],"
+                               "'target':[0,0,0]},'root':");
     for (int i = 0; i < LEVELS; i++) {
         length += (size_t)snprintf(text + length, sizeof text - length,
-                                   "{\"type\":\"repeat\",\"params\":{\"count\":[9,9,9]},"
-                                   "\"children\":[");
+                                   "{'type':'repeat','params':{'count':[9,9,9]},"
+                                   "'children':[");
     }
     length += (size_t)snprintf(text + length, sizeof text - length,
-                               "{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":2}}");
+                               "{'id':'ball','type':'sphere','params':{'radius':2}}");
     for (int i = 0; i < LEVELS; i++) {
         length += (size_t)snprintf(text + length, sizeof text - length, "]}");
     }

@@ -17,26 +17,27 @@
 #include "renderer/draw/context.h"
 #include "renderer/pick.h"
 #include "tests/support/drawing.h"
+#include "tests/support/json_text.h"
 
 enum { WIDTH = 150, HEIGHT = 110, NUMERIC_EDITS = 1000, TOGGLES = 50 };
 
 static const char document[] =
-    "{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[1,1.2,4],\"target\":[0,0.3,0]},"
-    "\"lights\":[{\"id\":\"sun\",\"type\":\"directional\"},"
-    "{\"id\":\"lamp\",\"type\":\"point\",\"position\":[2,2,2],\"intensity\":5}],"
-    "\"materials\":{\"red\":{\"shader\":\"phong\",\"properties\":{\"diffuse\":[0.8,0.1,0.1]}}},"
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-    "{\"id\":\"blend\",\"type\":\"smooth_union\",\"params\":{\"k\":0.2},\"children\":["
-    "{\"id\":\"ball\",\"type\":\"sphere\",\"material\":\"red\"},"
-    "{\"id\":\"cube\",\"type\":\"box\",\"transform\":{\"translation\":[0.7,0.2,0]}}]},"
-    "{\"id\":\"floor\",\"type\":\"plane\",\"params\":{\"offset\":-0.5}}]}}";
+    "{'format':'fieldcast/1','camera':{'position':[1,1.2,4],'target':[0,0.3,0]},"
+    "'lights':[{'id':'sun','type':'directional'},"
+    "{'id':'lamp','type':'point','position':[2,2,2],'intensity':5}],"
+    "'materials':{'red':{'shader':'phong','properties':{'diffuse':[0.8,0.1,0.1]}}},"
+    "'root':{'id':'root','type':'union','children':["
+    "{'id':'blend','type':'smooth_union','params':{'k':0.2},'children':["
+    "{'id':'ball','type':'sphere','material':'red'},"
+    "{'id':'cube','type':'box','transform':{'translation':[0.7,0.2,0]}}]},"
+    "{'id':'floor','type':'plane','params':{'offset':-0.5}}]}}";
 
 static struct renderer *renderer;
 
 static struct resident *make_resident(const char *text)
 {
     struct error err = {0};
-    struct scene *scene = scene_parse(text, strlen(text), &err);
+    struct scene *scene = json_text_scene(text, &err);
 
     if (!scene) {
         fail_msg("%s: %s", err.place, err.message);
@@ -61,7 +62,7 @@ static const struct job_desc usual = {
 static void edit(struct resident *resident, const char *ops)
 {
     struct error err = {0};
-    cJSON *json = cJSON_Parse(ops);
+    cJSON *json = json_text_parse(ops, NULL);
 
     assert_non_null(json);
     if (!resident_edit(resident, json, resident_revision(resident) + 1, &err)) {
@@ -147,13 +148,13 @@ static void test_edits_and_back(void **state)
     struct image before = draw(resident, &usual), between, after;
 
     (void)state;
-    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":0.8},"
-                   "{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
-                   "\"value\":{\"id\":\"ring\",\"type\":\"torus\"}}]");
+    edit(resident, "[{'op':'set','at':'/nodes/ball/params/radius','value':0.8},"
+                   "{'op':'insert','into':'/nodes/root','before':null,"
+                   "'value':{'id':'ring','type':'torus'}}]");
     between = draw(resident, &usual);
     assert_false(is_same(&before, &between));
-    edit(resident, "[{\"op\":\"remove\",\"at\":\"/nodes/ring\"},"
-                   "{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":null}]");
+    edit(resident, "[{'op':'remove','at':'/nodes/ring'},"
+                   "{'op':'set','at':'/nodes/ball/params/radius','value':null}]");
     after = draw(resident, &usual);
     assert_same(&before, &after);
     image_finish(&before);
@@ -173,9 +174,9 @@ static void test_numbers_compile_nothing(void **state)
     for (int i = 0; i < NUMERIC_EDITS; i++) {
         char ops[256];
         snprintf(ops, sizeof ops,
-                 "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":%.4f},"
-                 "{\"op\":\"set\",\"at\":\"/nodes/cube/transform/rotation\",\"value\":[0,%.4f,0]},"
-                 "{\"op\":\"set\",\"at\":\"/camera/fov\",\"value\":%.4f}]",
+                 "[{'op':'set','at':'/nodes/ball/params/radius','value':%.4f},"
+                 "{'op':'set','at':'/nodes/cube/transform/rotation','value':[0,%.4f,0]},"
+                 "{'op':'set','at':'/camera/fov','value':%.4f}]",
                  0.3 + 0.0005 * i, 0.001 * i, 40 + 0.01 * i);
         edit(resident, ops);
         assert_int_equal(resident_shown_revision(resident), resident_revision(resident));
@@ -196,7 +197,7 @@ static void show(struct resident *resident, const char *id, bool visible)
 {
     char ops[128];
 
-    snprintf(ops, sizeof ops, "[{\"op\":\"set\",\"at\":\"/nodes/%s/visible\",\"value\":%s}]", id,
+    snprintf(ops, sizeof ops, "[{'op':'set','at':'/nodes/%s/visible','value':%s}]", id,
              visible ? "true" : "false");
     edit(resident, ops);
     assert_int_equal(resident_shown_revision(resident), resident_revision(resident));
@@ -249,7 +250,7 @@ static void test_hidden_is_gone(void **state)
         struct image hidden, gone;
         char remove[64];
 
-        snprintf(remove, sizeof remove, "[{\"op\":\"remove\",\"at\":\"/nodes/%s\"}]", ids[i]);
+        snprintf(remove, sizeof remove, "[{'op':'remove','at':'/nodes/%s'}]", ids[i]);
         hidden = draw(resident, &usual);
         image_finish(&hidden);
         show(resident, ids[i], false);
@@ -320,12 +321,12 @@ static void test_isolation_follows_edits(void **state)
         image = draw(resident, &other);
         image_finish(&image);
     }
-    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/cube/params/size\",\"value\":[2,2,2]}]");
+    edit(resident, "[{'op':'set','at':'/nodes/cube/params/size','value':[2,2,2]}]");
     image = draw(resident, &desc);
     assert_false(is_same(&image, &before));
     image_finish(&before);
-    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":"
-                   "{\"id\":\"more\",\"type\":\"torus\"}}]");
+    edit(resident, "[{'op':'insert','into':'/nodes/root','before':null,'value':"
+                   "{'id':'more','type':'torus'}}]");
     desc.exact = false;
     before = draw(resident, &desc); /* the old program, and the same picture */
     assert_same(&image, &before);
@@ -342,9 +343,9 @@ static void test_isolation_follows_edits(void **state)
 static void test_what_was_never_drawn(void **state)
 {
     static const char broken[] =
-        "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":{\"id\":\"bad\","
-        "\"type\":\"field\",\"params\":{\"code\":\"float sdf(vec3 p) { return p.x / (p.x - p.x); "
-        "}\"}}}]";
+        "[{'op':'insert','into':'/nodes/root','before':null,'value':{'id':'bad',"
+        "'type':'field','params':{'code':'float sdf(vec3 p) { return p.x / (p.x - p.x); "
+        "}'}}}]";
     struct resident *resident = make_resident(document);
     struct image image = draw(resident, &usual);
     const uint64_t compilations = renderer_counters(renderer).compilations;
@@ -474,8 +475,8 @@ static void test_pictures_are_not_torn(void **state)
     for (int i = 0; i < 4; i++) {
         assert_int_equal(job_step(job), JOB_RUNNING);
     }
-    edit(resident, "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":1.5},"
-                   "{\"op\":\"remove\",\"at\":\"/nodes/cube\"}]");
+    edit(resident, "[{'op':'set','at':'/nodes/ball/params/radius','value':1.5},"
+                   "{'op':'remove','at':'/nodes/cube'}]");
     torn = finish_job(job);
     assert_same(&before, &torn);
     use_tiles(0);
@@ -494,9 +495,8 @@ static void test_old_picture_while_compiling(void **state)
 
     (void)state;
     any.exact = false;
-    edit(resident,
-         "[{\"op\":\"insert\",\"into\":\"/nodes/blend\",\"before\":null,\"value\":"
-         "{\"id\":\"bead\",\"type\":\"sphere\",\"transform\":{\"translation\":[0,0.8,0]}}}]");
+    edit(resident, "[{'op':'insert','into':'/nodes/blend','before':null,'value':"
+                   "{'id':'bead','type':'sphere','transform':{'translation':[0,0.8,0]}}}]");
     assert_int_equal(resident_shown_revision(resident), 1);
     exact = job_create(resident, &newest, NULL);
     inexact = job_create(resident, &any, NULL);
@@ -627,12 +627,11 @@ static void test_cache(void **state)
  * the log says so. */
 static void test_loop_budget(void **state)
 {
-    static const char text[] =
-        "{\"format\":\"fieldcast/1\",\"render\":{\"max_steps\":1024},"
-        "\"root\":{\"id\":\"root\",\"type\":\"repeat\",\"params\":{\"spacing\":[1,1,1],"
-        "\"count\":[3,3,3]},\"children\":[{\"id\":\"inner\",\"type\":\"repeat\","
-        "\"params\":{\"spacing\":[0.3,0.3,0.3],\"count\":[3,3,3]},\"children\":["
-        "{\"id\":\"ball\",\"type\":\"sphere\",\"params\":{\"radius\":0.2}}]}]}}";
+    static const char text[] = "{'format':'fieldcast/1','render':{'max_steps':1024},"
+                               "'root':{'id':'root','type':'repeat','params':{'spacing':[1,1,1],"
+                               "'count':[3,3,3]},'children':[{'id':'inner','type':'repeat',"
+                               "'params':{'spacing':[0.3,0.3,0.3],'count':[3,3,3]},'children':["
+                               "{'id':'ball','type':'sphere','params':{'radius':0.2}}]}]}}";
     struct resident *resident = make_resident(text);
     const struct snapshot *newest = resident->newest;
 
@@ -656,10 +655,10 @@ static char *spheres_text(int count)
     FILE *out = open_memstream(&text, &length);
 
     assert_non_null(out);
-    fprintf(out, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,\"value\":"
-                 "{\"id\":\"many\",\"type\":\"union\",\"children\":[");
+    fprintf(out, "[{'op':'insert','into':'/nodes/root','before':null,'value':"
+                 "{'id':'many','type':'union','children':[");
     for (int i = 0; i < count; i++) {
-        fprintf(out, "%s{\"type\":\"sphere\"}", i ? "," : "");
+        fprintf(out, "%s{'type':'sphere'}", i ? "," : "");
     }
     fprintf(out, "]}}]");
     assert_int_equal(fclose(out), 0);
@@ -677,16 +676,16 @@ static void test_too_many_shapes(void **state)
     (void)state;
     edit(resident, text);
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
-    edit(resident, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
-                   "\"value\":{\"id\":\"last\",\"type\":\"sphere\"}}]");
+    edit(resident, "[{'op':'insert','into':'/nodes/root','before':null,"
+                   "'value':{'id':'last','type':'sphere'}}]");
     assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
     assert_string_equal(resident_error(resident)->place, "/nodes/root");
     assert_string_equal(resident_error(resident)->message,
                         "513 visible shapes are above the maximum 512 that can be drawn");
     assert_null(job_create(resident, &usual, &err));
     assert_int_equal(err.kind, ERROR_LIMIT);
-    edit(resident, "[{\"op\":\"remove\",\"at\":\"/nodes/last\"},"
-                   "{\"op\":\"remove\",\"at\":\"/nodes/many\"}]");
+    edit(resident, "[{'op':'remove','at':'/nodes/last'},"
+                   "{'op':'remove','at':'/nodes/many'}]");
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
     again = draw(resident, &usual);
     assert_same(&before, &again);
@@ -706,15 +705,15 @@ static struct scene *shapes_with_code(const char *code, int count)
 
     assert_non_null(out);
     fprintf(out,
-            "{\"format\":\"fieldcast/1\",\"primitives\":{\"p\":{\"code\":\"%s\"}},"
-            "\"root\":{\"type\":\"union\",\"children\":[",
+            "{'format':'fieldcast/1','primitives':{'p':{'code':'%s'}},"
+            "'root':{'type':'union','children':[",
             code);
     for (int i = 0; i < count; i++) {
-        fprintf(out, "%s{\"type\":\"field\",\"params\":{\"primitive\":\"p\"}}", i ? "," : "");
+        fprintf(out, "%s{'type':'field','params':{'primitive':'p'}}", i ? "," : "");
     }
     fprintf(out, "]}}");
     assert_int_equal(fclose(out), 0);
-    struct scene *scene = scene_parse(text, length, &err);
+    struct scene *scene = json_text_scene(text, &err);
     assert_non_null(scene);
     free(text);
     return scene;
