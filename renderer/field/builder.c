@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field_sites.h"
 #include "protocol/memory.h"
 
 /* The block, moved where it has to grow. */
@@ -23,6 +24,9 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count)
     struct field *field = b->field;
     size_t first = field->vec4_count;
     field->vec4_count += count;
+    if (b->again) {
+        return (uint32_t)sites_touch(b, SITES_NUMBERS, first, count);
+    }
     field->numbers =
         reserve(field->numbers, &b->vec4_capacity, field->vec4_count + 1, 4 * sizeof(float));
     memset(field->numbers + 4 * first, 0, count * 4 * sizeof(float));
@@ -33,6 +37,9 @@ uint32_t builder_add_arguments(struct builder *b, size_t count)
 {
     size_t first = b->argument_count;
     b->argument_count += count;
+    if (b->again) {
+        return (uint32_t)sites_touch(b, SITES_ARGUMENTS, first, count);
+    }
     b->field->arguments =
         reserve(b->field->arguments, &b->argument_capacity, b->argument_count + 1, sizeof(double));
     return (uint32_t)first;
@@ -47,6 +54,10 @@ static void max_slot(int *slots, int slot)
 void builder_add_instruction(struct builder *b, struct field_instruction instruction)
 {
     struct field *field = b->field;
+    if (b->again) {
+        sites_compare(b, field->instruction_count++, &instruction);
+        return;
+    }
     field->instructions = reserve(field->instructions, &b->instruction_capacity,
                                   field->instruction_count + 1, sizeof instruction);
     field->instructions[field->instruction_count++] = instruction;
@@ -59,7 +70,12 @@ void builder_add_instruction(struct builder *b, struct field_instruction instruc
 void builder_insert_instruction(struct builder *b, size_t position,
                                 struct field_instruction instruction)
 {
+    if (b->again) {
+        sites_compare(b, position, &instruction);
+        return;
+    }
     builder_add_instruction(b, instruction);
+    sites_shift(b);
     struct field_instruction *at = b->field->instructions + position;
     memmove(at + 1, at, (b->field->instruction_count - 1 - position) * sizeof *at);
     *at = instruction;
@@ -121,10 +137,12 @@ void builder_hide(struct builder *b, struct builder_mark mark)
     b->loops = mark.loops;
     for (size_t i = mark.instructions; i < field->instruction_count; i++) {
         struct field_instruction *in = &field->instructions[i];
-        if (in->hidden) {
-            continue;
+        if (!b->again) {
+            if (in->hidden) {
+                continue;
+            }
+            in->hidden = true;
         }
-        in->hidden = true;
         if (in->op == FIELD_SHAPE) {
             hide_shape(field, in);
         } else if (in->op == FIELD_GUARD) {
@@ -161,6 +179,14 @@ static void scale_numbers(const struct param *params, double scale, double *numb
     }
 }
 
+/* `numbers`: their count, then x, y of each. */
+static void put_points(float *to, const double *numbers)
+{
+    for (size_t i = 0; i < 2 * (size_t)numbers[0]; i++) {
+        to[i] = (float)numbers[1 + i];
+    }
+}
+
 /* A list of points goes behind everything else, once that is known. */
 static void defer_points(struct builder *b, uint32_t vec4, int component, const double *numbers)
 {
@@ -171,6 +197,38 @@ static void defer_points(struct builder *b, uint32_t vec4, int component, const 
                                 .argument = (uint32_t)(numbers - b->field->arguments)};
 }
 
+/* As many points as there were stand where they stood. */
+static void place_again(struct builder *b, uint32_t vec4, int component, const double *numbers)
+{
+    const float *place = b->field->numbers + 4 * (size_t)vec4 + component;
+    const size_t first = (size_t)place[0], count = (size_t)place[1];
+    put_points(b->field->numbers + 4 * first, numbers);
+    sites_touch(b, SITES_NUMBERS, first, (count + 1) / 2);
+}
+
+/* Whether a list of points, of which there is one at most, is as long as it was. */
+static bool has_room(const struct builder *b, const struct param *params,
+                     const struct value *values, const struct field_place *places, uint32_t vec4)
+{
+    for (size_t i = 0; b->again && params[i].name; i++) {
+        if (params[i].type == PARAM_POINTS) {
+            const size_t at = 4 * ((size_t)vec4 + (size_t)places[i].vec4);
+            const float *place = b->field->numbers + at + places[i].component;
+            return (double)place[1] == values[i].number[0];
+        }
+    }
+    return true;
+}
+
+static void place_points(struct builder *b, uint32_t vec4, int component, const double *numbers)
+{
+    if (b->again) {
+        place_again(b, vec4, component, numbers);
+    } else {
+        defer_points(b, vec4, component, numbers);
+    }
+}
+
 void builder_place_points(struct builder *b)
 {
     for (size_t i = 0; i < b->points_count; i++) {
@@ -178,12 +236,9 @@ void builder_place_points(struct builder *b)
         size_t count = (size_t)b->field->arguments[points->argument];
         uint32_t first = builder_add_vec4s(b, (count + 1) / 2);
         float *place = b->field->numbers + 4 * (size_t)points->vec4 + points->component;
-        float *to = b->field->numbers + 4 * (size_t)first;
         place[0] = (float)first;
         place[1] = (float)count;
-        for (size_t k = 0; k < 2 * count; k++) {
-            to[k] = (float)b->field->arguments[points->argument + 1 + k];
-        }
+        put_points(b->field->numbers + 4 * (size_t)first, b->field->arguments + points->argument);
     }
     free(b->points);
     b->points = NULL;
@@ -196,6 +251,10 @@ void builder_put_params(struct builder *b, const struct param *params, const str
     struct field_place places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX], *from = numbers;
     field_layout(params, used, places);
+    if (!has_room(b, params, values, places, vec4)) {
+        b->failed = true;
+        return;
+    }
     int count = sdf_numbers(params, values, numbers);
     if (sdf && sdf->scale) {
         sdf->scale(numbers, scale);
@@ -213,7 +272,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
         enum param_type type = params[i].type;
         uint32_t at = vec4 + (uint32_t)places[i].vec4;
         if (type == PARAM_POINTS) {
-            defer_points(b, at, places[i].component, arguments + (from - numbers));
+            place_points(b, at, places[i].component, arguments + (from - numbers));
             from += 1 + 2 * (int)*from;
             continue;
         }
@@ -228,6 +287,9 @@ void builder_put_params(struct builder *b, const struct param *params, const str
 void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
 {
     struct field *field = b->field;
+    if (b->again) {
+        return;
+    }
     field->leaves =
         reserve(field->leaves, &b->leaf_capacity, field->leaf_count + 1, sizeof *field->leaves);
     field->leaves[field->leaf_count++] = (struct field_leaf){number, memory_text(id)};
@@ -236,6 +298,9 @@ void builder_add_leaf(struct builder *b, uint32_t number, const char *id)
 void builder_add_member(struct builder *b, uint64_t hash)
 {
     struct field *field = b->field;
+    if (b->again) {
+        return;
+    }
     field->members = reserve(field->members, &b->member_capacity, field->member_count + 1,
                              sizeof *field->members);
     field->members[field->member_count++] = hash;

@@ -21,6 +21,8 @@ struct builder_painter {
     int index;  /* in the field's shaders, -1: none, or it does not compile */
 };
 
+struct result;
+
 struct builder {
     struct field *field;
     const struct scene *scene;
@@ -46,6 +48,17 @@ struct builder {
     size_t loops;     /* whose iterations these are, and of which something is seen */
     bool failed;      /* what follows may be left out */
     struct error err; /* the first, once failed */
+
+    /* Where nodes stand (field_sites.h); NULL: that is not kept. */
+    struct field_sites *sites;
+    /* The program is there: what is added is found in its place, and numbers are written anew. The
+     * counts of `field` are places in it. What is not as it was fails, without an error. */
+    bool again;
+    bool whole;         /* again: all nodes from here on, not only those that have changed */
+    uint32_t site;      /* around what comes */
+    uint32_t next_site; /* of the next node */
+    uint32_t position;  /* of that among the operands of a union */
+    const struct result *before; /* what these came to so far; NULL: it is none of a union */
 };
 
 /* FNV-1a (Fowler, Noll, Vo), 64 bits, over the bytes of a word. */
@@ -57,7 +70,7 @@ void builder_fail(struct builder *b, const struct error *err, const char *place)
 
 /* A loop of so many iterations; 0: none. */
 void builder_add_trips(struct builder *b, uint64_t trips);
-/* `count` new vec4s of zeros; returns the first. */
+/* `count` new vec4s of zeros, or again what they hold; returns the first. */
 uint32_t builder_add_vec4s(struct builder *b, size_t count);
 /* Room for as many numbers of the C evaluator; returns the first. */
 uint32_t builder_add_arguments(struct builder *b, size_t count);

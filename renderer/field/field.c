@@ -6,6 +6,8 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "field_sites.h"
+
 /* Components that a parameter has in the buffer. A choice is part of the program; of a list of
  * points the place and the count are here. */
 static int stored_components(enum param_type type)
@@ -54,6 +56,14 @@ void field_unref(struct field *field)
     if (!field || --field->references > 0) {
         return;
     }
+    sites_destroy(field->sites);
+    free(field->numbers);
+    free(field->arguments);
+    if (field->base) {
+        field_unref(field->base);
+        free(field);
+        return;
+    }
     for (size_t i = 0; i < field->leaf_count; i++) {
         free(field->leaves[i].id);
     }
@@ -62,8 +72,6 @@ void field_unref(struct field *field)
     free_codes(field->codes, field->code_count);
     free_codes(field->shaders, field->shader_count);
     free(field->instructions);
-    free(field->numbers);
-    free(field->arguments);
     free(field);
 }
 

@@ -15,8 +15,8 @@
  * scene), with its distance scaled to lengths of the scene by the least scale on every level.
  * Fields never change faster than the distance and are negative inside.
  *
- * Immutable after field_compile. The references are counted by one thread; another may read as
- * long as the owner holds one for it. */
+ * Immutable after field_compile: an edit makes another one, by field_patch where it can. The
+ * references are counted by one thread; another may read as long as the owner holds one for it. */
 #ifndef RENDERER_FIELD_H
 #define RENDERER_FIELD_H
 
@@ -157,7 +157,8 @@ struct field {
     size_t material_count;  /* without the default and the floor's, which is the last */
     struct field_code *codes, *shaders;
     size_t code_count, shader_count;
-    double *arguments;         /* the numbers again, as the C evaluator reads them */
+    double *arguments; /* the numbers again, as the C evaluator reads them */
+    size_t argument_count;
     struct field_leaf *leaves; /* ascending */
     size_t leaf_count;
     size_t shape_count; /* FIELD_SHAPEs */
@@ -174,6 +175,11 @@ struct field {
     bool clear;                         /* there is any of that */
     const struct field_code *user_code; /* the first that is not ours; NULL: none */
     int references;
+    /* For field_patch: the one that was compiled, which owns all but the numbers and arguments of
+     * this one (NULL: this is it), patches since then, and where nodes stand (of the newest). */
+    struct field *base;
+    uint64_t version;
+    struct field_sites *sites;
 };
 
 /* The program of a scene, with one reference. NULL and `err` where transforms multiply to numbers
@@ -189,6 +195,7 @@ struct field_wish {
      * without them: of a difference, the first that is seen is what others are taken from. */
     const char *const *isolated;
     size_t isolated_count;
+    bool patchable; /* field_patch can have it: where nodes stand is kept; not with `isolated` */
 };
 struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
                                struct error *err);

@@ -47,6 +47,10 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
         }
     }
     struct error err = {0};
+    if (b->again) {
+        b->failed = true;
+        return -1;
+    }
     struct code *code = code_compile(&(struct code_source){use, text, params}, &err);
     if (!code) {
         builder_fail(b, &err, place);

@@ -7,6 +7,7 @@
 #include "field_emit.h"
 #include "field_isolate.h"
 #include "field_materials.h"
+#include "field_sites.h"
 #include "protocol/memory.h"
 
 static uint64_t hash_code(uint64_t state, const struct field_code *code)
@@ -113,23 +114,68 @@ struct field *field_compile(const struct scene *scene, struct error *err)
     return field_compile_as(scene, &(struct field_wish){.drawn = NULL}, err);
 }
 
+/* What is the same for a program that is made and for one that is made again. */
+static struct result emit_scene(struct builder *b)
+{
+    b->union_type = node_type_find("union");
+    b->union_sdf = sdf_find(b->union_type);
+    b->site = b->position = SITES_NONE;
+    struct frame frame = frame_create(0, 1, 0);
+    struct result whole = field_emit(b, b->scene->root, &frame, 0, FIELD_NOTHING);
+    add_floor(b, &whole);
+    if (!whole.solid) {
+        builder_add_instruction(b, (struct field_instruction){.op = FIELD_EMPTY});
+    }
+    return whole;
+}
+
+static void set_extent(struct field *field, const struct builder *b, const struct result *whole)
+{
+    field->bounds = whole->shown ? whole->box : bounds_empty();
+    field->clear_bounds = whole->clear_box;
+    field->clear = whole->clear;
+    field->loop_trips = b->trips > UINT32_MAX ? UINT32_MAX : (uint32_t)b->trips;
+}
+
+/* Takes the sites and the painters over, or frees them. */
+static void keep_sites(struct builder *b)
+{
+    struct field_sites *sites = b->sites;
+    if (!sites || b->failed) {
+        sites_destroy(sites);
+        free(b->painters);
+        return;
+    }
+    sites->slot_count = b->scene->materials.count + 1;
+    sites->painters = b->painters;
+    sites->clear = memory_alloc(sites->slot_count, sizeof *sites->clear);
+    sites->repaint = memory_alloc(sites->slot_count, sizeof *sites->repaint);
+    for (size_t slot = 0; slot < sites->slot_count; slot++) {
+        sites->clear[slot] = field_material_clear(b, slot);
+    }
+    b->field->sites = sites;
+}
+
 struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
                                struct error *err)
 {
     struct field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
     struct isolation *isolation = isolation_create(scene, wish->isolated, wish->isolated_count);
-    struct builder builder = {
-        .field = field, .scene = scene, .drawn = wish->drawn, .isolation = isolation};
-    builder.union_type = node_type_find("union");
-    builder.union_sdf = sdf_find(builder.union_type);
-    struct frame frame = frame_create(0, 1, 0);
+    const bool patchable = wish->patchable && !isolation;
+    struct builder builder = {.field = field,
+                              .scene = scene,
+                              .drawn = wish->drawn,
+                              .isolation = isolation,
+                              .sites = patchable ? sites_create() : NULL};
     field_add_painters(&builder);
-    struct result whole = field_emit(&builder, scene->root, &frame, 0, FIELD_NOTHING);
-    add_floor(&builder, &whole);
+    const struct result whole = emit_scene(&builder);
     isolation_destroy(isolation);
+    if (builder.sites) {
+        builder.sites->material_arguments = builder.argument_count;
+    }
     field_add_materials(&builder);
-    free(builder.painters);
+    keep_sites(&builder);
     if (builder.failed) {
         if (err) {
             *err = builder.err;
@@ -137,18 +183,57 @@ struct field *field_compile_as(const struct scene *scene, const struct field_wis
         field_unref(field);
         return NULL;
     }
-    if (!whole.solid) {
-        builder_add_instruction(&builder, (struct field_instruction){.op = FIELD_EMPTY});
-    }
     sort_members(field);
-    field->bounds = whole.shown ? whole.box : bounds_empty();
-    field->clear_bounds = whole.clear_box;
-    field->clear = whole.clear;
+    set_extent(field, &builder, &whole);
+    field->argument_count = builder.argument_count;
     field->user_code = find_user_code(field);
     field->code_size = sum_code(field);
-    field->loop_trips = builder.trips > UINT32_MAX ? UINT32_MAX : (uint32_t)builder.trips;
     field->shape_hash = shape_hash(field);
     return field;
+}
+
+/* Materials whose numbers have changed; false: one that is clear is no more, or the other way. */
+static bool repaint(struct builder *b, const struct field *field)
+{
+    struct field_sites *sites = b->sites;
+    const size_t base = field->material_base, stride = field->material_stride;
+    if (sites->floor_changed) {
+        field_put_floor(b);
+        sites_touch(b, SITES_NUMBERS, base + sites->slot_count * stride, stride);
+    }
+    for (size_t slot = 1; slot < sites->slot_count; slot++) {
+        if (!sites->repaint[slot]) {
+            continue;
+        }
+        if (field_material_clear(b, slot) != sites->clear[slot]) {
+            return false;
+        }
+        b->argument_count = sites->material_arguments + field_material_arguments(b, slot);
+        field_put_material(b, slot);
+        sites_touch(b, SITES_NUMBERS, base + slot * stride, stride);
+        sites->repaint[slot] = false;
+    }
+    sites->floor_changed = false;
+    return !b->failed;
+}
+
+bool field_run_again(struct field *field, struct field_sites *sites, const struct scene *scene)
+{
+    struct field places = *field;
+    struct builder builder = {.field = &places,
+                              .scene = scene,
+                              .painters = sites->painters,
+                              .sites = sites,
+                              .again = true};
+    places.instruction_count = places.vec4_count = 0;
+    const struct result whole = emit_scene(&builder);
+    if (builder.failed || places.instruction_count != field->instruction_count ||
+        places.vec4_count != field->material_base ||
+        builder.argument_count != sites->material_arguments || !repaint(&builder, field)) {
+        return false;
+    }
+    set_extent(field, &builder, &whole);
+    return true;
 }
 
 static bool refuse_size(const struct scene *scene, const struct field *field, struct error *err)

@@ -7,6 +7,7 @@
 #include "field_code.h"
 #include "field_isolate.h"
 #include "field_materials.h"
+#include "field_sites.h"
 
 static uint32_t subtree_count(const struct node *node)
 {
@@ -55,6 +56,7 @@ static struct result emit_union(struct builder *b, const struct node *node,
                                 struct result own)
 {
     for (size_t i = 0; i < node->child_count; i++) {
+        i = sites_operand(b, i, &own);
         struct result child =
             field_emit(b, node->children[i], frame, slot, before_next(before, &own));
         field_join(&own, &child);
@@ -226,9 +228,12 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
 
     struct frame inside = frame_create(inner, frame->scale, frame->material);
     uint64_t trips_before = b->trips;
+    bool all_again = b->whole;
     b->trips = 0;
+    b->whole = sites_set_scale(b, frame->scale) && all_again;
     struct result whole =
         emit_union(b, node, &inside, slot + loops, FIELD_NOTHING, (struct result){0});
+    b->whole = all_again;
     if (!whole.solid) {
         return whole;
     }
@@ -351,7 +356,7 @@ static struct result emit_apart(struct builder *b, const struct node *node,
 static void guard(struct builder *b, struct builder_mark mark, enum field_before before,
                   uint16_t slot, const struct frame *outer, const struct bounds *box)
 {
-    if (b->trips == mark.trips) {
+    if (!sites_set_guarded(b, b->trips != mark.trips)) {
         return;
     }
     struct bounds placed = bounds_transform(box, outer->back, 1);
@@ -448,6 +453,7 @@ static struct result emit_entered(struct builder *b, const struct node *node,
     struct builder_mark mark = builder_mark(b);
     b->depth++;
     check(b, node, &frame);
+    sites_pass_guard(b);
     if (!b->failed) {
         result = emit_node(b, node, &frame, slot, before, number);
     }
@@ -475,17 +481,54 @@ static enum isolated_part part_of(const struct builder *b, const struct node *no
     return b->isolation && !b->within ? isolation_part(b->isolation, node) : ISOLATED_ITSELF;
 }
 
+/* What is empty space has to stand somewhere, too. */
+static void check_empty(struct builder *b, const struct node *node, const struct frame *outer)
+{
+    double from[12], ratio;
+    struct frame frame = frame_enter(outer, node, from, &ratio);
+    const struct resource *model =
+        node->type->kind == KIND_MODEL ? node_model(b->scene, node) : NULL;
+    b->failed = b->failed || !frame_is_sane(&frame);
+    if (node->type->kind == KIND_DOMAIN) {
+        frame = frame_create(frame.point, frame.scale, frame.material);
+    }
+    if (model) {
+        check_empty(b, model->root, &frame);
+    }
+    for (size_t i = 0; i < node->child_count; i++) {
+        check_empty(b, node->children[i], &frame);
+    }
+}
+
+static bool is_passed_over(struct builder *b, const struct node *node, const struct frame *outer)
+{
+    if (!sites_has_changed(b)) {
+        return true;
+    }
+    if (sites_is_empty(b)) {
+        check_empty(b, node, outer);
+        return true;
+    }
+    return false;
+}
+
 struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
                          uint16_t slot, enum field_before before)
 {
+    bool has_part = b->again && sites_has(b, node);
+    if (has_part && is_passed_over(b, node, outer)) {
+        return sites_take(b);
+    }
     bool hidden = record_number(&node->common, "visible") == 0;
-    uint64_t member = member_hash(b, node);
-    if (b->failed || is_left_out(b, hidden, member)) {
+    uint64_t member = b->again ? 0 : member_hash(b, node);
+    if (b->failed || (b->again ? !has_part : is_left_out(b, hidden, member))) {
         skip(b, node);
+        sites_leave_out(b);
         return (struct result){.hidden = true};
     }
-    bool hiding = b->hiding;
+    bool hiding = b->hiding, whole = b->whole;
     builder_add_member(b, member);
+    uint32_t site = sites_open(b, node);
     enum isolated_part part = part_of(b, node);
     bool within = b->within;
     b->hiding = hiding || hidden;
@@ -493,6 +536,8 @@ struct result field_emit(struct builder *b, const struct node *node, const struc
     struct result result =
         emit_entered(b, node, outer, slot, before,
                      (struct result){.hidden = hidden, .apart = part == ISOLATED_AWAY});
+    sites_close(b, site, &result);
+    b->whole = whole;
     b->hiding = hiding;
     b->within = within;
     return result;

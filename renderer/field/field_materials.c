@@ -262,26 +262,49 @@ static void put_painter(struct builder *b, uint32_t vec4, const struct record *r
 /* The buffer's size is part of the shape; padded, it leaves room for some more materials. */
 enum { PADDING = 256 };
 
+static float *slot_numbers(const struct builder *b, size_t slot)
+{
+    const struct field *field = b->field;
+    return field->numbers + 4 * (field->material_base + slot * field->material_stride);
+}
+
+void field_put_floor(const struct builder *b)
+{
+    put_floor(slot_numbers(b, field_floor_slot(b->scene)), &b->scene->environment);
+}
+
+void field_put_material(struct builder *b, size_t slot)
+{
+    const struct resource *material = b->scene->materials.items[slot - 1];
+    const struct builder_painter *painter = &b->painters[slot - 1];
+    float *to = slot_numbers(b, slot);
+    put_nothing(to);
+    put_material(to, &material->record);
+    if (painter->index >= 0) {
+        put_painter(b, (uint32_t)(b->field->material_base + slot * b->field->material_stride),
+                    &material->record, painter);
+    }
+}
+
+size_t field_material_arguments(const struct builder *b, size_t slot)
+{
+    size_t before = 0;
+    for (size_t i = 1; i < slot; i++) {
+        before += b->painters[i - 1].index >= 0;
+    }
+    return before * SDF_NUMBERS_MAX;
+}
+
 void field_add_materials(struct builder *b)
 {
     struct field *field = b->field;
-    const struct resource_list *materials = &b->scene->materials;
-    const struct builder_painter *painters = b->painters;
-    size_t stride = field->material_stride, slots = materials->count + 2;
-    field->material_count = materials->count;
-    field->material_base = builder_add_vec4s(b, slots * stride);
-    float *first = field->numbers + 4 * field->material_base;
-    put_default(first);
-    put_floor(first + 4 * stride * field_floor_slot(b->scene), &b->scene->environment);
-    for (size_t i = 0; i < materials->count; i++) {
-        const struct resource *material = materials->items[i];
-        float *to = first + 4 * stride * (i + 1);
-        put_nothing(to);
-        put_material(to, &material->record);
-        if (painters[i].index >= 0) {
-            put_painter(b, (uint32_t)(field->material_base + (i + 1) * stride), &material->record,
-                        &painters[i]);
-        }
+    const size_t count = b->scene->materials.count;
+    field->material_count = count;
+    field->material_base = builder_add_vec4s(b, (count + 2) * field->material_stride);
+    put_default(slot_numbers(b, 0));
+    field_put_floor(b);
+    for (size_t slot = 1; slot <= count; slot++) {
+        field_put_material(b, slot);
     }
     builder_place_points(b);
     builder_add_vec4s(b, (PADDING - field->vec4_count % PADDING) % PADDING);

@@ -21,4 +21,10 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
  * points. */
 void field_add_materials(struct builder *b);
 
+/* The numbers of a material of the scene, and of the floor's, whose slot is there. */
+void field_put_material(struct builder *b, size_t slot);
+void field_put_floor(const struct builder *b);
+/* Numbers of the C evaluator that materials before this slot have. */
+size_t field_material_arguments(const struct builder *b, size_t slot);
+
 #endif

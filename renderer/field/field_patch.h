@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* A field after an edit, out of the one before: what a numeric edit changes is written into a copy
+ * of the numbers, and all else is shared. It is what compiling the scene anew would give, to the
+ * last bit.
+ *
+ * A patch applies to operations that set
+ * - a number, vector, switch or list of as many points as before among a node's parameters,
+ * - a node's transform, or a part of it,
+ * - a number, colour or switch among a material's properties, unless light goes through it now and
+ *   did not before, or the other way,
+ * - something of the environment, its floor too, unless that comes or goes,
+ * - what is not of the field: names of nodes, the camera, rendering, and all about lights and
+ *   volumes.
+ * All else is compiled anew: choices, code, materials of nodes, what is hidden and shown, types,
+ * nodes that come, go or move, models, primitives and shaders. So is a number that changes more
+ * than numbers: whether there is a guard around a subtree, or whether the scene is a field at all.
+ *
+ * Time: the nodes that have changed, all below one whose transform has, and those on the way to the
+ * root; of their siblings no more than boxes are looked at, and only until they make up for the
+ * change. */
+#ifndef RENDERER_FIELD_PATCH_H
+#define RENDERER_FIELD_PATCH_H
+
+#include <cjson/cJSON.h>
+
+#include "field.h"
+
+/* From one vec4 of field.numbers to before another. */
+struct field_span {
+    size_t first, end;
+};
+
+/* `from` was compiled `patchable`, or patched, and is the newest of its kind; `ops` alone were
+ * applied to the scene since. Returns the field with a reference of the caller's: `from` itself,
+ * where nothing of the field has changed. NULL: it has to be compiled, and so have those after it
+ * until one is `patchable` again.
+ *
+ * `spare` (may be NULL) is an older field that nobody but the caller holds. Where it is of use it
+ * is written over, and returned. `*out_changed` is where the numbers are others than they were in
+ * it; all, where it was of no use. */
+struct field *field_patch(struct field *from, struct field *spare, const struct scene *scene,
+                          const cJSON *ops, struct field_span *out_changed);
+/* Nothing can be patched on from this one: an edit was refused, which may have made nodes anew. */
+void field_end_patches(struct field *from);
+
+#endif
