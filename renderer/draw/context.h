@@ -48,8 +48,9 @@ struct resident {
     struct resident *next;
     struct scene *scene;
     uint64_t revision;
-    struct snapshot *newest;   /* NULL while the scene is no field */
-    struct snapshot *drawable; /* the newest whose program is ready; NULL: none yet */
+    struct snapshot *newest;    /* NULL while the scene is no field */
+    struct snapshot *drawable;  /* the newest whose program is ready; NULL: none yet */
+    struct upload_pool uploads; /* of the newest's shape */
     struct error error;
     struct pace *pace;
     uint64_t refused_shape;  /* why there is no newest, if that is it; else 0 */

@@ -44,17 +44,14 @@ static const struct field *drawn_field(const struct resident *resident)
     return newest && snapshot_state(newest) != PROGRAM_FAILED ? newest->field : NULL;
 }
 
-void resident_renew(struct resident *resident)
+/* Takes the newest snapshot; NULL: the scene cannot be drawn, for `err` or a refused shape. */
+static void take_newest(struct resident *resident, struct snapshot *snapshot,
+                        const struct error *err, uint64_t refused)
 {
     struct renderer *renderer = resident->renderer;
-    const struct field_wish wish = {.drawn = drawn_field(resident)};
-    struct error err = {0};
-    uint64_t refused = 0;
-    struct snapshot *snapshot =
-        snapshot_create(renderer, resident->scene, resident->revision, &wish, &refused, &err);
 
     resident->renewals++;
-    resident->error = err;
+    resident->error = *err;
     resident->refused_shape = refused;
     snapshot_unref(renderer, resident->newest);
     resident->newest = snapshot;
@@ -65,6 +62,43 @@ void resident_renew(struct resident *resident)
                      (unsigned long long)resident->revision);
     }
     advance(resident);
+}
+
+void resident_renew(struct resident *resident)
+{
+    const struct field_wish wish = {.drawn = drawn_field(resident), .patchable = true};
+    struct error err = {0};
+    uint64_t refused = 0;
+    struct snapshot *snapshot = snapshot_create(resident->renderer, resident->scene,
+                                                resident->revision, &wish, &refused, &err);
+
+    upload_pool_empty(&resident->uploads, &resident->renderer->gl);
+    take_newest(resident, snapshot, &err, refused);
+}
+
+/* False: the edit changes more than numbers, or there is nothing to patch. */
+static bool patch(struct resident *resident, const cJSON *ops)
+{
+    struct renderer *renderer = resident->renderer;
+    struct snapshot *newest = resident->newest;
+    struct error err = {0};
+    uint64_t refused = 0;
+
+    if (!newest || snapshot_state(newest) == PROGRAM_FAILED) {
+        return false;
+    }
+    struct upload *upload =
+        upload_patch(newest->upload, upload_pool_spare(&resident->uploads), resident->scene, ops);
+    if (!upload) {
+        return false;
+    }
+    if (upload != newest->upload) {
+        upload_pool_keep(&resident->uploads, upload, &renderer->gl);
+    }
+    struct snapshot *snapshot = snapshot_create_patched(
+        renderer, resident->scene, resident->revision, newest, upload, &refused, &err);
+    take_newest(resident, snapshot, &err, refused);
+    return true;
 }
 
 struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision)
@@ -95,6 +129,7 @@ void resident_destroy(struct resident *resident)
     snapshot_unref(resident->renderer, resident->newest);
     snapshot_unref(resident->renderer, resident->drawable);
     resident_forget_views(resident);
+    upload_pool_empty(&resident->uploads, &resident->renderer->gl);
     scene_destroy(resident->scene);
     pace_unref(resident->pace);
     free(resident);
@@ -112,10 +147,15 @@ bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revisio
                    struct error *err)
 {
     if (!edit_apply(resident->scene, ops, NULL, NULL, err)) {
+        if (resident->newest) {
+            field_end_patches(resident->newest->field);
+        }
         return false;
     }
     resident->revision = revision;
-    resident_renew(resident);
+    if (!patch(resident, ops)) {
+        resident_renew(resident);
+    }
     return true;
 }
 

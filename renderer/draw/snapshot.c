@@ -269,40 +269,68 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
-struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, const struct field_wish *wish,
-                                 uint64_t *out_refused, struct error *err)
+/* What is made of instructions alone is shared with a snapshot of the same ones (NULL: none). */
+static struct engine_program *get_engine(const struct renderer *renderer, const struct field *field,
+                                         const struct snapshot *before)
 {
-    struct field *field = make_some_field(scene, wish, err);
+    if (renderer->params.stage != RENDER_ENGINE) {
+        return NULL;
+    }
+    return before ? engine_program_ref(before->engine)
+                  : engine_program_create(field, renderer->params.lanes);
+}
+
+/* Takes the reference of `upload`. */
+static struct snapshot *make_snapshot(struct renderer *renderer, const struct scene *scene,
+                                      uint64_t revision, const struct snapshot *before,
+                                      struct upload *upload, uint64_t *out_refused,
+                                      struct error *err)
+{
+    struct field *field = upload->field;
     struct snapshot *snapshot;
     struct program *program;
     struct error warning = {0};
 
-    if (!field) {
-        return NULL;
-    }
     program = get_program(renderer, field, scene, out_refused, &warning, err);
     if (!program) {
-        field_unref(field);
+        upload_unref(upload, &renderer->gl);
         return NULL;
     }
     snapshot = memory_alloc(1, sizeof *snapshot);
     snapshot->references = 1;
     snapshot->revision = revision;
+    snapshot->upload = upload;
     snapshot->field = field;
     snapshot->program = program;
     snapshot->warning.error = warning;
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent = extent_of(renderer, field, &scene->camera);
-    if (renderer->params.stage == RENDER_ENGINE) {
-        snapshot->engine = engine_program_create(field, renderer->params.lanes);
-    }
+    snapshot->engine = get_engine(renderer, field, before);
     if (!look_around(renderer, snapshot, scene, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
     }
     return snapshot;
+}
+
+struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
+                                 uint64_t revision, const struct field_wish *wish,
+                                 uint64_t *out_refused, struct error *err)
+{
+    struct field *field = make_some_field(scene, wish, err);
+
+    return field ? make_snapshot(renderer, scene, revision, NULL, upload_create(field), out_refused,
+                                 err)
+                 : NULL;
+}
+
+struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct scene *scene,
+                                         uint64_t revision, const struct snapshot *before,
+                                         struct upload *upload, uint64_t *out_refused,
+                                         struct error *err)
+{
+    return make_snapshot(renderer, scene, revision, before, upload, out_refused, err);
 }
 
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
@@ -336,10 +364,9 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
         return;
     }
     leave_waiting(renderer, snapshot);
-    numbers_finish(&snapshot->numbers, &renderer->gl);
     engine_program_destroy(snapshot->engine);
     program_unref(renderer->programs, snapshot->program);
-    field_unref(snapshot->field);
+    upload_unref(snapshot->upload, &renderer->gl);
     environment_unref(renderer->environments, snapshot->environment);
     record_finish(&snapshot->camera);
     record_finish(&snapshot->render);
@@ -348,10 +375,6 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
 
 const struct numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
 {
-    if (snapshot->numbers.buffer + snapshot->numbers.texture == 0) {
-        numbers_init(&snapshot->numbers, &renderer->gl, renderer->info.software,
-                     snapshot->field->numbers, snapshot->field->vec4_count,
-                     number_capacity(snapshot->field));
-    }
-    return &snapshot->numbers;
+    return upload_numbers(snapshot->upload, &renderer->gl, renderer->info.software,
+                          number_capacity(snapshot->field));
 }

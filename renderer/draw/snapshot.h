@@ -6,11 +6,13 @@
 
 #include "draw.h"
 #include "renderer/field/field.h"
+#include "upload.h"
 
 struct snapshot {
     int references;
     uint64_t revision;
-    struct field *field;
+    struct upload *upload;
+    struct field *field; /* that of `upload` */
     struct program *program;
     struct record camera;     /* the document's */
     struct record render;     /* the document's */
@@ -20,8 +22,7 @@ struct snapshot {
     struct picture *picture;         /* that the environment is made of; NULL once it is */
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
-    struct numbers numbers;
-    struct engine_program *engine; /* NULL: it draws nothing of this scene */
+    struct engine_program *engine;   /* NULL: it draws nothing of this scene */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
     struct error error;    /* why it cannot be drawn although its program can; ERROR_NONE: it can */
@@ -35,6 +36,12 @@ struct renderer;
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, const struct field_wish *wish,
                                  uint64_t *out_refused, struct error *err);
+/* The scene after a numeric edit, of the snapshot before it; takes the reference of `upload`, which
+ * was patched. */
+struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct scene *scene,
+                                         uint64_t revision, const struct snapshot *before,
+                                         struct upload *upload, uint64_t *out_refused,
+                                         struct error *err);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* Of its program, and of the picture that its environment is made of. */
 enum program_state snapshot_state(const struct snapshot *snapshot);

@@ -25,6 +25,8 @@ struct engine_program; /* a field, ready to be run */
 struct engine_program *engine_program_create(const struct field *field, int lanes);
 /* The widths that the processor has, from the widest; 0 behind the last. */
 int engine_lanes(size_t index);
+/* The same for another field of this shape; NULL: nothing. Each has to be destroyed. */
+struct engine_program *engine_program_ref(struct engine_program *program);
 void engine_program_destroy(struct engine_program *program);
 
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };

@@ -44,6 +44,7 @@ struct cells {
 struct engine_width;
 
 struct engine_program {
+    int references;
     const struct engine_width *width;
     struct operation *operations;
     size_t count;

@@ -142,6 +142,7 @@ struct engine_program *engine_program_create(const struct field *field, int lane
     struct reading reading = {.depth = 0};
     bool ok = field->shader_count == 0 && field->code_count == 0;
 
+    program->references = 1;
     program->width = width_of(lanes);
     ok = ok && program->width;
 
@@ -158,9 +159,17 @@ struct engine_program *engine_program_create(const struct field *field, int lane
     return program;
 }
 
-void engine_program_destroy(struct engine_program *program)
+struct engine_program *engine_program_ref(struct engine_program *program)
 {
     if (program) {
+        program->references++;
+    }
+    return program;
+}
+
+void engine_program_destroy(struct engine_program *program)
+{
+    if (program && --program->references == 0) {
         free(program->operations);
         free(program);
     }

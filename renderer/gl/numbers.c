@@ -58,6 +58,41 @@ void numbers_init(struct numbers *out, const struct gl *gl, bool software, const
     free(padded);
 }
 
+/* Rows of the texture, or part of one. */
+static void put_rows(const struct gl *gl, const float *values, size_t first, size_t width,
+                     size_t height)
+{
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, (GLint)(first % NUMBERS_ROW), (GLint)(first / NUMBERS_ROW),
+                      (GLsizei)width, (GLsizei)height, GL_RGBA, GL_FLOAT, values + 4 * first);
+}
+
+/* What is left of a row, whole rows, and the beginning of one. */
+static void put_in_texture(const struct gl *gl, const float *values, size_t first, size_t end)
+{
+    while (first < end) {
+        const size_t left = end - first, column = first % NUMBERS_ROW;
+        const size_t width = column + left > NUMBERS_ROW ? NUMBERS_ROW - column : left;
+        const size_t height = width == NUMBERS_ROW ? left / NUMBERS_ROW : 1;
+
+        put_rows(gl, values, first, width, height);
+        first += width * height;
+    }
+}
+
+void numbers_update(const struct numbers *numbers, const struct gl *gl, const float *values,
+                    size_t first, size_t end)
+{
+    if (numbers->texture) {
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_NUMBERS);
+        gl->BindTexture(GL_TEXTURE_2D, numbers->texture);
+        put_in_texture(gl, values, first, end);
+    } else {
+        gl->BindBuffer(GL_UNIFORM_BUFFER, numbers->buffer);
+        gl->BufferSubData(GL_UNIFORM_BUFFER, (GLintptr)(16 * first),
+                          (GLsizeiptr)(16 * (end - first)), values + 4 * first);
+    }
+}
+
 void numbers_finish(struct numbers *numbers, const struct gl *gl)
 {
     gl->DeleteBuffers(1, &numbers->buffer);

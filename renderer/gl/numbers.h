@@ -22,6 +22,9 @@ bool numbers_in_texture(const struct gl *gl, bool software, size_t capacity);
 /* `count` vec4s, then zeros up to `capacity`, a power of two. */
 void numbers_init(struct numbers *out, const struct gl *gl, bool software, const float *values,
                   size_t count, size_t capacity);
+/* The same of those from vec4 `first` to before `end` of `values`; the others stay. */
+void numbers_update(const struct numbers *numbers, const struct gl *gl, const float *values,
+                    size_t first, size_t end);
 void numbers_finish(struct numbers *numbers, const struct gl *gl);
 void numbers_bind(const struct numbers *numbers, const struct gl *gl);
 

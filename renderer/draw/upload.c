@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/* Fields with their numbers on the device. */
+#include "upload.h"
+
+#include <stdlib.h>
+
+#include "protocol/memory.h"
+
+struct upload *upload_create(struct field *field)
+{
+    struct upload *upload = memory_alloc(1, sizeof *upload);
+
+    upload->references = 1;
+    upload->field = field;
+    return upload;
+}
+
+struct upload *upload_ref(struct upload *upload)
+{
+    upload->references++;
+    return upload;
+}
+
+void upload_unref(struct upload *upload, const struct gl *gl)
+{
+    if (!upload || --upload->references > 0) {
+        return;
+    }
+    numbers_finish(&upload->numbers, gl);
+    field_unref(upload->field);
+    free(upload);
+}
+
+static void add_stale(struct upload *upload, const struct field_span *changed)
+{
+    struct field_span *stale = &upload->stale;
+
+    if (stale->first == stale->end) {
+        *stale = *changed;
+        return;
+    }
+    stale->first = changed->first < stale->first ? changed->first : stale->first;
+    stale->end = changed->end > stale->end ? changed->end : stale->end;
+}
+
+struct upload *upload_patch(struct upload *from, struct upload *spare, const struct scene *scene,
+                            const cJSON *ops)
+{
+    struct field_span changed;
+    struct field *field =
+        field_patch(from->field, spare ? spare->field : NULL, scene, ops, &changed);
+
+    if (!field) {
+        return NULL;
+    }
+    if (field == from->field) {
+        field_unref(field);
+        return upload_ref(from);
+    }
+    if (spare && field == spare->field) {
+        field_unref(field);
+        add_stale(spare, &changed);
+        return upload_ref(spare);
+    }
+    return upload_create(field);
+}
+
+const struct numbers *upload_numbers(struct upload *upload, const struct gl *gl, bool software,
+                                     size_t capacity)
+{
+    const struct field *field = upload->field;
+    const struct field_span *stale = &upload->stale;
+
+    if (upload->numbers.buffer + upload->numbers.texture == 0) {
+        numbers_init(&upload->numbers, gl, software, field->numbers, field->vec4_count, capacity);
+    } else if (stale->first < stale->end) {
+        numbers_update(&upload->numbers, gl, field->numbers, stale->first, stale->end);
+    }
+    upload->stale = (struct field_span){0, 0};
+    return &upload->numbers;
+}
+
+struct upload *upload_pool_spare(const struct upload_pool *pool)
+{
+    for (int i = 0; i < UPLOADS_KEPT; i++) {
+        if (pool->kept[i] && pool->kept[i]->references == 1) {
+            return pool->kept[i];
+        }
+    }
+    return NULL;
+}
+
+void upload_pool_keep(struct upload_pool *pool, struct upload *upload, const struct gl *gl)
+{
+    int place = 0;
+
+    for (int i = 0; i < UPLOADS_KEPT; i++) {
+        if (pool->kept[i] == upload) {
+            return;
+        }
+        if (!pool->kept[i] || pool->kept[i]->references == 1) {
+            place = i;
+        }
+    }
+    upload_unref(pool->kept[place], gl);
+    pool->kept[place] = upload_ref(upload);
+}
+
+void upload_pool_empty(struct upload_pool *pool, const struct gl *gl)
+{
+    for (int i = 0; i < UPLOADS_KEPT; i++) {
+        upload_unref(pool->kept[i], gl);
+        pool->kept[i] = NULL;
+    }
+}
