@@ -41,6 +41,9 @@ bool bench_compare(struct renderer *renderer, struct resident *resident,
 bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
                    cJSON *row, struct error *err);
 
+/* `edit_us` and `edit_p95_us`: edits that move one node of the scene after the other. */
+bool bench_edits(struct resident *resident, cJSON *row, struct error *err);
+
 /* A document of so many nodes, node-I in groups of a hundred; caller frees. */
 char *bench_document(size_t nodes, size_t *out_length);
 /* Reading, copying, printing and editing of documents of 1,000 to 100,000 nodes. */

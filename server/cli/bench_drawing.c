@@ -263,7 +263,8 @@ static cJSON *measure_pictures(const struct task *task, struct error *err)
         cJSON_AddStringToObject(row, "example", task->example->path);
         cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
         ok = add_pictures(renderer, resident, task->rounds, row, err) &&
-             bench_effects(renderer, task->example, task->rounds, row, err);
+             bench_effects(renderer, task->example, task->rounds, row, err) &&
+             bench_edits(resident, row, err);
     }
     resident_destroy(resident);
     renderer_destroy(renderer);
