@@ -49,12 +49,13 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     }
     gl_debug(&renderer->gl, &renderer->sink);
     read_info(renderer);
+    renderer_use_stage(renderer, params->stage);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side, err);
     if (!renderer->draw) {
         goto fail;
     }
-    renderer->environments =
-        environments_create(&renderer->gl, params->stage == RENDER_ENGINE, err);
+    renderer->environments = environments_create(
+        &renderer->gl, renderer->info.software || renderer->info.stage == RENDER_ENGINE, err);
     if (!renderer->environments) {
         goto fail;
     }
@@ -86,6 +87,13 @@ void renderer_destroy(struct renderer *renderer)
     egl_finish(&renderer->egl);
     free(renderer->verdicts);
     free(renderer);
+}
+
+void renderer_use_stage(struct renderer *renderer, enum render_stage stage)
+{
+    const enum render_stage best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
+
+    renderer->info.stage = stage == RENDER_AUTO ? best : stage;
 }
 
 const struct renderer_info *renderer_info(const struct renderer *renderer)

@@ -25,10 +25,9 @@ struct job;      /* one picture being drawn, tile by tile */
 
 /* What computes pictures. */
 enum render_stage {
+    RENDER_AUTO,    /* the engine where the device is software */
     RENDER_COMPUTE, /* compute shaders of the device */
-    /* Vectors of the processors (renderer/engine), for colour of one to 255 without smoke, clear
-     * things and users' code: all else is drawn by the device. */
-    RENDER_ENGINE,
+    RENDER_ENGINE,  /* vectors of the processors (renderer/engine); of the device: users' code */
 };
 
 struct renderer_params {
@@ -51,12 +50,16 @@ struct renderer_params {
 struct renderer_info {
     char name[128], version[128], device[192]; /* GL_RENDERER, GL_VERSION, path to the device */
     bool software;
+    enum render_stage stage; /* never RENDER_AUTO */
     int max_texture;
 };
 
 /* Loads GL, makes the context; NULL and `err` below GL 4.3 core or without a device. */
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err);
 void renderer_destroy(struct renderer *renderer);
+/* Scenes that are opened or edited from now on are drawn so; RENDER_AUTO as at first. A renderer
+ * of a GPU that was made for RENDER_COMPUTE has no other. */
+void renderer_use_stage(struct renderer *renderer, enum render_stage stage);
 const struct renderer_info *renderer_info(const struct renderer *renderer);
 /* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */
 size_t renderer_devices(const struct device_params *params, struct device_report *out, size_t max);

@@ -25,7 +25,7 @@ struct draw; /* targets and passes of one context */
 struct draw_form {
     enum aov aov;
     bool floats;
-    const char *define; /* for glsl/resolve.glsl */
+    enum output output;
     enum out_kind kind;
     GLenum read_format, read_type;
     int read_bytes;          /* of a pixel as read */
@@ -59,22 +59,27 @@ struct draw_slot {
     GLuint queries[DRAW_MARKS]; /* on a GPU: made where they are first needed */
     uint8_t stages[DRAW_MARKS]; /* what ended at each */
     int marks;
-    uint8_t *pixels;  /* drawn by the engine; else NULL */
-    uint64_t last_us; /* on the CPU: the last mark */
+    uint8_t *pixels[AOV_COUNT]; /* drawn by the engine; else NULL */
+    uint64_t last_us;           /* on the CPU: the last mark */
     uint64_t stage_us[FRAME_STAGES];
 };
 
+struct draw_backend;
+
 /* One picture's own objects. */
 struct draw_picture {
+    const struct draw_backend *backend;       /* what draws it */
     const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
     struct draw_plan plan;
     int lights;
     bool clear; /* light goes through something */
     GLuint frame;
-    struct frame_block *block; /* drawn by the engine; else NULL */
+    struct frame_block *block;    /* drawn by the engine; else NULL, */
+    struct engine_canvas *canvas; /* and this too */
     struct draw_slot slots[DRAW_SLOTS];
     /* Drawn in rounds: each tile gets samples `from` to `until`, and between two rounds its pixels
      * are kept in textures as large as the region that is drawn. */
+    bool rounds;
     int from, until;
     GLuint kept, kept_counted; /* 0: there is one round */
     int left, top;             /* of the region */
@@ -92,11 +97,10 @@ uint64_t draw_compilations(const struct draw *draw);
 /* Mirrored and broken rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
 
-/* `forms`: for each output NULL or its form. `engine`: the engine can draw the scene, and does so
- * where it can draw the picture. */
+/* `forms`: for each output NULL or its form. */
 bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
                 const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
-                bool engine, struct error *err);
+                const struct draw_scene *scene, struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
 /* Its pixels have several samples each. */
 bool draw_is_sampled(const struct draw_picture *picture);

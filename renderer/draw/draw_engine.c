@@ -1,23 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "draw_engine.h"
-
+/* Pictures drawn by the engine. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "draw_parts.h"
 #include "protocol/memory.h"
-
-enum { PIXEL_BYTES = 4 };
-
-bool engine_draws(const struct frame_block *block, const struct draw_form *const forms[AOV_COUNT],
-                  const struct draw_plan *plan)
-{
-    for (int i = 0; i < AOV_COUNT; i++) {
-        if (forms[i] && (i != AOV_COLOR || forms[i]->floats)) {
-            return false;
-        }
-    }
-    return !plan->volumes && !plan->from_camera && !(block->has_clear && plan->clear_depth > 0);
-}
+#include "renderer/engine/engine.h"
 
 static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
 {
@@ -33,30 +21,126 @@ static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
     }
 }
 
-void engine_draw_tile(const struct draw_picture *picture, const struct draw_scene *scene,
-                      struct draw_slot *slot)
+static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                  const struct frame_block *block, struct error *err)
 {
-    const struct tile tile = slot->tile;
     const struct engine_sky *skies = scene->environment->skies;
-    const struct engine_picture drawn = {.program = scene->engine,
-                                         .numbers = scene->values,
-                                         .frame = picture->block,
-                                         .skies = {&skies[0], &skies[1], &skies[2]},
-                                         .smoothing = smoothing_of(&picture->plan),
-                                         .samples = picture->plan.samples,
-                                         .rays = picture->plan.rays};
+    const struct draw_plan *plan = &picture->plan;
+    const enum program_stage last = draw_last_stage(picture);
 
-    free(slot->pixels);
-    slot->pixels = memory_alloc((size_t)tile.width * (size_t)tile.height, PIXEL_BYTES);
-    engine_draw(&drawn, tile.x, tile.y, tile.width, tile.height, slot->pixels,
-                PIXEL_BYTES * (size_t)tile.width);
+    (void)draw;
+    (void)err;
+    picture->block = memory_alloc(1, sizeof *block);
+    *picture->block = *block;
+    picture->canvas = engine_canvas_create(&(struct engine_picture){
+        .program = scene->engine,
+        .numbers = scene->values,
+        .frame = picture->block,
+        .skies = {&skies[0], &skies[1], &skies[2]},
+        .smoothing = smoothing_of(plan),
+        .samples = plan->samples,
+        .rays = plan->rays,
+        .clear_depth = block->has_clear ? plan->clear_depth : 0,
+        .shadows = last >= STAGE_SHADOW,
+        .lights = last == STAGE_COUNT,
+        .linear = picture->forms[AOV_COLOR] && picture->forms[AOV_COLOR]->floats,
+    });
+    return true;
 }
 
-void engine_collect(const struct draw_slot *slot, uint8_t *to, size_t stride)
+static void keep(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    const size_t row = PIXEL_BYTES * (size_t)slot->tile.width;
+    (void)draw;
+    engine_canvas_keep(picture->canvas,
+                       (struct engine_rect){region.x, region.y, region.width, region.height});
+}
 
-    for (int y = 0; y < slot->tile.height; y++) {
-        memcpy(to + (size_t)y * stride, slot->pixels + (size_t)y * row, row);
+static void clear_slot(struct draw_slot *slot)
+{
+    for (int i = 0; i < AOV_COUNT; i++) {
+        free(slot->pixels[i]);
+        slot->pixels[i] = NULL;
     }
 }
+
+static void end(struct draw *draw, struct draw_picture *picture)
+{
+    (void)draw;
+    for (int i = 0; i < DRAW_SLOTS; i++) {
+        clear_slot(&picture->slots[i]);
+    }
+    engine_canvas_destroy(picture->canvas);
+    free(picture->block);
+}
+
+/* Of one row of the tile. */
+static size_t row_bytes(const struct draw_form *form, struct tile tile)
+{
+    return (size_t)form->read_bytes * (size_t)tile.width;
+}
+
+/* Room for an output of the tile. */
+static struct engine_output make_output(struct draw_slot *slot, const struct draw_form *form)
+{
+    const bool floats = form->kind != OUT_BYTES;
+    const size_t stride = row_bytes(form, slot->tile);
+
+    slot->pixels[form->aov] = memory_alloc((size_t)slot->tile.height, stride);
+    return (struct engine_output){.kind = form->output,
+                                  .channels = form->read_bytes / (floats ? 4 : 1),
+                                  .floats = floats,
+                                  .pixels = slot->pixels[form->aov],
+                                  .stride = stride};
+}
+
+/* With all samples of the round. */
+static bool draw_samples(struct draw *draw, struct draw_picture *picture,
+                         const struct draw_scene *scene, int index, struct error *err)
+{
+    struct draw_slot *slot = &picture->slots[index];
+    const struct engine_rect tile = {slot->tile.x, slot->tile.y, slot->tile.width,
+                                     slot->tile.height};
+    const uint64_t start = draw_now_us();
+    struct engine_output outputs[AOV_COUNT];
+    size_t count = 0;
+
+    (void)draw;
+    (void)scene;
+    (void)err;
+    clear_slot(slot);
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (picture->forms[i]) {
+            outputs[count++] = make_output(slot, picture->forms[i]);
+        }
+    }
+    engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
+    memset(slot->stage_us, 0, sizeof slot->stage_us);
+    slot->stage_us[FRAME_SHADE] = draw_now_us() - start;
+    return true;
+}
+
+static bool wait(struct draw *draw, struct draw_picture *picture, int slot, struct error *err)
+{
+    (void)draw;
+    (void)picture;
+    (void)slot;
+    (void)err;
+    return true;
+}
+
+static bool collect(struct draw *draw, struct draw_picture *picture, int index, enum aov aov,
+                    uint8_t *to, size_t stride, struct error *err)
+{
+    const struct draw_slot *slot = &picture->slots[index];
+    const size_t row = row_bytes(picture->forms[aov], slot->tile);
+
+    (void)draw;
+    (void)err;
+    for (int y = 0; y < slot->tile.height; y++) {
+        memcpy(to + (size_t)y * stride, slot->pixels[aov] + (size_t)y * row, row);
+    }
+    return true;
+}
+
+/* No tile waits for more samples. */
+const struct draw_backend draw_engine = {begin, end, keep, draw_samples, NULL, wait, collect};

@@ -44,6 +44,20 @@ static void begin_row(struct job *job, int y)
     job->row = (struct row){.y = y, .side = side, .pace = pace};
 }
 
+/* Of a snapshot that is ready. */
+static struct draw_scene scene_of(const struct job *job)
+{
+    struct snapshot *snapshot = job->snapshot;
+
+    return (struct draw_scene){
+        .program = snapshot->program,
+        .numbers = snapshot->program ? snapshot_numbers(job->renderer, snapshot) : NULL,
+        .environment = snapshot->environment,
+        .values = snapshot->field->numbers,
+        .engine = snapshot->engine,
+    };
+}
+
 /* When its program and environment are there, the picture's own buffers. */
 static enum job_state begin(struct job *job)
 {
@@ -60,10 +74,11 @@ static enum job_state begin(struct job *job)
     case PROGRAM_READY:
         break;
     }
+    const struct draw_scene scene = scene_of(job);
     frame_set_camera(&block, &job->camera, job->width, job->height);
     plan_make(&plan, &block, &snapshot->render, &job->wish, &snapshot->extent);
-    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan,
-                    snapshot->engine != NULL, &job->error)) {
+    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan, &scene,
+                    &job->error)) {
         return fail(job);
     }
     job->begun = true;
@@ -200,9 +215,7 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
 /* The next tile, or the next sample of the one under way. */
 static bool draw_next(struct job *job)
 {
-    const struct draw_scene scene = {
-        job->snapshot->program, snapshot_numbers(job->renderer, job->snapshot),
-        job->snapshot->environment, job->snapshot->field->numbers, job->snapshot->engine};
+    const struct draw_scene scene = scene_of(job);
     const struct watch before = look_at_clocks(job);
 
     if (!draw_sample(job, &scene)) {

@@ -171,7 +171,7 @@ uint64_t resident_shape_with_code(const struct resident *resident)
 
 uint64_t resident_shape(const struct resident *resident)
 {
-    return resident->newest ? program_shape(resident->newest->program) : 0;
+    return resident->newest ? resident->newest->shape : 0;
 }
 
 uint64_t resident_refused_shape(const struct resident *resident)

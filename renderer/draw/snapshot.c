@@ -77,15 +77,20 @@ char *renderer_shader(const struct scene *scene, size_t stage, struct error *err
     return text;
 }
 
+/* Of the program that the device has for it. */
+static uint64_t shape_of(const struct field *field, const struct scene *scene)
+{
+    const bool volumes = scene->volumes.count > 0;
+
+    return field->shape_hash ^ ((number_capacity(field) + volumes) * UINT64_C(0x9e3779b97f4a7c15));
+}
+
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
-                                   const struct scene *scene, uint64_t *out_refused,
+                                   const struct scene *scene, uint64_t key, uint64_t *out_refused,
                                    struct error *out_warning, struct error *err)
 {
-    const bool volumes = scene->volumes.count > 0;
-    const size_t capacity = number_capacity(field);
-    const uint64_t key = field->shape_hash ^ ((capacity + volumes) * UINT64_C(0x9e3779b97f4a7c15));
     const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key, "");
     struct program *program;
     char *map, *surface;
@@ -153,14 +158,15 @@ static bool has_mirrors(const struct field *field)
     return false;
 }
 
-static struct frame_extent extent_of(const struct renderer *renderer, const struct field *field,
-                                     const struct record *camera)
+/* `limit_loops`: the driver ends long ones. */
+static struct frame_extent extent_of(const struct field *field, const struct record *camera,
+                                     bool limit_loops)
 {
     struct frame_extent extent = {.scale = scene_scale(camera),
                                   .clear = field->clear,
                                   .mirrors = has_mirrors(field),
                                   .loop_trips = (int)field->loop_trips,
-                                  .limit_loops = renderer->info.software};
+                                  .limit_loops = limit_loops};
 
     for (int i = 0; i < 3; i++) {
         extent.min[i] = field->bounds.low[i];
@@ -269,15 +275,21 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
-/* What is made of instructions alone is shared with a snapshot of the same ones (NULL: none). */
-static struct engine_program *get_engine(const struct renderer *renderer, const struct field *field,
-                                         const struct snapshot *before)
+/* The engine draws what it can; for the rest the device gets a program. What is made of
+ * instructions alone is shared with a snapshot of the same ones (`before`; NULL: none). */
+static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
+                     const struct scene *scene, const struct snapshot *before,
+                     uint64_t *out_refused, struct error *err)
 {
-    if (renderer->params.stage != RENDER_ENGINE) {
-        return NULL;
+    if (renderer->info.stage == RENDER_ENGINE) {
+        snapshot->engine = before ? engine_program_ref(before->engine)
+                                  : engine_program_create(snapshot->field, renderer->params.lanes);
     }
-    return before ? engine_program_ref(before->engine)
-                  : engine_program_create(field, renderer->params.lanes);
+    if (!snapshot->engine) {
+        snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
+                                        out_refused, &snapshot->warning.error, err);
+    }
+    return snapshot->engine || snapshot->program;
 }
 
 /* Takes the reference of `upload`. */
@@ -288,25 +300,21 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
 {
     struct field *field = upload->field;
     struct snapshot *snapshot;
-    struct program *program;
-    struct error warning = {0};
 
-    program = get_program(renderer, field, scene, out_refused, &warning, err);
-    if (!program) {
-        upload_unref(upload, &renderer->gl);
-        return NULL;
-    }
     snapshot = memory_alloc(1, sizeof *snapshot);
     snapshot->references = 1;
     snapshot->revision = revision;
     snapshot->upload = upload;
     snapshot->field = field;
-    snapshot->program = program;
-    snapshot->warning.error = warning;
+    snapshot->shape = shape_of(field, scene);
+    if (!find_way(renderer, snapshot, scene, before, out_refused, err)) {
+        snapshot_unref(renderer, snapshot);
+        return NULL;
+    }
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
-    snapshot->extent = extent_of(renderer, field, &scene->camera);
-    snapshot->engine = get_engine(renderer, field, before);
+    snapshot->extent =
+        extent_of(field, &scene->camera, renderer->info.software && !snapshot->engine);
     if (!look_around(renderer, snapshot, scene, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
@@ -335,12 +343,13 @@ struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct
 
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
 {
-    return program_has_user_code(snapshot->program) ? program_shape(snapshot->program) : 0;
+    return snapshot->field->user_code ? snapshot->shape : 0;
 }
 
 enum program_state snapshot_state(const struct snapshot *snapshot)
 {
-    const enum program_state state = program_state(snapshot->program);
+    const enum program_state state =
+        snapshot->program ? program_state(snapshot->program) : PROGRAM_READY;
 
     return snapshot->error.kind != ERROR_NONE            ? PROGRAM_FAILED
            : snapshot->picture && state == PROGRAM_READY ? PROGRAM_PENDING
@@ -349,7 +358,9 @@ enum program_state snapshot_state(const struct snapshot *snapshot)
 
 const struct error *snapshot_error(const struct snapshot *snapshot)
 {
-    return snapshot->error.kind != ERROR_NONE ? &snapshot->error : program_error(snapshot->program);
+    return snapshot->error.kind != ERROR_NONE || !snapshot->program
+               ? &snapshot->error
+               : program_error(snapshot->program);
 }
 
 struct snapshot *snapshot_ref(struct snapshot *snapshot)
@@ -365,7 +376,9 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     }
     leave_waiting(renderer, snapshot);
     engine_program_destroy(snapshot->engine);
-    program_unref(renderer->programs, snapshot->program);
+    if (snapshot->program) {
+        program_unref(renderer->programs, snapshot->program);
+    }
     upload_unref(snapshot->upload, &renderer->gl);
     environment_unref(renderer->environments, snapshot->environment);
     record_finish(&snapshot->camera);

@@ -12,8 +12,9 @@ struct snapshot {
     int references;
     uint64_t revision;
     struct upload *upload;
-    struct field *field; /* that of `upload` */
-    struct program *program;
+    struct field *field;      /* that of `upload` */
+    uint64_t shape;           /* of the program that the device has, or would have */
+    struct program *program;  /* NULL: the engine draws it */
     struct record camera;     /* the document's */
     struct record render;     /* the document's */
     struct frame_block frame; /* without camera and level */
@@ -22,7 +23,7 @@ struct snapshot {
     struct picture *picture;         /* that the environment is made of; NULL once it is */
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
-    struct engine_program *engine;   /* NULL: it draws nothing of this scene */
+    struct engine_program *engine;   /* NULL: the device draws it */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
     struct error error;    /* why it cannot be drawn although its program can; ERROR_NONE: it can */

@@ -30,8 +30,10 @@ static void tape_room(struct cells *cells, size_t count)
 /* The root holds everything, wherever it is asked for. */
 static void cells_begin(struct lanes *c)
 {
-    struct cells *cells = &c->cells;
-    cells->count = cells->used = 0;
+    struct cells *cells = c->cells;
+    if (cells->count) {
+        return; /* the picture's other tiles made them */
+    }
     cells->last = 0;
     tape_room(cells, c->program->count);
     for (size_t i = 0; i < c->program->count; i++) {
@@ -43,12 +45,6 @@ static void cells_begin(struct lanes *c)
     for (int i = 0; i < 3; i++) {
         root->half = f_max(root->half, 2.0f * fabsf(c->frame->eye[i]));
     }
-}
-
-static void cells_end(struct cells *cells)
-{
-    free(cells->at);
-    free(cells->tapes);
 }
 
 /* The lanes whose points the tape holds for. */
@@ -73,7 +69,7 @@ static bool cell_has(const struct cell *cell, const vf *p, int lane)
 static void make_tape(struct lanes *c, const struct cell *parent, const struct drop *drops,
                       int lane, struct cell *child)
 {
-    struct cells *cells = &c->cells;
+    struct cells *cells = c->cells;
     const struct operation *operations = c->program->operations;
     bool distance[FIELD_SLOTS_MAX] = {true}, point[FIELD_SLOTS_MAX] = {false};
     tape_room(cells, parent->count);
@@ -125,18 +121,41 @@ static void make_tape(struct lanes *c, const struct cell *parent, const struct d
     cells->used += child->count;
 }
 
-static void cell_split(struct lanes *c, int32_t index)
+static int first_lane(vb m)
+{
+    int lane = 0;
+    while (lane < LANES - 1 && !m[lane]) {
+        lane++;
+    }
+    return lane;
+}
+
+/* Of the part of the field that the first of these lanes is to see; answers which see the same. */
+static vb choose_space(struct lanes *c, vb m)
+{
+    if (!c->frame->has_clear) {
+        return m;
+    }
+    const float through = c->through_0[first_lane(m)];
+    c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
+    return m & (c->through_0 == through);
+}
+
+/* `through`: of the lanes that ask. */
+static void cell_split(struct lanes *c, int32_t index, float through)
 {
     struct machine v;
-    const struct cell parent = c->cells.at[index];
+    const vf asked = c->through_0;
+    const struct cell parent = c->cells->at[index];
     struct drop *drops = aligned_alloc(sizeof(vf), (parent.count + 1) * sizeof *drops);
-    const int32_t children = (int32_t)c->cells.count;
+    const int32_t children = (int32_t)c->cells->count;
     const float half = 0.5f * parent.half;
     if (!drops) {
         abort();
     }
+    c->through_0 = vf_all(through);
     for (int k = 0; k < 8; k++) {
-        struct cell *child = cell_add(&c->cells);
+        struct cell *child = cell_add(c->cells);
         *child = (struct cell){.half = half, .parent = index};
         for (int i = 0; i < 3; i++) {
             child->centre[i] = parent.centre[i] + (k >> i & 1 ? half : -half);
@@ -146,26 +165,27 @@ static void cell_split(struct lanes *c, int32_t index)
         vf centre[3] = {0};
         for (int k = 0; k < LANES; k++) {
             for (int i = 0; i < 3; i++) {
-                centre[i][k] = c->cells.at[children + first + (k & 7)].centre[i];
+                centre[i][k] = c->cells->at[children + first + (k & 7)].centre[i];
             }
         }
         machine_of(&v, c, vb_all(true), centre);
         v.drops = drops;
         v.radius = LOOSE * half * 1.7320508f;
-        run(&v, c->cells.tapes + parent.tape, parent.count);
+        run(&v, c->cells->tapes + parent.tape, parent.count);
         for (int k = 0; k < LANES && first + k < 8; k++) {
-            struct cell *child = &c->cells.at[children + first + k];
+            struct cell *child = &c->cells->at[children + first + k];
             make_tape(c, &parent, drops, k, child);
         }
     }
-    c->cells.at[index].children = children;
+    c->cells->at[index].children = children;
+    c->through_0 = asked;
     free(drops);
 }
 
 /* Whether smaller cubes would be worth it. */
 static bool cell_splits(const struct lanes *c, const struct cell *cell)
 {
-    if (cell->children || cell->count <= CELL_SHORT || c->cells.count > CELL_LIMIT) {
+    if (cell->children || cell->count <= CELL_SHORT || c->cells->count > CELL_LIMIT) {
         return cell->children != 0;
     }
     float square = 0;
@@ -178,19 +198,11 @@ static bool cell_splits(const struct lanes *c, const struct cell *cell)
            2.0f * CELL_PIXELS * c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
 }
 
-static int first_lane(vb m)
-{
-    int lane = 0;
-    while (lane < LANES - 1 && !m[lane]) {
-        lane++;
-    }
-    return lane;
-}
-
 /* A cube for the first of these lanes, and those that it holds. The root holds everything. */
 static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_lanes)
 {
-    struct cells *cells = &c->cells;
+    m = choose_space(c, m);
+    struct cells *cells = c->cells;
     int32_t at = cells->last;
     const int lane = first_lane(m);
     vb held = cell_lanes(&cells->at[at], m, p);
@@ -207,7 +219,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
     }
     while (cell_splits(c, &cells->at[at])) {
         if (!cells->at[at].children) {
-            cell_split(c, at);
+            cell_split(c, at, c->through_0[lane]);
         }
         const struct cell *cell = &cells->at[at];
         int child = cell->children;

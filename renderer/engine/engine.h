@@ -3,7 +3,8 @@
  * and an interpreter of field programs. Where the device is software this takes a part of the time,
  * and nothing is compiled for a scene.
  *
- * Immutable scenes; tiles of one may be drawn by several threads at once. */
+ * A program is immutable, and may be used by several threads. Other calls are of one thread; those
+ * that draw start threads of their own. */
 #ifndef RENDERER_ENGINE_H
 #define RENDERER_ENGINE_H
 
@@ -37,11 +38,41 @@ struct engine_picture {
     const struct frame_block *frame;
     const struct engine_sky *skies[ENGINE_SKIES];
     enum engine_smoothing smoothing;
-    int samples, rays;
+    int samples;          /* of a pixel */
+    int rays;             /* of a sample after the first */
+    int clear_depth;      /* surfaces that light goes through; 0: none */
+    bool shadows, lights; /* whether they are wanted */
+    bool linear;          /* light is not tone mapped */
 };
 
-/* Draws pixels x, y to x + width, y + height: four bytes each, rows `stride` bytes apart. */
-void engine_draw(const struct engine_picture *picture, int x, int y, int width, int height,
-                 uint8_t *out, size_t stride);
+/* What a picture keeps between its tiles: cubes of space with what matters in each, and sums of
+ * samples. */
+struct engine_canvas;
+
+/* Where pixels of an output go. */
+struct engine_output {
+    enum output kind;
+    int channels; /* of a pixel */
+    bool floats;  /* else bytes */
+    uint8_t *pixels;
+    size_t stride; /* bytes from row to row */
+};
+
+struct engine_rect {
+    int x, y, width, height;
+};
+
+/* `picture` is copied; what it points to stays until the canvas is destroyed. */
+struct engine_canvas *engine_canvas_create(const struct engine_picture *picture);
+/* Sums of samples are kept for the pixels of `region`, so that tiles can be drawn again with more
+ * of them. */
+void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region);
+void engine_canvas_destroy(struct engine_canvas *canvas);
+
+/* Draws samples `from` to `until` of a tile; those before `from` are kept ones. Where `from` is not
+ * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
+ * at a time. */
+void engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
+                 const struct engine_output *outputs, size_t count);
 
 #endif

@@ -20,7 +20,7 @@ typedef vf after_function(struct lanes *c, vb m, vf d, const vf *p);
 
 #define CALL(type, function) ((type *)(function))
 
-enum { MIXTURE = 11, OPEN_MAX = LIMIT_NODE_DEPTH };
+enum { MIXTURE = SPMD_Mixture, OPEN_MAX = LIMIT_NODE_DEPTH };
 
 struct open {
     vb before;
@@ -257,7 +257,7 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
     while (lanes_any(m)) {
         vb held;
         const struct cell *cell = cell_at(c, m, p, &held);
-        run(machine_of(&v, c, held, p), c->cells.tapes + cell->tape, cell->count);
+        run(machine_of(&v, c, held, p), c->cells->tapes + cell->tape, cell->count);
         d = vf_select(held, v.d[0], d);
         m &= ~held;
     }
@@ -275,7 +275,7 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
         const struct cell *cell = cell_at(c, left, p, &held);
         machine_of(&v, c, held, p);
         v.mixtures = mixtures;
-        run(&v, c->cells.tapes + cell->tape, cell->count);
+        run(&v, c->cells->tapes + cell->tape, cell->count);
         select_all(held, mixtures[0], whole, MIXTURE);
         left &= ~held;
     }

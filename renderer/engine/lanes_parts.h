@@ -66,12 +66,29 @@ struct kernel_row {
     void (*function)(void);
 };
 
+/* Cubes of the whole field, of that without what light goes through, and of that alone. */
+enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
+
+struct engine_canvas {
+    struct engine_picture picture;
+    struct cells cells[ENGINE_THREADS][ENGINE_SPACES]; /* of each thread */
+    struct engine_rect kept;                           /* width 0: nothing is */
+    float *pixels, *counted; /* of the kept: sums of four, and how many samples */
+};
+
+/* One call of engine_draw. */
+struct engine_work {
+    struct engine_rect tile;
+    int from, until;
+    const struct engine_output *outputs;
+    size_t output_count;
+};
+
 struct engine_width {
     int lanes;
     const struct kernel_row *kernels;
     size_t kernel_count;
-    void (*draw)(const struct engine_picture *picture, int x, int y, int width, int height,
-                 uint8_t *out, size_t stride);
+    void (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
 };
 extern const struct engine_width engine_8, engine_4;
 
@@ -91,7 +108,7 @@ struct dispatch_block {
     const struct engine_sky *const *skies;                                                         \
     const float *numbers, *own;                                                                    \
     struct lanes_tile tile;                                                                        \
-    struct cells cells;
+    struct cells *spaces, *cells;
 
 #ifdef LANES
 static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4]);

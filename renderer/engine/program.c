@@ -174,9 +174,3 @@ void engine_program_destroy(struct engine_program *program)
         free(program);
     }
 }
-
-void engine_draw(const struct engine_picture *picture, int x, int y, int width, int height,
-                 uint8_t *out, size_t stride)
-{
-    picture->program->width->draw(picture, x, y, width, height, out, stride);
-}

@@ -1,34 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* Pixels of a tile, LANES at a time, and the threads that take tiles. */
-#include <pthread.h>
-#include <stdatomic.h>
-#include <stdlib.h>
-#include <unistd.h>
-
-#include "lanes_parts.h"
-#include "protocol/memory.h"
+/* Pixels of a small tile, LANES at a time, by a thread with its own memory of them. */
 
 enum {
     TILE = 64,  /* pixels to a side */
     MARGIN = 1, /* around it, by which edges are found */
     SIDE = 72,  /* a multiple of lanes' pixels */
+    BLOCKS = TILE / BLOCK_SIDE + 2, /* to a side, with the margin's */
     ACROSS = 4, /* pixels of a vector: neighbours, because lanes wait for the slowest */
-    THREADS_MAX = 64,
 };
 
-struct region {
-    const struct engine_picture *picture;
-    int x, y, width, height, across, count;
-    uint8_t *out;
-    size_t stride;
-    atomic_int next;
-};
-
-/* A thread's own. */
+/* A thread's own. `left`, `top`: of the tile with its margin, in the picture. */
 struct hand {
     struct lanes lanes;
     struct dispatch_block dispatch;
     struct scene_block scene;
+    const struct engine_canvas *canvas;
+    const struct engine_work *work;
+    int left, top, width, height, margin;
+    float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE];
     int listed[SIDE * SIDE], listed_count;
 };
@@ -42,15 +31,91 @@ static vi count_up(void)
     return lane;
 }
 
+/* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */
+static vi block_of(const struct hand *hand, vi x, vi y)
+{
+    const vi across = ((x + hand->left) >> BLOCK_BITS) - (hand->left >> BLOCK_BITS);
+    const vi down = ((y + hand->top) >> BLOCK_BITS) - (hand->top >> BLOCK_BITS);
+    return down * BLOCKS + across;
+}
+
+static void find_starts(struct hand *hand)
+{
+    const vi lane = count_up();
+    for (int i = 0; i < BLOCKS * BLOCKS; i += LANES) {
+        const vi at = i + lane;
+        const vf block[2] = {(vf)(at % BLOCKS + (hand->left >> BLOCK_BITS)),
+                             (vf)(at / BLOCKS + (hand->top >> BLOCK_BITS))};
+        const vf start = spmd_block_start(&hand->lanes, at < BLOCKS * BLOCKS, block);
+        for (int k = 0; k < LANES && i + k < BLOCKS * BLOCKS; k++) {
+            hand->starts[i + k] = start[k];
+        }
+    }
+}
+
+static uint8_t *place_of(const struct hand *hand, const struct engine_output *output, int x, int y)
+{
+    const struct engine_rect tile = hand->work->tile;
+    const size_t bytes = (size_t)output->channels * (output->floats ? sizeof(float) : 1);
+    return output->pixels + (size_t)(y - tile.y) * output->stride + (size_t)(x - tile.x) * bytes;
+}
+
+static void write_pixel(const struct engine_output *output, uint8_t *to, const vf *color, int lane)
+{
+    for (int k = 0; k < output->channels; k++) {
+        const float value = color[k][lane];
+        if (output->floats) {
+            memcpy(to + (size_t)k * sizeof value, &value, sizeof value);
+        } else {
+            to[k] = (uint8_t)(f_min(f_max(0.0f, value), 1.0f) * 255.0f + 0.5f);
+        }
+    }
+}
+
+static bool is_light(const struct engine_output *output)
+{
+    return output->kind == OUT_COLOR || output->kind == OUT_LINEAR;
+}
+
+/* All outputs but light, of what the first sample of pixels x, y met. */
+static void write_met(struct hand *hand, vb m, vi x, vi y, const vf *met)
+{
+    const int margin = hand->margin;
+    m &= (x >= margin) & (y >= margin) & (x < hand->width - margin) & (y < hand->height - margin);
+    for (size_t o = 0; o < hand->work->output_count; o++) {
+        const struct engine_output *output = &hand->work->outputs[o];
+        vf color[4];
+        if (is_light(output)) {
+            continue;
+        }
+        if (output->kind == OUT_ID_RAW) {
+            color[0] = spmd_id_bits(&hand->lanes, m, met);
+        } else {
+            spmd_output_of(&hand->lanes, m, output->kind, met, color);
+        }
+        for (int i = 0; i < LANES; i++) {
+            if (m[i]) {
+                write_pixel(output, place_of(hand, output, hand->left + x[i], hand->top + y[i]),
+                            color, i);
+            }
+        }
+    }
+}
+
 /* One more sample of LANES pixels of the tile, at x, y of it. */
-static void add_sample(struct hand *hand, const struct engine_picture *picture, vb m, vi x, vi y,
-                       int index)
+static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
 {
     struct lanes *c = &hand->lanes;
-    const vf pixel[2] = {(vf)(x + hand->dispatch.origin[0]), (vf)(y + hand->dispatch.origin[1])};
-    vf total[4] = {0}, geometry[4] = {0}, light[3];
-    spmd_trace(c, m, pixel, index, picture->rays, total, geometry);
-    spmd_shown(c, m, total, light);
+    const struct engine_picture *picture = &hand->canvas->picture;
+    const vf pixel[2] = {(vf)(x + hand->left), (vf)(y + hand->top)};
+    const vf start = lanes_gather(hand->starts, block_of(hand, x, y), m);
+    vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[3];
+    spmd_trace(c, m, pixel, start, index, picture->rays, picture->clear_depth, picture->shadows,
+               picture->lights, total, geometry, met);
+    spmd_shown(c, m, total, picture->linear, light);
+    if (index == 0) {
+        write_met(hand, m, x, y, met);
+    }
     const vi at = y * SIDE + x;
     for (int i = 0; i < LANES; i++) {
         if (!m[i]) {
@@ -67,19 +132,18 @@ static void add_sample(struct hand *hand, const struct engine_picture *picture, 
     }
 }
 
-static void add_to_all(struct hand *hand, const struct engine_picture *picture, int width,
-                       int height, int index)
+static void add_to_all(struct hand *hand, int index)
 {
     const vi lane = count_up();
-    for (int y = 0; y < height; y += LANES / ACROSS) {
-        for (int x = 0; x < width; x += ACROSS) {
+    for (int y = 0; y < hand->height; y += LANES / ACROSS) {
+        for (int x = 0; x < hand->width; x += ACROSS) {
             const vi left = x + lane % ACROSS, top = y + lane / ACROSS;
-            add_sample(hand, picture, (left < width) & (top < height), left, top, index);
+            add_sample(hand, (left < hand->width) & (top < hand->height), left, top, index);
         }
     }
 }
 
-static void add_to_listed(struct hand *hand, const struct engine_picture *picture, int index)
+static void add_to_listed(struct hand *hand, int index)
 {
     const vi lane = count_up();
     for (int i = 0; i < hand->listed_count; i += LANES) {
@@ -87,18 +151,19 @@ static void add_to_listed(struct hand *hand, const struct engine_picture *pictur
         for (int k = 0; k < LANES && i + k < hand->listed_count; k++) {
             at[k] = hand->listed[i + k];
         }
-        add_sample(hand, picture, i + lane < hand->listed_count, at % SIDE, at / SIDE, index);
+        add_sample(hand, i + lane < hand->listed_count, at % SIDE, at / SIDE, index);
     }
 }
 
-static void list_edges(struct hand *hand, int width, int height)
+/* Pixels that are worth more samples, of those that had one. */
+static void list_edges(struct hand *hand)
 {
     const vi lane = count_up();
     hand->listed_count = 0;
-    for (int y = 1; y < height - 1; y++) {
-        for (int x = 1; x < width - 1; x += LANES) {
+    for (int y = 1; y < hand->height - 1; y++) {
+        for (int x = 1; x < hand->width - 1; x += LANES) {
             const vi left = x + lane;
-            const vb m = left < width - 1;
+            const vb m = left < hand->width - 1;
             const vf here[2] = {(vf)vi_select(m, left, vi_all(1)), (vf)vi_all(y)};
             const vb edge = m & spmd_is_edge(&hand->lanes, m, here);
             for (int i = 0; i < LANES; i++) {
@@ -110,111 +175,111 @@ static void list_edges(struct hand *hand, int width, int height)
     }
 }
 
-static void resolve(struct hand *hand, const struct region *region, int left, int top, int width,
-                    int height, int margin)
+/* --- sums that are kept --- */
+
+/* The tile's sums from the canvas, or to it. */
+static void keep(struct hand *hand, bool back)
 {
-    const vi lane = count_up();
-    const bool blend = region->picture->smoothing == ENGINE_BLEND;
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x += LANES) {
-            const vb m = x + lane < width;
-            const vi column = vi_select(m, x + lane, vi_zero);
-            const vf here[2] = {(vf)(column + margin), (vf)vi_all(y + margin)};
-            const vf pixel[2] = {(vf)(column + left), (vf)vi_all(y + top)};
-            vf light[4], color[4];
-            spmd_pixel_light(&hand->lanes, m, here, blend, light);
-            spmd_pixel_color(&hand->lanes, m, light, pixel, color);
-            uint8_t *to = region->out + (size_t)(y + top - region->y) * region->stride +
-                          4 * (size_t)(x + left - region->x);
-            for (int k = 0; k < 4; k++) {
-                const vi bytes = vi_of_f(vf_clamp(color[k], vf_zero, vf_all(1.0f)) * 255.0f + 0.5f);
-                for (int i = 0; i < LANES && x + i < width; i++) {
-                    to[4 * i + k] = (uint8_t)bytes[i];
-                }
+    const struct engine_canvas *canvas = hand->canvas;
+    const struct engine_rect kept = canvas->kept;
+    const int margin = hand->margin, width = hand->width - 2 * margin;
+    for (int y = margin; y < hand->height - margin; y++) {
+        const size_t at = (size_t)(hand->top + y - kept.y) * (size_t)kept.width +
+                          (size_t)(hand->left + margin - kept.x);
+        float *const own[] = {hand->pixels + 4 * (y * SIDE + margin),
+                              hand->counted + y * SIDE + margin};
+        float *const theirs[] = {canvas->pixels + 4 * at, canvas->counted + at};
+        for (int i = 0; i < 2; i++) {
+            const size_t bytes = (size_t)width * (i == 0 ? 4 : 1) * sizeof(float);
+            memcpy(back ? own[i] : theirs[i], back ? theirs[i] : own[i], bytes);
+        }
+    }
+}
+
+/* Those that had `samples`. */
+static void list_again(struct hand *hand, int samples)
+{
+    hand->listed_count = 0;
+    for (int y = 1; y < hand->height - 1; y++) {
+        for (int x = 1; x < hand->width - 1; x++) {
+            if (hand->counted[y * SIDE + x] >= (float)samples) {
+                hand->listed[hand->listed_count++] = y * SIDE + x;
             }
         }
     }
 }
 
-static void draw_tile(struct hand *hand, const struct region *region, int index)
-{
-    const struct engine_picture *picture = region->picture;
-    const bool looks = picture->smoothing == ENGINE_BLEND || picture->smoothing == ENGINE_ADAPTIVE;
-    const int margin = looks ? MARGIN : 0;
-    const int left = region->x + index % region->across * TILE;
-    const int top = region->y + index / region->across * TILE;
-    const int right = region->x + region->width, bottom = region->y + region->height;
-    const int width = left + TILE < right ? TILE : right - left;
-    const int height = top + TILE < bottom ? TILE : bottom - top;
+/* --- a tile --- */
 
-    hand->dispatch.origin[0] = left - margin;
-    hand->dispatch.origin[1] = top - margin;
-    memset(hand->pixels, 0, sizeof hand->pixels);
-    memset(hand->counted, 0, sizeof hand->counted);
-    add_to_all(hand, picture, width + 2 * margin, height + 2 * margin, 0);
-    if (picture->smoothing == ENGINE_ADAPTIVE) {
-        list_edges(hand, width + 2 * margin, height + 2 * margin);
-    }
-    for (int i = 1; i < picture->samples; i++) {
-        if (picture->smoothing == ENGINE_ADAPTIVE) {
-            add_to_listed(hand, picture, i);
-        } else {
-            add_to_all(hand, picture, width + 2 * margin, height + 2 * margin, i);
+static void write_light(struct hand *hand, const struct engine_output *output)
+{
+    const vi lane = count_up();
+    const bool blend = hand->canvas->picture.smoothing == ENGINE_BLEND;
+    const int right = hand->width - hand->margin;
+    for (int y = hand->margin; y < hand->height - hand->margin; y++) {
+        for (int x = hand->margin; x < right; x += LANES) {
+            const vb m = x + lane < right;
+            const vi column = vi_select(m, x + lane, vi_all(x));
+            const vf here[2] = {(vf)column, (vf)vi_all(y)};
+            const vf pixel[2] = {(vf)(column + hand->left), (vf)vi_all(y + hand->top)};
+            vf light[4], color[4];
+            spmd_pixel_light(&hand->lanes, m, here, blend, light);
+            if (output->kind == OUT_COLOR) {
+                spmd_pixel_color(&hand->lanes, m, light, pixel, color);
+            } else {
+                memcpy(color, light, sizeof color);
+            }
+            for (int i = 0; i < LANES && m[i]; i++) {
+                write_pixel(output, place_of(hand, output, hand->left + x + i, hand->top + y),
+                            color, i);
+            }
         }
     }
-    resolve(hand, region, left, top, width, height, margin);
 }
 
-static void *work(void *argument)
+static void draw_samples(struct hand *hand)
 {
-    struct region *region = argument;
-    struct hand *hand = aligned_alloc(64, (sizeof *hand + 63) / 64 * 64);
-    if (!hand) {
-        abort();
+    const struct engine_work *work = hand->work;
+    const bool few = hand->canvas->picture.smoothing == ENGINE_ADAPTIVE;
+    int index = work->from;
+    if (index == 0) {
+        memset(hand->pixels, 0, sizeof hand->pixels);
+        memset(hand->counted, 0, sizeof hand->counted);
+        add_to_all(hand, index++);
+        if (few && work->until > 1) {
+            list_edges(hand);
+        }
+    } else {
+        keep(hand, true);
+        list_again(hand, index);
     }
-    memset(hand, 0, sizeof *hand);
-    hand->scene.material_base = region->picture->program->scene.material_base;
-    hand->scene.material_stride = region->picture->program->scene.material_stride;
-    struct lanes *c = &hand->lanes;
-    c->program = region->picture->program;
-    c->frame = region->picture->frame;
-    c->dispatch = &hand->dispatch;
-    c->scene = &hand->scene;
-    c->skies = region->picture->skies;
-    c->numbers = region->picture->numbers;
-    c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
-    cells_begin(c);
-    for (int i = atomic_fetch_add(&region->next, 1); i < region->count;
-         i = atomic_fetch_add(&region->next, 1)) {
-        draw_tile(hand, region, i);
+    for (; index < work->until; index++) {
+        if (few) {
+            add_to_listed(hand, index);
+        } else {
+            add_to_all(hand, index);
+        }
     }
-    cells_end(&c->cells);
-    free(hand);
-    return NULL;
 }
 
-static void draw(const struct engine_picture *picture, int x, int y, int width, int height,
-                 uint8_t *out, size_t stride)
+/* Pixels x, y to x + width, y + height of the picture. */
+static void draw_tile(struct hand *hand, int x, int y, int width, int height)
 {
-    struct region region = {.picture = picture,
-                            .x = x,
-                            .y = y,
-                            .width = width,
-                            .height = height,
-                            .out = out,
-                            .stride = stride};
-    pthread_t threads[THREADS_MAX];
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    int started = 0;
-    region.across = (width + TILE - 1) / TILE;
-    region.count = region.across * ((height + TILE - 1) / TILE);
-    atomic_init(&region.next, 0);
-    while (started + 1 < cores && started + 1 < region.count && started < THREADS_MAX &&
-           pthread_create(&threads[started], NULL, work, &region) == 0) {
-        started++;
+    const enum engine_smoothing smoothing = hand->canvas->picture.smoothing;
+    const int margin = smoothing == ENGINE_BLEND || smoothing == ENGINE_ADAPTIVE ? MARGIN : 0;
+    hand->left = hand->dispatch.origin[0] = x - margin;
+    hand->top = hand->dispatch.origin[1] = y - margin;
+    hand->width = width + 2 * margin;
+    hand->height = height + 2 * margin;
+    hand->margin = margin;
+    find_starts(hand);
+    draw_samples(hand);
+    for (size_t i = 0; i < hand->work->output_count; i++) {
+        if (is_light(&hand->work->outputs[i])) {
+            write_light(hand, &hand->work->outputs[i]);
+        }
     }
-    work(&region);
-    while (started > 0) {
-        pthread_join(threads[--started], NULL);
+    if (hand->canvas->kept.width > 0) {
+        keep(hand, false);
     }
 }

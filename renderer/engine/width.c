@@ -9,6 +9,8 @@
 #include "interpret.c"
 #include "tile.c"
 
+#include "threads.c"
+
 #define KERNEL(type, choices, kind, function)                                                      \
     {type, choices, KERNEL_##kind, (void (*)(void))function},
 static const struct kernel_row kernels[] = {

@@ -16,6 +16,16 @@ Ray camera_ray(vec2 at)
     return Ray(frame.eye, normalize(frame.forward + aside), 0.0, false, 0.0);
 }
 
+/* Radius of a block's cone in footprints, which are half a pixel: from the block's middle to its
+ * corners. */
+#define BLOCK_CONE 11.5
+
+/* The ray in the middle of BLOCK_SIDE x BLOCK_SIDE pixels. */
+Ray block_ray(ivec2 block)
+{
+    return camera_ray(vec2(block * BLOCK_SIDE + BLOCK_SIDE / 2));
+}
+
 /* Where in its pixel sample i lies, in 0..1: the first in the middle, the others so that any number
  * of them is spread evenly, also along each axis (Roberts: The unreasonable effectiveness of
  * quasirandom sequences, 2018). */

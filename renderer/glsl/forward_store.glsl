@@ -3,7 +3,7 @@
 
 #include "ray.glsl"
 
-float seen_lights[LIMIT_LIGHTS];
+vec3 seen_lights[LIMIT_LIGHTS];
 float seen_open;
 
 void store_openness(float open)
@@ -13,12 +13,17 @@ void store_openness(float open)
 
 void store_visibility(int light, float seen, float open)
 {
-    seen_lights[light] = seen;
+    seen_lights[light] = vec3(seen);
+}
+
+void dim_visibility(int light, float part)
+{
+    seen_lights[light] *= part;
 }
 
 vec3 visibility_of(ivec2 here, int light)
 {
-    return vec3(seen_lights[light]);
+    return seen_lights[light];
 }
 
 Waiting stacked[STACK_DEPTH];

@@ -14,7 +14,7 @@ static const struct {
 } constants[] = {
     SKY_KINDS(CONSTANT) SHADOW_KINDS(CONSTANT) DENSITY_KINDS(CONSTANT) TONE_MAPS(CONSTANT)
     LIGHT_KINDS(CONSTANT) VOLUME_KINDS(CONSTANT) SURFACE_MODELS(CONSTANT) FRAME_EFFECTS(CONSTANT)
-    PASS_MODES(CONSTANT) CLEAR_PHASES(CONSTANT)
+    PASS_MODES(CONSTANT) CLEAR_PHASES(CONSTANT) OUTPUTS(CONSTANT)
     UNIFORM_BLOCKS(CONSTANT) STORAGE_BLOCKS(CONSTANT) TEXTURE_UNITS(CONSTANT)
     FIELD_IMAGES(CONSTANT) COMMON_IMAGES(CONSTANT) ENVIRONMENT_IMAGES(CONSTANT)
     CONSTANT(LIMIT_LIGHTS) CONSTANT(LIMIT_VOLUMES)
@@ -47,10 +47,14 @@ void interface_write(FILE *out)
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
         fprintf(out, "#define %s %d\n", constants[i].name, constants[i].value);
     }
-    fprintf(out, "const vec3 steps_colors[STEPS_COLORS] = vec3[](");
+    fprintf(out, "vec3 steps_color_at(int i)\n{\n    return ");
     for (int i = 0; i < STEPS_COLORS; i++) {
         const unsigned char *c = steps_colors[i];
-        fprintf(out, "%svec3(%d.0, %d.0, %d.0) / 255.0", i ? ", " : "", c[0], c[1], c[2]);
+        if (i < STEPS_COLORS - 1) {
+            fprintf(out, "i == %d ? ", i);
+        }
+        fprintf(out, "vec3(%d.0, %d.0, %d.0) / 255.0", c[0], c[1], c[2]);
+        fprintf(out, i < STEPS_COLORS - 1 ? " : " : ";\n}\n");
     }
-    fprintf(out, ");\n%s", structs);
+    fputs(structs, out);
 }

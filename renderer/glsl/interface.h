@@ -39,6 +39,29 @@
     X(CLEAR_STEP) /* through the surface that it met */                                            \
     X(CLEAR_END)  /* the same for the last time */
 
+/* What becomes of a pixel: outputs.glsl. RAW: numbers, instead of colours for a screen. */
+#define OUTPUTS(X)                                                                                 \
+    X(OUT_COLOR)                                                                                   \
+    X(OUT_LINEAR)                                                                                  \
+    X(OUT_DEPTH)                                                                                   \
+    X(OUT_NORMAL)                                                                                  \
+    X(OUT_NORMAL_RAW)                                                                              \
+    X(OUT_POSITION)                                                                                \
+    X(OUT_ID)                                                                                      \
+    X(OUT_ID_RAW)                                                                                  \
+    X(OUT_STEPS)                                                                                   \
+    X(OUT_STEPS_RAW)                                                                               \
+    X(OUT_ALBEDO)                                                                                  \
+    X(OUT_ALBEDO_RAW)                                                                              \
+    X(OUT_SPECULAR)                                                                                \
+    X(OUT_SPECULAR_RAW)                                                                            \
+    X(OUT_OPTICAL)                                                                                 \
+    X(OUT_OPTICAL_RAW)                                                                             \
+    X(OUT_SHADOW)                                                                                  \
+    X(OUT_SHADOW_RAW)                                                                              \
+    X(OUT_OCCLUSION)                                                                               \
+    X(OUT_OCCLUSION_RAW)
+
 /* --- bindings --- */
 
 #define UNIFORM_BLOCKS(X) X(BINDING_FRAME) X(BINDING_NUMBERS)
@@ -203,6 +226,7 @@ enum surface_model { SURFACE_MODELS(INTERFACE_NAME) };
 enum { FRAME_EFFECTS(INTERFACE_VALUE) };
 enum pass_mode { PASS_MODES(INTERFACE_NAME) };
 enum { CLEAR_PHASES(INTERFACE_NAME) };
+enum output { OUTPUTS(INTERFACE_NAME) OUTPUT_COUNT };
 enum { UNIFORM_BLOCKS(INTERFACE_NAME) };
 enum { STORAGE_BLOCKS(INTERFACE_NAME) };
 enum { TEXTURE_UNITS(INTERFACE_NAME) UNIT_COUNT };

@@ -10,23 +10,18 @@ layout(rgba32f, binding = IMAGE_GEOMETRY) writeonly uniform image2D out_geometry
 layout(rg32f, binding = IMAGE_STEPS) writeonly uniform image2D out_steps; /* y: curvature */
 layout(r32f, binding = IMAGE_STARTS) uniform image2D starts; /* one value for each block */
 
-/* Radius of a block's cone in footprints, which are half a pixel: from the block's middle to its
- * corners. */
-#define CONE 11.5
-
 void main()
 {
     preload();
     ivec2 here = group_place();
     bool coarse = dispatch.mode == PASS_COARSE, first = args.first == 1 && frame.lens_radius == 0.0;
     ivec2 block = ((dispatch.origin + here) >> BLOCK_BITS) - (dispatch.origin >> BLOCK_BITS);
-    ivec2 centre = ((dispatch.origin >> BLOCK_BITS) + here) * BLOCK_SIDE + BLOCK_SIDE / 2;
     Ray ray = ray_load(here);
     float start = first && !coarse ? imageLoad(starts, block).x : 0.0;
     if (coarse) {
-        ray = camera_ray(vec2(centre));
+        ray = block_ray((dispatch.origin >> BLOCK_BITS) + here);
     }
-    Hit found = march(ray, start, coarse ? CONE : 0.0, here.x < 0 ? 0 : frame.max_steps);
+    Hit found = march(ray, start, coarse ? BLOCK_CONE : 0.0, here.x < 0 ? 0 : frame.max_steps);
 
     if (coarse) {
         imageStore(starts, here, vec4(found.free));

@@ -313,9 +313,20 @@ bool spmd_emit(struct tree *tree, const char *const *entries, size_t count, FILE
     return e.ok;
 }
 
+/* How many components each struct has, in the order of its members. */
+static void emit_sizes(struct emit *e)
+{
+    for (int i = 0; i < e->tree->struct_count; i++) {
+        const struct type type = {.base = BASE_STRUCT, .rows = (uint8_t)i};
+        emit_line(e, "enum { SPMD_%s = %d };", e->tree->structs[i].name->text,
+                  spmd_components(e->tree, type));
+    }
+}
+
 bool spmd_emit_header(struct tree *tree, const char *const *entries, size_t count, FILE *out)
 {
     struct emit e = begin(tree, entries, count, out);
+    emit_sizes(&e);
     emit_globals(&e);
     for (struct function *f = tree->called; f && e.ok; f = f->next_called) {
         emit_door_head(&e, f);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Between our C and the C written here. spmd_NAME is what either calls of the other: one component
  * is passed as it is, several as an array of vf, whatever they are, and what comes back of several
- * goes into an array as well. */
+ * goes into an array as well. Results are vectors, also where all lanes have the same. */
 #include "emit.h"
 
 /* vf[] from or to a component of another base: the same bits. */
@@ -21,8 +21,7 @@ static void door_head(struct emit *e, const struct function *f, const char *end)
     const int count = spmd_components(e->tree, f->result);
     int i = 0;
     fprintf(e->out, "static %s %s(struct lanes *c, vb m",
-            count == 1 ? emit_type(spmd_base(e->tree, f->result, 0), f->varying) : "void",
-            name_of(e, f));
+            count == 1 ? emit_type(spmd_base(e->tree, f->result, 0), true) : "void", name_of(e, f));
     for (const struct variable *p = f->parameters; p; p = p->next, i++) {
         if (p->direction != DIRECTION_IN) {
             fprintf(e->out, ", vf *a%d", i);
@@ -33,6 +32,13 @@ static void door_head(struct emit *e, const struct function *f, const char *end)
         }
     }
     fprintf(e->out, count > 1 ? ", vf *result)%s\n" : ")%s\n", end);
+}
+
+/* Of a call of a function with one component. */
+static struct component result_of(const struct emit *e, const struct function *f, const char *call)
+{
+    return (struct component){
+        .text = call, .base = spmd_base(e->tree, f->result, 0), .varying = f->varying};
 }
 
 /* For our C to call an entry. */
@@ -60,7 +66,12 @@ static void emit_way_in(struct emit *e, const struct function *f)
         emit_line(e, "%s r_%d;", emit_type(spmd_base(e->tree, f->result, i), true), i);
         list = emit_text(e, "%s, &r_%d", list, i);
     }
-    emit_line(e, "%s%s(%s);", count == 1 ? "return " : "", emit_function_name(e, f), list);
+    const char *call = emit_text(e, "%s(%s)", emit_function_name(e, f), list);
+    if (count == 1) {
+        emit_line(e, "return %s;", emit_spread(e, result_of(e, f, call)).text);
+    } else {
+        emit_line(e, "%s;", call);
+    }
     for (int i = 0; count > 1 && i < count; i++) {
         emit_line(e, "result[%d] = (vf)r_%d;", i, i);
     }

@@ -23,6 +23,10 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
                      struct error *err);
 
+/* An example with the file that it names. NULL and `err` when it is no scene. */
+struct resident *bench_open(struct renderer *renderer, const struct embedded *example,
+                            struct error *err);
+
 /* One picture, for its times alone. */
 bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
                 struct job_times *out_times, struct error *err);
@@ -31,10 +35,10 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
 bool bench_medians(struct renderer *renderer, struct resident *resident,
                    const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
-/* Both ways to the same picture of one sample for each pixel: passes over what the rays met, and
- * one program from the camera to the light. */
-bool bench_compare(struct renderer *renderer, struct resident *resident,
-                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
+/* `engine_ratio`: what a picture takes by compute shaders, by what it takes by the engine; 1 where
+ * the scene has users' code, which the device draws in both cases. */
+bool bench_stages(struct renderer *renderer, const struct embedded *example,
+                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
 /* `effects_off_ratio`: what the example takes with reflections and refractions off, by what it
  * takes where no material asks for any. */

@@ -70,25 +70,57 @@ bool bench_medians(struct renderer *renderer, struct resident *resident,
     return ok;
 }
 
-bool bench_compare(struct renderer *renderer, struct resident *resident,
-                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+/* Turn by turn, since machines are quicker now and then. */
+static bool time_both(struct renderer *renderer, struct resident *const both[2],
+                      const struct job_desc *desc, int rounds, double *ratios, struct error *err)
 {
-    struct job_desc other = *desc;
-    cJSON *passes = cJSON_CreateObject(), *at_once = cJSON_CreateObject();
-    other.level = QUALITY_STILL;
-    other.samples = 1;
-    bool ok = bench_medians(renderer, resident, &other, rounds, passes, err);
-    other.from_camera = true;
-    ok = ok && bench_medians(renderer, resident, &other, rounds, at_once, err);
-    if (ok) {
-        bench_add(row, "by_passes_ms", bench_number(passes, "ms"));
-        bench_add(row, "from_camera_ms", bench_number(at_once, "ms"));
-        bench_add(row, "from_camera_ratio",
-                  bench_number(at_once, "ms") / bench_number(passes, "ms"));
+    for (int i = -1; i < rounds; i++) { /* the first one only warms up */
+        double ms[2];
+        for (int j = 0; j < 2; j++) {
+            struct job_times times;
+            const int64_t start = clock_us();
+            if (!bench_draw(renderer, both[j], desc, &times, err)) {
+                return false;
+            }
+            ms[j] = bench_ms_since(start);
+        }
+        ratios[i < 0 ? 0 : i] = ms[0] / ms[1];
     }
-    cJSON_Delete(passes);
-    cJSON_Delete(at_once);
+    return true;
+}
+
+/* Adds the median of the times of the first by those of the second; destroys both. */
+static bool compare(struct renderer *renderer, struct resident *const both[2],
+                    const struct job_desc *desc, int rounds, const char *name, cJSON *row,
+                    struct error *err)
+{
+    double *ratios = memory_alloc((size_t)rounds, sizeof *ratios);
+    const bool ok = both[0] && both[1] && time_both(renderer, both, desc, rounds, ratios, err);
+
+    if (ok) {
+        bench_add(row, name, bench_quantile(ratios, (size_t)rounds, 0.5));
+    }
+    resident_destroy(both[0]);
+    resident_destroy(both[1]);
+    free(ratios);
     return ok;
+}
+
+/* --- what computes pictures --- */
+
+bool bench_stages(struct renderer *renderer, const struct embedded *example,
+                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+{
+    static const enum render_stage stages[] = {RENDER_COMPUTE, RENDER_ENGINE};
+    const enum render_stage before = renderer_info(renderer)->stage;
+    struct resident *both[2];
+
+    for (int i = 0; i < 2; i++) {
+        renderer_use_stage(renderer, stages[i]);
+        both[i] = bench_open(renderer, example, err);
+    }
+    renderer_use_stage(renderer, before);
+    return compare(renderer, both, desc, rounds, "engine_ratio", row, err);
 }
 
 /* --- what effects cost where they are switched off --- */
@@ -127,46 +159,18 @@ static void switch_off(cJSON *json)
     }
 }
 
-/* Turn by turn, since machines are quicker now and then. */
-static bool time_both(struct renderer *renderer, struct resident *const both[2], int rounds,
-                      double *ratios, struct error *err)
-{
-    const struct job_desc desc = {
-        .width = 640, .height = 360, .level = QUALITY_STILL, .samples = 1, .exact = true};
-
-    for (int i = -1; i < rounds; i++) { /* the first one only warms up */
-        double ms[2];
-        for (int j = 0; j < 2; j++) {
-            struct job_times times;
-            const int64_t start = clock_us();
-            if (!bench_draw(renderer, both[j], &desc, &times, err)) {
-                return false;
-            }
-            ms[j] = bench_ms_since(start);
-        }
-        ratios[i < 0 ? 0 : i] = ms[0] / ms[1];
-    }
-    return true;
-}
-
 bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
                    cJSON *row, struct error *err)
 {
+    const struct job_desc desc = {
+        .width = 640, .height = 360, .level = QUALITY_STILL, .samples = 1, .exact = true};
     cJSON *off = json_parse((const char *)example->bytes, example->length, err);
     cJSON *matt = cJSON_Duplicate(off, true);
-    double *ratios = memory_alloc((size_t)rounds, sizeof *ratios);
 
     make_matt(matt);
     switch_off(off);
     struct resident *const both[] = {open_text(renderer, off, err), open_text(renderer, matt, err)};
-    const bool ok = both[0] && both[1] && time_both(renderer, both, rounds, ratios, err);
-    if (ok) {
-        bench_add(row, "effects_off_ratio", bench_quantile(ratios, (size_t)rounds, 0.5));
-    }
-    resident_destroy(both[0]);
-    resident_destroy(both[1]);
-    free(ratios);
     cJSON_Delete(off);
     cJSON_Delete(matt);
-    return ok;
+    return compare(renderer, both, &desc, rounds, "effects_off_ratio", row, err);
 }

@@ -117,8 +117,8 @@ static cJSON *describe(const struct task *task, struct error *err)
     return row;
 }
 
-static struct resident *open_example(struct renderer *renderer, const struct embedded *example,
-                                     struct error *err)
+struct resident *bench_open(struct renderer *renderer, const struct embedded *example,
+                            struct error *err)
 {
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, err);
     if (scene) {
@@ -142,7 +142,7 @@ static cJSON *measure_first(const struct task *task, struct error *err)
     }
     if (other && bench_draw(renderer, other, &desc, &times, err)) {
         int64_t start = clock_us();
-        resident = open_example(renderer, task->example, err);
+        resident = bench_open(renderer, task->example, err);
         if (resident && bench_draw(renderer, resident, &desc, &times, err)) {
             row = cJSON_CreateObject();
             bench_add(row, "ms", bench_ms_since(start));
@@ -188,13 +188,14 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
 /* --- pictures --- */
 
 static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
-                           const struct job_desc *desc, int rounds, struct error *err)
+                           const struct job_desc *desc, const struct task *task, struct error *err)
 {
     cJSON *row = cJSON_CreateObject();
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    if (!bench_medians(renderer, resident, desc, rounds, row, err) ||
-        !bench_compare(renderer, resident, desc, rounds, row, err)) {
+    if (!bench_medians(renderer, resident, desc, task->rounds, row, err) ||
+        (renderer_info(renderer)->software &&
+         !bench_stages(renderer, task->example, desc, task->rounds, row, err))) {
         cJSON_Delete(row);
         return NULL;
     }
@@ -230,8 +231,8 @@ static cJSON *measure_encoders(const struct image *image, int rounds, struct err
     return rows;
 }
 
-static bool add_pictures(struct renderer *renderer, struct resident *resident, int rounds,
-                         cJSON *row, struct error *err)
+static bool add_pictures(struct renderer *renderer, struct resident *resident,
+                         const struct task *task, cJSON *row, struct error *err)
 {
     struct job_desc desc = {.level = QUALITY_INTERACTIVE, .exact = true};
     struct image image = {0};
@@ -239,14 +240,14 @@ static bool add_pictures(struct renderer *renderer, struct resident *resident, i
     for (size_t i = 0; i < SIZE_COUNT; i++) {
         desc.width = sizes[i].width;
         desc.height = sizes[i].height;
-        cJSON *item = measure_size(renderer, resident, &desc, rounds, err);
+        cJSON *item = measure_size(renderer, resident, &desc, task, err);
         if (!item) {
             return false;
         }
         cJSON_AddItemToArray(pictures, item);
     }
     if (renderer_render(resident, &desc, &image, err)) {
-        encoders = measure_encoders(&image, rounds, err);
+        encoders = measure_encoders(&image, task->rounds, err);
         cJSON_AddItemToObject(row, "encoders", encoders);
     }
     image_finish(&image);
@@ -257,12 +258,12 @@ static cJSON *measure_pictures(const struct task *task, struct error *err)
 {
     cJSON *row = cJSON_CreateObject();
     struct renderer *renderer = renderer_create(task->params, err);
-    struct resident *resident = renderer ? open_example(renderer, task->example, err) : NULL;
+    struct resident *resident = renderer ? bench_open(renderer, task->example, err) : NULL;
     bool ok = resident;
     if (ok) {
         cJSON_AddStringToObject(row, "example", task->example->path);
         cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
-        ok = add_pictures(renderer, resident, task->rounds, row, err) &&
+        ok = add_pictures(renderer, resident, task, row, err) &&
              bench_effects(renderer, task->example, task->rounds, row, err) &&
              bench_edits(resident, row, err);
     }

@@ -54,8 +54,9 @@ static const char *confine_choice(size_t index)
 
 static const char *stage_choice(size_t index)
 {
-    static const char *const words[] = {[RENDER_COMPUTE] = "compute", [RENDER_ENGINE] = "engine"};
-    return word_of(words, 2, index);
+    static const char *const words[] = {
+        [RENDER_AUTO] = "auto", [RENDER_COMPUTE] = "compute", [RENDER_ENGINE] = "engine"};
+    return word_of(words, sizeof words / sizeof words[0], index);
 }
 
 static const char *switch_choice(size_t index)
@@ -145,10 +146,10 @@ static const struct option_row table[OPTION_COUNT] = {
         .min = -1, .max = 255, .commands = DRAWING, .stored = true,
         .doc = "Which device, counted as `fieldcast doctor` lists them; -1 takes the best."},
     [OPTION_STAGE] = {"stage", 0, "WORD", OPTION_CHOICE, .choice = stage_choice,
-        .fallback = "compute", .commands = DRAWING, .stored = true,
+        .fallback = "auto", .commands = DRAWING, .stored = true,
         .doc = "What computes pictures: `compute`, shaders of the device; `engine`, vectors of the "
-               "processors, for machines without a GPU. Smoke, light through clear things, users' "
-               "code and outputs other than color are the device's in any case."},
+               "processors; `auto` takes the engine where the device is no GPU. Scenes with users' "
+               "code are drawn by the device in any case."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
         .doc = "Where compiled shaders are kept."},

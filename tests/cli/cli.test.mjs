@@ -446,9 +446,8 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
             [1280, 720],
         ],
     );
-    for (const { ms, stages_ms: stages, ...ways } of row.pictures) {
-        assert.ok(stages.march > 0 && stages.shadow > 0 && stages.shade > 0);
-        assert.ok(Math.abs(ways.from_camera_ratio - ways.from_camera_ms / ways.by_passes_ms) < 0.01);
+    for (const { ms, stages_ms: stages, engine_ratio: engine } of row.pictures) {
+        assert.ok(stages.shade > 0 && engine > 0);
         assert.ok(Object.values(stages).reduce((a, b) => a + b) < 1.05 * ms, 'stages are parts of the whole');
     }
     // The example has nothing that mirrors, so both are the same picture; ratios of noise are wide.

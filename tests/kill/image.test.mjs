@@ -57,9 +57,9 @@ const draw = (document) =>
     });
 
 async function start(driver) {
-    const { LD_PRELOAD } = driverEnvironment('null');
+    const { LD_PRELOAD, ...environment } = driverEnvironment('null');
+    Object.assign(process.env, environment);
     process.env.LD_PRELOAD = driver ? `${driver} ${LD_PRELOAD}` : LD_PRELOAD;
-    process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
     process.env.HOSTILE_COUNT = path.join(counts, 'processes');
     daemon = await startDaemon({ tileMs: 5, args: ['--cache', counts] });
     delete process.env.LD_PRELOAD;

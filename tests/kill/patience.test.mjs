@@ -22,7 +22,7 @@ import {
 import { Live } from '../support/live.mjs';
 
 const driver = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
-const { LD_PRELOAD: nothing } = driverEnvironment('null');
+const { LD_PRELOAD: nothing, ...nothingElse } = driverEnvironment('null');
 const CODE = '/primitives/blob/code';
 const ball = (radius) => `float sdf(vec3 p) { return length(p) - ${radius} * blow; }`;
 const GOOD = ball('1.0');
@@ -51,7 +51,7 @@ after(async () => {
 async function start(...args) {
     process.env.LD_PRELOAD = `${driver} ${nothing}`;
     process.env.HOSTILE_COUNT = path.join(folder, `count-${daemons.length}`);
-    process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
+    Object.assign(process.env, nothingElse);
     const daemon = await startDaemon({ args: ['--cache', folder, ...args] });
     delete process.env.LD_PRELOAD;
     daemons.push(daemon);

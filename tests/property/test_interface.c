@@ -156,7 +156,8 @@ static void write_alone(const char *name, char *out, size_t size)
     } rows[] = {{"paths.glsl", store},
                 {"shade.glsl", store},
                 {"shadow.glsl", store},
-                {"volume.glsl", "void dim_visibility(int light, float part) {}\n"}};
+                {"visibility_mean.glsl", store},
+                {"volume.glsl", store}};
     const char *rest = "";
 
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

@@ -22,6 +22,7 @@ static int start(void **state)
 {
     (void)state;
     renderer = drawing_renderer(0);
+    renderer_use_stage(renderer, RENDER_COMPUTE); /* as users' shaders are drawn */
     return 0;
 }
 

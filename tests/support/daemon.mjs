@@ -76,6 +76,7 @@ const driverFile = (name) => path.join(path.dirname(program), `tests/support/dri
 /** What a program needs in its environment to have drivers in front of its own (support/drivers). */
 export const driverEnvironment = (...names) => ({
     LD_PRELOAD: names.map(driverFile).join(' '),
+    FIELDCAST_STAGE: 'compute', // else they have nothing to draw
     ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`,
 });
 

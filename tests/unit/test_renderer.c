@@ -764,9 +764,9 @@ static void test_gpu_asked_for(void **state)
     egl_bind(&renderer->egl, renderer->egl.draw, NULL);
 }
 
-static int set_up(void **state)
+static int set_up(void **state, enum render_stage stage)
 {
-    const struct renderer_params params = {.device = {.index = -1}};
+    const struct renderer_params params = {.device = {.index = -1}, .stage = stage};
     struct error err = {0};
 
     (void)state;
@@ -778,6 +778,16 @@ static int set_up(void **state)
     return 0;
 }
 
+static int set_up_device(void **state)
+{
+    return set_up(state, RENDER_COMPUTE);
+}
+
+static int set_up_engine(void **state)
+{
+    return set_up(state, RENDER_ENGINE);
+}
+
 static int tear_down(void **state)
 {
     (void)state;
@@ -787,7 +797,7 @@ static int tear_down(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    const struct CMUnitTest common[] = {
         cmocka_unit_test(test_tiles_do_not_show),
         cmocka_unit_test(test_edits_and_back),
         cmocka_unit_test(test_numbers_compile_nothing),
@@ -797,18 +807,23 @@ int main(void)
         cmocka_unit_test(test_isolation_follows_edits),
         cmocka_unit_test(test_what_was_never_drawn),
         cmocka_unit_test(test_outputs_together),
-        cmocka_unit_test(test_both_ways),
         cmocka_unit_test(test_pictures_are_not_torn),
-        cmocka_unit_test(test_old_picture_while_compiling),
         cmocka_unit_test(test_cancel),
         cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_picking_agrees),
-        cmocka_unit_test(test_cache),
-        cmocka_unit_test(test_loop_budget),
         cmocka_unit_test(test_too_many_shapes),
         cmocka_unit_test(test_too_much_code),
         cmocka_unit_test(test_gpu_asked_for),
     };
+    /* What only programs do. */
+    const struct CMUnitTest programs[] = {
+        cmocka_unit_test(test_both_ways),
+        cmocka_unit_test(test_old_picture_while_compiling),
+        cmocka_unit_test(test_cache),
+        cmocka_unit_test(test_loop_budget),
+    };
 
-    return cmocka_run_group_tests_name("renderer", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
+           cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +
+           cmocka_run_group_tests_name("engine", common, set_up_engine, tear_down);
 }

@@ -251,7 +251,7 @@ static void test_render_and_edit(void **state)
     assert_true(packet.frame.newest);
     assert_int_equal(packet.frame.width, 80);
     assert_int_equal(packet.frame.codec, CODEC_PNG);
-    assert_true(packet.frame.times.us[FRAME_MARCH] > 0 && packet.frame.times.us[FRAME_ENCODE] > 0);
+    assert_true(packet.frame.times.us[FRAME_SHADE] > 0 && packet.frame.times.us[FRAME_ENCODE] > 0);
     assert_true(picture_read_memory(&first, packet.payload, packet.payload_length));
 
     send_edit(2, ops);

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* Between the files that draw tiles: draw.c, and the two ways to draw one. */
+#ifndef RENDERER_DRAW_PARTS_H
+#define RENDERER_DRAW_PARTS_H
+
+#include "common.h"
+#include "draw.h"
+
+struct draw {
+    const struct gl *gl;
+    bool software;
+    struct targets targets[DRAW_SETS];
+    struct common common;
+    struct pass resolve[OUTPUT_COUNT]; /* linked when first needed */
+    uint64_t compilations;
+    uint64_t rays[DRAW_SETS];
+};
+
+/* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */
+struct draw_backend {
+    bool (*begin)(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                  const struct frame_block *block, struct error *err);
+    void (*end)(struct draw *draw, struct draw_picture *picture);
+    /* Sums of samples are kept between rounds. */
+    void (*keep)(struct draw *draw, struct draw_picture *picture, struct tile region);
+    /* The tile of the slot. */
+    bool (*draw)(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                 int slot, struct error *err);
+    bool (*more)(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
+                 int slot, struct error *err);
+    bool (*wait)(struct draw *draw, struct draw_picture *picture, int slot, struct error *err);
+    bool (*collect)(struct draw *draw, struct draw_picture *picture, int slot, enum aov aov,
+                    uint8_t *to, size_t stride, struct error *err);
+};
+
+extern const struct draw_backend draw_device; /* by compute shaders */
+extern const struct draw_backend draw_engine; /* by renderer/engine */
+
+/* Pixels around a tile that the passes see. */
+int draw_margin(const struct draw_plan *plan);
+/* The last stage that one of the picture's outputs needs. */
+enum program_stage draw_last_stage(const struct draw_picture *picture);
+uint64_t draw_now_us(void);
+
+#endif

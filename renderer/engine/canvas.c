@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+
+#include "lanes_parts.h"
+#include "protocol/memory.h"
+
+struct engine_canvas *engine_canvas_create(const struct engine_picture *picture)
+{
+    struct engine_canvas *canvas = memory_alloc(1, sizeof *canvas);
+
+    canvas->picture = *picture;
+    return canvas;
+}
+
+void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region)
+{
+    const size_t pixels = (size_t)region.width * (size_t)region.height;
+
+    canvas->kept = region;
+    canvas->pixels = memory_alloc(4 * pixels, sizeof *canvas->pixels);
+    canvas->counted = memory_alloc(pixels, sizeof *canvas->counted);
+}
+
+void engine_canvas_destroy(struct engine_canvas *canvas)
+{
+    if (!canvas) {
+        return;
+    }
+    for (int i = 0; i < ENGINE_THREADS; i++) {
+        for (int k = 0; k < ENGINE_SPACES; k++) {
+            free(canvas->cells[i][k].at);
+            free(canvas->cells[i][k].tapes);
+        }
+    }
+    free(canvas->pixels);
+    free(canvas->counted);
+    free(canvas);
+}
+
+void engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
+                 const struct engine_output *outputs, size_t count)
+{
+    const struct engine_work work = {tile, from, until, outputs, count};
+
+    canvas->picture.program->width->draw(canvas, &work);
+}

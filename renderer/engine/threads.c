@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* A thread for each processor takes small tiles of the one that is asked for. */
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+struct crew {
+    struct engine_canvas *canvas;
+    const struct engine_work *work;
+    int across, count; /* small tiles in a row, and all of them */
+    atomic_int next_tile, next_thread;
+};
+
+static struct hand *hand_create(struct crew *crew)
+{
+    const struct engine_picture *picture = &crew->canvas->picture;
+    struct hand *hand = aligned_alloc(64, (sizeof *hand + 63) / 64 * 64);
+    if (!hand) {
+        abort();
+    }
+    memset(hand, 0, sizeof *hand);
+    hand->canvas = crew->canvas;
+    hand->work = crew->work;
+    hand->scene.material_base = picture->program->scene.material_base;
+    hand->scene.material_stride = picture->program->scene.material_stride;
+    struct lanes *c = &hand->lanes;
+    c->program = picture->program;
+    c->frame = picture->frame;
+    c->dispatch = &hand->dispatch;
+    c->scene = &hand->scene;
+    c->skies = picture->skies;
+    c->numbers = picture->numbers;
+    c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
+    c->spaces = crew->canvas->cells[atomic_fetch_add(&crew->next_thread, 1)];
+    for (int i = 0; i < ENGINE_SPACES; i++) {
+        c->cells = &c->spaces[i];
+        cells_begin(c);
+    }
+    c->cells = c->spaces;
+    return hand;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static void *take_tiles(void *argument)
+{
+    struct crew *crew = argument;
+    const struct engine_rect tile = crew->work->tile;
+    struct hand *hand = hand_create(crew);
+    for (int i = atomic_fetch_add(&crew->next_tile, 1); i < crew->count;
+         i = atomic_fetch_add(&crew->next_tile, 1)) {
+        const int x = i % crew->across * TILE, y = i / crew->across * TILE;
+        draw_tile(hand, tile.x + x, tile.y + y, smaller(TILE, tile.width - x),
+                  smaller(TILE, tile.height - y));
+    }
+    free(hand);
+    return NULL;
+}
+
+static void draw(struct engine_canvas *canvas, const struct engine_work *work)
+{
+    struct crew crew = {.canvas = canvas, .work = work};
+    pthread_t threads[ENGINE_THREADS];
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    int started = 0;
+    crew.across = (work->tile.width + TILE - 1) / TILE;
+    crew.count = crew.across * ((work->tile.height + TILE - 1) / TILE);
+    atomic_init(&crew.next_tile, 0);
+    atomic_init(&crew.next_thread, 0);
+    while (started + 1 < cores && started + 1 < crew.count && started < ENGINE_THREADS - 1 &&
+           pthread_create(&threads[started], NULL, take_tiles, &crew) == 0) {
+        started++;
+    }
+    take_tiles(&crew);
+    while (started > 0) {
+        pthread_join(threads[--started], NULL);
+    }
+}
