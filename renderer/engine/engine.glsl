@@ -67,10 +67,10 @@ void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
 }
 
 /* Sample `index` of a pixel, with all rays that follow, `rays` at most: its light and coverage, and
- * what its first ray met, which is free up to `start`. `depth`: of surfaces between that and a light. `looks`, `lights`: whether
- * shadows are wanted, and light. */
-void trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights, out vec4 total,
-           out vec4 geometry_of, out Met met)
+ * what its first ray met, which is free up to `start`. `depth`: of surfaces between that and a
+ * light. `looks`, `lights`: whether shadows are wanted, and light. */
+void trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights,
+           out vec4 total, out vec4 geometry_of, out Met met)
 {
     Ray ray = camera_sample(pixel, index);
     vec4 weight = vec4(1.0, 1.0, 1.0, 0.0);

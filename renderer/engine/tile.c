@@ -2,9 +2,9 @@
 /* Pixels of a small tile, LANES at a time, by a thread with its own memory of them. */
 
 enum {
-    TILE = 64,  /* pixels to a side */
-    MARGIN = 1, /* around it, by which edges are found */
-    SIDE = 72,  /* a multiple of lanes' pixels */
+    TILE = 64,                      /* pixels to a side */
+    MARGIN = 1,                     /* around it, by which edges are found */
+    SIDE = 72,                      /* a multiple of lanes' pixels */
     BLOCKS = TILE / BLOCK_SIDE + 2, /* to a side, with the margin's */
     ACROSS = 4, /* pixels of a vector: neighbours, because lanes wait for the slowest */
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The engine and the device draw the same picture: every example that it draws, and the scenes of
- * golden pictures; and its pictures are the same bytes for every width of vectors. */
+/* The engine and the device draw the same picture of small examples; and the engine's pictures are
+ * the same bytes for every width of vectors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,6 +21,7 @@ enum {
     STEPS = 2,      /* of 255, by which a pixel may differ; */
     PER_MILLE = 10, /* more of them are edges, where one ray meets another surface */
     FRACTAL_PER_MILLE = 60,
+    SMALL_BYTES = 6000, /* of a document; drivers compile larger ones for long */
 };
 
 static struct renderer *open_renderer(enum render_stage stage, int lanes)
@@ -78,20 +79,34 @@ static int bound_of(const struct embedded *example)
     return WIDTH * HEIGHT * (fractal ? FRACTAL_PER_MILLE : PER_MILLE) / 1000;
 }
 
-static void every_example_is_the_same_by_both(void **state)
+/* Others are held against pictures that the device drew: golden/test_reference_pictures. */
+static bool is_small(const struct embedded *example)
+{
+    return example->length <= SMALL_BYTES && !strstr((const char *)example->bytes, "\"volumes\"");
+}
+
+static void small_examples_are_the_same_by_both(void **state)
 {
     struct image *device = calloc(examples_count, sizeof *device);
+    size_t small = 0;
     struct renderer *renderer = open_renderer(RENDER_COMPUTE, 0);
 
     (void)state;
     assert_non_null(device);
     for (size_t i = 0; i < examples_count; i++) {
-        progress("%s by the device", examples_table[i].path);
-        device[i] = draw(renderer, &examples_table[i], 1);
+        if (is_small(&examples_table[i])) {
+            progress("%s by the device", examples_table[i].path);
+            device[i] = draw(renderer, &examples_table[i], 1);
+            small++;
+        }
     }
+    assert_in_range(small, examples_count / 2, examples_count);
     renderer_destroy(renderer);
     renderer = open_renderer(RENDER_ENGINE, 0);
     for (size_t i = 0; i < examples_count; i++) {
+        if (!device[i].pixels) {
+            continue;
+        }
         struct image image = draw(renderer, &examples_table[i], 1);
         const int count = difference(&image, &device[i]);
 
@@ -133,7 +148,8 @@ static void other_pictures_are_noticed(void **state)
 
 static void all_widths_give_the_same_bytes(void **state)
 {
-    static const char *const names[] = {"csg", "snowman", "mirrors", "twist", "repeat-polar"};
+    static const char *const names[] = {"csg",   "snowman",      "mirrors",
+                                        "twist", "repeat-polar", "coloured-glass"};
     enum { NAMES = sizeof names / sizeof names[0] };
     struct image widest[NAMES];
 
@@ -160,7 +176,7 @@ static void all_widths_give_the_same_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_example_is_the_same_by_both),
+        cmocka_unit_test(small_examples_are_the_same_by_both),
         cmocka_unit_test(other_pictures_are_noticed),
         cmocka_unit_test(all_widths_give_the_same_bytes),
     };
