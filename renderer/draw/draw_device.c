@@ -60,7 +60,7 @@ uint64_t draw_compilations(const struct draw *draw)
 
 uint64_t draw_rays(const struct draw *draw)
 {
-    uint64_t together = 0;
+    uint64_t together = draw->engine_rays;
 
     for (int i = 0; i < DRAW_SETS; i++) {
         together += draw->rays[i];

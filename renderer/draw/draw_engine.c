@@ -104,7 +104,6 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
     struct engine_output outputs[AOV_COUNT];
     size_t count = 0;
 
-    (void)draw;
     (void)scene;
     (void)err;
     clear_slot(slot);
@@ -113,7 +112,8 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
             outputs[count++] = make_output(slot, picture->forms[i]);
         }
     }
-    engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
+    draw->engine_rays +=
+        engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
     memset(slot->stage_us, 0, sizeof slot->stage_us);
     slot->stage_us[FRAME_SHADE] = draw_now_us() - start;
     return true;

@@ -13,7 +13,7 @@ struct draw {
     struct common common;
     struct pass resolve[OUTPUT_COUNT]; /* linked when first needed */
     uint64_t compilations;
-    uint64_t rays[DRAW_SETS];
+    uint64_t rays[DRAW_SETS], engine_rays;
 };
 
 /* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */

@@ -160,19 +160,20 @@ static void read_picture(const struct gl *gl, GLuint texture, int width, int hei
                          struct environment *out, int index)
 {
     struct engine_sky *sky = &out->skies[index];
-    size_t count = 0, at = 0;
+    size_t count = 0;
 
+    *sky = (struct engine_sky){.width = width, .height = height, .levels = levels};
     for (int level = 0; level < levels; level++) {
+        sky->starts[level] = count;
         count += texels_of(width, height, level);
     }
-    *sky = (struct engine_sky){.width = width, .height = height, .levels = levels};
     sky->texels = memory_alloc(count, 4 * sizeof *sky->texels);
     out->bytes += count * 4 * sizeof *sky->texels;
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, texture);
     for (int level = 0; level < levels; level++) {
-        gl->GetTexImage(GL_TEXTURE_2D, level, GL_RGBA, GL_FLOAT, sky->texels + 4 * at);
-        at += texels_of(width, height, level);
+        gl->GetTexImage(GL_TEXTURE_2D, level, GL_RGBA, GL_FLOAT,
+                        sky->texels + 4 * sky->starts[level]);
     }
 }
 

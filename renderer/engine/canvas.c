@@ -37,10 +37,10 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
     free(canvas);
 }
 
-void engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
-                 const struct engine_output *outputs, size_t count)
+uint64_t engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
+                     const struct engine_output *outputs, size_t count)
 {
     const struct engine_work work = {tile, from, until, outputs, count};
 
-    canvas->picture.program->width->draw(canvas, &work);
+    return canvas->picture.program->width->draw(canvas, &work);
 }

@@ -4,10 +4,11 @@
  * leaves out changes no bit of the field in the cube, so cubes may be any, and each thread has its
  * own. */
 
-#define LOOSE 1.5f    /* of its half: the points of a vector need not be in one cube */
-#define CELL_PIXELS 4 /* half of the smallest, in footprints */
-#define CELL_SHORT 3  /* such a tape is not made shorter */
-#define CELL_WHOLE 6  /* such a tape is run once for all lanes */
+#define LOOSE 1.5f      /* of its half: the points of a vector need not be in one cube */
+#define CELL_PIXELS 4   /* half of the smallest, in footprints */
+#define CELL_NEAR 0.15f /* half of the smallest, as a part of the distance to a surface */
+#define CELL_SHORT 3    /* such a tape is not made shorter */
+#define CELL_RUN 4      /* operations that take as long as it does to begin a tape */
 #define CELL_LIMIT (1 << 18)
 
 static struct cell *cell_add(struct cells *cells)
@@ -27,11 +28,11 @@ static void tape_room(struct cells *cells, size_t count)
     }
 }
 
-/* The root holds everything, wherever it is asked for. */
+/* The root holds everything, wherever it is asked for. Cubes that are too many are left. */
 static void cells_begin(struct lanes *c)
 {
     struct cells *cells = c->cells;
-    if (cells->count) {
+    if (cells->count && cells->count <= CELL_LIMIT) {
         return; /* the picture's other tiles made them */
     }
     cells->last = 0;
@@ -175,6 +176,7 @@ static void cell_split(struct lanes *c, int32_t index, float through)
         for (int k = 0; k < LANES && first + k < 8; k++) {
             struct cell *child = &c->cells->at[children + first + k];
             make_tape(c, &parent, drops, k, child);
+            child->distance = v.d[0][k];
         }
     }
     c->cells->at[index].children = children;
@@ -194,8 +196,24 @@ static bool cell_splits(const struct lanes *c, const struct cell *cell)
         square += way * way;
     }
     const float way = f_max(sqrtf(square) - 1.7320508f * cell->half, 0.0f);
-    return cell->half >
-           2.0f * CELL_PIXELS * c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
+    const float print = c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
+    return cell->half > f_max(2.0f * CELL_PIXELS * print, CELL_NEAR * fabsf(cell->distance));
+}
+
+static uint32_t lanes_count(vb m)
+{
+    int count = 0;
+    for (int i = 0; i < LANES; i++) {
+        count -= m[i];
+    }
+    return (uint32_t)count;
+}
+
+/* Whether the shorter tape of a child is worth it, as many times as its lanes are fewer. */
+static bool cell_pays(const struct cell *cell, vb held, const struct cell *child, vb fewer)
+{
+    return !lanes_any(held & ~fewer) || (child->count + CELL_RUN) * lanes_count(held) <
+                                            (cell->count + CELL_RUN) * lanes_count(fewer);
 }
 
 /* A cube for the first of these lanes, and those that it holds. The root holds everything. */
@@ -227,8 +245,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
             child += (p[i][lane] > cell->centre[i]) << i;
         }
         const vb fewer = cell_lanes(&cells->at[child], held, p);
-        /* Twice a short tape is no better than once. */
-        if (lanes_any(held & ~fewer) && (cell->count <= CELL_WHOLE || !fewer[lane])) {
+        if (!fewer[lane] || !cell_pays(cell, held, &cells->at[child], fewer)) {
             break;
         }
         held = fewer;

@@ -68,8 +68,8 @@ void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
 
 /* Sample `index` of a pixel, with all rays that follow, `rays` at most: its light and coverage, and
  * what its first ray met, which is free up to `start`. `depth`: of surfaces between that and a
- * light. `looks`, `lights`: whether shadows are wanted, and light. */
-void trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights,
+ * light. `looks`, `lights`: whether shadows are wanted, and light. How many rays followed. */
+int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights,
            out vec4 total, out vec4 geometry_of, out Met met)
 {
     Ray ray = camera_sample(pixel, index);
@@ -77,6 +77,7 @@ void trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks,
     vec3 medium = vec3(0.0);
     float part = fract(pixel_noise(pixel) + 0.61803399 * float(index));
 
+    int count = 0;
     total = vec4(0.0);
     has_next = true;
     for (int i = 0; i <= rays && has_next; i++) {
@@ -107,7 +108,9 @@ void trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks,
         ray = ray_of(next_ray.from, next_ray.along);
         weight = next_ray.weight;
         medium = next_ray.medium.rgb;
+        count += has_next ? 1 : 0;
     }
+    return count;
 }
 
 /* A sample's light as it is added to its pixel. */

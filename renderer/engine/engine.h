@@ -11,10 +11,13 @@
 #include "renderer/field/field.h"
 #include "renderer/glsl/interface.h"
 
+enum { ENGINE_LEVELS = 16 };
+
 /* A picture by longitude and latitude, with smaller ones of it. Linear light. */
 struct engine_sky {
     int width, height, levels;
-    float *texels; /* four for each, level by level */
+    size_t starts[ENGINE_LEVELS]; /* texels in front of each level's */
+    float *texels;                /* four for each, level by level */
 };
 
 enum { ENGINE_SKIES = 3 }; /* UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE */
@@ -71,8 +74,8 @@ void engine_canvas_destroy(struct engine_canvas *canvas);
 
 /* Draws samples `from` to `until` of a tile; those before `from` are kept ones. Where `from` is not
  * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
- * at a time. */
-void engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
-                 const struct engine_output *outputs, size_t count);
+ * at a time. Answers how many mirrored and broken rays it followed. */
+uint64_t engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
+                     const struct engine_output *outputs, size_t count);
 
 #endif

@@ -60,7 +60,33 @@ LANES_INLINE vf vf_select(vb m, vf a, vf b)
     return (vf)vi_select(m, (vi)a, (vi)b);
 }
 
-#if defined __AVX__ && LANES == 8
+#if defined __AVX512F__ && LANES == 16
+#include <immintrin.h>
+LANES_INLINE bool lanes_any(vb m)
+{
+    return _mm512_test_epi32_mask((__m512i)m, (__m512i)m) != 0;
+}
+LANES_INLINE vf vf_min(vf a, vf b)
+{
+    return (vf)_mm512_min_ps((__m512)b, (__m512)a);
+}
+LANES_INLINE vf vf_max(vf a, vf b)
+{
+    return (vf)_mm512_max_ps((__m512)b, (__m512)a);
+}
+LANES_INLINE vf vf_sqrt(vf x)
+{
+    return (vf)_mm512_sqrt_ps((__m512)x);
+}
+LANES_INLINE vf vf_floor(vf x)
+{
+    return (vf)_mm512_roundscale_ps((__m512)x, 9);
+}
+LANES_INLINE vf vf_trunc(vf x)
+{
+    return (vf)_mm512_roundscale_ps((__m512)x, 11);
+}
+#elif defined __AVX__ && LANES == 8
 #include <immintrin.h>
 LANES_INLINE bool lanes_any(vb m)
 {

@@ -29,6 +29,7 @@ enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
 /* A cube, and what of the program matters in it. */
 struct cell {
     float centre[3], half;    /* the tape holds for LOOSE times this */
+    float distance;           /* of the field in its centre */
     uint32_t tape, count;     /* among the tapes */
     int32_t parent, children; /* the first of eight; 0: not made yet */
 };
@@ -88,9 +89,9 @@ struct engine_width {
     int lanes;
     const struct kernel_row *kernels;
     size_t kernel_count;
-    void (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
 };
-extern const struct engine_width engine_8, engine_4;
+extern const struct engine_width engine_16, engine_8, engine_4;
 
 struct lanes;
 struct scene_block {

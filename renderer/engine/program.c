@@ -9,8 +9,13 @@
 static const struct engine_width *width_at(size_t index)
 {
 #ifdef __x86_64__
-    static const struct engine_width *const widths[] = {&engine_8, &engine_4, NULL};
-    const size_t first = __builtin_cpu_supports("avx2") ? 0 : 1;
+    static const struct engine_width *const widths[] = {&engine_16, &engine_8, &engine_4, NULL};
+    const size_t first = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                                 __builtin_cpu_supports("avx512bw") &&
+                                 __builtin_cpu_supports("avx512dq")
+                             ? 0
+                         : __builtin_cpu_supports("avx2") ? 1
+                                                          : 2;
 #else
     static const struct engine_width *const widths[] = {&engine_4, NULL};
     const size_t first = 0;

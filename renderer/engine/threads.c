@@ -9,6 +9,7 @@ struct crew {
     const struct engine_work *work;
     int across, count; /* small tiles in a row, and all of them */
     atomic_int next_tile, next_thread;
+    atomic_uint_least64_t rays;
 };
 
 static struct hand *hand_create(struct crew *crew)
@@ -56,11 +57,12 @@ static void *take_tiles(void *argument)
         draw_tile(hand, tile.x + x, tile.y + y, smaller(TILE, tile.width - x),
                   smaller(TILE, tile.height - y));
     }
+    atomic_fetch_add(&crew->rays, hand->rays);
     free(hand);
     return NULL;
 }
 
-static void draw(struct engine_canvas *canvas, const struct engine_work *work)
+static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
 {
     struct crew crew = {.canvas = canvas, .work = work};
     pthread_t threads[ENGINE_THREADS];
@@ -70,6 +72,7 @@ static void draw(struct engine_canvas *canvas, const struct engine_work *work)
     crew.count = crew.across * ((work->tile.height + TILE - 1) / TILE);
     atomic_init(&crew.next_tile, 0);
     atomic_init(&crew.next_thread, 0);
+    atomic_init(&crew.rays, 0);
     while (started + 1 < cores && started + 1 < crew.count && started < ENGINE_THREADS - 1 &&
            pthread_create(&threads[started], NULL, take_tiles, &crew) == 0) {
         started++;
@@ -78,4 +81,5 @@ static void draw(struct engine_canvas *canvas, const struct engine_work *work)
     while (started > 0) {
         pthread_join(threads[--started], NULL);
     }
+    return atomic_load(&crew.rays);
 }

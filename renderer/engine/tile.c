@@ -20,6 +20,7 @@ struct hand {
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE];
     int listed[SIDE * SIDE], listed_count;
+    uint64_t rays; /* that followed others */
 };
 
 static vi count_up(void)
@@ -110,8 +111,8 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     const vf pixel[2] = {(vf)(x + hand->left), (vf)(y + hand->top)};
     const vf start = lanes_gather(hand->starts, block_of(hand, x, y), m);
     vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[3];
-    spmd_trace(c, m, pixel, start, index, picture->rays, picture->clear_depth, picture->shadows,
-               picture->lights, total, geometry, met);
+    const vi rays = spmd_trace(c, m, pixel, start, index, picture->rays, picture->clear_depth,
+                               picture->shadows, picture->lights, total, geometry, met);
     spmd_shown(c, m, total, picture->linear, light);
     if (index == 0) {
         write_met(hand, m, x, y, met);
@@ -129,6 +130,7 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
             hand->geometry[4 * at[i] + k] = geometry[k][i];
         }
         hand->counted[at[i]] += 1;
+        hand->rays += (uint64_t)rays[i];
     }
 }
 

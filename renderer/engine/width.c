@@ -7,6 +7,7 @@
 #include "spmd.c"
 
 #include "interpret.c"
+#include "textures.c"
 #include "tile.c"
 
 #include "threads.c"

@@ -68,7 +68,8 @@ static void emit_way_in(struct emit *e, const struct function *f)
     }
     const char *call = emit_text(e, "%s(%s)", emit_function_name(e, f), list);
     if (count == 1) {
-        emit_line(e, "return %s;", emit_spread(e, result_of(e, f, call)).text);
+        emit_line(e, "const %s r = %s;", emit_type(spmd_base(e->tree, f->result, 0), true),
+                  emit_spread(e, result_of(e, f, call)).text);
     } else {
         emit_line(e, "%s;", call);
     }
@@ -81,6 +82,9 @@ static void emit_way_in(struct emit *e, const struct function *f)
              i++) {
             emit_line(e, "a%d[%d] = (vf)o%d_%d;", at, i, at, i);
         }
+    }
+    if (count == 1) {
+        emit_line(e, "return r;");
     }
     emit_line(e, "}\n");
 }

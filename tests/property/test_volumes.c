@@ -472,6 +472,7 @@ static void numbers_compile_nothing(void **state)
                                         "[{'op':'insert','into':'/volumes','before':null,"
                                         "'value':{'type':'box','position':[1,0,0]}}]"};
     struct scene *scene = drawing_parse("{'format':'fieldcast/1','root':{'type':'torus'}}");
+    renderer_use_stage(renderer, RENDER_COMPUTE);
     struct resident *resident = resident_create(renderer, scene, 1);
     const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
     struct image before = drawing_of(resident, &desc, AOV_COLOR);
@@ -488,6 +489,7 @@ static void numbers_compile_nothing(void **state)
     }
     image_finish(&before);
     resident_destroy(resident);
+    renderer_use_stage(renderer, RENDER_AUTO);
 }
 
 /* Along the sides of boxes, on them, and through the middle of balls. */
