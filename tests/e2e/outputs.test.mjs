@@ -140,7 +140,7 @@ test('statistics name every stage of the renderer', async () => {
         schema.stages.map(({ name }) => name),
     );
     const times = Object.fromEntries(rows.map(([name, text]) => [name, Number.parseFloat(text)]));
-    assert.ok(times.march > 0 && times.encode > 0, JSON.stringify(times));
+    assert.ok(times.shade > 0 && times.encode > 0, JSON.stringify(times));
 });
 
 /** Opens the dialog by its key. */
