@@ -38,7 +38,6 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
         .frame = picture->block,
         .skies = {&skies[0], &skies[1], &skies[2]},
         .smoothing = smoothing_of(plan),
-        .samples = plan->samples,
         .rays = plan->rays,
         .clear_depth = block->has_clear ? plan->clear_depth : 0,
         .shadows = last >= STAGE_SHADOW,

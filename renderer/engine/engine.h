@@ -41,7 +41,6 @@ struct engine_picture {
     const struct frame_block *frame;
     const struct engine_sky *skies[ENGINE_SKIES];
     enum engine_smoothing smoothing;
-    int samples;          /* of a pixel */
     int rays;             /* of a sample after the first */
     int clear_depth;      /* surfaces that light goes through; 0: none */
     bool shadows, lights; /* whether they are wanted */
