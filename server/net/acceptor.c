@@ -25,6 +25,8 @@ enum {
     LINGER_MS = 1000, /* reading on after a refusal, so that the reply is not lost to a reset */
     UNDECIDED_MAX = 512,
     SEND_BUFFER_LOW = 131072, /* unsent bytes stay with us, where they can be replaced */
+    PROBE_AFTER = 5,          /* seconds of silence */
+    PROBES = 3,
 };
 
 /* A socket not yet handed on. Each state has one constant time limit, so that its list is sorted
@@ -239,12 +241,18 @@ static void refuse_for_descriptors(struct acceptor *acceptor)
     acceptor->reserve_fd = open("/dev/null", O_RDONLY | O_CLOEXEC);
 }
 
+/* Whose line is dead while nothing is to be written shows by probes alone: within the time that a
+ * live connection may be silent. */
 static void set_options(int fd)
 {
-    int one = 1, low = SEND_BUFFER_LOW;
+    int one = 1, low = SEND_BUFFER_LOW, after = PROBE_AFTER, probes = PROBES;
+    int every = (LIMIT_LIVE_SILENCE - PROBE_AFTER) / PROBES;
 
     setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof(one));
     setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &one, sizeof(one));
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &after, sizeof(after));
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &every, sizeof(every));
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &probes, sizeof(probes));
     setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &low, sizeof(low));
 }
 

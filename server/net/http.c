@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "body.h"
+#include "presence.h"
 #include "protocol/memory.h"
 #include "request.h"
 #include "request_checks.h"
@@ -39,6 +40,7 @@ struct exchange {
     const struct route *route;
     char *target;
     bool begun, counted; /* admitted; among http->pending */
+    bool handled;        /* was given to its handler */
     struct body body;
     size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
@@ -49,6 +51,7 @@ struct exchange {
     bool suspended; /* until it is replied and not handled any more */
     void (*gone)(void *data);
     void *gone_data;
+    struct presence presence; /* while there is a `gone` */
     int64_t started_us;
     struct trimmed *trimmed;
 };
@@ -122,10 +125,7 @@ static struct MHD_Response *build_response(const struct exchange *exchange,
 static void unwatch(struct exchange *exchange)
 {
     if (exchange->gone) {
-        const union MHD_ConnectionInfo *info =
-            MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-
-        epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_DEL, info->connect_fd, NULL);
+        presence_unwatch(exchange->http->gone_epoll, &exchange->presence);
         exchange->gone = NULL;
     }
 }
@@ -156,13 +156,13 @@ void request_reply(struct request *request, const struct response *response)
 void request_on_gone(struct request *request, void (*gone)(void *data), void *data)
 {
     struct exchange *exchange = (struct exchange *)request;
-    struct epoll_event event = {.events = EPOLLRDHUP | EPOLLONESHOT, .data.ptr = exchange};
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
 
     pthread_mutex_lock(&exchange->http->lock);
+    exchange->presence.fd = info->connect_fd;
     if (!exchange->replied &&
-        epoll_ctl(exchange->http->gone_epoll, EPOLL_CTL_ADD, info->connect_fd, &event) == 0) {
+        presence_watch(exchange->http->gone_epoll, &exchange->presence, exchange)) {
         exchange->gone = gone;
         exchange->gone_data = data;
     }
@@ -187,7 +187,8 @@ void http_check_gone(struct http *http)
     for (int i = 0; i < found; i++) {
         struct exchange *exchange = events[i].data.ptr;
 
-        if (exchange->gone) {
+        if (exchange->gone &&
+            presence_has_left(http->gone_epoll, &exchange->presence, events[i].events, exchange)) {
             gone[count++] = exchange;
         }
     }
@@ -355,25 +356,32 @@ static void hand_over(struct exchange *exchange)
     }
 }
 
-static enum MHD_Result handle(struct exchange *exchange)
+static void handle(struct exchange *exchange)
 {
-    struct http *http = exchange->http;
-
-    exchange->counted = true;
-    atomic_fetch_add(&http->pending, 1);
+    exchange->handled = exchange->counted = true;
+    atomic_fetch_add(&exchange->http->pending, 1);
     if (exchange->route->scene == SCENE_NONE) {
         exchange->route->handle(&exchange->request);
     } else {
         hand_over(exchange);
     }
+}
+
+/* Whether the reply can be queued. A connection that was suspended does what it would have done
+ * next: behind its first call that is to read, where an end of input closes it, with or without
+ * a reply. So it is suspended at the next call, behind which it asks for the reply. */
+static bool is_ready(struct exchange *exchange, bool may_suspend)
+{
+    struct http *http = exchange->http;
+
     pthread_mutex_lock(&http->lock);
     const bool ready = exchange->replied && !exchange->handling;
-    if (!ready) {
+    if (!ready && may_suspend) {
         exchange->suspended = true;
         MHD_suspend_connection(exchange->connection);
     }
     pthread_mutex_unlock(&http->lock);
-    return ready ? queue_reply(exchange) : MHD_YES;
+    return ready;
 }
 
 /* The head is there. A refusal waits until the body has been read away: closing before would reset
@@ -414,19 +422,24 @@ static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, 
     if (!exchange->begun) {
         exchange->begun = true;
         exchange->request.method = method;
+        exchange->presence.reads_interim = strcmp(version, MHD_HTTP_VERSION_1_1) == 0;
         exchange->deadline = clock_ms() + HTTP_BODY_MS;
         return begin(exchange, version);
     }
     if (*upload_size > 0) {
         return receive_body(exchange, upload, upload_size);
     }
-    pthread_mutex_lock(&exchange->http->lock);
-    const bool replied = exchange->replied;
-    pthread_mutex_unlock(&exchange->http->lock);
-    if (replied) {
+    if (is_ready(exchange, exchange->handled)) {
         return queue_reply(exchange);
     }
-    return exchange->body_bytes > body_limit(exchange) ? refuse_body(exchange) : handle(exchange);
+    if (exchange->handled) {
+        return MHD_YES;
+    }
+    if (exchange->body_bytes > body_limit(exchange)) {
+        return refuse_body(exchange);
+    }
+    handle(exchange);
+    return is_ready(exchange, false) ? queue_reply(exchange) : MHD_YES;
 }
 
 static void on_completed(void *data, struct MHD_Connection *connection, void **connection_data,

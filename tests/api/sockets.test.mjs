@@ -2,6 +2,7 @@
 // Raw sockets against the acceptor: heads in pieces, requests in a row, shapes that two parsers
 // could read differently, handshakes that must be refused, clients that are slow or leave.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import net from 'node:net';
 import { after, before, describe, test } from 'node:test';
 import { ask, counter, cpuSecondsOf, memoryOf, sleep, startDaemon, until } from '../support/daemon.mjs';
@@ -123,12 +124,43 @@ describe('heads', () => {
         assert.deepEqual(peer.statuses(), [200]);
     });
 
-    test('half-closed behind a request for a picture that takes a while is taken for gone', async () => {
+    const slow = '/v1/scenes/s/image.png?width=4096&height=512&samples=4'; // a second of tiles
+
+    for (const [where, before] of [['first', ''], ['second', get()]]) {
+        test(`half-closed behind a picture that takes a while gets it, as the ${where} request`, async () => {
+            const peer = connect();
+            const statuses = before ? [200, 100, 200] : [100, 200];
+            peer.socket.end(before + get('Connection: close\r\n', `${slow}&camera.fov=${20 + before.length}`));
+            await peer.end();
+            assert.deepEqual(peer.statuses(), statuses);
+            const length = Number(peer.text.match(/Content-Length: (\d+)\r\n(?:[^\r\n]+\r\n)*\r\n\x89PNG/)[1]);
+            assert.equal(peer.text.length - peer.text.lastIndexOf('\r\n\r\n\x89PNG') - 4, length);
+        });
+    }
+
+    test('half-closed behind a picture that was drawn before gets it without a word between', async () => {
+        await (await fetch(daemon.url + slow)).arrayBuffer();
         const peer = connect();
-        peer.socket.end(get('Connection: close\r\n', '/v1/scenes/s/image.png?width=4096&height=4096&samples=4'));
+        peer.socket.end(get('Connection: close\r\n', slow));
         await peer.end();
-        // The connection ends with or without the answer for a client that has left.
-        assert.match(peer.statuses().join(), /^(503)?$/);
+        assert.deepEqual(peer.statuses(), [200]);
+    });
+
+    test('half-closed behind a document that waits for its commit gets the answer', async () => {
+        const body = '{"from":"example:first-steps"}';
+        for (let i = 0; i < 20; i += 1) {
+            const peer = connect();
+            peer.socket.end(`POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n${body}`);
+            await peer.end();
+            assert.deepEqual(peer.statuses(), [201]);
+        }
+    });
+
+    test('half-closed by HTTP/1.0, which knows no interim answers, is taken for gone', async () => {
+        const peer = connect();
+        peer.socket.end('GET /v1/scenes/s/image.png?width=4096&height=4096&samples=4 HTTP/1.0\r\n\r\n');
+        await peer.end();
+        assert.deepEqual(peer.statuses().filter((status) => status !== 503), []);
         await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the end of the order');
     });
 
@@ -388,6 +420,19 @@ describe('slow clients', () => {
             reading.forEach(({ socket }) => socket.destroy());
         }
         await until(async () => (await counter(daemon, 'sessions')) === 0, 'sessions to end');
+    });
+
+    test('a line that is silent while a picture is drawn is probed within seconds', async () => {
+        const peer = connect();
+        peer.socket.write(get('', '/v1/scenes/s/image.png?width=4096&height=4096&samples=4'));
+        await until(async () => (await counter(daemon, 'render_queue')) === 1, 'the order');
+        const hex = (port) => port.toString(16).toUpperCase().padStart(4, '0');
+        const ends = new RegExp(`:${hex(daemon.port)} \\S+:${hex(peer.socket.localPort)} (?:\\S+ ){2}02:([0-9A-F]{8})`);
+        // 02: the next thing that the kernel does is a probe, after so many hundredths of a second.
+        const [, when] = await until(() => ends.exec(fs.readFileSync('/proc/net/tcp', 'latin1')), 'a probe to be planned');
+        assert.ok(parseInt(when, 16) <= 500, `in ${parseInt(when, 16)} hundredths of a second`);
+        peer.close();
+        await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the end of the order');
     });
 
     test('a client that leaves before its picture is there frees the renderer', async () => {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a viewer feels of others: how long a view of 128×96 that moves 25 times a second waits for its
-// picture, alone and beside each kind of guest, by turns in one run. Milliseconds and their ratios,
-// of the medians and of the 99th of a hundred.
+// picture, alone and beside each kind of guest, by turns in one run, and how long a picture of 64×48
+// takes beside it. Milliseconds, and ratios of the medians and of the 99th of a hundred: those of all
+// rounds together, and the median of the rounds' own.
+//
+//   node tests/bench/guests.mjs [WORD]...    guests whose name holds one of the words; none: all
 import net from 'node:net';
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { handshake, Live } from '../support/live.mjs';
@@ -11,7 +14,9 @@ import { blankPng } from '../support/png.mjs';
 const VIEW = { width: 128, height: 96 };
 const LARGE = { width: 4096, height: 4096 };
 const EVERY_MS = 40;
-const SECONDS = Number(process.env.GUEST_SECONDS ?? 6);
+const SECONDS = Number(process.env.GUEST_SECONDS ?? 4);
+const ROUNDS = Number(process.env.GUEST_ROUNDS ?? 5);
+const PICTURES = 3; // of 64×48, in each round
 const wanted = process.argv.slice(2); // names of guests; none: all
 
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
@@ -146,26 +151,50 @@ live.look(VIEW);
 await live.nextFrame((frame) => frame.lossless);
 await waits(live, 2);
 
+/** Milliseconds of pictures of 64×48, one after the other. */
+async function pictures(round) {
+    const times = [];
+    for (let i = 0; i < PICTURES; i += 1) {
+        const start = Date.now();
+        const answer = await fetch(`${daemon.url}/v1/scenes/viewed/image.png?width=64&height=48&camera.fov=${20 + i + round / 100}`);
+        await answer.arrayBuffer();
+        times.push(answer.status === 200 ? Date.now() - start : Infinity);
+    }
+    return times;
+}
+
 const results = {};
+let asked = 0;
 for (const [name, come] of Object.entries(GUESTS).filter(([one]) => wanted.length === 0 || wanted.some((word) => one.includes(word)))) {
     console.error(`guests: ${name}`);
     const restarts = await counter(daemon, 'worker_restarts_total');
-    const alone = await waits(live, SECONDS);
-    const leave = await come(daemon);
-    await sleep(500);
-    const beside = await waits(live, SECONDS);
-    await leave();
-    await sleep(500);
-    const p = (share) => round(percentile(beside, share) / percentile(alone, share));
+    const rounds = [];
+    for (let i = 0; i < ROUNDS; i += 1) {
+        const alone = await waits(live, SECONDS);
+        const leave = await come(daemon);
+        await sleep(500);
+        const beside = await waits(live, SECONDS);
+        const small = await pictures((asked += 1));
+        await leave();
+        await sleep(500);
+        rounds.push({ alone, beside, small });
+    }
+    const all = (what) => rounds.flatMap((one) => one[what]);
+    const ratio = ({ beside, alone }, share) => percentile(beside, share) / percentile(alone, share);
+    const together = { alone: all('alone'), beside: all('beside') };
+    const figures = (share) => ({
+        alone_ms: percentile(together.alone, share),
+        beside_ms: percentile(together.beside, share),
+        ratio: round(ratio(together, share)),
+        median_ratio: round(percentile(rounds.map((one) => ratio(one, share)), 0.5)),
+    });
     results[name] = {
-        alone_p50_ms: percentile(alone, 0.5),
-        alone_p99_ms: percentile(alone, 0.99),
-        beside_p50_ms: percentile(beside, 0.5),
-        beside_p99_ms: percentile(beside, 0.99),
-        p50_ratio: p(0.5),
-        p99_ratio: p(0.99),
+        p50: figures(0.5),
+        p99: figures(0.99),
+        picture_ms: { median: percentile(all('small'), 0.5), most: Math.max(...all('small')) },
         restarts: (await counter(daemon, 'worker_restarts_total')) - restarts,
     };
+    console.error(JSON.stringify(results[name]));
 }
 console.log(JSON.stringify(results, null, 2));
 await live.close();
