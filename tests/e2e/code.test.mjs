@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
+import { openScreen } from './screens/screen.mjs';
 import {
     closePage,
     documentWhen,
@@ -238,6 +239,19 @@ test('a shader of the scene: its properties are a form, colours and sliders chan
     await page.getByText('It stays: the shader shader-1 is used by material shader-1.').waitFor();
     assert.ok(await page.getByRole('menuitem', { name: 'Delete' }).isDisabled());
     await page.keyboard.press('Escape');
+});
+
+test('what is too slow is told as that, with its place by name', async () => {
+    const document = structuredClone(SHADED);
+    document.primitives = { blob: { params: [], code: GOOD.replace('radius', '1.0') } };
+    document.root.children = [{ id: 'blob', type: 'field', params: { primitive: 'blob' } }];
+    page = await openScreen(stage, { scene: document, tampered: true }, { theme: 'dark', width: 1200, height: 800 });
+    page.tell({ type: 'notice', level: 'error', code: 'too_slow', place: '/primitives/blob/code', measured: 4100, limit: 2000, message: 'This code took too long.' });
+    await page.getByTestId('broken').getByText('show where').waitFor();
+    await page.locator('.notice-place', { hasText: 'blob · code' }).waitFor();
+    await page.getByTestId('broken').click();
+    await panel().locator('.code-state[data-bad]', { hasText: 'too slow' }).waitFor();
+    assert.equal(await panel().locator('.cm-lint-marker-error').count(), 0, 'no line is marked');
 });
 
 test('a server that takes no code says so', async () => {

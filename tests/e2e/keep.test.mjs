@@ -313,6 +313,29 @@ describe('while the server is slow', () => {
         await page.keyboard.press('Escape');
     });
 
+    test('the pill says that the picture is not what is looked at', async () => {
+        await open();
+        await settled(page);
+        const state = (name) => page.locator(`[data-testid=state][data-state=${name}]`).waitFor();
+        const speed = page.getByTestId('statistics');
+        await speed.getByText('idle').waitFor();
+        await stopped(async () => {
+            await page.keyboard.press('z');
+            await state('drawing');
+            await speed.getByText('less than 1 fps').waitFor();
+            await page.keyboard.press('Shift+Z');
+            await state('final');
+            await picture(page).focus();
+            await page.keyboard.press('Num7'.replace('Num', 'Numpad'));
+            await state('drawing');
+        });
+        await state('final');
+        for (let i = 0; i < 2; i += 1) {
+            await page.keyboard.press('Home');
+        }
+        await state('final');
+    });
+
     test('a late answer to a closed menu changes nothing and takes no keys', async () => {
         await open();
         await settled(page);

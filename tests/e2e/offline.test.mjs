@@ -54,6 +54,7 @@ test('edits made while the daemon is away arrive when it is back', async () => {
         await field(page, name).press('Enter');
     }
     await page.getByText('Offline, 3 edits waiting').waitFor();
+    assert.equal(await page.locator('.notice').count(), 0, 'it is told in one place');
     await valueIs(field(page, 'radius'), '1.25');
 
     again = await startDaemon({ data, args: ['--port', String(port), ...stage.args] });

@@ -169,6 +169,16 @@ test('files that cannot be read say where; of several scenes one is chosen', asy
     expectRefusals();
 });
 
+test('an address without a scene says so and leads to the scenes', async () => {
+    page = await stage.page();
+    page.expected = /404|WebSocket/;
+    await page.goto(`${stage.daemon.url}/s/nowhere`);
+    const strip = page.getByTestId('strip');
+    await strip.getByText('There is no such scene').waitFor();
+    await strip.getByRole('button', { name: 'All scenes' }).click();
+    await page.getByRole('heading', { name: 'Your scenes' }).waitFor();
+});
+
 test('rename, duplicate, delete and take it back', async () => {
     const id = await stage.scene();
     page = await stage.page();

@@ -101,6 +101,8 @@ export async function openStage({ data, driver, args: more = [] } = {}) {
             await ask(daemon, 'POST', `/v1/scenes?id=${id}`, document);
             return id;
         },
+        /** Something is still going on. */
+        heard: watched.heard,
         page: (options) => openPage(browser, daemon, watched, options),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),

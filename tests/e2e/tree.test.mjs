@@ -180,6 +180,18 @@ describe('by pointer', () => {
         await ordered('root', 'ball', 'pair');
     });
 
+    test('what is in a hidden node looks hidden', async () => {
+        await open();
+        const hidden = (id) => row(page, id).and(page.locator('[data-hidden]'));
+        await row(page, 'pair').hover();
+        await row(page, 'pair').getByRole('button', { name: 'Hide Pair' }).click();
+        await hidden('ring').waitFor();
+        assert.equal(await row(page, 'ring').getByRole('button', { name: 'Hide ring' }).count(), 1);
+        assert.equal(await hidden('ball').count(), 0);
+        await row(page, 'pair').getByRole('button', { name: 'Show Pair' }).click();
+        await hidden('ring').waitFor({ state: 'detached' });
+    });
+
     test('double click renames', async () => {
         await open();
         await row(page, 'crate').dblclick();

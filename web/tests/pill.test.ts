@@ -65,7 +65,15 @@ test("a compiling state is told before that the picture lacks edits", () => {
 test("what cannot be drawn is told as long as the picture is an older one", () => {
     const frame = { ...FRAME, stale: true };
     expect(told({ frame, problem: problem("compile") }).state).toBe("kept");
+    expect(told({ revision: 8, problem: problem("compile") }).state).toBe("kept");
     expect(told({ frame, problem: problem("too_slow") }).state).toBe("givenUp");
     expect(told({ frame: NO_FRAME, problem: problem("crashed") }).state).toBe("givenUp");
     expect(told({ problem: problem("compile") }).state).toBe("final");
+});
+
+test("a picture of another view than the newest is not final", () => {
+    const frame = { ...FRAME, outdated: true };
+    expect(told({ frame }).state).toBe("drawing");
+    expect(told({ frame, moving: true }).state).toBe("moving");
+    expect(told({ frame, revision: 8 }).state).toBe("behind");
 });

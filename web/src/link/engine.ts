@@ -84,10 +84,11 @@ function soon(callback: () => void): void {
     }
 }
 
-export function frameInfo(header: FrameHeader): FrameInfo {
+export function frameInfo(header: FrameHeader, outdated = false): FrameInfo {
     return {
         state: frameState(header),
         stale: header.stale,
+        outdated,
         number: header.number,
         revision: header.revision,
         width: header.width,
@@ -110,6 +111,11 @@ export function isWorse(next: FrameHeader, shown: FrameHeader): boolean {
         next.viewHeight === shown.viewHeight &&
         rank(next) < rank(shown)
     );
+}
+
+/* What of a view changes the picture itself, not only how fast it comes. */
+function looksOf({ quality: _quality, visible: _visible, ...looks }: ViewState): string {
+    return JSON.stringify(looks);
 }
 
 /* Wait before attempt `attempts` + 1: doubling, with jitter so that many pages do not come back
@@ -137,6 +143,9 @@ export class Engine {
     #viewDue = false;
     #seq = 0;
     #sent = "";
+    /* What was asked for, by `seq`, from the picture on screen on. */
+    #asked = new Map<number, string>();
+    #told: FrameInfo | null = null;
     #shown: FrameHeader | null = null;
     #waiting: { frame: Frame; bitmap: ImageBitmap; decodedAt: number } | null = null;
     #ticking: ReturnType<typeof setInterval> | null = null;
@@ -323,7 +332,35 @@ export class Engine {
         this.#sent = text;
         this.#seq++;
         this.#send({ type: "view", seq: this.#seq, ...this.#view });
+        this.#ask(looksOf(this.#view));
         this.#meter.viewSent(this.#seq, performance.now());
+    }
+
+    /* The picture on screen may be none of what is looked at now. */
+    #ask(looks: string): void {
+        this.#asked.set(this.#seq, looks);
+        const outdated = this.#isOutdated();
+        if (this.#shown !== null && this.#told !== null && outdated !== this.#told.outdated) {
+            this.#tell({ ...this.#told, outdated });
+        }
+    }
+
+    #tell(frame: FrameInfo): void {
+        this.#told = frame;
+        this.#report({ kind: "frame", frame });
+    }
+
+    #isOutdated(): boolean {
+        const shown = this.#asked.get(this.#shown?.input ?? -1);
+        return shown !== undefined && shown !== this.#asked.get(this.#seq);
+    }
+
+    #forgetAsked(): void {
+        for (const seq of this.#asked.keys()) {
+            if (seq < (this.#shown?.input ?? 0)) {
+                this.#asked.delete(seq);
+            }
+        }
     }
 
     /* What is meant is what was seen: the view of the frame on screen. */
@@ -370,10 +407,7 @@ export class Engine {
         if (shown !== null && isWorse(frame.header, shown)) {
             bitmap.close();
             this.#acknowledge(number, socket);
-            this.#report({
-                kind: "frame",
-                frame: { ...frameInfo(shown), stale: frame.header.stale },
-            });
+            this.#tell({ ...frameInfo(shown, this.#isOutdated()), stale: frame.header.stale });
             return;
         }
         const scheduled = this.#waiting !== null;
@@ -399,7 +433,8 @@ export class Engine {
         this.#shown = frame.header;
         this.#acknowledge(frame.header.number, this.#socket);
         this.#meter.frameShown(frame, decodedAt, performance.now());
-        this.#report({ kind: "frame", frame: frameInfo(frame.header) });
+        this.#forgetAsked();
+        this.#tell(frameInfo(frame.header, this.#isOutdated()));
         this.#tick();
     }
 

@@ -184,7 +184,6 @@ class SceneLink implements Link {
 
     #connection(report: Extract<Report, { kind: "state" }>): void {
         const { state, reason, retryIn, attempts } = report;
-        const before = this.#stores.link.getState().connection;
         const next: Partial<LinkState> = {
             connection: state,
             reason,
@@ -195,12 +194,6 @@ class SceneLink implements Link {
         if (this.#session && (state === "offline" || state === "refused")) {
             this.#session = sessions.disconnect(this.#session);
             this.#picks.fail();
-        }
-        if (state === "offline" && before === "live") {
-            this.#notices.add("warning", "connection_lost", text("link.lost"));
-        }
-        if (state === "refused") {
-            this.#notices.add("error", "connection_refused", text("link.refused", { reason }));
         }
         if (state === "offline" && attempts === ATTEMPTS_BEFORE_PROBE) {
             void this.#probe();
@@ -218,7 +211,6 @@ class SceneLink implements Link {
             const reason = `${response.status} ${response.statusText}`.trim();
             this.#host.send({ kind: "close" });
             this.#stores.link.setState({ connection: "refused", reason, retryAt: null });
-            this.#notices.add("error", "connection_refused", text("link.refused", { reason }));
         }
     }
 

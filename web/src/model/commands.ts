@@ -338,7 +338,7 @@ export const COMMANDS: readonly Command[] = [
     row({
         id: "node.isolate",
         words: "solo alone hide others",
-        title: "Isolate: show only the selection, or everything again",
+        title: "Isolate, or show all again",
         group: "edit",
         keys: ["Shift+H"],
         whyNot: (app) => (isIsolating(app) ? null : needsSelection(app)),

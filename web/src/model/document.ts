@@ -309,6 +309,11 @@ export function freeName(document: SceneDocument, list: ListName, stem: string):
 
 /* Whether a page that shows only `isolated` leaves the node out: it is neither one of them, nor
  * below one, nor around one. In other trees, of models, nothing is. */
+/* Is it drawn, as far as it and what holds it say? */
+export function isShown(document: SceneDocument, id: string): boolean {
+    return pathTo(document, id).every(isVisible);
+}
+
 export function isApart(document: SceneDocument, isolated: readonly string[], id: string): boolean {
     const tree = pathTo(document, id)[0]?.id;
     const here = isolated.filter((other) => pathTo(document, other)[0]?.id === tree);

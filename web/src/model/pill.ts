@@ -19,6 +19,8 @@ export type PillState =
     | "behind"
     /* A hand moves the camera or a value. */
     | "moving"
+    /* The picture is of an older view. */
+    | "drawing"
     /* Everything is in it, not yet in full quality. */
     | "refining"
     | "final";
@@ -51,7 +53,7 @@ function stateOf(input: PillInput, behind: number): PillState {
     if (connection === "offline" || connection === "refused") {
         return "offline";
     }
-    if (problem !== null && (frame.stale || frame.state === "none")) {
+    if (problem !== null && (frame.stale || behind > 0 || frame.state === "none")) {
         return problem.code === COMPILE ? "kept" : "givenUp";
     }
     if (compiling) {
@@ -65,6 +67,9 @@ function stateOf(input: PillInput, behind: number): PillState {
     }
     if (behind > 0) {
         return "behind";
+    }
+    if (frame.outdated) {
+        return "drawing";
     }
     return frame.state === "lossless" ? "final" : "refining";
 }

@@ -9,7 +9,7 @@ import type { Schema } from "./schema.ts";
 /* Notices about code: it does not compile, that took too long or crashed, it is well again, or is
  * tried again; and a scene that is not drawn. */
 export const COMPILE = "compile";
-const TOO_SLOW = "too_slow";
+export const TOO_SLOW = "too_slow";
 const CRASHED = "crashed";
 export const LEFT_OUT = "scene_left_out";
 const OVER = ["compiled", "retrying"];

@@ -64,6 +64,8 @@ export interface FrameInfo {
     readonly state: FrameState;
     /* The scene is newer than the picture: its shader is being compiled. */
     readonly stale: boolean;
+    /* The view is newer than the picture: another camera, output, size, or other nodes alone. */
+    readonly outdated: boolean;
     readonly number: number;
     readonly revision: number;
     readonly width: number;
@@ -119,6 +121,7 @@ export interface LinkState {
 export const NO_FRAME: FrameInfo = {
     state: "none",
     stale: false,
+    outdated: false,
     number: 0,
     revision: 0,
     width: 0,

@@ -8,8 +8,6 @@ const TEXTS = {
     "undo.skipped": "{count} values were changed by somebody else since and were left as they are.",
     "undo.skippedOne": "Somebody else has changed this since, so it was left as it is.",
     "undo.anywayLabel": "undo over somebody else’s change",
-    "link.lost": "The connection is lost. What you change is kept and sent when it is back.",
-    "link.refused": "The server closed the connection: {reason}",
     "link.resync": "This page had fallen out of step and was loaded anew.",
     "why.noScene": "No scene is open.",
     "why.noSelection": "Nothing is selected.",

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Names of the schema as people read them: smooth_union -> smooth union, fov -> field of view. */
+import { nodeLabel, type SceneDocument } from "../model/document.ts";
+import { nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import type { Param } from "../model/schema.ts";
 
 const spoken: Record<string, string> = {
@@ -26,6 +28,21 @@ export function words(name: string): string {
 export function paramTitle(param: Param): string {
     return spoken[param.name] ?? words(param.name);
 }
+
+/* A place as people name it: "/nodes/ball/params/radius" -> "Ball · radius". */
+export function placeTitle(document: SceneDocument | null, place: string): string {
+    const node = document?.nodes.get(nodeOfPlace(place) ?? "");
+    const owner = node ? nodeLabel(node) : resourceOfPlace(place)?.name;
+    if (owner === undefined) {
+        return place;
+    }
+    const last = place.split("/").at(-1) ?? "";
+    const ofAll = place.split("/").length === OWNER_PARTS;
+    return ofAll ? owner : `${owner} · ${spoken[last] ?? words(last)}`;
+}
+
+/* "", "nodes", "ball" */
+const OWNER_PARTS = 3;
 
 /* Below a heading that says the first word already: "fog density" -> density. */
 export function shortTitle(param: Param): string {

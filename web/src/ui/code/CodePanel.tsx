@@ -7,6 +7,7 @@ import type { Gesture } from "../../link/link.ts";
 import { declaredBy, findResource, nodeLabel, paramAt } from "../../model/document.ts";
 import type { Problem } from "../../model/operation.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
+import { isGivenUp, TOO_SLOW } from "../../model/problems.ts";
 import type { Param } from "../../model/schema.ts";
 import { NEW_NODE_CODE } from "../../model/templates.ts";
 import { showPlace } from "../insertions.ts";
@@ -64,8 +65,8 @@ function Panel({ place }: { place: string }) {
     const { element, code, waiting } = useCode(place, text);
     useEffect(() => code?.setNames(declared.map(({ name }) => name)), [code, declared]);
     useEffect(() => {
-        const { line = 1, column = 1, message = "" } = problem ?? {};
-        code?.setMark(problem ? { line, column, message } : null);
+        const { line, column = 1, message = "" } = problem ?? {};
+        code?.setMark(line === undefined ? null : { line, column, message });
     }, [code, problem]);
     return (
         <section
@@ -165,10 +166,18 @@ function State({ problem, waiting, onShow }: StateProps) {
                 onClick={() => onShow?.goTo(problem.line ?? 1, problem.column ?? 1)}
             >
                 <CircleAlert size={14} aria-hidden="true" />
-                {t("code.errorLine", { line: problem.line ?? 1 })}
+                {badText(problem)}
             </button>
         </Tip>
     );
+}
+
+/* Where the error is; of what is too slow or crashed nobody knows a line. */
+function badText({ code, line }: Problem): string {
+    if (line !== undefined) {
+        return t("code.errorLine", { line });
+    }
+    return t(code === TOO_SLOW ? "code.tooSlow" : isGivenUp(code) ? "code.crashed" : "code.error");
 }
 
 /* What the code has besides what it makes itself. */

@@ -6,8 +6,9 @@ import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
 const MOST_SEGMENTS = 4;
-/* Segments are as wide as the longest. */
+/* Segments are as wide as the longest, and each has a rim. */
 const MOST_LETTERS = 28;
+const RIM_LETTERS = 2;
 
 interface Props extends FieldProps<string> {
     choices: readonly string[];
@@ -15,7 +16,8 @@ interface Props extends FieldProps<string> {
 
 export function EnumField({ label, value, mixed, choices, describedBy, onCommit }: Props) {
     const group = useRef<HTMLDivElement>(null);
-    const letters = choices.length * Math.max(...choices.map((choice) => choice.length));
+    const longest = Math.max(...choices.map((choice) => choice.length));
+    const letters = choices.length * (longest + RIM_LETTERS);
     if (choices.length === 1 && value === choices[0]) {
         return <span className="only-choice">{words(value)}</span>;
     }

@@ -7,6 +7,7 @@ import { findResource } from "../../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
+import { placeTitle } from "../names.ts";
 import { useDocument, useEditor, useNotices } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
@@ -79,6 +80,7 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
         const timer = setTimeout(() => dismissNotice(stores.notices, id), STAY_MS);
         return () => clearTimeout(timer);
     }, [stores, id, level]);
+    const where = useDocument(({ document }) => placeTitle(document, place));
     const Icon = icons[level];
     return (
         <div className="notice popup" data-level={level} data-code={code}>
@@ -86,18 +88,20 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
             <div className="notice-text">
                 {message}
                 {count > 1 && ` (${t("notices.times", { count })})`}
-                {place !== "" && <div className="notice-place">{place}</div>}
-                {acts.length > 0 && (
+                {place !== "" && <div className="notice-place">{where}</div>}
+                {(acts.length > 0 || known) && (
                     <div className="notice-acts">
                         {acts.map((act) => (
                             <ActButton key={act.kind} act={act} id={id} />
                         ))}
+                        {known && (
+                            <Button onClick={() => showPlace(editor, place, false)}>
+                                {t("notices.show")}
+                            </Button>
+                        )}
                     </div>
                 )}
             </div>
-            {known && (
-                <Button onClick={() => showPlace(editor, place, false)}>{t("notices.show")}</Button>
-            )}
             <IconButton
                 title={t("dismiss")}
                 data-size="s"

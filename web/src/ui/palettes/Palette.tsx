@@ -119,39 +119,41 @@ function Body<T>(props: BodyProps<T>) {
                 aria-label={title}
                 tabIndex={-1}
             >
-                {groups.map((group) => (
-                    // biome-ignore lint/a11y/useSemanticElements: a fieldset cannot hold options
-                    <div key={group.title} role="group" aria-label={group.title}>
-                        <div className="palette-group" aria-hidden="true">
-                            {group.title}
+                {groups
+                    .filter(({ items }) => items.length > 0)
+                    .map((group) => (
+                        // biome-ignore lint/a11y/useSemanticElements: a fieldset cannot hold options
+                        <div key={group.title} role="group" aria-label={group.title}>
+                            <div className="palette-group" aria-hidden="true">
+                                {group.title}
+                            </div>
+                            <div className={grid ? "tile-grid" : undefined} role="presentation">
+                                {group.items.map((item) => {
+                                    index += 1;
+                                    const here = index;
+                                    const face = faceOf(item);
+                                    return (
+                                        // biome-ignore lint/a11y/useKeyWithClickEvents: the search field has the focus and the keys
+                                        <div
+                                            key={face.key}
+                                            id={box.optionId(here)}
+                                            className={face.className}
+                                            role="option"
+                                            tabIndex={-1}
+                                            aria-selected={here === box.active}
+                                            aria-disabled={face.disabled || undefined}
+                                            title={face.tip}
+                                            {...face.data}
+                                            onPointerMove={() => box.hover(here)}
+                                            onClick={() => take(here)}
+                                        >
+                                            {face.content}
+                                        </div>
+                                    );
+                                })}
+                            </div>
                         </div>
-                        <div className={grid ? "tile-grid" : undefined} role="presentation">
-                            {group.items.map((item) => {
-                                index += 1;
-                                const here = index;
-                                const face = faceOf(item);
-                                return (
-                                    // biome-ignore lint/a11y/useKeyWithClickEvents: the search field has the focus and the keys
-                                    <div
-                                        key={face.key}
-                                        id={box.optionId(here)}
-                                        className={face.className}
-                                        role="option"
-                                        tabIndex={-1}
-                                        aria-selected={here === box.active}
-                                        aria-disabled={face.disabled || undefined}
-                                        title={face.tip}
-                                        {...face.data}
-                                        onPointerMove={() => box.hover(here)}
-                                        onClick={() => take(here)}
-                                    >
-                                        {face.content}
-                                    </div>
-                                );
-                            })}
-                        </div>
-                    </div>
-                ))}
+                    ))}
             </div>
             {all.length === 0 && <p className="empty-note">{t("palette.nothing", { query })}</p>}
             <Foot>{active !== undefined && footOf?.(active)}</Foot>

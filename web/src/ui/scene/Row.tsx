@@ -2,7 +2,14 @@
 /* One row of the tree. */
 import type { ItemInstance } from "@headless-tree/core";
 import { ChevronRight, CircleAlert, Eye, EyeOff, Focus } from "lucide-react";
-import { functionOf, isApart, isVisible, nodeLabel, type SceneNode } from "../../model/document.ts";
+import {
+    functionOf,
+    isApart,
+    isShown,
+    isVisible,
+    nodeLabel,
+    type SceneNode,
+} from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
 import { problemIn } from "../../model/problems.ts";
@@ -51,6 +58,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
     const apart = useDocument(
         ({ document }) => document !== null && isApart(document, isolated, id),
     );
+    const shown = useDocument(({ document }) => document === null || isShown(document, id));
     if (!node) {
         return null;
     }
@@ -75,7 +83,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             }}
             data-node={id}
             data-type={node.type}
-            data-hidden={isVisible(node) ? undefined : ""}
+            data-hidden={shown ? undefined : ""}
             data-hovered={hovered || undefined}
             data-apart={apart || undefined}
             data-isolated={isolated.includes(id) || undefined}
@@ -155,7 +163,7 @@ interface ModelsProps {
 
 /* The heading above the roots of the models. */
 export function ModelsRow({ item, count, top, height }: ModelsProps) {
-    const title = t("models.title");
+    const title = t("models.trees");
     const { onClick: _click, ...props } = item.getProps();
     const fold = (): void => (item.isExpanded() ? item.collapse() : item.expand());
     return (

@@ -212,7 +212,7 @@ function useExpanded(
 function labelOf(document: SceneDocument, item: Item): string {
     const { node } = item.getItemData();
     const model = document.models.find(({ root }) => root === node?.id);
-    return node ? (model?.name ?? nodeLabel(node)) : t("models.title");
+    return node ? (model?.name ?? nodeLabel(node)) : t("models.trees");
 }
 
 /* What a row of the tree has below it. */

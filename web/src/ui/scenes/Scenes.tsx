@@ -259,10 +259,11 @@ function Head({ onNew, onFiles, onFolder }: HeadProps) {
                 </IconButton>
                 <Button
                     look="outline"
+                    aria-label={t("scenes.upload")}
                     icon={<Upload size={14} aria-hidden="true" />}
                     onClick={onFiles}
                 >
-                    {t("scenes.upload")}
+                    <span className="wide-only">{t("scenes.upload")}</span>
                 </Button>
                 <IconButton className="wide-only" title={t("scenes.folder")} onClick={onFolder}>
                     <FolderUp size={16} />

@@ -5,7 +5,7 @@ import { CircleAlert, Cpu } from "lucide-react";
 import { useEffect, useState } from "react";
 import type { Problem } from "../../model/operation.ts";
 import { type Pill, pillOf } from "../../model/pill.ts";
-import { brokenCode } from "../../model/problems.ts";
+import { brokenCode, isGivenUp, TOO_SLOW } from "../../model/problems.ts";
 import type { Compiling } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
@@ -51,7 +51,7 @@ function textOf(pill: Pill, empty: boolean, problem: Problem | null): string {
         case "offline":
             return t(empty ? "state.offlineEmpty" : "state.offline");
         case "givenUp":
-            return t(problem?.code === "too_slow" ? "state.tooSlow" : "state.crashed");
+            return t(problem?.code === TOO_SLOW ? "state.tooSlow" : "state.crashed");
         case "behind":
             return t("state.behind", { count: behind });
         case "moving":
@@ -94,12 +94,18 @@ export function BrokenPill() {
                 onClick={() => showPlace(editor, problem.place, true)}
             >
                 <CircleAlert size={14} aria-hidden="true" />
-                {problem.line === undefined
-                    ? t("state.broken", { count })
-                    : t("state.brokenLine", { line: problem.line })}
+                {brokenText(problem, count)}
             </button>
         </Tip>
     );
+}
+
+/* Why something was given up is told beside it. */
+function brokenText({ code, line }: Problem, count: number): string {
+    if (isGivenUp(code)) {
+        return t("state.where");
+    }
+    return line === undefined ? t("state.broken", { count }) : t("state.brokenLine", { line });
 }
 
 export function SoftwareChip() {

@@ -64,9 +64,14 @@ const LEAST_SHOWN = 0.05;
 
 const round = (x: number): string => (x >= 10 ? x.toFixed(0) : x.toFixed(1));
 
-function summary(numbers: Numbers | null): string {
-    if (numbers === null || numbers.fps < 0.5) {
-        return t("stats.idle");
+/* Nothing more comes after the final picture of what is looked at. */
+function summary({ statistics: numbers, frame, compiling, connection }: LinkState): string {
+    if (numbers === null || connection !== "live") {
+        return t("stats.open");
+    }
+    if (numbers.fps < 0.5) {
+        const done = frame.state === "lossless" && !frame.stale && !frame.outdated;
+        return t(done && compiling === null ? "stats.idle" : "stats.busy");
     }
     const ms = numbers.photonP50 ?? total(numbers);
     return t("stats.fps", { fps: Math.round(numbers.fps), ms: Math.round(ms) });
@@ -74,7 +79,7 @@ function summary(numbers: Numbers | null): string {
 
 export default function StatisticsPill() {
     const { stores } = useEditor();
-    const text = useLink((state) => summary(state.statistics));
+    const text = useLink(summary);
     const open = useView((view) => view.popup === "statistics");
     return (
         <Popover

@@ -2,22 +2,28 @@
 /* The state of the connection when there is something to say: the last picture stays, edits are
  * kept and sent later. */
 import { CloudOff } from "lucide-react";
+import { goTo } from "../route.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import "./view.css";
+
+/* Why a connection is refused when there is no such scene, or no longer. */
+const GONE = /^(404|deleted)/;
 
 export function Strip() {
     const { link } = useEditor();
     const connection = useLink((state) => state.connection);
     const reason = useLink((state) => state.reason);
     const waiting = useDocument((state) => state.waiting);
-    const text =
-        connection === "refused"
-            ? t("link.refused", { reason })
-            : waiting > 0
-              ? t("link.offlineWaiting", { count: waiting })
-              : t("link.offline");
+    const gone = connection === "refused" && GONE.test(reason);
+    const text = gone
+        ? t("link.gone")
+        : connection === "refused"
+          ? t("link.refused", { reason })
+          : waiting > 0
+            ? t("link.offlineWaiting", { count: waiting })
+            : t("link.offline");
     const shown = connection === "offline" || connection === "refused";
     return (
         <div role="status" className="strip-place">
@@ -25,7 +31,11 @@ export function Strip() {
                 <div className="strip" data-testid="strip">
                     <CloudOff size={15} aria-hidden="true" />
                     <span>{text}</span>
-                    <Button onClick={() => link.retry()}>{t("link.retry")}</Button>
+                    {gone ? (
+                        <Button onClick={() => goTo(null)}>{t("bar.scenes")}</Button>
+                    ) : (
+                        <Button onClick={() => link.retry()}>{t("link.retry")}</Button>
+                    )}
                 </div>
             )}
         </div>

@@ -53,6 +53,7 @@ function Picture() {
     const editor = useEditor();
     const place = useRef<HTMLDivElement>(null);
     const aiming = useView((view) => view.aiming);
+    const empty = useLink(({ frame }) => frame.state === "none");
     const { menu, open, close } = usePictureMenu();
     useEffect(() => {
         const element = place.current;
@@ -77,6 +78,7 @@ function Picture() {
                 className="view-picture"
                 data-testid="picture"
                 data-aiming={aiming || undefined}
+                data-empty={empty || undefined}
                 data-region-focus=""
                 role="application"
                 aria-label={t("view.picture")}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// What a machine can say of a page as it stands: texts that are cut off, controls that lie over each
+// other or outside of the window, colours that are hard to read.
+import { createRequire } from 'node:module';
+
+const require = createRequire(new URL('../../../web/package.json', import.meta.url));
+const { AxeBuilder } = require('@axe-core/playwright');
+
+const SLACK = 1.5; // CSS pixels that a rounded place may be off
+const LAP = 3.5; // controls may share a rim of so many pixels
+
+/* The functions that follow run in the page: `page` is what this one answers. */
+function tools({ SLACK, LAP }) {
+    const parentsOf = (one) => {
+        const list = [];
+        for (let parent = one.parentElement; parent; parent = parent.parentElement) {
+            list.push(parent);
+        }
+        return list;
+    };
+    const intersect = (a, b) => ({
+        left: Math.max(a.left, b.left),
+        top: Math.max(a.top, b.top),
+        right: Math.min(a.right, b.right),
+        bottom: Math.min(a.bottom, b.bottom),
+    });
+    const exceeds = ({ left, top, right, bottom }, by) => right - left > by && bottom - top > by;
+    return {
+        SLACK,
+        parentsOf,
+        nameOf(one) {
+            const words = (one.getAttribute('aria-label') ?? one.textContent ?? '').trim().slice(0, 48);
+            return `${one.tagName.toLowerCase()}${[...one.classList].map((name) => `.${name}`).join('')} “${words}”`;
+        },
+        isSeen: (one) =>
+            !one.matches('[role=separator], [aria-hidden=true] *, input[aria-hidden=true]') &&
+            !one.closest('.unseen, [data-base-ui-focus-guard]') &&
+            one.checkVisibility({ opacityProperty: true, visibilityProperty: true }),
+        isEmpty: (box) => !exceeds(box, SLACK),
+        overlap: (a, b) => exceeds(intersect(a, b), LAP),
+        scrolls: (value) => value === 'auto' || value === 'scroll',
+        hides: (value) => value === 'hidden' || value === 'clip',
+        isOutside: ({ left, top, right, bottom }) =>
+            right > innerWidth + SLACK || left < -SLACK || bottom > innerHeight + SLACK || top < -SLACK,
+        /* The part of an element that its scrolling parents leave in sight. */
+        shownPart(one) {
+            let box = one.getBoundingClientRect();
+            for (const parent of parentsOf(one)) {
+                const { overflowX, overflowY } = getComputedStyle(parent);
+                if (overflowX !== 'visible' || overflowY !== 'visible') {
+                    box = intersect(box, parent.getBoundingClientRect());
+                }
+            }
+            return box;
+        },
+    };
+}
+
+/* Texts that a parent cuts off without saying so by an ellipsis, and without a way to scroll. */
+function cutTexts({ SLACK, parentsOf, nameOf, isSeen, scrolls, hides }) {
+    const faultOf = (text) => {
+        const own = text.parentElement;
+        const range = document.createRange();
+        range.selectNodeContents(text);
+        const box = range.getBoundingClientRect();
+        let [movesX, movesY] = [false, false];
+        for (const parent of [own, ...parentsOf(own)]) {
+            const style = getComputedStyle(parent);
+            const edge = parent.getBoundingClientRect();
+            movesX ||= scrolls(style.overflowX);
+            movesY ||= scrolls(style.overflowY);
+            if (style.textOverflow === 'ellipsis' || style.webkitLineClamp !== 'none') {
+                return null;
+            }
+            const wide = hides(style.overflowX) && !movesX && (box.right > edge.right + SLACK || box.left < edge.left - SLACK);
+            const high = hides(style.overflowY) && !movesY && (box.bottom > edge.bottom + SLACK || box.top < edge.top - SLACK);
+            if (wide || high) {
+                return `text is cut off: ${nameOf(own)} by ${nameOf(parent).split(' ')[0]}`;
+            }
+        }
+        const outside = !movesX && (box.right > innerWidth + SLACK || box.left < -SLACK);
+        return outside ? `text is outside of the window: ${nameOf(own)}` : null;
+    };
+    const found = [];
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    for (let text = walker.nextNode(); text; text = walker.nextNode()) {
+        const own = text.parentElement;
+        if (text.data.trim() && isSeen(own) && !own.closest('.cm-editor, pre')) {
+            found.push(faultOf(text));
+        }
+    }
+    return found.filter((fault) => fault !== null);
+}
+
+/* Values without an ellipsis; words of buttons, which have to be read, even with one. */
+function cutValues({ SLACK, nameOf, isSeen }) {
+    const isShort = (one) => isSeen(one) && one.scrollWidth > one.clientWidth + SLACK;
+    const values = [...document.querySelectorAll('input:not([type=checkbox]), textarea')].filter(
+        (one) => isShort(one) && one !== document.activeElement && getComputedStyle(one).textOverflow !== 'ellipsis',
+    );
+    const buttons = [...document.querySelectorAll('.segment, .button, .menu-text, .tabs button')].filter(isShort);
+    return [
+        ...values.map((one) => `value is cut off: ${nameOf(one)} ${one.value}`),
+        ...buttons.map((one) => `words are shortened: ${nameOf(one)}`),
+    ];
+}
+
+/* Controls outside of the window, under something else, or over each other. */
+function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, isOutside, shownPart }) {
+    const CONTROLS =
+        'button, a[href], input, textarea, select, [role=button], [role=option], [role=menuitem], ' +
+        '[role=menuitemradio], [role=tab], [role=radio], [role=switch], [role=treeitem]';
+    const LAYERS = '.popup, .tip, [role=separator], .dialog, .notices, .drop-cover, .scenes-bar, .leaving-list, .backdrop';
+    const layerOf = (one) => one.closest(LAYERS) ?? document.body;
+    const modal = document.querySelector('.backdrop') !== null;
+    const canScroll = (one) => {
+        const { overflowX, overflowY } = getComputedStyle(one);
+        return scrolls(overflowX) || scrolls(overflowY);
+    };
+    /* What floats may cover what is below it; a message may not. */
+    const mayCover = (at, one) => {
+        const above = at?.closest(LAYERS);
+        return above && !above.contains(one) && !above.classList.contains('notices') && !at.closest('.notice');
+    };
+    const found = [];
+    const parts = [];
+    for (const one of [...document.querySelectorAll(CONTROLS)].filter(isSeen)) {
+        const box = shownPart(one);
+        if (modal && layerOf(one) === document.body) {
+            continue;
+        }
+        if (isEmpty(box)) {
+            if (!parentsOf(one).some(canScroll) && one.getBoundingClientRect().width > 0) {
+                found.push(`control cannot be seen: ${nameOf(one)}`);
+            }
+            continue;
+        }
+        const at = document.elementFromPoint((box.left + box.right) / 2, (box.top + box.bottom) / 2);
+        const mine = at && (one.contains(at) || at.contains(one) || at.closest('label')?.contains(one));
+        if (isOutside(box)) {
+            found.push(`control is outside of the window: ${nameOf(one)}`);
+        }
+        if (!mine && !mayCover(at, one)) {
+            found.push(`control is covered: ${nameOf(one)} by ${at ? nameOf(at) : 'nothing'}`);
+        }
+        for (const [other, its] of parts) {
+            if (!other.contains(one) && layerOf(one) === layerOf(other) && overlap(box, its)) {
+                found.push(`controls overlap: ${nameOf(other)} and ${nameOf(one)}`);
+            }
+        }
+        parts.push([one, box]);
+    }
+    return found;
+}
+
+function look(page) {
+    const { scrollWidth, clientWidth } = document.documentElement;
+    const wide = scrollWidth > clientWidth ? [`the page is ${scrollWidth - clientWidth} pixels too wide`] : [];
+    return [...new Set([...cutTexts(page), ...cutValues(page), ...lostControls(page), ...wide])];
+}
+
+const LOOK = `(() => {
+    ${[tools, cutTexts, cutValues, lostControls, look].join('\n')}
+    return look(tools(${JSON.stringify({ SLACK, LAP })}));
+})()`;
+
+async function contrast(page) {
+    const { violations } = await new AxeBuilder({ page })
+        .withRules(['color-contrast', 'target-size'])
+        .exclude('[data-base-ui-focus-guard]')
+        .analyze();
+    return violations.flatMap(({ id, nodes }) =>
+        nodes.map(({ target, any }) => `${id}: ${target} ${any[0]?.message ?? ''}`),
+    );
+}
+
+/** What is wrong with a page now, in words. */
+export async function check(page) {
+    const problems = page.problems.filter((text) => !page.expected?.test(text));
+    return [
+        ...(await page.evaluate(LOOK)),
+        ...(await contrast(page)),
+        ...problems.map((text) => `console: ${text}`),
+    ];
+}
