@@ -23,7 +23,7 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs docs bench lint format check golden-accept cards gallery clean \
+.PHONY: all fieldcast web run test programs docs bench screens lint format check golden-accept cards gallery clean \
         install uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -220,6 +220,9 @@ test: test-deps ## install what is missing, build with ASan and UBSan, run all t
 bench: test-deps ## measure; prints JSON
 	$(again) all
 	$(Q)cd $(S) && node tests/bench.mjs $(abspath $(OUT)) $(ARGS)
+
+screens: all ## pictures of every panel, dialog and state of the page, and what is wrong in them
+	$(Q)cd $(S) && FIELDCAST=$(abspath $(OUT))/fieldcast node tests/e2e/screens.mjs $(abspath $(BUILD))/screens $(ARGS)
 
 lint: ## the rules of the house
 	$(Q)cd $(S) && node tests/lint/lint.mjs
