@@ -283,15 +283,19 @@ function checkFormat(files) {
         console.log(`not checked: clang-format ${CLANG_FORMAT} is not here`);
         return;
     }
-    for (const file of files.filter((name) => /\.[ch]$/.test(name))) {
-        const text = fs.readFileSync(path.join(root, file), 'utf8');
-        const { stdout } = spawnSync('clang-format', [file], { cwd: root, encoding: 'utf8' });
-        if (stdout === text) {
-            continue;
-        }
-        const now = text.split('\n');
-        const line = stdout.split('\n').findIndex((wanted, index) => wanted !== now[index]);
-        report(file, line + 1, 'format', '`make format` would change this line');
+    const own = files.filter((name) => /\.[ch]$/.test(name));
+    const { status, stderr } = spawnSync('clang-format', ['--dry-run', '--Werror', ...own], {
+        cwd: root,
+        encoding: 'utf8',
+        maxBuffer: 1 << 28,
+    });
+    const wrong = new Map(); // file: the first line of it that is
+    for (const [, file, line] of stderr.matchAll(/^(.+?):(\d+):\d+: error: code should be clang-formatted/gm)) {
+        wrong.set(file, Math.min(wrong.get(file) ?? Infinity, Number(line)));
+    }
+    wrong.forEach((line, file) => report(file, line, 'format', '`make format` would change this line'));
+    if (status !== 0 && wrong.size === 0) {
+        faults.push(`format:\n${stderr.trimEnd()}`);
     }
 }
 
