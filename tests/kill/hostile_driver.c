@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A driver that hangs, crashes, eats memory or takes long over some shaders, and a libpng that does
- * so over some pictures: loaded into the daemon
- * in front of the real one (LD_PRELOAD), so that the program under test is the one that users run.
- * What it does is chosen by numbers in the shader's text. It takes time of the processor, so that a
- * busy machine changes nothing.
+ * so over some pictures: loaded into the daemon in front of the real one (LD_PRELOAD), so that the
+ * program under test is the one that users run. What it does is chosen by numbers in the shader's
+ * text. It takes time of the processor, so that a busy machine changes nothing; while it hangs, the
+ * processor clock of its thread runs HANG_RATE times as fast, so that little of it is burnt.
  *
  * HANG_ONCE and the like hang in the first so many processes that come so far: they write their
  * numbers into the file HOSTILE_COUNT. */
@@ -12,10 +12,13 @@
 #include <dlfcn.h>
 #include <png.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -47,7 +50,14 @@ static const struct {
     enum act act;
 } pictures[] = {{33, CRASH}, {35, HANG_ONCE}};
 
-enum { OBJECTS = 4096, EAT_BYTES = 1 << 20, GROUP_MS = 10, HARD_GROUP_MS = 250 };
+enum {
+    OBJECTS = 4096,
+    EAT_BYTES = 1 << 20,
+    GROUP_MS = 10,
+    HARD_GROUP_MS = 150,
+    HANG_RATE = 10,
+    NS = 1000000000
+};
 
 static PFNGLSHADERSOURCEPROC real_source;
 static PFNGLATTACHSHADERPROC real_attach;
@@ -57,9 +67,62 @@ static pthread_t later[OBJECTS];   /* by shader or program: who may use it */
 static char is_later[OBJECTS];     /* enum act */
 static _Thread_local int group_ms; /* of the program in use */
 
+/* Of the thread that hangs. */
+static struct {
+    clockid_t clock;
+    int64_t begun_ns;
+} hung;
+static atomic_bool is_hung;
+
+static int64_t ns_of(const struct timespec *t)
+{
+    return (int64_t)t->tv_sec * NS + t->tv_nsec;
+}
+
+static int real_gettime(clockid_t clock, struct timespec *out)
+{
+    static int (*real)(clockid_t, struct timespec *);
+
+    if (!real) {
+        real = (int (*)(clockid_t, struct timespec *))dlsym(RTLD_NEXT, "clock_gettime");
+    }
+    return real(clock, out);
+}
+
+int clock_gettime(clockid_t clock, struct timespec *out)
+{
+    const int result = real_gettime(clock, out);
+
+    if (result == 0 && atomic_load(&is_hung) && clock == hung.clock) {
+        const int64_t ns = hung.begun_ns + HANG_RATE * (ns_of(out) - hung.begun_ns);
+
+        *out = (struct timespec){ns / NS, ns % NS};
+    }
+    return result;
+}
+
 static void hang(void)
 {
+    struct timespec now;
+
+    pthread_getcpuclockid(pthread_self(), &hung.clock);
+    real_gettime(hung.clock, &now);
+    hung.begun_ns = ns_of(&now);
+    atomic_store(&is_hung, true);
     for (volatile int i = 0;; i++) {
+    }
+}
+
+/* Not by malloc: that of the sanitizers takes seconds to say that there is no more. */
+static void eat(void)
+{
+    for (;;) {
+        void *block =
+            mmap(NULL, EAT_BYTES, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (block == MAP_FAILED) {
+            abort();
+        }
+        memset(block, 1, EAT_BYTES);
     }
 }
 
@@ -131,13 +194,8 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
     case CRASH:
         abort();
     case EAT:
-        for (;;) {
-            char *block = malloc(EAT_BYTES);
-            if (!block) {
-                abort();
-            }
-            memset(block, 1, EAT_BYTES);
-        }
+        eat();
+        break;
     case CRASH_LATER:
     case DRAW_SLOWLY:
     case DRAW_HARDLY:

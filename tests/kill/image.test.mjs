@@ -21,7 +21,7 @@ import { blankPng } from '../support/png.mjs';
 
 const hostile = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
 const SIDE = 5792; // its square is the most pixels that a file may have
-const ROUNDS = 12;
+const ROUNDS = 4;
 const CALM_ROUNDS = 40;
 const PLACE = '/environment/image';
 const MIB = 1 << 20;

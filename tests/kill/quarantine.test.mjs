@@ -4,7 +4,16 @@
 import assert from 'node:assert/strict';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { ask, counter, makeDirectory, program, removeDirectory, startDaemon, until } from '../support/daemon.mjs';
+import {
+    ask,
+    counter,
+    driverEnvironment,
+    makeDirectory,
+    program,
+    removeDirectory,
+    startDaemon,
+    until,
+} from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const driver = path.join(path.dirname(program), 'tests/kill/hostile_driver.so');
@@ -24,13 +33,16 @@ const scene = (code) => ({
     root: { id: 'root', type: 'union', children: [{ id: 'b', type: 'field', params: { primitive: 'blob' } }] },
 });
 
+/** With the driver in front of one that draws nothing: nobody looks at a pixel here. */
+function start(options) {
+    const { LD_PRELOAD, ...environment } = driverEnvironment('null');
+    return startDaemon({ ...options, environment: { ...environment, LD_PRELOAD: `${driver} ${LD_PRELOAD}` } });
+}
+
 let daemon;
 let viewer; // of a scene that has nothing to do with it
 before(async () => {
-    process.env.LD_PRELOAD = driver;
-    process.env.ASAN_OPTIONS = `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`;
-    daemon = await startDaemon({ args: ['--worker-memory', '512'] });
-    delete process.env.LD_PRELOAD;
+    daemon = await start({ args: ['--worker-memory', '512'] });
     await ask(daemon, 'POST', '/v1/scenes?id=other', {
         format: 'fieldcast/1',
         root: { id: 'ball', type: 'sphere' },
@@ -183,12 +195,10 @@ test('a drawing thread that waits for nothing is found, although pings are answe
 
 test('stored code is kept but not compiled where code is off', async () => {
     const data = makeDirectory();
-    process.env.LD_PRELOAD = driver;
-    let other = await startDaemon({ data });
+    let other = await start({ data });
     await ask(other, 'POST', '/v1/scenes?id=kept', scene(CRASH));
     await other.stop();
-    other = await startDaemon({ data, args: ['--code', 'off'] });
-    delete process.env.LD_PRELOAD;
+    other = await start({ data, args: ['--code', 'off'] });
     const live = await Live.open(other, 'kept');
     const notice = await live.next('notice', { code: 'code_off' });
     assert.equal(notice.level, 'warning');
