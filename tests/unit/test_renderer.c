@@ -665,7 +665,11 @@ static char *spheres_text(int count)
     return text;
 }
 
-/* The document has three shapes; its picture stays while there are too many. */
+/* The document has three shapes, and this a fourth. */
+static const char one_more[] = "[{'op':'insert','into':'/nodes/root','before':null,"
+                               "'value':{'id':'last','type':'sphere'}}]";
+
+/* The picture of the document stays while there are too many. */
 static void test_too_many_shapes(void **state)
 {
     struct resident *resident = make_resident(document);
@@ -674,10 +678,9 @@ static void test_too_many_shapes(void **state)
     struct error err = {0};
 
     (void)state;
-    edit(resident, text);
+    edit(resident, one_more);
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
-    edit(resident, "[{'op':'insert','into':'/nodes/root','before':null,"
-                   "'value':{'id':'last','type':'sphere'}}]");
+    edit(resident, text);
     assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
     assert_string_equal(resident_error(resident)->place, "/nodes/root");
     assert_string_equal(resident_error(resident)->message,
@@ -691,6 +694,25 @@ static void test_too_many_shapes(void **state)
     assert_same(&before, &again);
     image_finish(&before);
     image_finish(&again);
+    free(text);
+    resident_destroy(resident);
+}
+
+/* A device without a GPU compiles so many for a minute. */
+static void test_as_many_shapes_as_may_be(void **state)
+{
+    const struct job_desc small = {.width = 16, .height = 16, .samples = 1, .exact = true};
+    struct resident *resident = make_resident(document);
+    char *text = spheres_text(LIMIT_DRAWN_SHAPES - 3);
+    struct image image;
+
+    (void)state;
+    edit(resident, text);
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
+    image = draw(resident, &small);
+    image_finish(&image);
+    edit(resident, one_more);
+    assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
     free(text);
     resident_destroy(resident);
 }
@@ -822,8 +844,13 @@ int main(void)
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_loop_budget),
     };
+    /* What programs take long for. */
+    const struct CMUnitTest many[] = {
+        cmocka_unit_test(test_as_many_shapes_as_may_be),
+    };
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
            cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +
-           cmocka_run_group_tests_name("engine", common, set_up_engine, tear_down);
+           cmocka_run_group_tests_name("engine", common, set_up_engine, tear_down) +
+           cmocka_run_group_tests_name("many", many, set_up_engine, tear_down);
 }
