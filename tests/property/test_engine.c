@@ -39,12 +39,13 @@ static struct renderer *open_renderer(enum render_stage stage, int lanes)
     return renderer;
 }
 
-static struct image draw(struct renderer *renderer, const struct embedded *example, int samples)
+static struct image draw_part(struct renderer *renderer, const struct embedded *example,
+                              int samples, int part)
 {
     struct error err = {0};
     struct image image;
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
-    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    struct job_desc desc = drawing_desc(WIDTH / part, HEIGHT / part);
 
     assert_non_null(scene);
     local_render_give_example_file(renderer, scene);
@@ -53,6 +54,11 @@ static struct image draw(struct renderer *renderer, const struct embedded *examp
     assert_true(renderer_render(resident, &desc, &image, &err));
     resident_destroy(resident);
     return image;
+}
+
+static struct image draw(struct renderer *renderer, const struct embedded *example, int samples)
+{
+    return draw_part(renderer, example, samples, 1);
 }
 
 /* Pixels that differ. */
@@ -146,11 +152,12 @@ static void other_pictures_are_noticed(void **state)
     renderer_destroy(renderer);
 }
 
+/* Small, because the narrowest is checked by the sanitizers. */
 static void all_widths_give_the_same_bytes(void **state)
 {
     static const char *const names[] = {"csg",   "snowman",      "mirrors",
                                         "twist", "repeat-polar", "coloured-glass"};
-    enum { NAMES = sizeof names / sizeof names[0] };
+    enum { NAMES = sizeof names / sizeof names[0], SMALLER = 2 };
     struct image widest[NAMES];
 
     (void)state;
@@ -158,12 +165,13 @@ static void all_widths_give_the_same_bytes(void **state)
     for (size_t k = 0; engine_lanes(k) > 0; k++) {
         struct renderer *renderer = open_renderer(RENDER_ENGINE, engine_lanes(k));
         for (size_t i = 0; i < NAMES; i++) {
-            struct image image = draw(renderer, example(names[i]), 2);
+            struct image image = draw_part(renderer, example(names[i]), 2, SMALLER);
             if (k == 0) {
                 widest[i] = image;
                 continue;
             }
-            assert_memory_equal(image.pixels, widest[i].pixels, WIDTH * HEIGHT * 4);
+            assert_int_equal(image.bytes, widest[i].bytes);
+            assert_memory_equal(image.pixels, widest[i].pixels, image.bytes);
             image_finish(&image);
         }
         renderer_destroy(renderer);
