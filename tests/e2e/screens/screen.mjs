@@ -94,6 +94,8 @@ export async function openScreen(stage, state, { theme, width, height, touch }) 
     stage.heard();
     page.setDefaultTimeout(TIMEOUT_MS);
     page.problems = [];
+    /* A picture may be asked for while its scene goes. */
+    page.expected = state.scene === null ? /status of 404/ : undefined;
     page.on('pageerror', (error) => page.problems.push(String(error)));
     page.on('console', (message) => {
         if (['error', 'warning'].includes(message.type())) {
