@@ -1,19 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Two lists under one lock: pictures that are encoded, and those that are done. The thread works on
- * one picture without the lock; meanwhile others only append to its rows. */
+/* Two lists under one lock: pictures that are encoded, and those that are done. A thread works on
+ * one picture without the lock; meanwhile others only append to its rows. Which of the threads a
+ * picture is for does not change. */
 #include "encode_thread.h"
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "protocol/memory.h"
 
 enum {
-    SLICE_PIXELS = 1 << 18, /* encoded at a time: some 30 ms of PNG */
+    SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */
     FULL_BYTES = 32 << 20,
+    PATIENT_NICE = 5, /* to a thread that draws: a third of its time where both want a processor */
 };
+
+enum lane { LANE_URGENT, LANE_PATIENT, LANES };
 
 struct rows {
     enum aov aov;
@@ -30,12 +35,15 @@ struct work {
     size_t length;
     struct rows *rows; /* the oldest first */
     size_t waiting_bytes;
+    uint64_t pixels; /* of the whole picture */
     bool ended, whole, failed;
     struct work *next;
 };
 
 struct encode_thread {
-    pthread_t thread;
+    pthread_t threads[LANES];
+    int started; /* of the threads; */
+    int ready;   /* those that have the priority that they are to have */
     pthread_mutex_t lock;
     pthread_cond_t change;
     struct work *works, *done; /* in order of arrival */
@@ -80,15 +88,26 @@ static void drop_rows(struct work *work)
     free(first);
 }
 
-/* --- the thread --- */
+/* --- the threads --- */
 
-static struct work *most_urgent(const struct encode_thread *encode_thread)
+static enum lane lane_of(const struct work *work)
+{
+    return work->result.priority <= ENCODE_URGENT ? LANE_URGENT : LANE_PATIENT;
+}
+
+static bool is_before(const struct work *a, const struct work *b)
+{
+    return a->result.priority != b->result.priority ? a->result.priority < b->result.priority
+                                                    : a->pixels < b->pixels;
+}
+
+static struct work *find_next(const struct encode_thread *encode_thread, enum lane lane)
 {
     struct work *best = NULL;
 
     for (struct work *work = encode_thread->works; work; work = work->next) {
-        if ((work->rows || work->ended) &&
-            (!best || work->result.priority < best->result.priority)) {
+        if (lane_of(work) == lane && (work->rows || work->ended) &&
+            (!best || is_before(work, best))) {
             best = work;
         }
     }
@@ -161,13 +180,13 @@ static void encode(struct encode_thread *encode_thread, struct work *work)
     }
 }
 
-static void *thread_main(void *data)
+static void serve(struct encode_thread *encode_thread, enum lane lane)
 {
-    struct encode_thread *encode_thread = data;
-
     pthread_mutex_lock(&encode_thread->lock);
+    encode_thread->ready++;
+    pthread_cond_broadcast(&encode_thread->change);
     while (!encode_thread->stop) {
-        struct work *work = most_urgent(encode_thread);
+        struct work *work = find_next(encode_thread, lane);
 
         if (work) {
             encode(encode_thread, work);
@@ -176,10 +195,41 @@ static void *thread_main(void *data)
         }
     }
     pthread_mutex_unlock(&encode_thread->lock);
+}
+
+static void *serve_urgent(void *data)
+{
+    serve(data, LANE_URGENT);
+    return NULL;
+}
+
+/* Of the calling thread alone, as Linux has it. */
+static void *serve_patient(void *data)
+{
+    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + PATIENT_NICE);
+    serve(data, LANE_PATIENT);
     return NULL;
 }
 
 /* --- for the owner --- */
+
+/* Returns when the threads have their priorities, which may not be changed later (confine.h). */
+static bool start_threads(struct encode_thread *encode_thread)
+{
+    void *(*const mains[LANES])(void *) = {serve_urgent, serve_patient};
+
+    while (encode_thread->started < LANES &&
+           pthread_create(&encode_thread->threads[encode_thread->started], NULL,
+                          mains[encode_thread->started], encode_thread) == 0) {
+        encode_thread->started++;
+    }
+    pthread_mutex_lock(&encode_thread->lock);
+    while (encode_thread->ready < encode_thread->started) {
+        pthread_cond_wait(&encode_thread->change, &encode_thread->lock);
+    }
+    pthread_mutex_unlock(&encode_thread->lock);
+    return encode_thread->started == LANES;
+}
 
 struct encode_thread *encode_thread_create(int wake_fd, struct error *err)
 {
@@ -188,11 +238,9 @@ struct encode_thread *encode_thread_create(int wake_fd, struct error *err)
     encode_thread->wake_fd = wake_fd;
     pthread_mutex_init(&encode_thread->lock, NULL);
     pthread_cond_init(&encode_thread->change, NULL);
-    if (pthread_create(&encode_thread->thread, NULL, thread_main, encode_thread) != 0) {
+    if (!start_threads(encode_thread)) {
         error_set(err, ERROR_UNAVAILABLE, "", "no thread for encoding pictures");
-        pthread_cond_destroy(&encode_thread->change);
-        pthread_mutex_destroy(&encode_thread->lock);
-        free(encode_thread);
+        encode_thread_destroy(encode_thread);
         return NULL;
     }
     return encode_thread;
@@ -207,9 +255,11 @@ void encode_thread_destroy(struct encode_thread *encode_thread)
     }
     pthread_mutex_lock(&encode_thread->lock);
     encode_thread->stop = true;
-    pthread_cond_signal(&encode_thread->change);
+    pthread_cond_broadcast(&encode_thread->change);
     pthread_mutex_unlock(&encode_thread->lock);
-    pthread_join(encode_thread->thread, NULL);
+    while (encode_thread->started > 0) {
+        pthread_join(encode_thread->threads[--encode_thread->started], NULL);
+    }
     while ((left = take_first(&encode_thread->works)) ||
            (left = take_first(&encode_thread->done))) {
         encoding_destroy(&left->result);
@@ -235,6 +285,9 @@ struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
     if (!stream_encoder_begin(stream, shapes, params, work->out, err)) {
         encoding_destroy(&work->result);
         return NULL;
+    }
+    for (int i = 0; i < AOV_COUNT; i++) {
+        work->pixels += (uint64_t)shapes[i].width * (uint64_t)shapes[i].height;
     }
     work->result.priority = priority;
     work->result.data = data;
@@ -262,7 +315,7 @@ void encode_thread_add(struct encode_thread *encode_thread, struct encoding *enc
     }
     *end = rows;
     work->waiting_bytes += image.bytes;
-    pthread_cond_signal(&encode_thread->change);
+    pthread_cond_broadcast(&encode_thread->change);
     pthread_mutex_unlock(&encode_thread->lock);
 }
 
@@ -273,7 +326,7 @@ void encode_thread_end(struct encode_thread *encode_thread, struct encoding *enc
     pthread_mutex_lock(&encode_thread->lock);
     work->ended = true;
     work->whole = whole;
-    pthread_cond_signal(&encode_thread->change);
+    pthread_cond_broadcast(&encode_thread->change);
     pthread_mutex_unlock(&encode_thread->lock);
 }
 

@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* A thread that encodes pictures as their rows come, so that a large one holds up neither drawing
- * nor answers. After a few rows of one picture it looks whether another is more urgent. */
+/* Threads that encode pictures as their rows come, so that a large one holds up neither drawing nor
+ * answers. Urgent pictures have one of their own; the other one leaves the processors to those who
+ * draw. After a few rows of one picture each looks whether another goes first. */
 #ifndef RENDERER_ENCODE_THREAD_H
 #define RENDERER_ENCODE_THREAD_H
 
 #include "renderer/renderer.h"
 #include "stream_encoder.h"
 
+enum { ENCODE_URGENT = 1 }; /* the highest priority number of urgent pictures */
+
 struct encode_thread;
 
 /* A picture being encoded. It belongs to the thread until encode_thread_take gives it back. */
 struct encoding {
-    int priority;                /* the lowest goes first, then the oldest */
-    void *data;                  /* the owner's */
+    int priority; /* the lowest goes first, then the smallest picture, then the oldest */
+    void *data;   /* the owner's */
     struct stream_packet packet; /* where it is ok */
     bool ok;                     /* else `error` says why, or nobody wanted it */
     uint8_t *bytes;

@@ -199,6 +199,8 @@ enum job_state job_step(struct job *job);
 bool job_is_within_tile(const struct job *job);
 /* It has begun, and its pixels have several samples each. */
 bool job_is_sampled(const struct job *job);
+/* Nothing of this round is left to draw: the next step takes no time. */
+bool job_is_drawn(const struct job *job);
 /* False while a step would only wait for the compiler. */
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);

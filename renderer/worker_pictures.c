@@ -251,6 +251,22 @@ static enum job_state step(struct worker *w, struct worker_job *job)
     return state;
 }
 
+/* A step that draws, and those that take no time: a picture that is drawn is not kept waiting for
+ * others' tiles. */
+static enum job_state take_turn(struct worker *w, struct worker_job *job)
+{
+    enum job_state state = step(w, job);
+
+    while (state == JOB_ROWS) {
+        hand_rows_over(w, job);
+        if (!job_is_drawn(job->drawing)) {
+            break;
+        }
+        state = step(w, job);
+    }
+    return state;
+}
+
 void worker_step(struct worker *w, struct worker_job *job)
 {
     tell_drawing(w, job);
@@ -260,12 +276,10 @@ void worker_step(struct worker *w, struct worker_job *job)
     if (job->begun_us == 0) {
         job->begun_us = now_us();
     }
-    switch (step(w, job)) {
+    switch (take_turn(w, job)) {
     case JOB_WAITING:
     case JOB_RUNNING:
-        break;
     case JOB_ROWS:
-        hand_rows_over(w, job);
         break;
     case JOB_ROUND:
         finish_round(w, job);

@@ -30,18 +30,31 @@ static bool may_have_rounds(const struct job *job)
     return job->in_rounds && (long)job->region.width * job->region.height <= ROUNDS_PIXELS_MAX;
 }
 
+static enum pace_company company_of(const struct job *job)
+{
+    return job->renderer->shared ? PACE_SHARED : PACE_ALONE;
+}
+
 static void begin_row(struct job *job, int y)
 {
     const struct draw *draw = job->renderer->draw;
     const struct draw_plan *plan = &job->picture.plan;
-    struct pace_row pace =
-        pace_begin(job->pace, job->renderer->shared ? PACE_SHARED : PACE_ALONE, job->level);
+    struct pace_row pace = pace_begin(job->pace, company_of(job), job->level);
     const int side = draw_tile_side_of(draw, plan, pace.doublings);
 
     while (pace.doublings > 0 && draw_tile_side_of(draw, plan, pace.doublings - 1) == side) {
         pace.doublings--; /* the largest */
     }
-    job->row = (struct row){.y = y, .side = side, .pace = pace};
+    job->row = (struct row){.y = y, .side = side, .width = side, .pace = pace};
+}
+
+/* The next tiles of the row. */
+static void choose_width(struct job *job)
+{
+    const struct pace_row shared = pace_begin(job->pace, PACE_SHARED, job->level);
+    const int side = draw_tile_side_of(job->renderer->draw, &job->picture.plan, shared.doublings);
+
+    job->row.width = pace_width(&job->row.pace, company_of(job), job->row.side, side);
 }
 
 /* Of a snapshot that is ready. */
@@ -67,7 +80,7 @@ static enum job_state begin(struct job *job)
 
     switch (snapshot_state(snapshot)) {
     case PROGRAM_PENDING:
-        return JOB_WAITING;
+        return job->state;
     case PROGRAM_FAILED:
         job->error = *snapshot_error(snapshot);
         return fail(job);
@@ -106,7 +119,7 @@ static struct tile next_tile(const struct job *job)
     const struct row *row = &job->row;
 
     return (struct tile){job->region.x + row->x, job->region.y + row->y,
-                         smaller(row->side, job->region.width - row->x),
+                         smaller(row->width, job->region.width - row->x),
                          smaller(row->side, job->region.height - row->y)};
 }
 
@@ -120,7 +133,7 @@ static void end_tile_start(struct job *job)
 {
     struct row *row = &job->row;
 
-    row->x += row->side;
+    row->x += row->width;
     if (row->x < job->region.width) {
         return;
     }
@@ -173,7 +186,7 @@ static bool learn(struct job *job, int64_t took_us, int64_t cpu_us)
 {
     struct row *row = &job->row;
 
-    pace_learn(job->pace, job->level, &row->pace, took_us);
+    pace_learn(job->pace, job->level, &row->pace, took_us * row->side / row->width);
     return row->pace.doublings > 0 || cpu_us <= job->limit_us ||
            error_set_slow(&job->error, "", "the smallest part of the picture took",
                           (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
@@ -208,6 +221,7 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
                               &job->error);
     }
     job->steps[job->started % DRAW_SLOTS] = 1;
+    choose_width(job);
     return draw_tile(draw, &job->picture, scene, next_tile(job), job->started++ % DRAW_SLOTS,
                      &job->error);
 }
@@ -321,11 +335,16 @@ bool job_step_possible(const struct job *job)
     return job->state != JOB_WAITING || snapshot_state(job->snapshot) != PROGRAM_PENDING;
 }
 
+bool job_is_drawn(const struct job *job)
+{
+    return job->begun && all_started(job) && job->collected == job->started;
+}
+
 /* A tile is started before the one before it is waited for, across rows too. */
 enum job_state job_step(struct job *job)
 {
-    if (job->state == JOB_WAITING) {
-        return begin(job);
+    if (job->state == JOB_WAITING && begin(job) != JOB_RUNNING) {
+        return job->state;
     }
     if (job->state == JOB_ROUND) {
         job->state = JOB_RUNNING;

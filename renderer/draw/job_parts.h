@@ -7,9 +7,10 @@
 
 /* A row of tiles. */
 struct row {
-    int y;    /* from the top of the region */
-    int x;    /* of the tile that is started next */
-    int side; /* of its tiles, as far as the region goes */
+    int y;     /* from the top of the region */
+    int x;     /* of the tile that is started next */
+    int side;  /* of its tiles, as far as the region goes; */
+    int width; /* narrower where others have come since */
     struct pace_row pace;
 };
 

@@ -5,9 +5,13 @@
 
 #include "protocol/memory.h"
 
+enum { WIDTH_LEAST = 8 }; /* a work group */
+
+/* A tile takes four times as long as one of half its side: in company it takes some 10 ms. Who
+ * comes to one that was alone waits for its tile once. */
 static const struct {
     int64_t long_us, short_us;
-} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {200000, 40000}, [PACE_SHARED] = {20000, 4000}};
+} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {80000, 20000}, [PACE_SHARED] = {15000, 3500}};
 
 struct pace *pace_create(void)
 {
@@ -37,6 +41,16 @@ struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
                            enum quality_level level)
 {
     return (struct pace_row){.company = company, .doublings = pace->doublings[company][level]};
+}
+
+int pace_width(const struct pace_row *row, enum pace_company company, int side, int shared_side)
+{
+    const int width =
+        shared_side * shared_side / side / WIDTH_LEAST * WIDTH_LEAST; /* as many pixels */
+
+    return row->company == PACE_SHARED || company == PACE_ALONE || shared_side >= side ? side
+           : width > WIDTH_LEAST                                                       ? width
+                                 : WIDTH_LEAST;
 }
 
 void pace_be_careful(struct pace *pace, enum quality_level level)

@@ -39,6 +39,9 @@ struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
                            enum quality_level level);
 /* The smallest tiles, from the next row on. */
 void pace_be_careful(struct pace *pace, enum quality_level level);
+/* How wide the next tiles of the row are, `side` high: less than that where others have come since
+ * it began, so that they wait as long as for any tile; `shared_side` is the side of theirs. */
+int pace_width(const struct pace_row *row, enum pace_company company, int side, int shared_side);
 /* A sample of a tile of the row took so long: too long halves the side of later ones. */
 void pace_learn(struct pace *pace, enum quality_level level, struct pace_row *row, int64_t us);
 /* All of the row is started: where each took little, the side of later ones is doubled. */

@@ -4,10 +4,12 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
+enum { TILE_LEAST = 16 };
+
 struct crew {
     struct engine_canvas *canvas;
     const struct engine_work *work;
-    int across, count; /* small tiles in a row, and all of them */
+    int side, across, count; /* of small tiles; those in a row, and all of them */
     atomic_int next_tile, next_thread;
     atomic_uint_least64_t rays;
 };
@@ -53,13 +55,25 @@ static void *take_tiles(void *argument)
     struct hand *hand = hand_create(crew);
     for (int i = atomic_fetch_add(&crew->next_tile, 1); i < crew->count;
          i = atomic_fetch_add(&crew->next_tile, 1)) {
-        const int x = i % crew->across * TILE, y = i / crew->across * TILE;
-        draw_tile(hand, tile.x + x, tile.y + y, smaller(TILE, tile.width - x),
-                  smaller(TILE, tile.height - y));
+        const int x = i % crew->across * crew->side, y = i / crew->across * crew->side;
+        draw_tile(hand, tile.x + x, tile.y + y, smaller(crew->side, tile.width - x),
+                  smaller(crew->side, tile.height - y));
     }
     atomic_fetch_add(&crew->rays, hand->rays);
     free(hand);
     return NULL;
+}
+
+/* As large as leaves a part of the tile to each processor. */
+static void divide(struct crew *crew, long cores)
+{
+    const struct engine_rect tile = crew->work->tile;
+    crew->side = 2 * TILE;
+    do {
+        crew->side /= 2;
+        crew->across = (tile.width + crew->side - 1) / crew->side;
+        crew->count = crew->across * ((tile.height + crew->side - 1) / crew->side);
+    } while (crew->side > TILE_LEAST && crew->count < 2 * cores);
 }
 
 static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
@@ -68,8 +82,7 @@ static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *wor
     pthread_t threads[ENGINE_THREADS];
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     int started = 0;
-    crew.across = (work->tile.width + TILE - 1) / TILE;
-    crew.count = crew.across * ((work->tile.height + TILE - 1) / TILE);
+    divide(&crew, cores);
     atomic_init(&crew.next_tile, 0);
     atomic_init(&crew.next_thread, 0);
     atomic_init(&crew.rays, 0);

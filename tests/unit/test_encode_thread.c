@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The encoding thread: pictures that come in pieces and in turns are those that image_encode makes;
- * one that fails or is given up comes back at once. */
+/* The encoding threads: pictures that come in pieces, in turns, are those that image_encode makes;
+ * one that fails or is given up comes back at once; an urgent one waits for no other. */
+#include <semaphore.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -188,6 +190,91 @@ static void test_full(void **state)
     image_finish(&image);
 }
 
+/* --- a stream whose rows take until they are let go on --- */
+
+enum { STUCK_SECONDS = 60 }; /* then the test has failed */
+
+static sem_t stuck, let_go;
+static bool in_time;
+
+static void *open_slow(void)
+{
+    return NULL;
+}
+
+static bool begin_slow(void *state, const struct image shapes[AOV_COUNT],
+                       const struct encode_params *params, bool key, FILE *out, struct error *err)
+{
+    (void)state;
+    (void)shapes;
+    (void)params;
+    (void)key;
+    (void)out;
+    (void)err;
+    return true;
+}
+
+static bool add_slow(void *state, enum aov aov, const struct image *rows, struct error *err)
+{
+    struct timespec end;
+
+    (void)state;
+    (void)aov;
+    (void)rows;
+    (void)err;
+    clock_gettime(CLOCK_REALTIME, &end);
+    end.tv_sec += STUCK_SECONDS;
+    sem_post(&stuck);
+    in_time = sem_timedwait(&let_go, &end) == 0;
+    return true;
+}
+
+static bool end_slow(void *state, struct stream_packet *out, struct error *err)
+{
+    (void)state;
+    (void)out;
+    (void)err;
+    return true;
+}
+
+static void close_slow(void *state)
+{
+    (void)state;
+}
+
+static const struct stream_class slow_stream = {open_slow, begin_slow, add_slow, end_slow,
+                                                close_slow};
+
+static void test_urgent(void **state)
+{
+    const struct encode_params params = {.format = CODEC_JPEG};
+    struct image image = make_image(WIDTH, HEIGHT, 7), shapes[AOV_COUNT] = {[AOV_COLOR] = image};
+    struct stream_encoder *stream = streams[stream_count++] = stream_encoder_open(&slow_stream);
+    struct encoding *slow = encode_thread_begin(encode_thread, stream, shapes, &params,
+                                                ENCODE_URGENT + 1, NULL, NULL),
+                    *first;
+
+    (void)state;
+    sem_init(&stuck, 0, 0);
+    sem_init(&let_go, 0, 0);
+    add(slow, &image, 0, HEIGHT);
+    encode_thread_end(encode_thread, slow, true);
+    sem_wait(&stuck);
+    struct encoding *urgent = begin(&image, &params);
+    add(urgent, &image, 0, HEIGHT);
+    encode_thread_end(encode_thread, urgent, true);
+    first = take();
+    sem_post(&let_go);
+    assert_ptr_equal(first, urgent);
+    assert_ptr_equal(take(), slow);
+    assert_true(in_time);
+    encoding_destroy(urgent);
+    encoding_destroy(slow);
+    sem_destroy(&stuck);
+    sem_destroy(&let_go);
+    image_finish(&image);
+}
+
 static void test_left_behind(void **state)
 {
     struct image image = make_image(WIDTH, HEIGHT, 6);
@@ -204,6 +291,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_failure, start, stop),
         cmocka_unit_test_setup_teardown(test_given_up, start, stop),
         cmocka_unit_test_setup_teardown(test_full, start, stop),
+        cmocka_unit_test_setup_teardown(test_urgent, start, stop),
         cmocka_unit_test_setup_teardown(test_left_behind, start, stop),
     };
 

@@ -9,7 +9,7 @@
 
 #include "renderer/draw/pace.h"
 
-enum { QUICK_US = 1000, MIDDLING_US = 30000, SLOW_US = 300000 };
+enum { QUICK_US = 1000, MIDDLING_US = 18000, SLOW_US = 300000 };
 
 /* A row of tiles that took so long each; returns the doublings of the next one. */
 static int row_of(struct pace *pace, enum pace_company company, enum quality_level level,
@@ -44,6 +44,27 @@ static void company_makes_tiles_shorter(void **state)
     assert_int_equal(row_of(pace, PACE_SHARED, QUALITY_STILL, MIDDLING_US), PACE_FIRST - 1);
     assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_STILL, MIDDLING_US), PACE_FIRST + 1);
     assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, PACE_FIRST - 1);
+    pace_unref(pace);
+}
+
+/* A row that was begun alone has large tiles, and may have many of them. */
+static void company_makes_tiles_narrower_at_once(void **state)
+{
+    struct pace *pace = pace_create();
+    const struct pace_row alone = pace_begin(pace, PACE_ALONE, QUALITY_STILL),
+                          shared = pace_begin(pace, PACE_SHARED, QUALITY_STILL);
+
+    (void)state;
+    assert_int_equal(pace_width(&alone, PACE_ALONE, 512, 64), 512);
+    assert_int_equal(pace_width(&shared, PACE_SHARED, 64, 64), 64);
+    for (int side = 64; side <= 512; side *= 2) {
+        for (int other = 8; other < side; other *= 2) {
+            const int width = pace_width(&alone, PACE_SHARED, side, other);
+
+            assert_true(width >= 8 && width % 8 == 0);
+            assert_true(width == 8 || width * side <= other * other);
+        }
+    }
     pace_unref(pace);
 }
 
@@ -95,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_slow_row_halves_the_side_once),
         cmocka_unit_test(company_makes_tiles_shorter),
+        cmocka_unit_test(company_makes_tiles_narrower_at_once),
         cmocka_unit_test(sides_have_ends),
         cmocka_unit_test(what_is_out_of_date_changes_nothing),
         cmocka_unit_test(a_careful_picture_has_the_smallest),

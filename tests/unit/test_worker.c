@@ -328,6 +328,31 @@ static void test_scenes_take_turns(void **state)
     send_cancel(LARGE);
 }
 
+/* What takes no time is no turn: beginning, handing over rows, ending. */
+static void test_one_tile_takes_one_turn(void **state)
+{
+    enum { SMALL = 8, LARGE = 100 };
+
+    (void)state;
+    send_scene("s", 1);
+    expect(TO_FRONT_SHOWN);
+    send_scene("t", 1);
+    expect(TO_FRONT_SHOWN);
+    send_render(LARGE, 0, 8000, 6000, "");
+    for (int job = 1; job <= SMALL; job++) {
+        int turns = 0;
+
+        send_render_of("t", job, 0, 40, 30, "");
+        while (receive() != TO_FRONT_FRAME) {
+            assert_int_not_equal(packet.kind, TO_FRONT_COUNT);
+            turns += packet.kind == TO_FRONT_DRAWING && packet.suspect.job == (uint32_t)job;
+        }
+        assert_int_equal(packet.frame.job, job);
+        assert_int_equal(turns, 1);
+    }
+    send_cancel(LARGE);
+}
+
 static void test_cancel(void **state)
 {
     (void)state;
@@ -719,6 +744,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_structural_edit, start, stop),
         cmocka_unit_test_setup_teardown(test_priority, start, stop),
         cmocka_unit_test_setup_teardown(test_scenes_take_turns, start, stop),
+        cmocka_unit_test_setup_teardown(test_one_tile_takes_one_turn, start, stop),
         cmocka_unit_test_setup_teardown(test_cancel, start, stop),
         cmocka_unit_test_setup_teardown(test_pulse, start, stop),
         cmocka_unit_test_setup_teardown(test_pulse_gone, start, stop),
