@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Memory that runs out: loaded in front of libc (LD_PRELOAD), one allocation of the process answers
- * NULL. A test finds memory_fail and memory_count by dlsym. */
+ * NULL. A test finds memory_fail and memory_count by dlsym, or shares the file MEMORY_FILE: three
+ * numbers of eight bytes, the process that is meant, how many allocations it has made, and which
+ * of them fails. */
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 void memory_fail(long nth);
 long memory_count(void);
@@ -15,23 +20,44 @@ static void *(*real_calloc)(size_t count, size_t size);
 static void *(*real_realloc)(void *block, size_t size);
 static char first[65536]; /* for what dlsym itself asks for */
 static size_t first_used;
-static long count, failing;
+static long numbers[3]; /* where there is no file */
+static long *shared = numbers;
+
+enum { PROCESS, COUNT, FAILING };
+
+__attribute__((constructor)) static void open_file(void)
+{
+    const char *path = getenv("MEMORY_FILE");
+    const int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+    void *bytes =
+        fd < 0 ? MAP_FAILED : mmap(NULL, sizeof numbers, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+
+    if (bytes != MAP_FAILED) {
+        shared = bytes;
+    }
+    if (fd >= 0) {
+        close(fd);
+    }
+}
 
 /* From here on: the allocation that comes as number `nth` fails; 0: none does. */
 void memory_fail(long nth)
 {
-    __atomic_store_n(&count, 0, __ATOMIC_SEQ_CST);
-    __atomic_store_n(&failing, nth, __ATOMIC_SEQ_CST);
+    __atomic_store_n(&shared[COUNT], 0, __ATOMIC_SEQ_CST);
+    __atomic_store_n(&shared[FAILING], nth, __ATOMIC_SEQ_CST);
 }
 
 long memory_count(void)
 {
-    return __atomic_load_n(&count, __ATOMIC_SEQ_CST);
+    return __atomic_load_n(&shared[COUNT], __ATOMIC_SEQ_CST);
 }
 
 static bool fails(void)
 {
-    const bool result = __atomic_add_fetch(&count, 1, __ATOMIC_RELAXED) == failing;
+    if (shared != numbers && shared[PROCESS] != getpid()) {
+        return false;
+    }
+    const bool result = __atomic_add_fetch(&shared[COUNT], 1, __ATOMIC_RELAXED) == shared[FAILING];
 
     if (result) {
         errno = ENOMEM;
