@@ -72,19 +72,16 @@ int code_work(const struct code *code)
 /* --- running --- */
 
 /* What the document declares. */
-static void set_numbers(const struct code *code, const double *n, double *frame)
+static void set_numbers(const struct machine_code *code, const double *n, double *frame)
 {
-    double *to = frame + code->machine.numbers;
-    for (const struct variable *v = code->tree.declared; v; v = v->next) {
-        for (int i = 0; i < v->type.rows; i++) {
-            double number = n[v->first + i];
-            to[v->first + i] = v->type.base == BASE_INT    ? floor(number + 0.5)
-                               : v->type.base == BASE_BOOL ? number != 0
-                                                           : number;
-        }
+    double *to = frame + code->numbers, *data = frame + code->data;
+    for (int i = 0; i < code->number_count; i++) {
+        to[i] = code->number_bases[i] == BASE_INT    ? floor(n[i] + 0.5)
+                : code->number_bases[i] == BASE_BOOL ? n[i] != 0
+                                                     : n[i];
     }
-    for (int i = code->tree.number_count; i < code->tree.data_count; i++) {
-        to[i] = 0;
+    for (int i = 0; i < code->data_count; i++) {
+        data[i] = i < code->number_count ? n[i] : 0;
     }
 }
 
@@ -105,18 +102,17 @@ struct code_call {
 
 static void run(const struct code *code, struct code_call *call, double *frame)
 {
-    const struct function *entry = code->tree.entry;
     if (call->p) {
-        memcpy(frame + entry->parameters->at_frame, call->p, 3 * sizeof *call->p);
+        memcpy(frame + code->machine.point, call->p, 3 * sizeof *call->p);
     }
     if (code->tree.shading_used) {
         memcpy(frame + code->machine.shading, call->shading, sizeof *call->shading);
     }
     machine_prepare(&code->machine, frame);
-    set_numbers(code, call->numbers, frame);
-    machine_run(&code->machine, entry->entry, frame, call->fault);
+    set_numbers(&code->machine, call->numbers, frame);
+    machine_run(&code->machine, code->machine.entry, frame, call->fault);
     memcpy(call->out, frame + code->machine.result,
-           (size_t)type_components(entry->result) * sizeof *call->out);
+           (size_t)code->machine.result_count * sizeof *call->out);
 }
 
 static __attribute__((noinline)) void run_small(const struct code *code, struct code_call *call)

@@ -46,7 +46,7 @@ static void lower_nothing(struct lower *lower, const struct variable *variable)
 {
     if (type_is_surface(variable->type)) {
         lower_move(lower, variable->at_frame,
-                   lower_number(lower, surface_defaults, SURFACE_NUMBERS), SURFACE_NUMBERS);
+                   lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS), SURFACE_NUMBERS);
         return;
     }
     lower_step(lower, (struct step){.kind = STEP_ZERO,
@@ -83,20 +83,23 @@ static void lower_if(struct lower *lower, const struct stmt *stmt)
     }
 }
 
-static struct step join(enum step_kind kind, uint16_t out, uint16_t a, uint16_t b)
-{
-    return (struct step){.kind = (uint8_t)kind, .parts = 1, .n = 1, .out = out, .a = a, .b = b};
-}
-
 /* variable = start + counter * step */
 static void lower_counter(struct lower *lower, const struct stmt *stmt, uint16_t counter)
 {
-    uint16_t at = stmt->variable->at_frame, from = counter;
-    if (stmt->step != 1) {
-        lower_step(lower, join(STEP_MULTIPLY, at, from, lower_number(lower, &stmt->step, 1)));
-        from = at;
+    const struct type type = stmt->variable->type;
+    const enum base base = (enum base)type.base;
+    struct operand at = {counter, false};
+    if (base != BASE_FLOAT) {
+        at.at = lower_join(lower, STEP_CONVERT, 1, at, (struct operand){MACHINE_NOWHERE, false},
+                           (struct step){.extra = type.base, .base = BASE_FLOAT});
     }
-    lower_step(lower, join(STEP_ADD, at, from, lower_number(lower, &stmt->start, 1)));
+    if (stmt->step != 1) {
+        const struct operand step = {lower_number(lower, base, &stmt->step, 1), false};
+        at.at = lower_arithmetic(lower, OP_MULTIPLY, type, at, step);
+    }
+    const struct operand start = {lower_number(lower, base, &stmt->start, 1), false};
+    at.at = lower_arithmetic(lower, OP_ADD, type, at, start);
+    lower_move(lower, stmt->variable->at_frame, at.at, 1);
 }
 
 static void lower_for(struct lower *lower, const struct stmt *stmt)
@@ -110,7 +113,7 @@ static void lower_for(struct lower *lower, const struct stmt *stmt)
     }
     uint16_t counter = alloc_local(lower, 1);
     stmt->variable->at_frame = alloc_local(lower, 1);
-    lower_move(lower, counter, lower_number(lower, &zero, 1), 1);
+    lower_move(lower, counter, lower_number(lower, BASE_FLOAT, &zero, 1), 1);
     size_t top = lower->label = lower->code->step_count;
     lower_counter(lower, stmt, counter);
     lower->breaks = &breaks;
@@ -122,7 +125,7 @@ static void lower_for(struct lower *lower, const struct stmt *stmt)
     lower_step(lower, (struct step){.kind = STEP_LOOP,
                                     .out = (uint16_t)top,
                                     .a = counter,
-                                    .b = lower_number(lower, &trips, 1)});
+                                    .b = lower_number(lower, BASE_FLOAT, &trips, 1)});
     land_all(lower, &breaks);
 }
 
@@ -217,19 +220,34 @@ static void close_up(const struct lower *lower)
     code->value_count = lower->peak;
 }
 
-bool lower_tree(struct tree *tree, struct machine_code *out)
+/* Places for what the code is given. */
+static void lower_inputs(struct lower *lower, const struct tree *tree)
 {
     enum { SHADING_NUMBERS = 13 };
+    struct machine_code *out = lower->code;
+    out->number_count = tree->number_count;
+    out->data_count = tree->data_used ? tree->data_count : 0;
+    for (const struct variable *v = tree->declared; v; v = v->next) {
+        memset(out->number_bases + v->first, v->type.base, (size_t)type_components(v->type));
+    }
+    out->numbers = alloc_local(lower, out->number_count);
+    out->data = alloc_local(lower, out->data_count);
+    out->shading = tree->shading_used ? alloc_local(lower, SHADING_NUMBERS) : MACHINE_NOWHERE;
+}
+
+bool lower_tree(struct tree *tree, struct machine_code *out)
+{
     struct lower lower = {.code = out, .keep = true};
-    int numbers = tree->number_count > tree->data_count ? tree->number_count : tree->data_count;
-    out->numbers = alloc_local(&lower, numbers);
-    out->shading = alloc_local(&lower, tree->shading_used ? SHADING_NUMBERS : 0);
+    lower_inputs(&lower, tree);
     for (struct function *f = tree->called; f; f = f->next_called) {
         if (f->reachable) {
             lower_function(&lower, f);
         }
     }
+    out->entry = tree->entry->entry;
+    out->point = tree->entry->parameters ? tree->entry->parameters->at_frame : MACHINE_NOWHERE;
     out->result = tree->entry->result_at;
+    out->result_count = type_components(tree->entry->result);
     close_up(&lower);
     return !lower.full ||
            tree_fail_limit(tree, tree->entry->at, "values in use", MACHINE_VALUES, "code_size");

@@ -49,7 +49,7 @@ struct spot {
 /* lower_steps.c: places in the frame; a constant's; the index of a new step. Operands that a step
  * has not are MACHINE_NOWHERE. */
 uint16_t lower_alloc(struct lower *lower, int count);
-uint16_t lower_number(struct lower *lower, const double *numbers, int count);
+uint16_t lower_number(struct lower *lower, enum base base, const double *numbers, int count);
 size_t lower_step(struct lower *lower, struct step step);
 void lower_move(struct lower *lower, uint16_t to, uint16_t from, int count);
 /* A jump, and where it goes: to the next step. */

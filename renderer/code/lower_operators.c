@@ -12,7 +12,7 @@ struct operand lower_operand(struct lower *lower, const struct expr *expr, int c
             same = same && expr->value[i] == expr->value[0];
         }
         if (same) {
-            return (struct operand){lower_number(lower, expr->value, 1), true};
+            return (struct operand){lower_number(lower, (enum base)expr->type.base, expr->value, 1), true};
         }
     }
     bool spreads = !expr->value && expr->kind == EXPR_CONSTRUCT && type_is_vector(expr->type) &&
@@ -94,19 +94,20 @@ uint16_t lower_product(struct lower *lower, struct type a_type, uint16_t a, stru
 static uint16_t compare(struct lower *lower, enum op op, struct type type, struct operand a,
                         struct operand b)
 {
+    const struct step of = {.base = type.base};
     int count = type_components(type);
     uint16_t out;
     switch (op) {
     case OP_LESS:
-        return lower_join(lower, STEP_LESS, 1, a, b, (struct step){0});
+        return lower_join(lower, STEP_LESS, 1, a, b, of);
     case OP_GREATER:
-        return lower_join(lower, STEP_LESS, 1, b, a, (struct step){0});
+        return lower_join(lower, STEP_LESS, 1, b, a, of);
     case OP_LESS_EQUAL:
-        return lower_join(lower, STEP_LESS_EQUAL, 1, a, b, (struct step){0});
+        return lower_join(lower, STEP_LESS_EQUAL, 1, a, b, of);
     case OP_GREATER_EQUAL:
-        return lower_join(lower, STEP_LESS_EQUAL, 1, b, a, (struct step){0});
+        return lower_join(lower, STEP_LESS_EQUAL, 1, b, a, of);
     default:
-        out = lower_join(lower, STEP_EQUAL, count, a, b, (struct step){0});
+        out = lower_join(lower, STEP_EQUAL, count, a, b, of);
         return op == OP_EQUAL ? out : negated(lower, out);
     }
 }
@@ -166,11 +167,11 @@ uint16_t lower_unary(struct lower *lower, const struct expr *expr)
     }
     if (expr->op == OP_INVERT) {
         return lower_arithmetic(lower, OP_BIT_XOR, expr->type, a,
-                                (struct operand){lower_number(lower, &ones, 1), true});
+                                (struct operand){lower_number(lower, (enum base)expr->type.base, &ones, 1), true});
     }
     if (whole) {
         return lower_arithmetic(lower, OP_SUBTRACT, expr->type,
-                                (struct operand){lower_number(lower, &zero, 1), true}, a);
+                                (struct operand){lower_number(lower, (enum base)expr->type.base, &zero, 1), true}, a);
     }
     return lower_join(lower, STEP_NEGATE, count, a, nothing,
                       (struct step){.parts = (uint8_t)count});

@@ -16,6 +16,7 @@ static void spot_index(struct lower *lower, struct spot *spot, const struct expr
     }
     struct step step = {.kind = STEP_INDEX,
                         .n = (uint16_t)stride,
+                        .base = index->type.base,
                         .a = lower_value(lower, index),
                         .b = spot->offset,
                         .c = (uint16_t)count};
@@ -174,7 +175,7 @@ uint16_t lower_assign(struct lower *lower, const struct expr *expr, bool wanted)
 /* Gives the old or the new value, if it is wanted. */
 uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool wanted)
 {
-    static const double one = 1;
+    static const double ones = 1;
     int count = type_components(expr->type);
     struct spot spot = lower_spot(lower, expr->a);
     uint16_t old = lower_load(lower, &spot);
@@ -184,8 +185,9 @@ uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool want
         old = copy;
     }
     lower->origin = (struct origin){expr->at, expr->op == OP_ADD ? "++" : "--"};
+    uint16_t one = lower_number(lower, (enum base)expr->type.base, &ones, 1);
     uint16_t out = lower_arithmetic(lower, expr->op, expr->type, (struct operand){old, false},
-                                    (struct operand){lower_number(lower, &one, 1), count > 1});
+                                    (struct operand){one, count > 1});
     lower_store(lower, &spot, out);
     return expr->postfix || !wanted ? old : lower_load(lower, &spot);
 }

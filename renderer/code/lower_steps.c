@@ -17,18 +17,36 @@ uint16_t lower_alloc(struct lower *lower, int count)
     return at;
 }
 
-static bool same_bits(const double *a, const double *b, size_t count)
+/* Whether `count` constants from `at` on are these. */
+static bool are_constants(const struct machine_code *code, size_t at, enum base base,
+                          const double *numbers, size_t count)
 {
-    return memcmp(a, b, count * sizeof *a) == 0;
+    for (size_t i = 0; i < count; i++) {
+        if (code->constant_bases[at + i] != base) {
+            return false;
+        }
+    }
+    return memcmp(code->constants + at, numbers, count * sizeof *numbers) == 0;
 }
 
-uint16_t lower_number(struct lower *lower, const double *numbers, int count)
+static void constants_room(struct machine_code *code, size_t count)
+{
+    while (code->constant_capacity < code->constant_count + count) {
+        code->constant_capacity = code->constant_capacity > 0 ? 2 * code->constant_capacity : 64;
+        code->constants =
+            memory_resize(code->constants, code->constant_capacity, sizeof *code->constants);
+        code->constant_bases =
+            memory_resize(code->constant_bases, code->constant_capacity, sizeof(uint8_t));
+    }
+}
+
+uint16_t lower_number(struct lower *lower, enum base base, const double *numbers, int count)
 {
     enum { LOOKED_AT = 64 };
     struct machine_code *code = lower->code;
     size_t size = (size_t)count, have = code->constant_count;
     for (size_t back = size; back <= have && back <= size + LOOKED_AT; back++) {
-        if (same_bits(code->constants + have - back, numbers, size)) {
+        if (are_constants(code, have - back, base, numbers, size)) {
             return (uint16_t)(MACHINE_VALUES + have - back);
         }
     }
@@ -36,12 +54,9 @@ uint16_t lower_number(struct lower *lower, const double *numbers, int count)
         lower->full = true;
         return MACHINE_VALUES;
     }
-    while (code->constant_capacity < have + size) {
-        code->constant_capacity = code->constant_capacity > 0 ? 2 * code->constant_capacity : 64;
-        code->constants =
-            memory_resize(code->constants, code->constant_capacity, sizeof *code->constants);
-    }
+    constants_room(code, size);
     memcpy(code->constants + have, numbers, size * sizeof *numbers);
+    memset(code->constant_bases + have, (int)base, size);
     code->constant_count += size;
     return (uint16_t)(MACHINE_VALUES + have);
 }

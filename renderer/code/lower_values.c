@@ -12,16 +12,15 @@ static uint16_t converted(struct lower *lower, const struct expr *arg, enum base
     enum base from = (enum base)arg->type.base;
     int count = type_components(arg->type);
     struct operand a = {lower_value(lower, arg), false};
-    bool fits = from == to || from == BASE_BOOL || to == BASE_FLOAT;
-    if (fits) {
+    if (from == to) {
         return a.at;
     }
-    if (from != BASE_FLOAT && to != BASE_BOOL) { /* int to uint, or back */
+    if (type_is_integer(arg->type) && (to == BASE_INT || to == BASE_UINT)) {
         return lower_arithmetic(lower, OP_BIT_OR, type_vector(to, arg->type.rows), a,
-                                (struct operand){lower_number(lower, &zero, 1), true});
+                                (struct operand){lower_number(lower, to, &zero, 1), true});
     }
     return lower_join(lower, STEP_CONVERT, count, a, (struct operand){MACHINE_NOWHERE, false},
-                      (struct step){.extra = (uint8_t)to});
+                      (struct step){.extra = (uint8_t)to, .base = (uint8_t)from});
 }
 
 /* A matrix of a number, or of another matrix: ones on the diagonal, and what there is. */
@@ -33,7 +32,7 @@ static uint16_t lower_matrix(struct lower *lower, const struct expr *expr)
     for (int i = 0; i < size; i++) {
         identity[i * size + i] = own > 1;
     }
-    lower_move(lower, out, lower_number(lower, identity, size * size), size * size);
+    lower_move(lower, out, lower_number(lower, BASE_FLOAT, identity, size * size), size * size);
     for (int i = 0; i < size; i++) {
         if (own == 1) {
             lower_move(lower, (uint16_t)(out + i * size + i), from, 1);
@@ -63,7 +62,7 @@ static uint16_t lower_spread(struct lower *lower, const struct expr *expr)
 static uint16_t lower_surface(struct lower *lower, const struct expr *expr)
 {
     uint16_t color = lower_value(lower, expr->args), out = lower_alloc(lower, SURFACE_NUMBERS);
-    uint16_t all = lower_number(lower, surface_defaults, SURFACE_NUMBERS);
+    uint16_t all = lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS);
     lower_move(lower, out, all, SURFACE_NUMBERS);
     lower_step(lower, (struct step){.kind = STEP_MOVE, .n = 3, .out = out, .a = color});
     return out;
@@ -118,6 +117,7 @@ static uint16_t lower_builtin(struct lower *lower, const struct expr *expr)
         .extra = (uint8_t)(row - builtin_table),
         .flags = (uint8_t)(lower_spread_flags(in[0], in[1]) | (in[2].spread ? SPREAD_C : 0)),
         .parts = expr->type.base == BASE_FLOAT ? (uint8_t)count : 0,
+        .base = expr->args->type.base,
         .n = (uint16_t)(together ? expr->args->type.rows : count),
         .a = in[0].at,
         .b = in[1].at,
@@ -180,15 +180,16 @@ static uint16_t lower_variable(struct lower *lower, const struct variable *varia
 static uint16_t lower_constant_value(struct lower *lower, const struct expr *expr)
 {
     struct variable *variable = expr->kind == EXPR_VARIABLE ? expr->variable : NULL;
+    enum base base = type_is_surface(expr->type) ? BASE_FLOAT : (enum base)expr->type.base;
     int count = type_components(expr->type);
     if (variable && lower->keep && count > 1) {
         if (!variable->placed) {
-            variable->at_frame = lower_number(lower, expr->value, count);
+            variable->at_frame = lower_number(lower, base, expr->value, count);
             variable->placed = true;
         }
         return variable->at_frame;
     }
-    return lower_number(lower, expr->value, count);
+    return lower_number(lower, base, expr->value, count);
 }
 
 /* In struct code_shading: three vectors of three, and one more, before the distance. */
@@ -233,7 +234,7 @@ uint16_t lower_value(struct lower *lower, const struct expr *expr)
     case EXPR_FIELD:
         return lower_field(lower, expr);
     case EXPR_DATA:
-        return lower->code->numbers;
+        return lower->code->data;
     default:
         assert(!"an expression that was checked");
         return 0;

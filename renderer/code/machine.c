@@ -15,6 +15,7 @@ void machine_code_finish(struct machine_code *code)
     free(code->steps);
     free(code->origins);
     free(code->constants);
+    free(code->constant_bases);
     *code = (struct machine_code){0};
 }
 

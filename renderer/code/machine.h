@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Users' code as a list of steps over one frame of numbers, and what runs them. Every value of
- * every function has a place of its own in the frame, as nothing calls itself.
+/* Users' code as a list of steps over one frame of numbers, and what runs them for one point. Every
+ * value of every function has a place of its own in the frame, as nothing calls itself.
  *
- * Whole numbers and booleans are doubles there, too, always within what their type holds. */
+ * Whole numbers and booleans are doubles here, too, always within what their type holds. Steps and
+ * constants tell their types, for renderer/engine, which runs them for a vector of points. */
 #ifndef RENDERER_CODE_MACHINE_H
 #define RENDERER_CODE_MACHINE_H
 
@@ -17,6 +18,7 @@ enum {
     MACHINE_FRAME = MACHINE_VALUES + MACHINE_CONSTANTS,
     MACHINE_FRAME_SMALL = 400, /* does for most code, and fits into a page of the stack */
     MACHINE_NOWHERE = 0xffff,  /* no place in the frame */
+    MACHINE_NUMBERS = 4 * LIMIT_DECLARED,
 };
 
 /* `n` components each. An operand whose bit of `flags` is set is one number, for all of them. */
@@ -35,7 +37,7 @@ enum step_kind {
     STEP_EQUAL,      /* all of a == b; one result */
     STEP_NOT,
     STEP_WHOLE,   /* enum op `extra` of whole numbers; unsigned: of uint */
-    STEP_CONVERT, /* of floats and booleans to enum base `extra`, of any base to booleans */
+    STEP_CONVERT, /* to enum base `extra`; not between int and uint */
     STEP_PRODUCT, /* of matrices of `n` rows: c columns of a, c rows of b, `extra` columns of b */
     STEP_ONE,     /* functions of builtins.h, row c */
     STEP_TWO,
@@ -46,7 +48,7 @@ enum step_kind {
     STEP_STORE,    /* n numbers at out, further by the number in b = a */
     STEP_JUMP,     /* to step `out` */
     STEP_UNLESS,   /* to step `out` where a is 0 */
-    STEP_LOOP,     /* a += 1; to step `out` where that is less than b */
+    STEP_LOOP,     /* a += 1; to step `out` where that is less than b; floats */
     STEP_CALL,     /* of the function at step `out` */
     STEP_RETURN,
 };
@@ -56,6 +58,7 @@ enum { SPREAD_A = 1, SPREAD_B = 2, SPREAD_C = 4, STEP_UNSIGNED = 8 };
 struct step {
     uint8_t kind, extra, flags;
     uint8_t parts; /* floats that come of it, at `out` */
+    uint8_t base;  /* enum base of a (and b), where the step is for several */
     uint16_t n, out, a, b, c;
 };
 
@@ -70,9 +73,16 @@ struct machine_code {
     struct origin *origins; /* one for each step */
     size_t step_count, step_capacity;
     double *constants;
+    uint8_t *constant_bases; /* enum base of each */
     size_t constant_count, constant_capacity;
-    size_t value_count;                /* the constants lie behind them */
-    uint16_t numbers, shading, result; /* in the frame: what the code is given, what it gives */
+    size_t value_count; /* the constants lie behind them */
+    size_t entry;       /* the step to begin with */
+    /* In the frame, what the code is given: a point, the numbers of what it declares, the same as an
+     * array of floats (`data_count`, maybe 0; the rest is 0), struct code_shading (maybe
+     * MACHINE_NOWHERE); and what it gives. */
+    uint16_t point, numbers, data, shading, result;
+    int number_count, data_count, result_count;
+    uint8_t number_bases[MACHINE_NUMBERS]; /* enum base of each */
 };
 
 void machine_code_finish(struct machine_code *code);
