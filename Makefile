@@ -78,7 +78,7 @@ endif
 # --- the program ---
 
 # The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
-apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells textures tile threads,$(S)/renderer/engine/$(f).c)
+apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile threads,$(S)/renderer/engine/$(f).c)
 sources := $(filter-out $(apart),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
@@ -130,9 +130,10 @@ $(spmd): $(spmd_objects)
 	$(call say,LD,$@)
 	$(Q)$(link) -o $@ $^ $(packages_libs)
 
-$(OUT)/generated/engine.i: $(spmd) $(S)/renderer/engine/engine.glsl
+engine_glsl := $(S)/renderer/engine/engine.glsl $(S)/renderer/engine/builtins.glsl
+$(OUT)/generated/engine.i: $(spmd) $(engine_glsl)
 	$(call say,GEN,$@)
-	$(Q)$(spmd) text $(S)/renderer/engine/engine.glsl | grep -v '^#line' >$@.glsl
+	$(Q)$(spmd) text $(engine_glsl) | grep -v '^#line' >$@.glsl
 	$(Q)$(CC) -E -P -x c $@.glsl -o $@
 
 $(OUT)/generated/spmd.c $(OUT)/generated/spmd.h &: $(OUT)/generated/engine.i

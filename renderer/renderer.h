@@ -27,7 +27,7 @@ struct job;      /* one picture being drawn, tile by tile */
 enum render_stage {
     RENDER_AUTO,    /* the engine where the device is software */
     RENDER_COMPUTE, /* compute shaders of the device */
-    RENDER_ENGINE,  /* vectors of the processors (renderer/engine); of the device: users' code */
+    RENDER_ENGINE,  /* vectors of the processors (renderer/engine) */
 };
 
 struct renderer_params {

@@ -54,6 +54,11 @@ void code_write(const struct code *code, const char *name, int source_number, FI
     writer_write(&code->tree, code->use, name, source_number, out);
 }
 
+const struct machine_code *code_steps(const struct code *code)
+{
+    return &code->machine;
+}
+
 int code_trips(const struct code *code)
 {
     return (int)code->tree.entry->trips;

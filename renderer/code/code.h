@@ -30,6 +30,7 @@ struct code_source {
 };
 
 struct code;
+struct machine_code;
 
 /* NULL and ERROR_COMPILE with line and column of the author's text, place empty. */
 struct code *code_compile(const struct code_source *source, struct error *err);
@@ -45,6 +46,8 @@ void code_destroy(struct code *code); /* NULL: nothing */
  * are counted on from there. */
 void code_write(const struct code *code, const char *name, int source_number, FILE *out);
 
+/* The steps that it consists of (machine.h); they live as long as the code. */
+const struct machine_code *code_steps(const struct code *code);
 /* Loop iterations of one call, at most. */
 int code_trips(const struct code *code);
 /* How large it is for drivers: operations with every call written out, those that take long to

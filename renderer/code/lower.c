@@ -46,7 +46,8 @@ static void lower_nothing(struct lower *lower, const struct variable *variable)
 {
     if (type_is_surface(variable->type)) {
         lower_move(lower, variable->at_frame,
-                   lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS), SURFACE_NUMBERS);
+                   lower_number(lower, BASE_FLOAT, surface_defaults, SURFACE_NUMBERS),
+                   SURFACE_NUMBERS);
         return;
     }
     lower_step(lower, (struct step){.kind = STEP_ZERO,

@@ -12,7 +12,8 @@ struct operand lower_operand(struct lower *lower, const struct expr *expr, int c
             same = same && expr->value[i] == expr->value[0];
         }
         if (same) {
-            return (struct operand){lower_number(lower, (enum base)expr->type.base, expr->value, 1), true};
+            return (struct operand){lower_number(lower, (enum base)expr->type.base, expr->value, 1),
+                                    true};
         }
     }
     bool spreads = !expr->value && expr->kind == EXPR_CONSTRUCT && type_is_vector(expr->type) &&
@@ -166,12 +167,14 @@ uint16_t lower_unary(struct lower *lower, const struct expr *expr)
         return negated(lower, a.at);
     }
     if (expr->op == OP_INVERT) {
-        return lower_arithmetic(lower, OP_BIT_XOR, expr->type, a,
-                                (struct operand){lower_number(lower, (enum base)expr->type.base, &ones, 1), true});
+        return lower_arithmetic(
+            lower, OP_BIT_XOR, expr->type, a,
+            (struct operand){lower_number(lower, (enum base)expr->type.base, &ones, 1), true});
     }
     if (whole) {
-        return lower_arithmetic(lower, OP_SUBTRACT, expr->type,
-                                (struct operand){lower_number(lower, (enum base)expr->type.base, &zero, 1), true}, a);
+        return lower_arithmetic(
+            lower, OP_SUBTRACT, expr->type,
+            (struct operand){lower_number(lower, (enum base)expr->type.base, &zero, 1), true}, a);
     }
     return lower_join(lower, STEP_NEGATE, count, a, nothing,
                       (struct step){.parts = (uint8_t)count});

@@ -56,44 +56,38 @@ static uint32_t shift_right(uint32_t a, uint32_t by, bool is_unsigned)
     return is_unsigned ? a >> by : (uint32_t)((int32_t)a >> by);
 }
 
-static double operate(enum op op, double x, double y, bool is_unsigned)
+uint32_t machine_whole(enum op op, uint32_t a, uint32_t b, bool is_unsigned)
 {
-    uint32_t a = bits_of(x), b = bits_of(y), out = 0;
     switch (op) {
     case OP_ADD:
-        out = a + b;
-        break;
+        return a + b;
     case OP_SUBTRACT:
-        out = a - b;
-        break;
+        return a - b;
     case OP_MULTIPLY:
-        out = a * b;
-        break;
+        return a * b;
     case OP_DIVIDE:
-        out = divide(a, b, is_unsigned);
-        break;
+        return divide(a, b, is_unsigned);
     case OP_REMAINDER:
-        out = a - b * divide(a, b, is_unsigned);
-        break;
+        return a - b * divide(a, b, is_unsigned);
     case OP_SHIFT_LEFT:
-        out = a << (b & 31);
-        break;
+        return a << (b & 31);
     case OP_SHIFT_RIGHT:
-        out = shift_right(a, b & 31, is_unsigned);
-        break;
+        return shift_right(a, b & 31, is_unsigned);
     case OP_BIT_AND:
-        out = a & b;
-        break;
+        return a & b;
     case OP_BIT_OR:
-        out = a | b;
-        break;
+        return a | b;
     case OP_BIT_XOR:
-        out = a ^ b;
-        break;
+        return a ^ b;
     default:
         assert(!"an operator of whole numbers");
+        return 0;
     }
-    return number_of(out, is_unsigned);
+}
+
+static double operate(enum op op, double x, double y, bool is_unsigned)
+{
+    return number_of(machine_whole(op, bits_of(x), bits_of(y), is_unsigned), is_unsigned);
 }
 
 /* The bounds are those of glsl/code.glsl: floats just inside of what the types hold. */

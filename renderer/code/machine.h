@@ -77,8 +77,8 @@ struct machine_code {
     size_t constant_count, constant_capacity;
     size_t value_count; /* the constants lie behind them */
     size_t entry;       /* the step to begin with */
-    /* In the frame, what the code is given: a point, the numbers of what it declares, the same as an
-     * array of floats (`data_count`, maybe 0; the rest is 0), struct code_shading (maybe
+    /* In the frame, what the code is given: a point, the numbers of what it declares, the same as
+     * an array of floats (`data_count`, maybe 0; the rest is 0), struct code_shading (maybe
      * MACHINE_NOWHERE); and what it gives. */
     uint16_t point, numbers, data, shading, result;
     int number_count, data_count, result_count;
@@ -94,5 +94,8 @@ void machine_prepare(const struct machine_code *code, double *frame);
  * become infinite, as in a driver, and the first that is none or infinite is noted. */
 void machine_run(const struct machine_code *code, size_t first, double *frame,
                  struct code_fault *fault);
+
+/* An operator of whole numbers, modulo 2^32. */
+uint32_t machine_whole(enum op op, uint32_t a, uint32_t b, bool is_unsigned);
 
 #endif

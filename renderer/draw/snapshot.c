@@ -63,7 +63,7 @@ const char *renderer_stage_name(size_t stage)
 
 char *renderer_shader(const struct scene *scene, size_t stage, struct error *err)
 {
-    struct field *field = field_drawable(scene, &(struct field_wish){.drawn = NULL}, err);
+    struct field *field = field_compile(scene, err);
 
     if (!field) {
         return NULL;
@@ -88,19 +88,13 @@ static uint64_t shape_of(const struct field *field, const struct scene *scene)
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
 static struct program *get_program(struct renderer *renderer, const struct field *field,
-                                   const struct scene *scene, uint64_t key, uint64_t *out_refused,
+                                   const struct scene *scene, uint64_t key,
                                    struct error *out_warning, struct error *err)
 {
     const struct renderer_verdict *verdict = renderer_find_verdict(renderer, key, "");
-    struct program *program;
+    struct program *program = program_cache_find(renderer->programs, key);
     char *map, *surface;
 
-    if (verdict && verdict->refused != ERROR_NONE) {
-        *out_refused = key;
-        refuse(field, scene, verdict, err);
-        return NULL;
-    }
-    program = program_cache_find(renderer->programs, key);
     if (program) {
         renderer->counters.cache_hits++;
         return program;
@@ -133,12 +127,12 @@ static double scene_scale(const struct record *camera)
 static struct field *make_some_field(const struct scene *scene, const struct field_wish *wish,
                                      struct error *err)
 {
-    struct field *field = field_drawable(scene, wish, err);
+    struct field *field = field_compile_as(scene, wish, err);
     struct field_wish less = *wish;
 
     if (!field && wish->drawn) {
         less.drawn = NULL;
-        field = field_drawable(scene, &less, err);
+        field = field_compile_as(scene, &less, err);
     }
     return field;
 }
@@ -275,19 +269,29 @@ void snapshots_settle(struct renderer *renderer)
     }
 }
 
-/* The engine draws what it can; for the rest the device gets a program. What is made of
- * instructions alone is shared with a snapshot of the same ones (`before`; NULL: none). */
+/* A program for the device or for the engine, which draws what is too much for the device's
+ * compiler, too. What is made of instructions alone is shared with a snapshot of the same ones
+ * (`before`; NULL: none). */
 static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
                      const struct scene *scene, const struct snapshot *before,
                      uint64_t *out_refused, struct error *err)
 {
-    if (renderer->info.stage == RENDER_ENGINE) {
-        snapshot->engine = before ? engine_program_ref(before->engine)
-                                  : engine_program_create(snapshot->field, renderer->params.lanes);
+    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, snapshot->shape, "");
+    const bool compiles =
+        renderer->info.stage != RENDER_ENGINE && field_can_be_compiled(snapshot->field);
+
+    if (verdict && verdict->refused != ERROR_NONE) {
+        *out_refused = snapshot->shape;
+        refuse(snapshot->field, scene, verdict, err);
+        return false;
     }
-    if (!snapshot->engine) {
+    if (before && before->engine) {
+        snapshot->engine = engine_program_ref(before->engine);
+    } else if (compiles) {
         snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
-                                        out_refused, &snapshot->warning.error, err);
+                                        &snapshot->warning.error, err);
+    } else if (field_probe(snapshot->field, &snapshot->warning.error, err)) {
+        snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes);
     }
     return snapshot->engine || snapshot->program;
 }

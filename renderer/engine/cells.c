@@ -122,22 +122,13 @@ static void make_tape(struct lanes *c, const struct cell *parent, const struct d
     cells->used += child->count;
 }
 
-static int first_lane(vb m)
-{
-    int lane = 0;
-    while (lane < LANES - 1 && !m[lane]) {
-        lane++;
-    }
-    return lane;
-}
-
 /* Of the part of the field that the first of these lanes is to see; answers which see the same. */
 static vb choose_space(struct lanes *c, vb m)
 {
     if (!c->frame->has_clear) {
         return m;
     }
-    const float through = c->through_0[first_lane(m)];
+    const float through = c->through_0[lanes_first(m)];
     c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
     return m & (c->through_0 == through);
 }
@@ -222,7 +213,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
     m = choose_space(c, m);
     struct cells *cells = c->cells;
     int32_t at = cells->last;
-    const int lane = first_lane(m);
+    const int lane = lanes_first(m);
     vb held = cell_lanes(&cells->at[at], m, p);
     if (lanes_any(m & ~held)) {
         /* The cube that the first lane is in without what is around it, so that it is in one of its

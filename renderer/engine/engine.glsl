@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What the engine runs for a vector of samples: functions of the shaders, from camera to pixel. */
 
+#define USER_SHADERS 1
+
 #include "camera.glsl"
 #include "clear.glsl"
 #include "field_surface.glsl"
@@ -21,14 +23,36 @@ layout(binding = BINDING_NUMBERS) uniform Scene {
     int material_stride;
 } scene;
 
+/* What a shader says of a point, with the numbers of the material at vec4 `material`: 1: its
+ * colour; 2: all of a surface; 0: nothing. */
+int ask_shader(int shader, int material, Shading at, out vec4 color, out CodeSurface s);
+
+void apply_shader(Shading at, int material, inout Paint paint)
+{
+    bool unlit = paint.ambient.w > 0.5;
+    vec4 color = vec4(0.0);
+    CodeSurface s;
+    int says = ask_shader(int(paint.emission.w), material, at, color, s);
+    if (says == 2) {
+        paint_surface(paint, code_surface(s), unlit);
+    } else if (says == 1) {
+        paint_color(paint, code_color(color).rgb, unlit);
+    }
+}
+
 /* What the mixture is made of. */
-void paint(Mixture m, out Surface s)
+void paint(Mixture m, Shading at, out Surface s)
 {
     s = surface_begin(m);
     while (m.shares.x > 0.0) {
         int i = scene.material_base + scene.material_stride * int(m.slots.x);
-        surface_add(s, m, Paint(N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),
-                                N_ANY(i + 5)));
+        Paint paint = Paint(N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),
+                            N_ANY(i + 5));
+        if (paint.emission.w > 0.0) {
+            at.object_position = m.place_x;
+            apply_shader(at, i, paint);
+        }
+        surface_add(s, m, paint);
         mixture_next(m);
     }
 }
@@ -67,8 +91,9 @@ void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
 }
 
 /* Sample `index` of a pixel, with all rays that follow, `rays` at most: its light and coverage, and
- * what its first ray met, which is free up to `start`. `depth`: of surfaces between that and a
- * light. `looks`, `lights`: whether shadows are wanted, and light. How many rays followed. */
+ * what its first ray met, which is free up to `start`, and where the last one ended. `depth`: of
+ * surfaces between what is met and a light. `looks`, `lights`: whether shadows are wanted, and
+ * light. How many rays followed. */
 int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights,
            out vec4 total, out vec4 geometry_of, out Met met)
 {
@@ -92,8 +117,8 @@ int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, 
                 colour_light(light, ray, g, s.painted, depth);
             }
         }
+        geometry_of = g; /* of the last ray, so that edges in mirrors are edges */
         if (i == 0) {
-            geometry_of = g;
             met = Met(found.hit, g.xyz, g.w, p, float(found.steps), s,
                       looks ? visibility_mean(pixel) : vec3(1.0), looks ? seen_open : 1.0);
         }
@@ -145,7 +170,8 @@ Mixture chosen(float d, float share, Mixture a, Mixture b)
     return m;
 }
 
-Mixture alone(float d, float leaf, float slot)
+/* Of a shape with this point in its space. */
+Mixture alone(float d, float leaf, float slot, vec3 place)
 {
-    return mixture(vec3(d, leaf, slot));
+    return mixture(vec3(d, leaf, slot), place);
 }

@@ -24,14 +24,19 @@ enum { ENGINE_SKIES = 3 }; /* UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE */
 
 struct engine_program; /* a field, ready to be run */
 
-/* `lanes`: width of the vectors, 0 for the widest that the processor has. NULL where the engine
- * does not know all of the field, or has no such width. */
-struct engine_program *engine_program_create(const struct field *field, int lanes);
+/* `lanes`: width of the vectors, 0 for the widest that the processor has. NULL where the engine has
+ * no such width. The field is kept. */
+struct engine_program *engine_program_create(struct field *field, int lanes);
 /* The widths that the processor has, from the widest; 0 behind the last. */
 int engine_lanes(size_t index);
 /* The same for another field of this shape; NULL: nothing. Each has to be destroyed. */
 struct engine_program *engine_program_ref(struct engine_program *program);
 void engine_program_destroy(struct engine_program *program);
+
+/* The field at `count` points, of which there is at least one, by its whole program. `numbers`: of
+ * the field, which may be another of the same shape. */
+void engine_distances(const struct engine_program *program, const float *numbers,
+                      const float (*points)[3], size_t count, float *out);
 
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };
 

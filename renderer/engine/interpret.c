@@ -20,6 +20,8 @@ typedef vf after_function(struct lanes *c, vb m, vf d, const vf *p);
 
 #define CALL(type, function) ((type *)(function))
 
+#include "code.c"
+
 enum { MIXTURE = SPMD_Mixture, OPEN_MAX = LIMIT_NODE_DEPTH };
 
 struct open {
@@ -59,9 +61,13 @@ static void run_shape(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
     const float *head = c->own + 4 * FIELD_MATRIX_VEC4S;
-    v->d[in->a] = CALL(shape_function, in->function)(c, v->m, v->p[in->point]);
+    const vf *const p = v->p[in->point];
+    v->d[in->a] =
+        in->code ? run_code(c, v->m, in->code, p) : CALL(shape_function, in->function)(c, v->m, p);
     if (v->mixtures) {
-        spmd_alone(c, v->m, v->d[in->a], vf_all(head[FIELD_LEAF]), vf_all(head[FIELD_SLOT]),
+        vf local[3];
+        place(c->own, p, local);
+        spmd_alone(c, v->m, v->d[in->a], vf_all(head[FIELD_LEAF]), vf_all(head[FIELD_SLOT]), local,
                    v->mixtures[in->a]);
     }
 }
@@ -269,7 +275,6 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
     struct machine v;
     vf mixtures[FIELD_SLOTS_MAX][MIXTURE], whole[MIXTURE] = {0};
     vb left = m;
-    (void)at;
     while (lanes_any(left)) {
         vb held;
         const struct cell *cell = cell_at(c, left, p, &held);
@@ -279,5 +284,5 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
         select_all(held, mixtures[0], whole, MIXTURE);
         left &= ~held;
     }
-    spmd_paint(c, m, whole, out);
+    spmd_paint(c, m, whole, at, out);
 }

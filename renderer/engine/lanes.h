@@ -152,6 +152,16 @@ LANES_INLINE vf vf_floor(vf x)
 }
 #endif
 
+/* The first that is on; the last where none is. */
+LANES_INLINE int lanes_first(vb m)
+{
+    int lane = 0;
+    while (lane < LANES - 1 && !m[lane]) {
+        lane++;
+    }
+    return lane;
+}
+
 LANES_INLINE vf vf_ceil(vf x)
 {
     return -vf_floor(-x);
@@ -201,6 +211,10 @@ LANES_INLINE vf vf_inversesqrt(vf x)
     return 1.0f / vf_sqrt(x);
 }
 
+LANES_INLINE vi vi_sign(vi x)
+{
+    return (x < 0) - (x > 0);
+}
 LANES_INLINE vi vi_min(vi a, vi b)
 {
     return vi_select(b < a, b, a);

@@ -7,6 +7,7 @@
 #ifdef LANES
 #include "lanes.h"
 #endif
+#include "renderer/code/machine.h"
 #include "renderer/field/shader.h"
 
 struct operation {
@@ -19,6 +20,7 @@ struct operation {
     uint32_t length; /* of a loop: operations from its first to its last */
     double (*reach)(const double *n);
     void (*function)(void), (*share)(void), (*cell)(void);
+    const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
 };
 
 /* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
@@ -42,10 +44,28 @@ struct cells {
     int32_t last; /* that was asked for */
 };
 
+/* A kernel for a function that a step calls. */
+struct engine_call {
+    void (*function)(void);
+    bool gives_one; /* of a vector or matrix, one number */
+};
+
+/* A user's code. */
+struct engine_code {
+    const struct machine_code *machine;
+    struct engine_call *calls;        /* of each step */
+    uint16_t places[MACHINE_NUMBERS]; /* of the numbers that it declares, from the head of the
+                                          shape's block or material on */
+    bool whole;                       /* it gives all of a surface */
+};
+
 struct engine_width;
 
 struct engine_program {
     int references;
+    struct field *field;       /* which has the codes */
+    struct engine_code *codes; /* distances, then shaders */
+    size_t distances, code_count;
     const struct engine_width *width;
     struct operation *operations;
     size_t count;
@@ -64,6 +84,13 @@ struct kernel_row {
     int type;
     uint32_t choices;
     enum shader_kernel kernel;
+    void (*function)(void);
+};
+
+/* Of a function that users' code calls, by its row in builtin_table. */
+struct call_row {
+    int row, base, size;
+    bool gives_one;
     void (*function)(void);
 };
 
@@ -89,7 +116,11 @@ struct engine_width {
     int lanes;
     const struct kernel_row *kernels;
     size_t kernel_count;
+    const struct call_row *calls;
+    size_t call_count;
     uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    void (*distances)(const struct engine_program *program, const float *numbers,
+                      const float (*points)[3], size_t count, float *out);
 };
 extern const struct engine_width engine_16, engine_8, engine_4;
 
@@ -109,7 +140,8 @@ struct dispatch_block {
     const struct engine_sky *const *skies;                                                         \
     const float *numbers, *own;                                                                    \
     struct lanes_tile tile;                                                                        \
-    struct cells *spaces, *cells;
+    struct cells *spaces, *cells;                                                                  \
+    vf **frames;
 
 #ifdef LANES
 static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4]);

@@ -77,9 +77,10 @@ static bool first_kernel(const struct field_instruction *in, enum shader_kernel 
     }
 }
 
-static bool make(const struct engine_width *width, struct operation *out,
+static bool make(const struct engine_program *program, struct operation *out,
                  const struct field_instruction *in)
 {
+    const struct engine_width *width = program->width;
     enum shader_kernel kernel;
     *out = (struct operation){.op = (uint8_t)in->op,
                               .a = in->a,
@@ -88,6 +89,10 @@ static bool make(const struct engine_width *width, struct operation *out,
                               .out = in->out,
                               .numbers = in->numbers,
                               .seen = in->seen};
+    if (in->op == FIELD_SHAPE && !in->sdf) {
+        out->code = &program->codes[in->choices];
+        return true;
+    }
     if (first_kernel(in, &kernel)) {
         out->function = find(width, in, kernel);
         out->share = kernel == KERNEL_COMBINE ? find(width, in, KERNEL_SHARE)
@@ -115,7 +120,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
     if (in->op == FIELD_GUARD || in->op == FIELD_GUARD_END) {
         return true;
     }
-    if (!make(program->width, to, in)) {
+    if (!make(program, to, in)) {
         return false;
     }
     program->count++;
@@ -141,15 +146,77 @@ static bool read_one(struct engine_program *program, struct reading *r,
     return true;
 }
 
-struct engine_program *engine_program_create(const struct field *field, int lanes)
+/* --- users' code --- */
+
+static const struct call_row *find_call(const struct engine_width *width, const struct step *s)
+{
+    for (size_t i = 0; i < width->call_count; i++) {
+        const struct call_row *row = &width->calls[i];
+        if (row->row == s->extra && row->base == s->base &&
+            row->size == (s->kind == STEP_TOGETHER ? s->n : 1)) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/* `block`: components before the numbers that it declares. */
+static bool make_code(const struct engine_width *width, struct engine_code *out,
+                      const struct field_code *code, int block)
+{
+    const struct machine_code *machine = code_steps(code->code);
+    int count = 0;
+    out->machine = machine;
+    out->whole = code_gives_surface(code->code);
+    out->calls = memory_alloc(machine->step_count, sizeof *out->calls);
+    for (size_t i = 0; i < machine->step_count; i++) {
+        const struct step *s = &machine->steps[i];
+        if (s->kind < STEP_ONE || s->kind > STEP_TOGETHER) {
+            continue;
+        }
+        const struct call_row *row = find_call(width, s);
+        if (!row) {
+            return false;
+        }
+        out->calls[i] = (struct engine_call){row->function, row->gives_one};
+    }
+    for (int i = 0; i < code->place_count; i++) {
+        const struct field_place *place = &code->places[i];
+        for (int k = 0; k < place->count; k++) {
+            out->places[count++] = (uint16_t)(block + 4 * place->vec4 + place->component + k);
+        }
+    }
+    return true;
+}
+
+static bool make_codes(struct engine_program *program)
+{
+    const struct field *field = program->field;
+    bool ok = true;
+    program->distances = field->code_count;
+    program->code_count = field->code_count + field->shader_count;
+    program->codes = memory_alloc(program->code_count, sizeof *program->codes);
+    for (size_t i = 0; i < program->code_count; i++) {
+        const bool shades = i >= program->distances;
+        const struct field_code *code =
+            shades ? &field->shaders[i - program->distances] : &field->codes[i];
+        const int block =
+            shades ? FIELD_MATERIAL_VEC4S : FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S;
+        ok = ok && make_code(program->width, &program->codes[i], code, 4 * block);
+    }
+    return ok;
+}
+
+struct engine_program *engine_program_create(struct field *field, int lanes)
 {
     struct engine_program *program = memory_alloc(1, sizeof *program);
     struct reading reading = {.depth = 0};
-    bool ok = field->shader_count == 0 && field->code_count == 0;
+    bool ok = true;
 
     program->references = 1;
+    program->field = field_ref(field);
     program->width = width_of(lanes);
-    ok = ok && program->width;
+    ok = program->width && make_codes(program);
 
     program->operations = memory_alloc(field->instruction_count, sizeof *program->operations);
     program->scene.material_base = (int)field->material_base;
@@ -164,6 +231,12 @@ struct engine_program *engine_program_create(const struct field *field, int lane
     return program;
 }
 
+void engine_distances(const struct engine_program *program, const float *numbers,
+                      const float (*points)[3], size_t count, float *out)
+{
+    program->width->distances(program, numbers, points, count, out);
+}
+
 struct engine_program *engine_program_ref(struct engine_program *program)
 {
     if (program) {
@@ -175,7 +248,12 @@ struct engine_program *engine_program_ref(struct engine_program *program)
 void engine_program_destroy(struct engine_program *program)
 {
     if (program && --program->references == 0) {
+        for (size_t i = 0; i < program->code_count; i++) {
+            free(program->codes[i].calls);
+        }
+        free(program->codes);
         free(program->operations);
+        field_unref(program->field);
         free(program);
     }
 }

@@ -34,6 +34,7 @@ static struct hand *hand_create(struct crew *crew)
     c->skies = picture->skies;
     c->numbers = picture->numbers;
     c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
+    c->frames = frames_create(c->program);
     c->spaces = crew->canvas->cells[atomic_fetch_add(&crew->next_thread, 1)];
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
@@ -41,6 +42,12 @@ static struct hand *hand_create(struct crew *crew)
     }
     c->cells = c->spaces;
     return hand;
+}
+
+static void hand_destroy(struct hand *hand)
+{
+    frames_destroy(hand->lanes.program, hand->lanes.frames);
+    free(hand);
 }
 
 static int smaller(int a, int b)
@@ -60,7 +67,7 @@ static void *take_tiles(void *argument)
                   smaller(crew->side, tile.height - y));
     }
     atomic_fetch_add(&crew->rays, hand->rays);
-    free(hand);
+    hand_destroy(hand);
     return NULL;
 }
 

@@ -7,17 +7,28 @@
 #include "spmd.c"
 
 #include "interpret.c"
+#include "points.c"
 #include "textures.c"
 #include "tile.c"
 
 #include "threads.c"
 
-#define KERNEL(type, choices, kind, function)                                                      \
+#define CALL_ROW(row, base, size, one, function)
+#define KERNEL_ROW(type, choices, kind, function)                                                  \
     {type, choices, KERNEL_##kind, (void (*)(void))function},
 static const struct kernel_row kernels[] = {
+#include "kernels.table"
+};
+#undef CALL_ROW
+#undef KERNEL_ROW
+#define CALL_ROW(row, base, size, one, function) {row, base, size, one, (void (*)(void))function},
+#define KERNEL_ROW(type, choices, kind, function)
+static const struct call_row calls[] = {
 #include "kernels.table"
 };
 
 #define JOIN(a, b) a##b
 #define NAME(lanes) JOIN(engine_, lanes)
-const struct engine_width NAME(LANES) = {LANES, kernels, sizeof kernels / sizeof kernels[0], draw};
+const struct engine_width NAME(LANES) = {
+    LANES, kernels,  sizeof kernels / sizeof kernels[0], calls, sizeof calls / sizeof calls[0],
+    draw,  distances};

@@ -199,11 +199,11 @@ struct field_wish {
 };
 struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
                                struct error *err);
-/* The same, and ERROR_LIMIT where it has more shapes than can be drawn. */
-struct field *field_drawable(const struct scene *scene, const struct field_wish *wish,
-                             struct error *err);
 struct field *field_ref(struct field *field);
 void field_unref(struct field *field); /* NULL: nothing */
+
+/* Whether it is small enough for compilers of shaders. */
+bool field_can_be_compiled(const struct field *field);
 
 /* The id of the leaf with this number; NULL: none has it. */
 const char *field_leaf_id(const struct field *field, uint32_t number);

@@ -236,31 +236,9 @@ bool field_run_again(struct field *field, struct field_sites *sites, const struc
     return true;
 }
 
-static bool refuse_size(const struct scene *scene, const struct field *field, struct error *err)
-{
-    char place[ERROR_PLACE_BYTES];
-    if (field->shape_count > LIMIT_DRAWN_SHAPES) {
-        return error_set(err, ERROR_LIMIT, error_place(place, "/nodes", scene->root->id),
-                         "%zu visible shapes are above the maximum %d that can be drawn",
-                         field->shape_count, LIMIT_DRAWN_SHAPES);
-    }
-    return error_set(err, ERROR_LIMIT, field->user_code->place,
-                     "%zu operations of code, counted for each shape that calls it, are above the "
-                     "maximum %d (drawn_code)",
-                     field->code_size, LIMIT_DRAWN_CODE);
-}
-
 /* Compilers need about the square of the shapes, and of the code: half a minute for as many as are
  * allowed, on a CPU. */
-struct field *field_drawable(const struct scene *scene, const struct field_wish *wish,
-                             struct error *err)
+bool field_can_be_compiled(const struct field *field)
 {
-    struct field *field = field_compile_as(scene, wish, err);
-    if (!field ||
-        (field->shape_count <= LIMIT_DRAWN_SHAPES && field->code_size <= LIMIT_DRAWN_CODE)) {
-        return field;
-    }
-    refuse_size(scene, field, err);
-    field_unref(field);
-    return NULL;
+    return field->shape_count <= LIMIT_COMPILED_SHAPES && field->code_size <= LIMIT_COMPILED_CODE;
 }

@@ -72,15 +72,26 @@ static void write_local(const struct writer *w, const struct field_instruction *
     fprintf(w->out, ")");
 }
 
-/* A user's function at the point, cut by its box. */
+/* Where a user's function is asked. */
+static void write_code_point(const struct writer *w, const struct field_instruction *in)
+{
+    fprintf(w->out, "within(");
+    write_local(w, in);
+    fprintf(w->out, ", N(%u))", in->numbers + FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
+}
+
+/* Its answer, cut by its box; without a field that is d. */
 static void write_code(const struct writer *w, const struct field_instruction *in)
 {
-    const struct field_code *code = &w->field->codes[in->choices];
     uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
-    fprintf(w->out, "unless_away(cut(user_%u(within(", in->choices);
-    write_local(w, in);
-    fprintf(w->out, ", N(%u))", cut);
-    write_places(w, code, "N(", cut + FIELD_CUT_VEC4S);
+    fprintf(w->out, "unless_away(cut(");
+    if (w->field->codes) {
+        fprintf(w->out, "user_%u(", in->choices);
+        write_code_point(w, in);
+        write_places(w, &w->field->codes[in->choices], "N(", cut + FIELD_CUT_VEC4S);
+    } else {
+        fprintf(w->out, "code_distance(d");
+    }
     fprintf(w->out, ") * N(%u).x, ", head);
     write_local(w, in);
     fprintf(w->out, ", N(%u)), N(%u).x)", cut, head + 1);
@@ -403,7 +414,7 @@ static void write_materials(const struct writer *w)
         "N_ANY(i + 5));\n",
         w->field->material_base, w->field->material_stride);
     if (w->field->shader_count > 0) {
-        fputs("at.object_position = m0.places[0];\n"
+        fputs("at.object_position = m0.place_x;\n"
               "apply_shader(at, m0.slots.x, paint);\n",
               w->out);
     }
@@ -492,6 +503,18 @@ bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
     default:
         return domain && domain->range;
     }
+}
+
+void shader_code_kernels(FILE *out)
+{
+    const struct field none = {0};
+    const struct field_instruction in = {.op = FIELD_SHAPE};
+    struct writer w = {.out = out, .field = &none};
+    fprintf(out, "vec3 kernel_code_point(vec3 p0)\n{\nreturn ");
+    write_code_point(&w, &in);
+    fprintf(out, ";\n}\nfloat kernel_code_shape(float d, vec3 p0)\n{\nfloat ");
+    write_shape(&w, &in);
+    fprintf(out, "return d0;\n}\n");
 }
 
 void shader_kernel(FILE *out, const char *name, const struct node_type *type, uint32_t choices,

@@ -36,5 +36,8 @@ bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel);
 /* `choices`: as of struct field_instruction. */
 void shader_kernel(FILE *out, const char *name, const struct node_type *type, uint32_t choices,
                    enum shader_kernel kernel);
+/* The same of users' distance functions: kernel_code_point(vec3 p), where one is asked, and
+ * kernel_code_shape(float d, vec3 p), the distance after its answer. */
+void shader_code_kernels(FILE *out);
 
 #endif

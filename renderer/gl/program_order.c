@@ -5,7 +5,7 @@
 
 enum {
     AT_ONE_MOST = EGL_COMPILERS - 1,
-    /* All stages of one shape, and what LIMIT_DRAWN_SHAPES of them take more: measured with
+    /* All stages of one shape, and what LIMIT_COMPILED_SHAPES of them take more: measured with
      * llvmpipe without a cache. It grows with their square. */
     ONE_SHAPE_MS = 900,
     ALL_SHAPES_MS = 29000,
@@ -14,7 +14,7 @@ enum {
 
 int64_t program_usual_ms(const struct program *program)
 {
-    const int64_t most = LIMIT_DRAWN_SHAPES, shapes = (int64_t)program->shape_count;
+    const int64_t most = LIMIT_COMPILED_SHAPES, shapes = (int64_t)program->shape_count;
     const int64_t counted = shapes < most ? shapes : most;
 
     const int64_t whole = LIMIT_CODE_SIZE, code = (int64_t)program->code_size;

@@ -12,14 +12,14 @@ struct Mixture {
     float d, leaf, weight; /* of the leaf */
     vec4 slots, shares;
 #ifdef USER_SHADERS
-    mat4x3 places; /* the point in the space of each one's shape */
+    vec3 place_x, place_y, place_z, place_w; /* the point in the space of each one's shape */
 #endif
 };
 
 /* A point in the space of the shape is handed along only where there are shaders. */
 #ifdef USER_SHADERS
 #define AND_PLACE(place) , place
-#define AND_PLACES , mat4x3(0.0)
+#define AND_PLACES , vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)
 #else
 #define AND_PLACE(place)
 #define AND_PLACES
@@ -30,7 +30,7 @@ Mixture mixture(vec3 h AND_PLACE(vec3 o))
 {
     Mixture m = Mixture(h.x, h.y, 1.0, vec4(h.z), vec4(1.0, 0.0, 0.0, 0.0) AND_PLACES);
 #ifdef USER_SHADERS
-    m.places[0] = o;
+    m.place_x = o;
 #endif
     return m;
 }
@@ -54,17 +54,17 @@ vec3 choose(float d, float share, vec3 a, vec3 b)
         b = outgrown ? before : b;                                                                 \
     }
 #ifdef USER_SHADERS
-#define EXCHANGE_PLACES(i) EXCHANGE(vec3, m.places[i - 1], m.places[i])
+#define EXCHANGE_PLACES(a, b) EXCHANGE(vec3, a, b)
 #else
-#define EXCHANGE_PLACES(i)
+#define EXCHANGE_PLACES(a, b)
 #endif
-/* Material i, in `from`, goes before the one that it has outgrown. */
-#define RISE(to, from, i)                                                                          \
+/* The material in `from` goes before the one that it has outgrown. */
+#define RISE(to, from, to_place, from_place)                                                       \
     {                                                                                              \
         bool outgrown = m.shares.from > m.shares.to;                                               \
         EXCHANGE(float, m.shares.to, m.shares.from)                                                \
         EXCHANGE(float, m.slots.to, m.slots.from)                                                  \
-        EXCHANGE_PLACES(i)                                                                         \
+        EXCHANGE_PLACES(m.to_place, m.from_place)                                                  \
     }
 
 /* Takes a material in, in the place of the weakest if it is new. */
@@ -73,17 +73,17 @@ void add(inout Mixture m, float slot, float share AND_PLACE(vec3 place))
     vec4 same = vec4(equal(m.slots, vec4(slot))) * vec4(greaterThan(m.shares, vec4(0.0)));
     bool known = dot(same, vec4(1.0)) > 0.0, enters = !known && share > m.shares.w;
 #ifdef USER_SHADERS
-    for (int i = 0; i < 4; i++) {
-        m.places[i] = same[i] * share > m.shares[i] ? place : m.places[i];
-    }
-    m.places[3] = enters ? place : m.places[3];
+    m.place_x = same.x * share > m.shares.x ? place : m.place_x;
+    m.place_y = same.y * share > m.shares.y ? place : m.place_y;
+    m.place_z = same.z * share > m.shares.z ? place : m.place_z;
+    m.place_w = enters || same.w * share > m.shares.w ? place : m.place_w;
 #endif
     m.shares += same * share;
     m.shares.w = enters ? share : m.shares.w;
     m.slots.w = enters ? slot : m.slots.w;
-    RISE(z, w, 3)
-    RISE(y, z, 2)
-    RISE(x, y, 1)
+    RISE(z, w, place_z, place_w)
+    RISE(y, z, place_y, place_z)
+    RISE(x, y, place_x, place_y)
 }
 
 /* What is left of a beside a part of another. */
@@ -109,10 +109,10 @@ Mixture blend(float d, float share, Mixture a, Mixture b)
 {
     Mixture m = mixture_beside(d, share, a, b.leaf, b.weight);
     b.shares *= share;
-    add(m, b.slots.x, b.shares.x AND_PLACE(b.places[0]));
-    add(m, b.slots.y, b.shares.y AND_PLACE(b.places[1]));
-    add(m, b.slots.z, b.shares.z AND_PLACE(b.places[2]));
-    add(m, b.slots.w, b.shares.w AND_PLACE(b.places[3]));
+    add(m, b.slots.x, b.shares.x AND_PLACE(b.place_x));
+    add(m, b.slots.y, b.shares.y AND_PLACE(b.place_y));
+    add(m, b.slots.z, b.shares.z AND_PLACE(b.place_z));
+    add(m, b.slots.w, b.shares.w AND_PLACE(b.place_w));
     return m;
 }
 
@@ -192,6 +192,8 @@ void mixture_next(inout Mixture m)
     m.slots = m.slots.yzwx;
     m.shares = vec4(m.shares.yzw, 0.0);
 #ifdef USER_SHADERS
-    m.places = mat4x3(m.places[1], m.places[2], m.places[3], vec3(0.0));
+    m.place_x = m.place_y;
+    m.place_y = m.place_z;
+    m.place_z = m.place_w;
 #endif
 }

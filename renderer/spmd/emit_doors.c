@@ -114,7 +114,12 @@ static void emit_way_out(struct emit *e, const struct function *f)
         emit_line(e, "vf r[%d];", count);
         list = emit_text(e, "%s, r", list);
     }
-    emit_line(e, "%s%s(%s);", count == 1 ? "return " : "", name_of(e, f), list);
+    if (count == 1) {
+        emit_line(e, "const %s r = %s(%s);", emit_type(spmd_base(e->tree, f->result, 0), true),
+                  name_of(e, f), list);
+    } else {
+        emit_line(e, "%s(%s);", name_of(e, f), list);
+    }
     for (int i = 0; count > 1 && i < count; i++) {
         emit_line(e, "*result_%d = %s;", i,
                   cast(e, emit_text(e, "r[%d]", i), spmd_base(e->tree, f->result, i)));
@@ -126,6 +131,9 @@ static void emit_way_out(struct emit *e, const struct function *f)
             emit_line(e, "*to_%s = %s;", value.at[i].text,
                       cast(e, emit_text(e, "b%d[%d]", at, i), value.at[i].base));
         }
+    }
+    if (count == 1) {
+        emit_line(e, "return r;");
     }
     emit_line(e, "}\n");
 }

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* spmd kernels:                what each instruction of a field does, as GLSL
- * spmd table:                  the list of these in C: KERNEL(type, choices, kind, function)
- * spmd text FILE:              our GLSL that a file includes, for the C preprocessor
+/* spmd table:                  rows in C: what each instruction of a field does, KERNEL_ROW(type,
+ *                              choices, kind, function), and what users' code calls (calls.h)
+ * spmd text FILE MORE:         our GLSL that a file includes, for the C preprocessor; it may
+ *                              include the second, too
  * spmd c FILE ENTRY...:        what came out of that, and all that the entries call, as C
  * spmd h FILE ENTRY...:        how our C calls it */
 #include <stdlib.h>
 #include <string.h>
 
+#include "calls.h"
 #include "renderer/field/shader.h"
 #include "renderer/glsl/include.h"
 #include "spmd.h"
@@ -34,7 +36,8 @@ static void write_kernel(FILE *out, const struct node_type *type, uint32_t choic
     char name[128];
     snprintf(name, sizeof name, "kernel_%s_%s_%u", kinds[kernel], type->record.name, choices);
     if (table) {
-        fprintf(out, "KERNEL(%d, %u, %s, spmd_%s)\n", type->number, choices, kinds[kernel], name);
+        fprintf(out, "KERNEL_ROW(%d, %u, %s, spmd_%s)\n", type->number, choices, kinds[kernel],
+                name);
     } else {
         shader_kernel(out, name, type, choices, kernel);
     }
@@ -66,6 +69,10 @@ static void write_kernels(FILE *out, bool table)
             write_choices(out, type, type->record.params, 0, table);
         }
     }
+    if (!table) {
+        shader_code_kernels(out);
+    }
+    spmd_write_calls(out, table);
 }
 
 static char *read_all(const char *path)
@@ -82,16 +89,23 @@ static char *read_all(const char *path)
     return text;
 }
 
-static int write_text(const char *file)
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static int write_text(const char *file, const char *more)
 {
     struct error err = {0};
     struct shader_text text;
-    struct glsl_file files[sizeof own / sizeof own[0] + 2];
+    struct glsl_file files[sizeof own / sizeof own[0] + 3];
     size_t length;
     FILE *kernels = open_memstream(&kernel_text, &length);
-    memcpy(files + 2, own, sizeof own);
+    memcpy(files + 3, own, sizeof own);
     files[0] = (struct glsl_file){file, read_all(file)};
-    fputs("#include \"field.glsl\"\n", kernels);
+    files[2] = (struct glsl_file){name_of(more), read_all(more)};
+    fputs("#include \"builtins.glsl\"\n#include \"field.glsl\"\n", kernels);
     write_kernels(kernels, false);
     fclose(kernels);
     files[1] = (struct glsl_file){"kernels.glsl", kernel_text};
@@ -102,6 +116,7 @@ static int write_text(const char *file)
     fputs(text.text, stdout);
     include_finish(&text);
     free((char *)files[0].text);
+    free((char *)files[2].text);
     return 0;
 }
 
@@ -133,13 +148,13 @@ int main(int argc, char **argv)
         write_kernels(stdout, true);
         return 0;
     }
-    if (argc == 3 && strcmp(argv[1], "text") == 0) {
-        return write_text(argv[2]);
+    if (argc == 4 && strcmp(argv[1], "text") == 0) {
+        return write_text(argv[2], argv[3]);
     }
     if (argc > 3 && (strcmp(argv[1], "c") == 0 || strcmp(argv[1], "h") == 0)) {
         return write_c(argv[2], argv[1][0] == 'h', (const char *const *)argv + 3,
                        (size_t)(argc - 3));
     }
-    fprintf(stderr, "usage: spmd text FILE | spmd c|h FILE ENTRY...\n");
+    fprintf(stderr, "usage: spmd table | spmd text FILE MORE | spmd c|h FILE ENTRY...\n");
     return 2;
 }

@@ -148,8 +148,8 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_STAGE] = {"stage", 0, "WORD", OPTION_CHOICE, .choice = stage_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
         .doc = "What computes pictures: `compute`, shaders of the device; `engine`, vectors of the "
-               "processors; `auto` takes the engine where the device is no GPU. Scenes with users' "
-               "code are drawn by the device in any case."},
+               "processors; `auto` takes the engine where the device is no GPU. Scenes that are "
+               "too large for compilers of shaders are drawn by the engine in any case."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
         .doc = "Where compiled shaders are kept."},

@@ -127,15 +127,6 @@ const UNDRAWABLE = [
         /^\/primitives\/rod\/code:1:\d+: .*q/,
     ],
     ['a shader', shaded('vec3 shade(FragmentProperties p) { return vec2(1.0); }'), /^\/shaders\/pale\/code:1:\d+: /],
-    ['513 shapes', { root: balls(513) }, /^\/nodes\/all: 513 visible shapes are above the maximum 512/],
-    [
-        'instances',
-        {
-            models: { ten: { ...balls(10), id: 'ten' } },
-            root: { id: 'all', type: 'union', children: Array.from({ length: 52 }, () => ({ type: 'model', params: { model: 'ten' } })) },
-        },
-        /^\/nodes\/all: 520 visible shapes are above the maximum 512/,
-    ],
     ['too many lights', { lights: Array.from({ length: 17 }, () => ({ type: 'point' })), root: ball(0) }, /^\/lights: more lights than the maximum 16/],
     ['too many volumes', { volumes: Array.from({ length: 9 }, () => ({ type: 'box' })), root: ball(0) }, /^\/volumes: more volumes than the maximum 8/],
 ];
@@ -159,7 +150,12 @@ test('check passes what can be drawn, and warns of it as render does', () => {
     const checked = run(['check', write('steep.json', JSON.stringify(steep))]);
     assert.equal(checked.status, 0);
     assert.match(checked.err, /^fieldcast: warning: steep\.json: \/nodes\/own\/params\/code: the distance changes by up to /);
-    succeed(['check', '-'], { input: JSON.stringify({ format: 'fieldcast/1', root: balls(512) }) });
+});
+
+test('a thousand shapes are right, and draw', () => {
+    const scene = write('many.json', JSON.stringify({ format: 'fieldcast/1', root: balls(1000) }));
+    succeed(['check', scene]);
+    succeed(['render', scene, '-o', 'many.png', ...SMALL]);
 });
 
 test('every example is right', () => {

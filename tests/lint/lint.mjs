@@ -65,7 +65,7 @@ const LAYERS = {
     'renderer/code': { others: [/^protocol\//, /^renderer\/sdf\//] },
     'renderer/field': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl)\//] },
     'renderer/spmd': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field)\//] },
-    'renderer/engine': { others: [/^protocol\//, /^renderer\/(sdf|glsl|field)\//] },
+    'renderer/engine': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field)\//] },
     'renderer/gl': { others: [/^protocol\//, /^renderer\/(glsl\/|vigil\.h$)/] },
     'renderer/draw': {
         others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|engine|gl|image)\//, /^renderer\/renderer\.h$/],

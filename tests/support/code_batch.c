@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "code_engine.h"
 #include "protocol/limits.h"
 #include "random_scene.h"
 
@@ -22,6 +23,7 @@
 
 static float points[CODE_GPU_POINTS][4];
 static float answers[CODE_BATCH_MAX * CODE_GPU_POINTS][4];
+
 void code_batch_add(struct code_batch *batch, const char *text, enum code_use use,
                     const struct param *params)
 {
@@ -84,8 +86,8 @@ static void print_difference(const struct code_batch *batch, size_t job, size_t 
     double want[4];
     run_in_c(&batch->jobs[job], batch->numbers, p, want);
     fprintf(stderr, /* print_error would cut it */
-            "%s\nat (%.9g, %.9g, %.9g): GLSL %.9g %.9g %.9g, C %.9g %.9g %.9g\n", batch->texts[job],
-            p[0], p[1], p[2], got[0], got[1], got[2], want[0], want[1], want[2]);
+            "%s\nat (%.9g, %.9g, %.9g): drawn %.9g %.9g %.9g, C %.9g %.9g %.9g\n",
+            batch->texts[job], p[0], p[1], p[2], got[0], got[1], got[2], want[0], want[1], want[2]);
 }
 
 static bool is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
@@ -116,6 +118,24 @@ static void make_points(void)
     }
 }
 
+/* The answers of the engine, in the place of the device's. */
+static bool engine_is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
+{
+    static float places[CODE_GPU_POINTS][3], got[CODE_GPU_POINTS];
+    if (batch->jobs[job].use != CODE_DISTANCE || batch->jobs[job].params->name) {
+        return false;
+    }
+    for (size_t i = 0; i < CODE_GPU_POINTS; i++) {
+        memcpy(places[i], points[i], sizeof places[i]);
+    }
+    code_engine_run(batch->texts[job], (const float(*)[3])places, CODE_GPU_POINTS, got);
+    for (size_t i = 0; i < CODE_GPU_POINTS; i++) {
+        float *to = answers[job * CODE_GPU_POINTS + i];
+        to[0] = to[1] = to[2] = to[3] = got[i];
+    }
+    return is_wrong(batch, job, allowed);
+}
+
 void code_batch_run(struct code_batch *batch, size_t allowed)
 {
     struct error err = {0};
@@ -130,7 +150,7 @@ void code_batch_run(struct code_batch *batch, size_t allowed)
         fail_msg("%s", err.message);
     }
     for (size_t i = 0; i < batch->count; i++) {
-        wrong += is_wrong(batch, i, allowed);
+        wrong += is_wrong(batch, i, allowed) || engine_is_wrong(batch, i, allowed);
     }
     for (size_t i = 0; i < batch->count; i++) {
         code_destroy((struct code *)batch->jobs[i].code);

@@ -665,54 +665,27 @@ static char *spheres_text(int count)
     return text;
 }
 
-/* The document has three shapes, and this a fourth. */
-static const char one_more[] = "[{'op':'insert','into':'/nodes/root','before':null,"
-                               "'value':{'id':'last','type':'sphere'}}]";
-
-/* The picture of the document stays while there are too many. */
-static void test_too_many_shapes(void **state)
+/* The document has three shapes. More than a compiler takes are drawn without one. */
+static void test_shapes_beyond_compilers(void **state)
 {
     struct resident *resident = make_resident(document);
-    struct image before = draw(resident, &usual), again;
-    char *text = spheres_text(LIMIT_DRAWN_SHAPES - 3);
-    struct error err = {0};
+    struct image before = draw(resident, &usual), many, again;
+    char *text = spheres_text(LIMIT_COMPILED_SHAPES - 2);
+    const uint64_t compilations = renderer_counters(renderer).compilations;
 
     (void)state;
-    edit(resident, one_more);
-    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
     edit(resident, text);
-    assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
-    assert_string_equal(resident_error(resident)->place, "/nodes/root");
-    assert_string_equal(resident_error(resident)->message,
-                        "513 visible shapes are above the maximum 512 that can be drawn");
-    assert_null(job_create(resident, &usual, &err));
-    assert_int_equal(err.kind, ERROR_LIMIT);
-    edit(resident, "[{'op':'remove','at':'/nodes/last'},"
-                   "{'op':'remove','at':'/nodes/many'}]");
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
+    many = draw(resident, &usual);
+    assert_int_equal(renderer_counters(renderer).compilations, compilations);
+    assert_false(is_same(&before, &many));
+    edit(resident, "[{'op':'remove','at':'/nodes/many'}]");
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
     again = draw(resident, &usual);
     assert_same(&before, &again);
     image_finish(&before);
+    image_finish(&many);
     image_finish(&again);
-    free(text);
-    resident_destroy(resident);
-}
-
-/* A device without a GPU compiles so many for a minute. */
-static void test_as_many_shapes_as_may_be(void **state)
-{
-    const struct job_desc small = {.width = 16, .height = 16, .samples = 1, .exact = true};
-    struct resident *resident = make_resident(document);
-    char *text = spheres_text(LIMIT_DRAWN_SHAPES - 3);
-    struct image image;
-
-    (void)state;
-    edit(resident, text);
-    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
-    image = draw(resident, &small);
-    image_finish(&image);
-    edit(resident, one_more);
-    assert_int_equal(resident_error(resident)->kind, ERROR_LIMIT);
     free(text);
     resident_destroy(resident);
 }
@@ -742,26 +715,23 @@ static struct scene *shapes_with_code(const char *code, int count)
 }
 
 /* Compilers write it out for each shape. */
-static void test_too_much_code(void **state)
+static void test_code_beyond_compilers(void **state)
 {
     static const struct param nothing[] = {{.name = NULL}};
     const char *code = "float sdf(vec3 p) { return length(p) - 0.5 + 0.01 * sin(cos(p.x)); }";
     struct code *alone = code_compile(&(struct code_source){CODE_DISTANCE, code, nothing}, NULL);
-    const int most = LIMIT_DRAWN_CODE / code_size(alone);
-    struct scene *enough = shapes_with_code(code, most);
-    struct scene *too_much = shapes_with_code(code, most + 1);
-    struct error warning, err = {0};
+    const int most = LIMIT_COMPILED_CODE / code_size(alone);
+    for (int more = 0; more < 2; more++) {
+        struct scene *scene = shapes_with_code(code, most + more);
+        struct field *field = field_compile(scene, NULL);
+        assert_int_equal(field_can_be_compiled(field), more == 0);
+        field_unref(field);
+        scene_destroy(scene);
+    }
 
     (void)state;
     assert_true(most > 20);
-    assert_true(renderer_check(enough, &warning, &err));
-    assert_false(renderer_check(too_much, &warning, &err));
-    assert_int_equal(err.kind, ERROR_LIMIT);
-    assert_string_equal(err.place, "/primitives/p/code");
-    assert_non_null(strstr(err.message, "(drawn_code)"));
     code_destroy(alone);
-    scene_destroy(enough);
-    scene_destroy(too_much);
 }
 
 static void test_gpu_asked_for(void **state)
@@ -833,8 +803,8 @@ int main(void)
         cmocka_unit_test(test_cancel),
         cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_picking_agrees),
-        cmocka_unit_test(test_too_many_shapes),
-        cmocka_unit_test(test_too_much_code),
+        cmocka_unit_test(test_shapes_beyond_compilers),
+        cmocka_unit_test(test_code_beyond_compilers),
         cmocka_unit_test(test_gpu_asked_for),
     };
     /* What only programs do. */
@@ -846,7 +816,6 @@ int main(void)
     };
     /* What programs take long for. */
     const struct CMUnitTest many[] = {
-        cmocka_unit_test(test_as_many_shapes_as_may_be),
     };
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
