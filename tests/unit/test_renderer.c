@@ -815,8 +815,7 @@ int main(void)
         cmocka_unit_test(test_loop_budget),
     };
     /* What programs take long for. */
-    const struct CMUnitTest many[] = {
-    };
+    const struct CMUnitTest many[] = {};
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
            cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +
