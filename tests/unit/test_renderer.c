@@ -656,7 +656,8 @@ static char *spheres_text(int count)
 
     assert_non_null(out);
     fprintf(out, "[{'op':'insert','into':'/nodes/root','before':null,'value':"
-                 "{'id':'many','type':'union','children':[");
+                 "{'id':'many','type':'union','transform':{'translation':[0,1,0]},"
+                 "'children':[");
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s{'type':'sphere'}", i ? "," : "");
     }
