@@ -205,7 +205,7 @@ static double field_shadow(const struct field *field, const double from[3])
 
 static void soft_shadows_of_any_field_have_no_rings(void **state)
 {
-    enum { WIDTH = 120, HEIGHT = 90 };
+    enum { WIDTH = 120, HEIGHT = 90, STEP = 3 };
     struct image places = draw(still_life, WIDTH, HEIGHT, AOV_POSITION);
     struct image normals = draw(still_life, WIDTH, HEIGHT, AOV_NORMAL);
     struct image image = draw(still_life, WIDTH, HEIGHT, AOV_SHADOW);
@@ -214,7 +214,7 @@ static void soft_shadows_of_any_field_have_no_rings(void **state)
     int lit = 0, off = 0;
 
     (void)state;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+    for (int i = 0; i < WIDTH * HEIGHT; i += STEP) {
         const int x = i % WIDTH, y = i / WIDTH;
         const double normal[3] = {value(&normals, x, y, 0), value(&normals, x, y, 1),
                                   value(&normals, x, y, 2)};
@@ -234,7 +234,7 @@ static void soft_shadows_of_any_field_have_no_rings(void **state)
     field_unref(field);
     scene_destroy(scene);
     print_message("soft shadows: %d of %d off by more than 0.03\n", off, lit);
-    assert_true(lit > 6000 && off * 200 <= lit);
+    assert_true(lit > 6000 / STEP && off * 200 <= lit);
 }
 
 /* --- the environment --- */
