@@ -34,6 +34,7 @@ struct renderer_params {
     struct device_params device;
     enum render_stage stage;
     int lanes;            /* of the engine's vectors; 0: the most */
+    int threads;          /* of the engine; 0: one for each processor */
     int tile_side;        /* pixels, a multiple of 8; 0: what is good for the device */
     int code_ms, tile_ms; /* that compiling code, drawing the smallest tile may take of the
                               * processors; 0: what limits.h says */

@@ -291,7 +291,8 @@ static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
         snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
                                         &snapshot->warning.error, err);
     } else if (field_probe(snapshot->field, &snapshot->warning.error, err)) {
-        snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes);
+        snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes,
+                                                 renderer->params.threads);
     }
     return snapshot->engine || snapshot->program;
 }

@@ -24,9 +24,9 @@ enum { ENGINE_SKIES = 3 }; /* UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE */
 
 struct engine_program; /* a field, ready to be run */
 
-/* `lanes`: width of the vectors, 0 for the widest that the processor has. NULL where the engine has
- * no such width. The field is kept. */
-struct engine_program *engine_program_create(struct field *field, int lanes);
+/* `lanes`: width of the vectors, 0 for the widest that the processor has. `threads` draw, 0: one
+ * for each processor. NULL where the engine has no such width. The field is kept. */
+struct engine_program *engine_program_create(struct field *field, int lanes, int threads);
 /* The widths that the processor has, from the widest; 0 behind the last. */
 int engine_lanes(size_t index);
 /* The same for another field of this shape; NULL: nothing. Each has to be destroyed. */

@@ -207,7 +207,7 @@ static bool make_codes(struct engine_program *program)
     return ok;
 }
 
-struct engine_program *engine_program_create(struct field *field, int lanes)
+struct engine_program *engine_program_create(struct field *field, int lanes, int threads)
 {
     struct engine_program *program = memory_alloc(1, sizeof *program);
     struct reading reading = {.depth = 0};
@@ -216,6 +216,7 @@ struct engine_program *engine_program_create(struct field *field, int lanes)
     program->references = 1;
     program->field = field_ref(field);
     program->width = width_of(lanes);
+    program->threads = threads;
     ok = program->width && make_codes(program);
 
     program->operations = memory_alloc(field->instruction_count, sizeof *program->operations);

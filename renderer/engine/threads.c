@@ -71,8 +71,8 @@ static void *take_tiles(void *argument)
     return NULL;
 }
 
-/* As large as leaves a part of the tile to each processor. */
-static void divide(struct crew *crew, long cores)
+/* As large as leaves a part of the tile to each thread. */
+static void divide(struct crew *crew, long threads)
 {
     const struct engine_rect tile = crew->work->tile;
     crew->side = 2 * TILE;
@@ -80,20 +80,21 @@ static void divide(struct crew *crew, long cores)
         crew->side /= 2;
         crew->across = (tile.width + crew->side - 1) / crew->side;
         crew->count = crew->across * ((tile.height + crew->side - 1) / crew->side);
-    } while (crew->side > TILE_LEAST && crew->count < 2 * cores);
+    } while (crew->side > TILE_LEAST && crew->count < 2 * threads);
 }
 
 static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
 {
     struct crew crew = {.canvas = canvas, .work = work};
     pthread_t threads[ENGINE_THREADS];
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    const int asked = canvas->picture.program->threads;
+    const long most = asked > 0 ? asked : sysconf(_SC_NPROCESSORS_ONLN);
     int started = 0;
-    divide(&crew, cores);
+    divide(&crew, most);
     atomic_init(&crew.next_tile, 0);
     atomic_init(&crew.next_thread, 0);
     atomic_init(&crew.rays, 0);
-    while (started + 1 < cores && started + 1 < crew.count && started < ENGINE_THREADS - 1 &&
+    while (started + 1 < most && started + 1 < crew.count && started < ENGINE_THREADS - 1 &&
            pthread_create(&threads[started], NULL, take_tiles, &crew) == 0) {
         started++;
     }

@@ -35,8 +35,7 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
 bool bench_medians(struct renderer *renderer, struct resident *resident,
                    const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
-/* `engine_ratio`: what a picture takes by compute shaders, by what it takes by the engine; 1 where
- * the scene has users' code, which the device draws in both cases. */
+/* `engine_ratio`: what a picture takes by compute shaders, by what it takes by the engine. */
 bool bench_stages(struct renderer *renderer, const struct embedded *example,
                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
@@ -44,6 +43,10 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
  * takes where no material asks for any. */
 bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
                    cJSON *row, struct error *err);
+
+/* One row for each family of scenes: `ms` of a picture by the number of shapes, how many times that
+ * of ten, and the exponent of growth from a hundred to ten thousand. By the engine. */
+cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err);
 
 /* `edit_us` and `edit_p95_us`: edits that move one node of the scene after the other. */
 bool bench_edits(struct resident *resident, cJSON *row, struct error *err);

@@ -61,6 +61,7 @@ int command_bench(const struct options *options)
     cJSON_AddNumberToObject(result, "rounds", rounds);
     bool ok = add(result, "renderer", bench_renderer(&params, &err)) &&
               add(result, "drawing", bench_drawing(&params, only, rounds, &err)) &&
+              (only || add(result, "growth", bench_growth(&params, rounds, &err))) &&
               add(result, "documents", bench_documents(&err)) &&
               add(result, "edits", bench_store(option_text(options, OPTION_DATA), &err));
     if (ok) {

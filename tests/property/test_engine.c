@@ -24,13 +24,22 @@ enum {
     SMALL_BYTES = 6000, /* of a document; drivers compile larger ones for long */
 };
 
-static struct renderer *open_renderer(enum render_stage stage, int lanes)
+/* How the engine goes about it. */
+struct way {
+    int lanes, threads, tile_side; /* 0: as usual */
+};
+
+static const struct way usual = {0, 0, 0};
+
+static struct renderer *open_renderer(enum render_stage stage, struct way way)
 {
     struct error err = {0};
     const struct renderer_params params = {
         .device = {.index = -1, .cache_dir = getenv("FIELDCAST_CACHE")},
         .stage = stage,
-        .lanes = lanes};
+        .lanes = way.lanes,
+        .threads = way.threads,
+        .tile_side = way.tile_side};
     struct renderer *renderer = renderer_create(&params, &err);
 
     if (!renderer) {
@@ -95,7 +104,7 @@ static void small_examples_are_the_same_by_both(void **state)
 {
     struct image *device = calloc(examples_count, sizeof *device);
     size_t small = 0;
-    struct renderer *renderer = open_renderer(RENDER_COMPUTE, 0);
+    struct renderer *renderer = open_renderer(RENDER_COMPUTE, usual);
 
     (void)state;
     assert_non_null(device);
@@ -108,7 +117,7 @@ static void small_examples_are_the_same_by_both(void **state)
     }
     assert_in_range(small, examples_count / 2, examples_count);
     renderer_destroy(renderer);
-    renderer = open_renderer(RENDER_ENGINE, 0);
+    renderer = open_renderer(RENDER_ENGINE, usual);
     for (size_t i = 0; i < examples_count; i++) {
         if (!device[i].pixels) {
             continue;
@@ -139,7 +148,7 @@ static const struct embedded *example(const char *name)
  * number of samples at its edges. */
 static void other_pictures_are_noticed(void **state)
 {
-    struct renderer *renderer = open_renderer(RENDER_ENGINE, 0);
+    struct renderer *renderer = open_renderer(RENDER_ENGINE, usual);
     struct image a = draw(renderer, example("csg"), 1), b = draw(renderer, example("blend"), 1);
     struct image more = draw(renderer, example("csg"), 2);
 
@@ -152,32 +161,46 @@ static void other_pictures_are_noticed(void **state)
     renderer_destroy(renderer);
 }
 
+/* Every width, numbers of threads, sides of tiles. */
+static size_t list_ways(struct way *out)
+{
+    static const struct way others[] = {{0, 1, 0}, {0, 2, 0}, {0, 5, 0}, {0, 5, 16}, {0, 2, 24}};
+    size_t count = 0;
+    for (size_t i = 0; engine_lanes(i) > 0; i++) {
+        out[count++] = (struct way){engine_lanes(i), 0, 0};
+    }
+    assert_true(count > 0);
+    memcpy(out + count, others, sizeof others);
+    return count + sizeof others / sizeof others[0];
+}
+
 /* Small, because the narrowest is checked by the sanitizers. */
-static void all_widths_give_the_same_bytes(void **state)
+static void all_ways_give_the_same_bytes(void **state)
 {
     static const char *const names[] = {"csg",   "snowman",      "mirrors",
                                         "twist", "repeat-polar", "coloured-glass"};
-    enum { NAMES = sizeof names / sizeof names[0], SMALLER = 2 };
-    struct image widest[NAMES];
+    enum { NAMES = sizeof names / sizeof names[0], SMALLER = 2, WAYS_MAX = 16 };
+    struct image first[NAMES];
+    struct way ways[WAYS_MAX];
+    const size_t count = list_ways(ways);
 
     (void)state;
-    assert_true(engine_lanes(0) > 0);
-    for (size_t k = 0; engine_lanes(k) > 0; k++) {
-        struct renderer *renderer = open_renderer(RENDER_ENGINE, engine_lanes(k));
+    for (size_t k = 0; k < count; k++) {
+        struct renderer *renderer = open_renderer(RENDER_ENGINE, ways[k]);
         for (size_t i = 0; i < NAMES; i++) {
             struct image image = draw_part(renderer, example(names[i]), 2, SMALLER);
             if (k == 0) {
-                widest[i] = image;
+                first[i] = image;
                 continue;
             }
-            assert_int_equal(image.bytes, widest[i].bytes);
-            assert_memory_equal(image.pixels, widest[i].pixels, image.bytes);
+            assert_int_equal(image.bytes, first[i].bytes);
+            assert_memory_equal(image.pixels, first[i].pixels, image.bytes);
             image_finish(&image);
         }
         renderer_destroy(renderer);
     }
     for (size_t i = 0; i < NAMES; i++) {
-        image_finish(&widest[i]);
+        image_finish(&first[i]);
     }
 }
 
@@ -186,7 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_examples_are_the_same_by_both),
         cmocka_unit_test(other_pictures_are_noticed),
-        cmocka_unit_test(all_widths_give_the_same_bytes),
+        cmocka_unit_test(all_ways_give_the_same_bytes),
     };
     return cmocka_run_group_tests_name("engine", tests, NULL, NULL);
 }

@@ -72,9 +72,17 @@ static void edit(struct random *random, struct resident *resident)
     cJSON_Delete(ops);
 }
 
+/* Others may be drawn while such a picture is under way, also within a tile. */
+static struct job_desc one_sample(void)
+{
+    struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    desc.samples = 1;
+    return desc;
+}
+
 static struct image draw(struct resident *resident)
 {
-    const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    const struct job_desc desc = one_sample();
     struct error err = {0};
     struct image image;
     if (!renderer_render(resident, &desc, &image, &err)) {
@@ -117,7 +125,7 @@ static bool step(struct begun *begun)
 
 static void begin(struct begun *begun, struct resident *resident, bool going)
 {
-    const struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
+    const struct job_desc desc = one_sample();
     *begun = (struct begun){.want = draw_anew(resident), .job = job_create(resident, &desc, NULL)};
     assert_non_null(begun->job);
     assert_true(!going || step(begun));

@@ -39,7 +39,7 @@ void engine_agree(const struct field *field, const float (*points)[3], size_t co
     assert_non_null(again);
     for (size_t i = 0; engine_lanes(i) > 0; i++) {
         struct engine_program *program =
-            engine_program_create((struct field *)field, engine_lanes(i));
+            engine_program_create((struct field *)field, engine_lanes(i), 0);
         assert_non_null(program);
         engine_distances(program, field->numbers, points, count, i == 0 ? out : again);
         engine_program_destroy(program);

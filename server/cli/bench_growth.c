@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* How the time of a picture grows with the number of shapes: families of scenes that look alike at
+ * every size, drawn by the engine, in turns. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "protocol/memory.h"
+#include "server/clock.h"
+
+enum { SIZES = 4, LARGEST = 10000, OF_A_MODEL = 10 };
+static const int sizes[SIZES] = {10, 100, 1000, LARGEST};
+
+struct family {
+    const char *name;
+    double radius; /* of a shape, by half of the mean distance to the next */
+    bool nested;   /* in groups of ten of groups of ten */
+    bool modelled; /* instances of one model of ten shapes */
+};
+
+static const struct family families[] = {
+    {"flat_union", 0.6, false, false},
+    {"deep_tree", 0.6, true, false},
+    {"overlapping", 4.0, false, false},
+    {"instances", 0.6, false, true},
+};
+enum { FAMILIES = sizeof families / sizeof families[0] };
+
+/* --- scenes --- */
+
+/* The same numbers everywhere (Steele, Lea, Flood: Fast splittable pseudorandom number generators,
+ * 2014). */
+static double next_place(uint64_t *state)
+{
+    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53 * 2 - 1;
+}
+
+static void write_place(FILE *out, uint64_t *state)
+{
+    const double x = next_place(state), y = next_place(state), z = next_place(state);
+    fprintf(out, "\"transform\":{\"translation\":[%.6f,%.6f,%.6f]}", x, y, z);
+}
+
+static void write_shape(FILE *out, uint64_t *state, double radius, int index)
+{
+    if (index % 2 == 0) {
+        fprintf(out, "{\"type\":\"sphere\",\"params\":{\"radius\":%.6f},", radius);
+    } else {
+        fprintf(out, "{\"type\":\"box\",\"params\":{\"size\":[%.6f,%.6f,%.6f]},", 1.6 * radius,
+                1.6 * radius, 1.6 * radius);
+    }
+    write_place(out, state);
+    fputc('}', out);
+}
+
+static void write_shapes(FILE *out, uint64_t *state, double radius, int count, bool nested)
+{
+    fputs("{\"type\":\"union\",\"children\":[", out);
+    for (int i = 0; i < count; i += nested && count > 10 ? count / 10 : 1) {
+        fputs(i > 0 ? "," : "", out);
+        if (nested && count > 10) {
+            write_shapes(out, state, radius, count / 10, true);
+        } else {
+            write_shape(out, state, radius, i);
+        }
+    }
+    fputs("]}", out);
+}
+
+static void write_instances(FILE *out, uint64_t *state, double radius, int count)
+{
+    const int instances = count / OF_A_MODEL;
+    const double scale = 1 / cbrt(instances);
+    fprintf(out, "{\"type\":\"union\",\"children\":[");
+    for (int i = 0; i < instances; i++) {
+        fprintf(out, "%s{\"type\":\"model\",\"params\":{\"model\":\"m\"},\"transform\":{", i ? "," : "");
+        fprintf(out, "\"translation\":[%.6f,%.6f,", next_place(state), next_place(state));
+        fprintf(out, "%.6f],\"scale\":[%.6f,%.6f,%.6f]}}", next_place(state), scale, scale, scale);
+    }
+    fprintf(out, "]},\"models\":{\"m\":");
+    write_shapes(out, state, radius / scale, OF_A_MODEL, false);
+    fputc('}', out);
+}
+
+/* All shapes lie in a cube of side 2 and get smaller as they get more. */
+static struct scene *make_scene(const struct family *family, int count, struct error *err)
+{
+    char *text = NULL;
+    size_t length;
+    uint64_t state = 1;
+    const double radius = family->radius / cbrt(count);
+    FILE *out = open_memstream(&text, &length);
+
+    if (!out) {
+        abort();
+    }
+    fputs("{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[2.5,2,4]},\"root\":", out);
+    if (family->modelled) {
+        write_instances(out, &state, radius, count);
+    } else {
+        write_shapes(out, &state, radius, count, family->nested);
+    }
+    fputc('}', out);
+    fclose(out);
+    struct scene *scene = scene_parse(text, length, err);
+    free(text);
+    return scene;
+}
+
+/* --- measuring --- */
+
+/* The slope of log(time) over log(size), from the second size on. */
+static double exponent(const double ms[SIZES])
+{
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (int i = 1; i < SIZES; i++) {
+        const double a = log(sizes[i]), b = log(ms[i]);
+        x += a, y += b, xx += a * a, xy += a * b;
+    }
+    return ((SIZES - 1) * xy - x * y) / ((SIZES - 1) * xx - x * x);
+}
+
+/* One of each size in turns; `ms`: medians. */
+static bool time_sizes(struct renderer *renderer, struct resident *const scenes[SIZES], int rounds,
+                       double ms[SIZES], struct error *err)
+{
+    const struct job_desc desc = {
+        .width = 640, .height = 360, .level = QUALITY_DRAFT, .samples = 1, .exact = true};
+    double *times = memory_alloc((size_t)rounds * SIZES, sizeof *times);
+    bool ok = true;
+    for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
+        for (int k = 0; ok && k < SIZES; k++) {
+            struct job_times stages;
+            const int64_t start = clock_us();
+            ok = bench_draw(renderer, scenes[k], &desc, &stages, err);
+            times[k * rounds + (i < 0 ? 0 : i)] = bench_ms_since(start);
+        }
+    }
+    for (int k = 0; ok && k < SIZES; k++) {
+        ms[k] = bench_quantile(times + (ptrdiff_t)k * rounds, (size_t)rounds, 0.5);
+    }
+    free(times);
+    return ok;
+}
+
+static cJSON *row_of(const struct family *family, const double ms[SIZES])
+{
+    cJSON *row = cJSON_CreateObject(), *of = cJSON_AddObjectToObject(row, "ms");
+    cJSON_AddStringToObject(row, "family", family->name);
+    for (int i = 0; i < SIZES; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%d", sizes[i]);
+        bench_add(of, name, ms[i]);
+    }
+    bench_add(row, "ratio_1000", ms[2] / ms[0]);
+    bench_add(row, "ratio_10000", ms[3] / ms[0]);
+    bench_add(row, "exponent", exponent(ms));
+    return row;
+}
+
+static cJSON *grow(struct renderer *renderer, const struct family *family, int rounds,
+                   struct error *err)
+{
+    struct resident *scenes[SIZES] = {NULL};
+    double ms[SIZES];
+    bool ok = true;
+    for (int i = 0; ok && i < SIZES; i++) {
+        struct scene *scene = make_scene(family, sizes[i], err);
+        scenes[i] = scene ? resident_create(renderer, scene, 1) : NULL;
+        ok = scenes[i] != NULL;
+    }
+    ok = ok && time_sizes(renderer, scenes, rounds, ms, err);
+    for (int i = 0; i < SIZES; i++) {
+        resident_destroy(scenes[i]);
+    }
+    return ok ? row_of(family, ms) : NULL;
+}
+
+cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err)
+{
+    struct renderer_params own = *params;
+    own.stage = RENDER_ENGINE;
+    struct renderer *renderer = renderer_create(&own, err);
+    cJSON *rows = cJSON_CreateArray();
+    bool ok = renderer != NULL;
+    for (int i = 0; ok && i < FAMILIES; i++) {
+        cJSON *row = grow(renderer, &families[i], rounds, err);
+        ok = row != NULL;
+        cJSON_AddItemToArray(rows, row);
+    }
+    renderer_destroy(renderer);
+    if (!ok) {
+        cJSON_Delete(rows);
+        return NULL;
+    }
+    return rows;
+}
