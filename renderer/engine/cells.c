@@ -200,14 +200,23 @@ static uint32_t lanes_count(vb m)
     return (uint32_t)count;
 }
 
-/* Whether the shorter tape of a child is worth it, as many times as its lanes are fewer. */
-static bool cell_pays(const struct cell *cell, vb held, const struct cell *child, vb fewer)
+/* What its tape takes for each of these lanes. */
+static float cell_cost(const struct cell *cell, vb held)
 {
-    return !lanes_any(held & ~fewer) || (child->count + CELL_RUN) * lanes_count(held) <
-                                            (cell->count + CELL_RUN) * lanes_count(fewer);
+    return (float)(cell->count + CELL_RUN) / (float)lanes_count(held);
 }
 
-/* A cube for the first of these lanes, and those that it holds. The root holds everything. */
+static int32_t child_at(const struct cell *cell, const vf *p, int lane)
+{
+    int32_t child = cell->children;
+    for (int i = 0; i < 3; i++) {
+        child += (p[i][lane] > cell->centre[i]) << i;
+    }
+    return child;
+}
+
+/* A cube for the first of these lanes, and those that it holds: of the cubes around that lane, the one
+ * whose tape takes the least for each lane in it. The root holds everything. */
 static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_lanes)
 {
     m = choose_space(c, m);
@@ -226,23 +235,22 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
         *out_lanes = held;
         return &cells->at[at];
     }
+    int32_t best = at;
+    float least = cell_cost(&cells->at[at], held);
+    *out_lanes = held;
     while (cell_splits(c, &cells->at[at])) {
         if (!cells->at[at].children) {
             cell_split(c, at, c->through_0[lane]);
         }
-        const struct cell *cell = &cells->at[at];
-        int child = cell->children;
-        for (int i = 0; i < 3; i++) {
-            child += (p[i][lane] > cell->centre[i]) << i;
+        at = child_at(&cells->at[at], p, lane);
+        held = cell_lanes(&cells->at[at], held, p);
+        const float cost = cell_cost(&cells->at[at], held);
+        if (cost <= least) {
+            best = at;
+            least = cost;
+            *out_lanes = held;
         }
-        const vb fewer = cell_lanes(&cells->at[child], held, p);
-        if (!fewer[lane] || !cell_pays(cell, held, &cells->at[child], fewer)) {
-            break;
-        }
-        held = fewer;
-        at = child;
     }
-    cells->last = at;
-    *out_lanes = held;
-    return &cells->at[at];
+    cells->last = best;
+    return &cells->at[best];
 }

@@ -63,7 +63,7 @@ struct engine_width;
 
 struct engine_program {
     int references;
-    int threads; /* 0: one for each processor */
+    int threads;               /* 0: one for each processor */
     struct field *field;       /* which has the codes */
     struct engine_code *codes; /* distances, then shaders */
     size_t distances, code_count;

@@ -44,8 +44,8 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
 bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
                    cJSON *row, struct error *err);
 
-/* One row for each family of scenes: `ms` of a picture by the number of shapes, how many times that
- * of ten, and the exponent of growth from a hundred to ten thousand. By the engine. */
+/* One row for each family of scenes: `ms` of a picture by the number of shapes, the `ratio` of the
+ * most to the fewest, and the exponent of growth without these. By the engine. */
 cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err);
 
 /* `edit_us` and `edit_p95_us`: edits that move one node of the scene after the other. */

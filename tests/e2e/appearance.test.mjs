@@ -102,7 +102,7 @@ test('a volume is put in, changed and taken away', async () => {
     await when((d) => d.volumes?.[0].id === 'box-1', 'a box of smoke');
     const smoky = await pictureChanged(page, clear, 'smoke');
     await field(page, 'octaves').waitFor();
-    await page.getByRole('radio', { name: 'constant' }).click();
+    await choose('source', 'constant');
     await when((d) => d.volumes[0].source === 'constant', 'even smoke');
     await field(page, 'octaves').waitFor({ state: 'detached' });
     await pictureChanged(page, smoky, 'even smoke');
