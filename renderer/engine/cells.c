@@ -215,8 +215,8 @@ static int32_t child_at(const struct cell *cell, const vf *p, int lane)
     return child;
 }
 
-/* A cube for the first of these lanes, and those that it holds: of the cubes around that lane, the one
- * whose tape takes the least for each lane in it. The root holds everything. */
+/* A cube for the first of these lanes, and those that it holds: of the cubes around that lane, the
+ * one whose tape takes the least for each lane in it. The root holds everything. */
 static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_lanes)
 {
     m = choose_space(c, m);
