@@ -54,7 +54,7 @@ enum {
     OBJECTS = 4096,
     EAT_BYTES = 1 << 20,
     GROUP_MS = 10,
-    HARD_GROUP_MS = 150,
+    HARD_GROUP_MS = 250,
     HANG_RATE = 10,
     NS = 1000000000
 };

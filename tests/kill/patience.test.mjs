@@ -31,7 +31,7 @@ const CRASH = ball('31338.5');
 const HANG_ONCE = ball('31341.5');
 const HANG_TWICE = ball('31342.5');
 const DRAW_SLOWLY = ball('31344.5'); // 10 ms for each 8 × 8 pixels in each pass
-const DRAW_HARDLY = ball('31345.5'); // 150 ms
+const DRAW_HARDLY = ball('31345.5'); // 250 ms
 
 const scene = (code) => ({
     format: 'fieldcast/1',
@@ -220,16 +220,16 @@ test('who has nothing to do with it hears no word of a crash', async () => {
 });
 
 test('a scene whose smallest part takes too long is suspended with its measure', async () => {
-    const daemon = await start('--tile-time', '250');
+    const daemon = await start('--tile-time', '500');
     const live = await open(daemon, 'heavy', DRAW_HARDLY, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
-    assert.ok(notice.measured > 250 && notice.limit === 250, `${notice.measured} of ${notice.limit}`);
+    assert.ok(notice.measured > 500 && notice.limit === 500, `${notice.measured} of ${notice.limit}`);
     assert.equal(notice.place, '/nodes/root');
     const refused = await fetch(`${daemon.url}/v1/scenes/heavy/image.png?width=8&height=8`);
     assert.equal((await refused.json()).code, 'too_slow');
     assert.equal(await restarts(daemon), 0);
     const late = await Live.open(daemon, 'heavy');
-    assert.equal((await late.next('notice', { code: 'scene_left_out' })).limit, 250);
+    assert.equal((await late.next('notice', { code: 'scene_left_out' })).limit, 500);
     await late.close();
     const spent = cpuSecondsOf(daemon.worker());
     await sleep(1000);
@@ -242,10 +242,10 @@ test('a scene whose smallest part takes too long is suspended with its measure',
 });
 
 test('a scene that keeps two processes at work for too long is suspended too', async () => {
-    const daemon = await start('--worker-busy', '250');
+    const daemon = await start('--worker-busy', '400');
     const live = await open(daemon, 'busy', DRAW_HARDLY, SMALL);
     const notice = await live.next('notice', { code: 'scene_left_out' });
-    assert.ok(notice.measured > 250 && notice.limit === 250, `${notice.measured} of ${notice.limit}`);
+    assert.ok(notice.measured > 400 && notice.limit === 400, `${notice.measured} of ${notice.limit}`);
     // A start may take more than so low a bound too.
     assert.ok((await restarts(daemon)) >= 2);
     live.say({ type: 'retry' });
