@@ -14,11 +14,10 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 
-char *json_text(const char *text)
+void json_text_quote(char *text)
 {
-    char *out = memory_text(text);
     bool inside = false; /* of a string between two " */
-    for (char *at = out; *at; at++) {
+    for (char *at = text; *at; at++) {
         if (*at == '\\' && at[1]) {
             at++;
         } else if (*at == '"') {
@@ -27,7 +26,20 @@ char *json_text(const char *text)
             *at = '"';
         }
     }
+}
+
+char *json_text(const char *text)
+{
+    char *out = memory_text(text);
+    json_text_quote(out);
     return out;
+}
+
+void json_text_assert_equal(const char *printed, const char *text)
+{
+    char *json = json_text(text);
+    assert_string_equal(printed, json);
+    free(json);
 }
 
 cJSON *json_text_parse(const char *text, struct error *err)

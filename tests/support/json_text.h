@@ -8,8 +8,11 @@
 
 #include "protocol/scene.h"
 
-/* Caller frees. */
+/* Caller frees. What is JSON already stays as it is. */
 char *json_text(const char *text);
+void json_text_quote(char *text); /* in place */
+/* Fails the test unless `printed` is the JSON of `text`. */
+void json_text_assert_equal(const char *printed, const char *text);
 /* NULL and `err` where it is refused. */
 cJSON *json_text_parse(const char *text, struct error *err);
 struct scene *json_text_scene(const char *text, struct error *err);

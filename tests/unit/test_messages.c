@@ -11,12 +11,21 @@
 
 #include "protocol/limits.h"
 #include "protocol/messages.h"
+#include "tests/support/json_text.h"
+
+static bool read_text(const char *text, struct message *out, struct error *err)
+{
+    char *json = json_text(text);
+    bool ok = message_read(json, strlen(json), out, err);
+    free(json);
+    return ok;
+}
 
 static void assert_accepted(const char *text, enum message_kind kind)
 {
     struct error err = {0};
     struct message message;
-    if (!message_read(text, strlen(text), &message, &err)) {
+    if (!read_text(text, &message, &err)) {
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }
     assert_int_equal(message.kind, kind);
@@ -30,7 +39,7 @@ static void assert_refused(const char *text, enum error_kind kind, const char *p
 {
     struct error err = {0};
     struct message message;
-    assert_false(message_read(text, strlen(text), &message, &err));
+    assert_false(read_text(text, &message, &err));
     if (err.kind != kind || strcmp(err.place, place) != 0 || !strstr(err.message, fragment)) {
         fail_msg("%s: got %s, %s: %s", text, error_kind_name(err.kind), err.place, err.message);
     }
@@ -39,30 +48,28 @@ static void assert_refused(const char *text, enum error_kind kind, const char *p
 static void test_accepts(void **state)
 {
     (void)state;
-    assert_accepted("{\"type\":\"hello\",\"client\":\"abcd-EF_12\"}", MESSAGE_HELLO);
-    assert_accepted("{\"client\":\"12345678\",\"name\":\"Anna\",\"revision\":9007199254740991,"
-                    "\"epoch\":\"e1\",\"type\":\"hello\"}",
+    assert_accepted("{'type':'hello','client':'abcd-EF_12'}", MESSAGE_HELLO);
+    assert_accepted("{'client':'12345678','name':'Anna','revision':9007199254740991,'epoch':'e1',"
+                    "'type':'hello'}",
                     MESSAGE_HELLO);
-    assert_accepted("{\"type\":\"hello\",\"client\":\"12345678\","
-                    "\"key\":\"0123456789abcdef0123456789abcdef\"}",
+    assert_accepted("{'type':'hello','client':'12345678',"
+                    "'key':'0123456789abcdef0123456789abcdef'}",
                     MESSAGE_HELLO);
-    assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":4096}", MESSAGE_VIEW);
-    assert_accepted("{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":1,\"isolate\":[]}",
+    assert_accepted("{'type':'view','seq':0,'width':1,'height':4096}", MESSAGE_VIEW);
+    assert_accepted("{'type':'view','seq':0,'width':1,'height':1,'isolate':[]}", MESSAGE_VIEW);
+    assert_accepted("{'type':'view','seq':0,'width':1,'height':1,'isolate':['a','b']}",
                     MESSAGE_VIEW);
-    assert_accepted(
-        "{\"type\":\"view\",\"seq\":0,\"width\":1,\"height\":1,\"isolate\":[\"a\",\"b\"]}",
-        MESSAGE_VIEW);
-    assert_accepted("{\"type\":\"view\",\"seq\":7,\"width\":640,\"height\":360,\"camera\":"
-                    "{\"position\":[0,1,5],\"fov\":30},\"aov\":\"depth\",\"quality\":\"sharp\","
-                    "\"visible\":false}",
+    assert_accepted("{'type':'view','seq':7,'width':640,'height':360,"
+                    "'camera':{'position':[0,1,5],'fov':30},'aov':'depth','quality':'sharp',"
+                    "'visible':false}",
                     MESSAGE_VIEW);
-    assert_accepted("{\"type\":\"edit\",\"edit\":1,\"ops\":[{\"op\":\"remove\","
-                    "\"at\":\"/nodes/a\"}],\"group\":\"g\",\"label\":\"Remove a\"}",
+    assert_accepted("{'type':'edit','edit':1,'ops':[{'op':'remove','at':'/nodes/a'}],'group':'g',"
+                    "'label':'Remove a'}",
                     MESSAGE_EDIT);
-    assert_accepted("{\"type\":\"undo\",\"edit\":2}", MESSAGE_UNDO);
-    assert_accepted("{\"type\":\"redo\",\"edit\":3}", MESSAGE_REDO);
-    assert_accepted("{\"type\":\"pick\",\"pick\":1,\"x\":0,\"y\":10.5,\"seq\":4}", MESSAGE_PICK);
-    assert_accepted("{\"type\":\"ack\",\"frame\":1}", MESSAGE_ACK);
+    assert_accepted("{'type':'undo','edit':2}", MESSAGE_UNDO);
+    assert_accepted("{'type':'redo','edit':3}", MESSAGE_REDO);
+    assert_accepted("{'type':'pick','pick':1,'x':0,'y':10.5,'seq':4}", MESSAGE_PICK);
+    assert_accepted("{'type':'ack','frame':1}", MESSAGE_ACK);
 }
 
 static void test_refuses(void **state)
@@ -71,52 +78,50 @@ static void test_refuses(void **state)
     assert_refused("", ERROR_SYNTAX, "line 1, column 1", "expected a value");
     assert_refused("[]", ERROR_SYNTAX, "/type", "expected an object");
     assert_refused("{}", ERROR_SYNTAX, "/type", "expected an object with a text \"type\"");
-    assert_refused("{\"type\":\"helo\"}", ERROR_SYNTAX, "/type",
+    assert_refused("{'type':'helo'}", ERROR_SYNTAX, "/type",
                    "unknown message \"helo\"; did you mean \"hello\"?");
-    assert_refused("{\"type\":\"hello\"}", ERROR_SYNTAX, "",
-                   "\"hello\" lacks the member \"client\"");
-    assert_refused("{\"type\":\"hello\",\"client\":\"short\"}", ERROR_INVALID, "/client",
+    assert_refused("{'type':'hello'}", ERROR_SYNTAX, "", "\"hello\" lacks the member \"client\"");
+    assert_refused("{'type':'hello','client':'short'}", ERROR_INVALID, "/client",
                    "expected 8 to 64");
-    assert_refused("{\"type\":\"hello\",\"client\":\"has.a.dot.\"}", ERROR_INVALID, "/client",
+    assert_refused("{'type':'hello','client':'has.a.dot.'}", ERROR_INVALID, "/client",
                    "expected 8 to 64");
-    assert_refused("{\"type\":\"hello\",\"client\":12345678}", ERROR_INVALID, "/client",
+    assert_refused("{'type':'hello','client':12345678}", ERROR_INVALID, "/client",
                    "expected 8 to 64");
-    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"key\":\"\"}", ERROR_INVALID,
-                   "/key", "expected 32 of 0-9 a-f");
-    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\","
-                   "\"key\":\"0123456789ABCDEF0123456789ABCDEF\"}",
+    assert_refused("{'type':'hello','client':'12345678','key':''}", ERROR_INVALID, "/key",
+                   "expected 32 of 0-9 a-f");
+    assert_refused("{'type':'hello','client':'12345678','key':'0123456789ABCDEF0123456789ABCDEF'}",
                    ERROR_INVALID, "/key", "expected 32 of 0-9 a-f");
-    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"revision\":-1}", ERROR_INVALID,
-                   "/revision", "-1 is below the minimum 0");
-    assert_refused("{\"type\":\"hello\",\"client\":\"12345678\",\"color\":1}", ERROR_SYNTAX,
-                   "/color", "has no member \"color\"");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":0,\"height\":10}", ERROR_INVALID,
-                   "/width", "0 is below the minimum 1");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":10,\"height\":4097}", ERROR_INVALID,
-                   "/height", "4097 is above the maximum 4096");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":10.5,\"height\":10}", ERROR_INVALID,
-                   "/width", "10.5 is not a whole number");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"aov\":\"normals\"}",
-                   ERROR_INVALID, "/aov", "did you mean \"normal\"?");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"aov\":\"position\"}",
-                   ERROR_INVALID, "/aov", "");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"camera\":{\"fov\":0}}",
-                   ERROR_INVALID, "/camera/fov", "0 is below the minimum 1");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"visible\":1}",
-                   ERROR_INVALID, "/visible", "expected true or false");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"isolate\":\"a\"}",
-                   ERROR_SYNTAX, "/isolate", "expected a list of ids");
-    assert_refused("{\"type\":\"view\",\"seq\":1,\"width\":9,\"height\":9,\"isolate\":[\"a\",1]}",
-                   ERROR_INVALID, "/isolate/1", "expected the id of a node");
-    assert_refused("{\"type\":\"edit\",\"edit\":0,\"ops\":[]}", ERROR_INVALID, "/edit",
+    assert_refused("{'type':'hello','client':'12345678','revision':-1}", ERROR_INVALID, "/revision",
+                   "-1 is below the minimum 0");
+    assert_refused("{'type':'hello','client':'12345678','color':1}", ERROR_SYNTAX, "/color",
+                   "has no member \"color\"");
+    assert_refused("{'type':'view','seq':1,'width':0,'height':10}", ERROR_INVALID, "/width",
                    "0 is below the minimum 1");
-    assert_refused("{\"type\":\"edit\",\"edit\":1,\"ops\":[]}", ERROR_SYNTAX, "",
+    assert_refused("{'type':'view','seq':1,'width':10,'height':4097}", ERROR_INVALID, "/height",
+                   "4097 is above the maximum 4096");
+    assert_refused("{'type':'view','seq':1,'width':10.5,'height':10}", ERROR_INVALID, "/width",
+                   "10.5 is not a whole number");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'aov':'normals'}", ERROR_INVALID,
+                   "/aov", "did you mean \"normal\"?");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'aov':'position'}", ERROR_INVALID,
+                   "/aov", "");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'camera':{'fov':0}}", ERROR_INVALID,
+                   "/camera/fov", "0 is below the minimum 1");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'visible':1}", ERROR_INVALID,
+                   "/visible", "expected true or false");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'isolate':'a'}", ERROR_SYNTAX,
+                   "/isolate", "expected a list of ids");
+    assert_refused("{'type':'view','seq':1,'width':9,'height':9,'isolate':['a',1]}", ERROR_INVALID,
+                   "/isolate/1", "expected the id of a node");
+    assert_refused("{'type':'edit','edit':0,'ops':[]}", ERROR_INVALID, "/edit",
+                   "0 is below the minimum 1");
+    assert_refused("{'type':'edit','edit':1,'ops':[]}", ERROR_SYNTAX, "",
                    "expected an array of operations");
-    assert_refused("{\"type\":\"edit\",\"edit\":1,\"ops\":[{\"op\":\"delete\"}]}", ERROR_SYNTAX,
-                   "/0/op", "unknown operation \"delete\"");
-    assert_refused("{\"type\":\"undo\"}", ERROR_SYNTAX, "", "lacks the member \"edit\"");
-    assert_refused("{\"type\":\"pick\",\"pick\":1,\"x\":0}", ERROR_SYNTAX, "", "member \"y\"");
-    assert_refused("{\"type\":\"ack\",\"frame\":4294967296}", ERROR_INVALID, "/frame",
+    assert_refused("{'type':'edit','edit':1,'ops':[{'op':'delete'}]}", ERROR_SYNTAX, "/0/op",
+                   "unknown operation \"delete\"");
+    assert_refused("{'type':'undo'}", ERROR_SYNTAX, "", "lacks the member \"edit\"");
+    assert_refused("{'type':'pick','pick':1,'x':0}", ERROR_SYNTAX, "", "member \"y\"");
+    assert_refused("{'type':'ack','frame':4294967296}", ERROR_INVALID, "/frame",
                    "4294967296 is above the maximum 4294967295");
 }
 
@@ -137,7 +142,7 @@ static void test_refuses_large_messages(void **state)
 static void test_members_have_fallbacks(void **state)
 {
     (void)state;
-    cJSON *json = cJSON_Parse("{\"n\":2,\"t\":\"x\",\"b\":true}");
+    cJSON *json = json_text_parse("{'n':2,'t':'x','b':true}", NULL);
     assert_float_equal(json_member_number(json, "n", 5), 2, 0);
     assert_float_equal(json_member_number(json, "t", 5), 5, 0);
     assert_string_equal(json_member_text(json, "t", "y"), "x");

@@ -14,6 +14,7 @@
 #include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/nodes.h"
+#include "tests/support/json_text.h"
 #include "tests/support/random_document.h"
 
 static const char *const shapes[] = {"round", "square", NULL};
@@ -65,7 +66,7 @@ static int tear_down(void **state)
 
 static bool read_text(const char *text, struct error *err)
 {
-    cJSON *json = json_parse(text, strlen(text), err);
+    cJSON *json = json_text_parse(text, err);
     assert_non_null(json);
     bool ok = record_read(&record, json, "/thing", err);
     cJSON_Delete(json);
@@ -83,7 +84,7 @@ static void assert_reads(const char *text, const char *expected)
     }
     record_print(&record, json);
     char *printed = json_print(json, false);
-    assert_string_equal(printed, expected);
+    json_text_assert_equal(printed, expected);
     free(printed);
     cJSON_Delete(json);
 }
@@ -101,31 +102,28 @@ static void test_reads_and_prints(void **state)
 {
     (void)state;
     assert_reads("{}", "{}");
-    assert_reads("{\"size\":10}", "{\"size\":10}");
-    assert_reads("{\"size\":1}", "{\"size\":1}"); /* set, though it is the default */
-    assert_reads("{\"count\":-1,\"open\":true}", "{\"count\":-1,\"open\":true}");
-    assert_reads("{\"place\":[1,-0,1e6],\"axes\":[true,false,true],\"copies\":[1,-2,0]}",
-                 "{\"place\":[1,0,1000000],\"axes\":[true,false,true],\"copies\":[1,-2,0]}");
-    assert_reads("{\"cell\":[-4,4],\"corner\":[1,2,-3,4]}",
-                 "{\"cell\":[-4,4],\"corner\":[1,2,-3,4]}");
-    assert_reads("{\"shape\":\"round\",\"tint\":[0,0.5,2]}",
-                 "{\"tint\":[0,0.5,2],\"shape\":\"round\"}"); /* in the order of the table */
-    assert_reads("{\"title\":\"\",\"material\":\"\"}", "{\"title\":\"\",\"material\":\"\"}");
-    assert_reads("{\"scale\":2}", "{\"scale\":[2,2,2]}");
-    assert_reads("{\"scale\":[1,-2,3]}", "{\"scale\":[1,-2,3]}");
-    assert_reads("{\"extent\":[3,-0],\"constant\":[1,2,3,4]}",
-                 "{\"extent\":[3,0],\"constant\":[1,2,3,4]}");
-    assert_reads("{\"outline\":[[0,-0],[1,0],[1,1],[0,1]]}",
-                 "{\"outline\":[[0,0],[1,0],[1,1],[0,1]]}");
-    assert_reads("{\"code\":\"a\\n\\tb\",\"model\":\"pawn\",\"function\":\"\"}",
-                 "{\"code\":\"a\\n\\tb\",\"model\":\"pawn\",\"function\":\"\"}");
+    assert_reads("{'size':10}", "{'size':10}");
+    assert_reads("{'size':1}", "{'size':1}"); /* set, though it is the default */
+    assert_reads("{'count':-1,'open':true}", "{'count':-1,'open':true}");
+    assert_reads("{'place':[1,-0,1e6],'axes':[true,false,true],'copies':[1,-2,0]}",
+                 "{'place':[1,0,1000000],'axes':[true,false,true],'copies':[1,-2,0]}");
+    assert_reads("{'cell':[-4,4],'corner':[1,2,-3,4]}", "{'cell':[-4,4],'corner':[1,2,-3,4]}");
+    assert_reads("{'shape':'round','tint':[0,0.5,2]}",
+                 "{'tint':[0,0.5,2],'shape':'round'}"); /* in the order of the table */
+    assert_reads("{'title':'','material':''}", "{'title':'','material':''}");
+    assert_reads("{'scale':2}", "{'scale':[2,2,2]}");
+    assert_reads("{'scale':[1,-2,3]}", "{'scale':[1,-2,3]}");
+    assert_reads("{'extent':[3,-0],'constant':[1,2,3,4]}", "{'extent':[3,0],'constant':[1,2,3,4]}");
+    assert_reads("{'outline':[[0,-0],[1,0],[1,1],[0,1]]}", "{'outline':[[0,0],[1,0],[1,1],[0,1]]}");
+    assert_reads("{'code':'a\\n\\tb','model':'pawn','function':''}",
+                 "{'code':'a\\n\\tb','model':'pawn','function':''}");
 }
 
 /* -0 equals 0 but has other bytes, which hashes would see. */
 static void test_zero_has_one_form(void **state)
 {
     (void)state;
-    assert_true(read_text("{\"place\":[1,-0.0,-0]}", NULL));
+    assert_true(read_text("{'place':[1,-0.0,-0]}", NULL));
     assert_false(signbit(record_vector(&record, "place")[1]));
     assert_false(signbit(record_vector(&record, "place")[2]));
 }
@@ -133,53 +131,53 @@ static void test_zero_has_one_form(void **state)
 static void test_refuses_with_place_value_and_limit(void **state)
 {
     (void)state;
-    assert_refuses("{\"size\":11}", "/thing/size", "11 is above the maximum 10");
-    assert_refuses("{\"size\":0}", "/thing/size", "0 is not above the minimum 0");
-    assert_refuses("{\"size\":-1}", "/thing/size", "-1 is below the minimum 0");
-    assert_refuses("{\"size\":\"1\"}", "/thing/size", "expected a number");
-    assert_refuses("{\"size\":null}", "/thing/size", "null is not a value: leave the member out");
-    assert_refuses("{\"count\":1.5}", "/thing/count", "1.5 is not a whole number");
-    assert_refuses("{\"count\":6}", "/thing/count", "6 is above the maximum 5");
-    assert_refuses("{\"open\":1}", "/thing/open", "expected true or false");
-    assert_refuses("{\"place\":[0,1000001,0]}", "/thing/place",
+    assert_refuses("{'size':11}", "/thing/size", "11 is above the maximum 10");
+    assert_refuses("{'size':0}", "/thing/size", "0 is not above the minimum 0");
+    assert_refuses("{'size':-1}", "/thing/size", "-1 is below the minimum 0");
+    assert_refuses("{'size':'1'}", "/thing/size", "expected a number");
+    assert_refuses("{'size':null}", "/thing/size", "null is not a value: leave the member out");
+    assert_refuses("{'count':1.5}", "/thing/count", "1.5 is not a whole number");
+    assert_refuses("{'count':6}", "/thing/count", "6 is above the maximum 5");
+    assert_refuses("{'open':1}", "/thing/open", "expected true or false");
+    assert_refuses("{'place':[0,1000001,0]}", "/thing/place",
                    "1000001 (y) is above the maximum 1000000");
-    assert_refuses("{\"place\":[0,1]}", "/thing/place", "expected three numbers");
-    assert_refuses("{\"place\":[0,1,2,3]}", "/thing/place", "expected three numbers, not more");
-    assert_refuses("{\"place\":5}", "/thing/place", "expected three numbers");
-    assert_refuses("{\"place\":[0,true,2]}", "/thing/place", "expected a number (y)");
-    assert_refuses("{\"axes\":[true,1,true]}", "/thing/axes", "expected true or false (y)");
-    assert_refuses("{\"copies\":[1,2,0.5]}", "/thing/copies", "0.5 (z) is not a whole number");
-    assert_refuses("{\"tint\":[0,-0.1,0]}", "/thing/tint", "-0.1 (green) is below the minimum 0");
-    assert_refuses("{\"shape\":\"sqare\"}", "/thing/shape",
+    assert_refuses("{'place':[0,1]}", "/thing/place", "expected three numbers");
+    assert_refuses("{'place':[0,1,2,3]}", "/thing/place", "expected three numbers, not more");
+    assert_refuses("{'place':5}", "/thing/place", "expected three numbers");
+    assert_refuses("{'place':[0,true,2]}", "/thing/place", "expected a number (y)");
+    assert_refuses("{'axes':[true,1,true]}", "/thing/axes", "expected true or false (y)");
+    assert_refuses("{'copies':[1,2,0.5]}", "/thing/copies", "0.5 (z) is not a whole number");
+    assert_refuses("{'tint':[0,-0.1,0]}", "/thing/tint", "-0.1 (green) is below the minimum 0");
+    assert_refuses("{'shape':'sqare'}", "/thing/shape",
                    "\"sqare\" is none of \"round\", \"square\"; did you mean \"square\"?");
-    assert_refuses("{\"shape\":1}", "/thing/shape", "expected a text");
-    assert_refuses("{\"title\":\"a\\nb\"}", "/thing/title", "control character 10 is not allowed");
-    assert_refuses("{\"material\":\"a b\"}", "/thing/material",
+    assert_refuses("{'shape':1}", "/thing/shape", "expected a text");
+    assert_refuses("{'title':'a\\nb'}", "/thing/title", "control character 10 is not allowed");
+    assert_refuses("{'material':'a b'}", "/thing/material",
                    "\"a b\" is not a name: expected 1 to 64 of A-Z a-z 0-9 _ . -");
-    assert_refuses("{\"scale\":0}", "/thing/scale", "0 (x) is not allowed here");
-    assert_refuses("{\"scale\":[1,0,1]}", "/thing/scale", "0 (y) is not allowed here");
-    assert_refuses("{\"scale\":\"big\"}", "/thing/scale", "expected three numbers or one");
-    assert_refuses("{\"normal\":[0,0,-0]}", "/thing/normal", "0, 0, 0 has no direction");
-    assert_refuses("{\"extent\":[1]}", "/thing/extent", "expected two numbers");
-    assert_refuses("{\"extent\":[1,2,3]}", "/thing/extent", "expected two numbers, not more");
-    assert_refuses("{\"extent\":1}", "/thing/extent", "expected two numbers");
-    assert_refuses("{\"constant\":[1,2,3]}", "/thing/constant", "expected four numbers");
-    assert_refuses("{\"constant\":[1,2,3,2e6]}", "/thing/constant",
+    assert_refuses("{'scale':0}", "/thing/scale", "0 (x) is not allowed here");
+    assert_refuses("{'scale':[1,0,1]}", "/thing/scale", "0 (y) is not allowed here");
+    assert_refuses("{'scale':'big'}", "/thing/scale", "expected three numbers or one");
+    assert_refuses("{'normal':[0,0,-0]}", "/thing/normal", "0, 0, 0 has no direction");
+    assert_refuses("{'extent':[1]}", "/thing/extent", "expected two numbers");
+    assert_refuses("{'extent':[1,2,3]}", "/thing/extent", "expected two numbers, not more");
+    assert_refuses("{'extent':1}", "/thing/extent", "expected two numbers");
+    assert_refuses("{'constant':[1,2,3]}", "/thing/constant", "expected four numbers");
+    assert_refuses("{'constant':[1,2,3,2e6]}", "/thing/constant",
                    "2000000 (w) is above the maximum 1000000");
-    assert_refuses("{\"outline\":{}}", "/thing/outline", "expected a list of points");
-    assert_refuses("{\"outline\":[[0,0],[1,1]]}", "/thing/outline",
+    assert_refuses("{'outline':{}}", "/thing/outline", "expected a list of points");
+    assert_refuses("{'outline':[[0,0],[1,1]]}", "/thing/outline",
                    "2 points are below the minimum 3");
-    assert_refuses("{\"outline\":[[0,0],[1,1],[0]]}", "/thing/outline/2", "expected two numbers");
-    assert_refuses("{\"outline\":[[0,0],[1,-2e6],[0,1]]}", "/thing/outline/1",
+    assert_refuses("{'outline':[[0,0],[1,1],[0]]}", "/thing/outline/2", "expected two numbers");
+    assert_refuses("{'outline':[[0,0],[1,-2e6],[0,1]]}", "/thing/outline/1",
                    "-2000000 (y) is below the minimum -1000000");
-    assert_refuses("{\"code\":\"a\\rb\"}", "/thing/code", "control character 13 is not allowed");
-    assert_refuses("{\"code\":1}", "/thing/code", "expected a text");
-    assert_refuses("{\"model\":\"a/b\"}", "/thing/model",
+    assert_refuses("{'code':'a\\rb'}", "/thing/code", "control character 13 is not allowed");
+    assert_refuses("{'code':1}", "/thing/code", "expected a text");
+    assert_refuses("{'model':'a/b'}", "/thing/model",
                    "\"a/b\" is not a name: expected 1 to 64 of A-Z a-z 0-9 _ . -");
-    assert_refuses("{\"function\":false}", "/thing/function", "expected a text");
-    assert_refuses("{\"sise\":1}", "/thing/sise",
+    assert_refuses("{'function':false}", "/thing/function", "expected a text");
+    assert_refuses("{'sise':1}", "/thing/sise",
                    "thing has no member \"sise\"; did you mean \"size\"?");
-    assert_refuses("{\"whatever\":1}", "/thing/whatever", "thing has no member \"whatever\"");
+    assert_refuses("{'whatever':1}", "/thing/whatever", "thing has no member \"whatever\"");
     assert_refuses("[]", "/thing", "expected an object");
 }
 
@@ -200,52 +198,48 @@ static void test_long_texts(void **state)
     cJSON_Delete(json);
 }
 
-#define ROWS(row) "{\"rows\":[" row "]}"
+#define ROWS(row) "{'rows':[" row "]}"
 
 static void test_declared_rows(void **state)
 {
     (void)state;
     assert_reads(ROWS(""), ROWS(""));
-    assert_reads(ROWS("{\"type\":\"float\",\"name\":\"a\"}"),
-                 ROWS("{\"name\":\"a\",\"type\":\"float\"}"));
+    assert_reads(ROWS("{'type':'float','name':'a'}"), ROWS("{'name':'a','type':'float'}"));
     assert_reads(
-        ROWS("{\"doc\":\"D.\",\"range\":[-0,4],\"default\":1,\"name\":\"_a1\","
-             "\"type\":\"int\"},{\"name\":\"b\",\"type\":\"float3\",\"default\":[1,2,-0]}"),
-        ROWS("{\"name\":\"_a1\",\"type\":\"int\",\"default\":1,\"range\":[0,4],"
-             "\"doc\":\"D.\"},{\"name\":\"b\",\"type\":\"vec3\",\"default\":[1,2,0]}"));
-    assert_reads(ROWS("{\"name\":\"a\",\"type\":\"int2\"},{\"name\":\"b\",\"type\":\"int3\"},"
-                      "{\"name\":\"c\",\"type\":\"int4\",\"range\":[-1,2]}"),
-                 ROWS("{\"name\":\"a\",\"type\":\"ivec2\"},{\"name\":\"b\",\"type\":\"ivec3\"},"
-                      "{\"name\":\"c\",\"type\":\"ivec4\",\"range\":[-1,2]}"));
+        ROWS("{'doc':'D.','range':[-0,4],'default':1,'name':'_a1','type':'int'},{'name':'b',"
+             "'type':'float3','default':[1,2,-0]}"),
+        ROWS("{'name':'_a1','type':'int','default':1,'range':[0,4],'doc':'D.'},{'name':'b',"
+             "'type':'vec3','default':[1,2,0]}"));
+    assert_reads(ROWS("{'name':'a','type':'int2'},{'name':'b','type':'int3'},{'name':'c',"
+                      "'type':'int4','range':[-1,2]}"),
+                 ROWS("{'name':'a','type':'ivec2'},{'name':'b','type':'ivec3'},{'name':'c',"
+                      "'type':'ivec4','range':[-1,2]}"));
     static const struct {
         const char *row, *place, *message;
     } bad[] = {
-        {"{\"name\":\"a\",\"type\":\"ivec2\",\"default\":[1,0.5]}", "/default",
+        {"{'name':'a','type':'ivec2','default':[1,0.5]}", "/default",
          "0.5 (y) is not a whole number"},
-        {"{\"name\":\"a\",\"type\":\"ivec4\",\"range\":[0,2.5]}", "/range",
-         "2.5 is not a whole number"},
-        {"{\"name\":\"a\",\"type\":\"int4\",\"default\":[1,2,3]}", "/default",
-         "expected four numbers"},
+        {"{'name':'a','type':'ivec4','range':[0,2.5]}", "/range", "2.5 is not a whole number"},
+        {"{'name':'a','type':'int4','default':[1,2,3]}", "/default", "expected four numbers"},
         {"1", "", "expected an object"},
-        {"{\"name\":\"a\"}", "/type", "is missing"},
-        {"{\"type\":\"float\"}", "/name", "is missing"},
-        {"{\"name\":\"a\",\"type\":\"flot\"}", "/type",
+        {"{'name':'a'}", "/type", "is missing"},
+        {"{'type':'float'}", "/name", "is missing"},
+        {"{'name':'a','type':'flot'}", "/type",
          "\"flot\" is no type of a parameter; did you mean \"float\"?"},
-        {"{\"name\":\"a\",\"type\":\"bool\",\"min\":1}", "/min", "there is no member \"min\" here"},
-        {"{\"name\":\"a\",\"type\":\"bool\",\"default\":1}", "/default", "expected true or false"},
-        {"{\"name\":\"a\",\"type\":\"bool\",\"range\":[0,1]}", "/range", "a bool has no range"},
-        {"{\"name\":\"a\",\"type\":\"color\",\"range\":[0,1]}", "/range", "a color has no range"},
-        {"{\"name\":\"a\",\"type\":\"color\",\"default\":[0,0,-1]}", "/default",
+        {"{'name':'a','type':'bool','min':1}", "/min", "there is no member \"min\" here"},
+        {"{'name':'a','type':'bool','default':1}", "/default", "expected true or false"},
+        {"{'name':'a','type':'bool','range':[0,1]}", "/range", "a bool has no range"},
+        {"{'name':'a','type':'color','range':[0,1]}", "/range", "a color has no range"},
+        {"{'name':'a','type':'color','default':[0,0,-1]}", "/default",
          "-1 (blue) is below the minimum 0"},
-        {"{\"name\":\"a\",\"type\":\"float\",\"range\":[1,1]}", "/range",
+        {"{'name':'a','type':'float','range':[1,1]}", "/range",
          "the first number is not below the second"},
-        {"{\"name\":\"a\",\"type\":\"float\",\"range\":[1,2,3]}", "/range", "expected two numbers"},
-        {"{\"name\":\"a\",\"type\":\"int\",\"range\":[0.5,2]}", "/range",
-         "0.5 is not a whole number"},
-        {"{\"name\":\"a\",\"type\":\"vec2\",\"range\":[0,2],\"default\":[1,3]}", "/default",
+        {"{'name':'a','type':'float','range':[1,2,3]}", "/range", "expected two numbers"},
+        {"{'name':'a','type':'int','range':[0.5,2]}", "/range", "0.5 is not a whole number"},
+        {"{'name':'a','type':'vec2','range':[0,2],'default':[1,3]}", "/default",
          "3 (y) is above the maximum 2"},
-        {"{\"name\":\"a\",\"type\":\"float\",\"doc\":1}", "/doc", "expected a text"},
-        {"{\"name\":\"a\",\"type\":\"float\",\"default\":1e7}", "/default",
+        {"{'name':'a','type':'float','doc':1}", "/doc", "expected a text"},
+        {"{'name':'a','type':'float','default':1e7}", "/default",
          "10000000 is above the maximum 1000000"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -254,8 +248,8 @@ static void test_declared_rows(void **state)
         snprintf(place, sizeof place, "/thing/rows/0%s", bad[i].place);
         assert_refuses(text, place, bad[i].message);
     }
-    assert_refuses("{\"rows\":{}}", "/thing/rows", "expected a list of parameters");
-    assert_refuses(ROWS("{\"name\":\"a\",\"type\":\"int\"},{\"name\":\"a\",\"type\":\"bool\"}"),
+    assert_refuses("{'rows':{}}", "/thing/rows", "expected a list of parameters");
+    assert_refuses(ROWS("{'name':'a','type':'int'},{'name':'a','type':'bool'}"),
                    "/thing/rows/1/name", "\"a\" is declared twice");
 }
 
@@ -267,11 +261,11 @@ static void test_names_of_declared_rows(void **state)
     struct error err = {0};
     char text[200];
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        snprintf(text, sizeof text, ROWS("{\"name\":\"%s\",\"type\":\"int\"}"), good[i]);
+        snprintf(text, sizeof text, ROWS("{'name':'%s','type':'int'}"), good[i]);
         assert_true(read_text(text, &err));
     }
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        snprintf(text, sizeof text, ROWS("{\"name\":\"%s\",\"type\":\"int\"}"), wrong[i]);
+        snprintf(text, sizeof text, ROWS("{'name':'%s','type':'int'}"), wrong[i]);
         assert_false(read_text(text, &err));
         assert_string_equal(err.place, "/thing/rows/0/name");
     }
@@ -281,10 +275,9 @@ static void test_names_of_declared_rows(void **state)
 static void test_definitions(void **state)
 {
     (void)state;
-    static const char text[] =
-        "[{\"name\":\"a\",\"type\":\"float\",\"range\":[2,3]},"
-        "{\"name\":\"b\",\"type\":\"vec2\",\"range\":[-3,-2],\"doc\":\"B.\"},"
-        "{\"name\":\"c\",\"type\":\"int\",\"default\":7},{\"name\":\"d\",\"type\":\"color\"}]";
+    char *text = json_text(
+        "[{'name':'a','type':'float','range':[2,3]},{'name':'b','type':'vec2','range':[-3,-2],"
+        "'doc':'B.'},{'name':'c','type':'int','default':7},{'name':'d','type':'color'}]");
     struct error err = {0};
     struct declared_params *declared = declared_params_create("thing", &type, text);
     const struct param *rows = declared->type.params + declared->first_declared;
@@ -304,6 +297,7 @@ static void test_definitions(void **state)
     assert_string_equal(err.message, "every field has a \"c\" already");
     cJSON_Delete(json);
     declared_params_destroy(declared);
+    free(text);
     declared_params_destroy(NULL);
 }
 
@@ -369,18 +363,18 @@ static void test_copies_share_nothing(void **state)
 {
     (void)state;
     struct record copy;
-    assert_true(read_text("{\"title\":\"one\",\"place\":[1,2,3]}", NULL));
+    assert_true(read_text("{'title':'one','place':[1,2,3]}", NULL));
     record_copy(&copy, &record);
-    assert_true(read_text("{\"title\":\"two\",\"place\":[4,5,6]}", NULL));
+    assert_true(read_text("{'title':'two','place':[4,5,6]}", NULL));
     assert_string_equal(record_text(&copy, "title"), "one");
     assert_float_equal(record_vector(&copy, "place")[2], 3, 0);
     record_finish(&copy);
     record_finish(&copy); /* twice is fine */
-    assert_true(read_text("{\"outline\":[[1,2],[3,4],[5,6]]}", NULL));
+    assert_true(read_text("{'outline':[[1,2],[3,4],[5,6]]}", NULL));
     record_copy(&copy, &record);
     int outline = record_type_find(&type, "outline");
     assert_true(param_value_equal(&copy.values[outline], &record.values[outline]));
-    assert_true(read_text("{\"outline\":[[1,2],[3,4],[5,7]]}", NULL));
+    assert_true(read_text("{'outline':[[1,2],[3,4],[5,7]]}", NULL));
     assert_false(param_value_equal(&copy.values[outline], &record.values[outline]));
     assert_float_equal(copy.values[outline].points[5], 6, 0);
     record_finish(&copy);
@@ -390,28 +384,25 @@ static void test_describes(void **state)
 {
     (void)state;
     static const char *const expected[] = {
-        [0] = "{\"name\":\"size\",\"type\":\"float\",\"unit\":\"length\",\"default\":1,\"min\":0,"
-              "\"max\":10,\"above_min\":true,\"doc\":\"S.\"}",
-        [4] = "{\"name\":\"axes\",\"type\":\"bvec3\",\"default\":[false,false,false],"
-              "\"doc\":\"A.\"}",
-        [6] = "{\"name\":\"tint\",\"type\":\"color\",\"default\":[1,1,1],\"min\":0,"
-              "\"max\":1000000,\"doc\":\"T.\"}",
-        [7] = "{\"name\":\"shape\",\"type\":\"enum\",\"default\":\"square\","
-              "\"choices\":[\"round\",\"square\"],\"doc\":\"S.\"}",
-        [9] = "{\"name\":\"material\",\"type\":\"material\",\"default\":\"\",\"doc\":\"M.\"}",
-        [10] = "{\"name\":\"scale\",\"type\":\"vec3\",\"default\":[1,1,1],\"nonzero\":true,"
-               "\"uniform\":true,\"doc\":\"S.\"}",
-        [11] = "{\"name\":\"normal\",\"type\":\"vec3\",\"default\":[0,1,0],\"direction\":true,"
-               "\"doc\":\"N.\"}",
-        [14] = "{\"name\":\"outline\",\"type\":\"points\",\"default\":[[0,0],[1,0],[0,1]],"
-               "\"min\":3,\"max\":64,\"doc\":\"O.\"}",
-        [18] = "{\"name\":\"rows\",\"type\":\"rows\",\"default\":[],\"doc\":\"R.\"}",
+        [0] = "{'name':'size','type':'float','unit':'length','default':1,'min':0,'max':10,"
+              "'above_min':true,'doc':'S.'}",
+        [4] = "{'name':'axes','type':'bvec3','default':[false,false,false],'doc':'A.'}",
+        [6] = "{'name':'tint','type':'color','default':[1,1,1],'min':0,'max':1000000,'doc':'T.'}",
+        [7] = "{'name':'shape','type':'enum','default':'square','choices':['round','square'],"
+              "'doc':'S.'}",
+        [9] = "{'name':'material','type':'material','default':'','doc':'M.'}",
+        [10] = "{'name':'scale','type':'vec3','default':[1,1,1],'nonzero':true,'uniform':true,"
+               "'doc':'S.'}",
+        [11] = "{'name':'normal','type':'vec3','default':[0,1,0],'direction':true,'doc':'N.'}",
+        [14] = "{'name':'outline','type':'points','default':[[0,0],[1,0],[0,1]],'min':3,'max':64,"
+               "'doc':'O.'}",
+        [18] = "{'name':'rows','type':'rows','default':[],'doc':'R.'}",
     };
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
         if (expected[i]) {
             cJSON *row = param_describe(&params[i]);
             char *text = json_print(row, false);
-            assert_string_equal(text, expected[i]);
+            json_text_assert_equal(text, expected[i]);
             free(text);
             cJSON_Delete(row);
         }

@@ -12,140 +12,121 @@
 #include "protocol/json.h"
 #include "protocol/limits.h"
 #include "protocol/scene.h"
+#include "tests/support/json_text.h"
 #include "tests/support/random_edit.h"
 
 enum { DOCUMENTS = 300, DAMAGED = 1500 };
 
 static struct error err;
 
-static struct scene *parse(const char *text)
-{
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    if (!scene) {
-        fail_msg("%.200s: %s: %s", text, err.place, err.message);
-    }
-    return scene;
-}
-
 static void assert_prints(const char *text, const char *expected)
 {
-    struct scene *scene = parse(text);
+    struct scene *scene = json_text_valid_scene(text);
     char *printed = scene_print(scene, false);
-    assert_string_equal(printed, expected);
+    json_text_assert_equal(printed, expected);
     free(printed);
     scene_destroy(scene);
 }
 
 static void assert_refused(const char *text, enum error_kind kind, const char *place)
 {
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    assert_null(scene);
+    assert_null(json_text_scene(text, &err));
     assert_int_equal(err.kind, kind);
     assert_string_equal(err.place, place);
 }
 
-#define DOC(members) "{\"format\":\"fieldcast/1\"," members "}"
-#define ROOT(members) DOC("\"root\":{\"id\":\"root\",\"type\":\"union\"" members "}")
+#define DOC(members) "{'format':'fieldcast/1'," members "}"
+#define ROOT(members) DOC("'root':{'id':'root','type':'union'" members "}")
 
 static void test_prints_what_is_set(void **state)
 {
     (void)state;
     assert_prints(ROOT(""), ROOT(""));
-    assert_prints(DOC("\"shaders\":{},\"models\":{},\"primitives\":{},\"camera\":{},\"lights\":[],"
-                      "\"materials\":{},\"environment\":{},\"render\":{},"
-                      "\"root\":{\"type\":\"union\",\"children\":[],\"params\":{},"
-                      "\"transform\":{}}"),
-                  DOC("\"root\":{\"id\":\"union-1\",\"type\":\"union\"}"));
-    assert_prints(DOC("\"root\":{\"children\":[{\"params\":{\"tube\":0.1,\"radius\":2},"
-                      "\"visible\":false,\"name\":\"Ring\",\"type\":\"torus\",\"id\":\"a\","
-                      "\"transform\":{\"scale\":2,\"translation\":[0,1,0]}}],\"type\":\"union\"},"
-                      "\"render\":{\"samples\":1},\"name\":\"N\""),
-                  DOC("\"name\":\"N\",\"render\":{\"samples\":1},\"root\":{\"id\":\"union-1\","
-                      "\"type\":\"union\",\"children\":[{\"id\":\"a\",\"type\":\"torus\","
-                      "\"name\":\"Ring\",\"visible\":false,\"transform\":{\"translation\":[0,1,0],"
-                      "\"scale\":[2,2,2]},\"params\":{\"radius\":2,\"tube\":0.1}}]}"));
+    assert_prints(DOC("'shaders':{},'models':{},'primitives':{},'camera':{},'lights':[],"
+                      "'materials':{},'environment':{},'render':{},'root':{'type':'union',"
+                      "'children':[],'params':{},'transform':{}}"),
+                  DOC("'root':{'id':'union-1','type':'union'}"));
+    assert_prints(DOC("'root':{'children':[{'params':{'tube':0.1,'radius':2},'visible':false,"
+                      "'name':'Ring','type':'torus','id':'a','transform':{'scale':2,"
+                      "'translation':[0,1,0]}}],'type':'union'},'render':{'samples':1},'name':'N'"),
+                  DOC("'name':'N','render':{'samples':1},'root':{'id':'union-1','type':'union',"
+                      "'children':[{'id':'a','type':'torus','name':'Ring','visible':false,"
+                      "'transform':{'translation':[0,1,0],'scale':[2,2,2]},'params':{'radius':2,"
+                      "'tube':0.1}}]}"));
 }
 
 static void test_missing_ids_avoid_given_ones(void **state)
 {
     (void)state;
-    assert_prints(ROOT(",\"children\":[{\"type\":\"box\"},{\"type\":\"box\"},{\"id\":\"box-1\","
-                       "\"type\":\"sphere\",\"children\":[{\"type\":\"box\"}]}]"),
-                  ROOT(",\"children\":[{\"id\":\"box-2\",\"type\":\"box\"},{\"id\":\"box-3\","
-                       "\"type\":\"box\"},{\"id\":\"box-1\",\"type\":\"sphere\",\"children\":["
-                       "{\"id\":\"box-4\",\"type\":\"box\"}]}]"));
-    assert_prints(DOC("\"lights\":[{\"type\":\"point\"},{\"id\":\"point-2\",\"type\":\"point\"},"
-                      "{\"type\":\"point\"}],\"root\":{\"id\":\"r\",\"type\":\"box\"}"),
-                  DOC("\"lights\":[{\"id\":\"point-1\",\"type\":\"point\"},{\"id\":\"point-2\","
-                      "\"type\":\"point\"},{\"id\":\"point-3\",\"type\":\"point\"}],"
-                      "\"root\":{\"id\":\"r\",\"type\":\"box\"}"));
+    assert_prints(ROOT(",'children':[{'type':'box'},{'type':'box'},{'id':'box-1','type':'sphere',"
+                       "'children':[{'type':'box'}]}]"),
+                  ROOT(",'children':[{'id':'box-2','type':'box'},{'id':'box-3','type':'box'},"
+                       "{'id':'box-1','type':'sphere','children':[{'id':'box-4','type':'box'}]}]"));
+    assert_prints(DOC("'lights':[{'type':'point'},{'id':'point-2','type':'point'},"
+                      "{'type':'point'}],'root':{'id':'r','type':'box'}"),
+                  DOC("'lights':[{'id':'point-1','type':'point'},{'id':'point-2','type':'point'},"
+                      "{'id':'point-3','type':'point'}],'root':{'id':'r','type':'box'}"));
 }
 
 static void test_places_name_what_is_wrong(void **state)
 {
     (void)state;
-    assert_refused(ROOT(",\"children\":[{\"type\":\"box\"},{\"type\":\"sphere\",\"children\":["
-                        "{\"type\":\"sphere\",\"params\":{\"radius\":-1}}]}]"),
+    assert_refused(ROOT(",'children':[{'type':'box'},{'type':'sphere',"
+                        "'children':[{'type':'sphere','params':{'radius':-1}}]}]"),
                    ERROR_INVALID, "/nodes/root/children/1/children/0/params/radius");
-    assert_refused(ROOT(",\"children\":[{\"id\":\"body\",\"type\":\"sphere\",\"children\":["
-                        "{\"type\":\"sphere\",\"colour\":1}]}]"),
+    assert_refused(ROOT(",'children':[{'id':'body','type':'sphere','children':[{'type':'sphere',"
+                        "'colour':1}]}]"),
                    ERROR_INVALID, "/nodes/body/children/0/colour");
-    assert_refused(ROOT(",\"children\":[{\"type\":\"box\",\"id\":\"root\"}]"), ERROR_CONFLICT,
-                   "/nodes/root");
-    assert_refused(ROOT(",\"children\":[{\"type\":\"box\",\"id\":\"b\",\"material\":\"gold\"}]"),
-                   ERROR_INVALID, "/nodes/b/material");
+    assert_refused(ROOT(",'children':[{'type':'box','id':'root'}]"), ERROR_CONFLICT, "/nodes/root");
+    assert_refused(ROOT(",'children':[{'type':'box','id':'b','material':'gold'}]"), ERROR_INVALID,
+                   "/nodes/b/material");
     assert_string_equal(err.message, "there is no material \"gold\"");
-    assert_refused(DOC("\"root\":{\"type\":\"sphre\"}"), ERROR_INVALID, "/root/type");
+    assert_refused(DOC("'root':{'type':'sphre'}"), ERROR_INVALID, "/root/type");
     assert_string_equal(err.message, "unknown type \"sphre\"; did you mean \"sphere\"?");
-    assert_refused(DOC("\"lights\":[{\"type\":\"point\"},{\"type\":\"point\",\"size\":0}]"),
-                   ERROR_INVALID, "/lights/1/size");
-    assert_refused(DOC("\"lights\":[{\"id\":\"a\",\"type\":\"point\"},{\"id\":\"a\","
-                       "\"type\":\"point\"}]"),
+    assert_refused(DOC("'lights':[{'type':'point'},{'type':'point','size':0}]"), ERROR_INVALID,
+                   "/lights/1/size");
+    assert_refused(DOC("'lights':[{'id':'a','type':'point'},{'id':'a','type':'point'}]"),
                    ERROR_CONFLICT, "/lights/a");
-    assert_refused(DOC("\"materials\":{\"m\":{\"shader\":\"phong\",\"properties\":{\"x\":1}}}"),
-                   ERROR_INVALID, "/materials/m/properties/x");
-    assert_refused(DOC("\"materials\":{\"a b\":{\"shader\":\"phong\"}}"), ERROR_INVALID,
-                   "/materials/a b");
-    assert_refused(DOC("\"name\":1"), ERROR_INVALID, "/name");
-    assert_refused(DOC("\"shaders\":[]"), ERROR_INVALID, "/shaders");
+    assert_refused(DOC("'materials':{'m':{'shader':'phong','properties':{'x':1}}}"), ERROR_INVALID,
+                   "/materials/m/properties/x");
+    assert_refused(DOC("'materials':{'a b':{'shader':'phong'}}"), ERROR_INVALID, "/materials/a b");
+    assert_refused(DOC("'name':1"), ERROR_INVALID, "/name");
+    assert_refused(DOC("'shaders':[]"), ERROR_INVALID, "/shaders");
     assert_string_equal(err.message, "expected an object of shaders");
-    assert_refused(DOC("\"lights\":{}"), ERROR_INVALID, "/lights");
+    assert_refused(DOC("'lights':{}"), ERROR_INVALID, "/lights");
     assert_string_equal(err.message, "expected an array of lights");
-    assert_refused("{\"format\":\"fieldcast/2\"}", ERROR_INVALID, "/format");
+    assert_refused("{'format':'fieldcast/2'}", ERROR_INVALID, "/format");
     assert_refused("{}", ERROR_INVALID, "/format");
     assert_refused("[]", ERROR_INVALID, "");
-    assert_refused("{\"format\":\"fieldcast/1\"}", ERROR_INVALID, "/root");
-    assert_refused("{\"format\"", ERROR_SYNTAX, "line 1, column 10");
+    assert_refused("{'format':'fieldcast/1'}", ERROR_INVALID, "/root");
+    assert_refused("{'format'", ERROR_SYNTAX, "line 1, column 10");
 }
 
 /* A document with every kind of resource, in the order in which it is printed. */
 #define PRIMITIVE                                                                                  \
-    "\"rod\":{\"params\":[{\"name\":\"r\",\"type\":\"float\",\"default\":0.5,\"range\":[0,9]},"    \
-    "{\"name\":\"h\",\"type\":\"vec2\",\"doc\":\"H.\"}],\"code\":\"float sdf(vec3 p)\\n{...}\","   \
-    "\"lipschitz\":2,\"size\":[1,2,3],\"doc\":\"A rod.\"}"
+    "'rod':{'params':[{'name':'r','type':'float','default':0.5,'range':[0,9]},{'name':'h',"        \
+    "'type':'vec2','doc':'H.'}],'code':'float sdf(vec3 p)\\n{...}','lipschitz':2,'size':[1,2,3],"  \
+    "'doc':'A rod.'}"
 #define SHADER                                                                                     \
-    "\"marble\":{\"properties\":[{\"name\":\"tint\",\"type\":\"color\",\"default\":[1,1,1]},"      \
-    "{\"name\":\"blend\",\"type\":\"float\"}],\"code\":\"vec3 shade()\",\"lighting\":\"unlit\"}"
+    "'marble':{'properties':[{'name':'tint','type':'color','default':[1,1,1]},{'name':'blend',"    \
+    "'type':'float'}],'code':'vec3 shade()','lighting':'unlit'}"
 #define MODELS                                                                                     \
-    "\"king\":{\"id\":\"k\",\"type\":\"union\",\"children\":[{\"id\":\"k1\",\"type\":\"model\","   \
-    "\"params\":{\"model\":\"pawn\"}}]},\"pawn\":{\"id\":\"p\",\"type\":\"sphere\",\"material\":"  \
-    "\"m\"}"
+    "'king':{'id':'k','type':'union','children':[{'id':'k1','type':'model',"                       \
+    "'params':{'model':'pawn'}}]},'pawn':{'id':'p','type':'sphere','material':'m'}"
 #define EVERYTHING                                                                                 \
-    DOC("\"lights\":[{\"id\":\"sun\",\"type\":\"directional\"}],\"primitives\":{" PRIMITIVE        \
-        "},\"shaders\":{" SHADER "},\"materials\":{\"m\":{\"shader\":\"marble\",\"properties\":"   \
-        "{\"blend\":0.2}},\"n\":{\"shader\":\"phong\"}},\"models\":{" MODELS "},"                  \
-        "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":[{\"id\":\"f\",\"type\":"       \
-        "\"field\","                                                                               \
-        "\"params\":{\"primitive\":\"rod\",\"r\":0.7}},{\"id\":\"g\",\"type\":\"field\","          \
-        "\"params\":"                                                                              \
-        "{\"code\":\"float sdf(vec3 p)\"}},{\"id\":\"i\",\"type\":\"model\",\"material\":\"n\","   \
-        "\"params\":{\"model\":\"king\"}}]}")
+    DOC("'lights':[{'id':'sun','type':'directional'}],'primitives':{" PRIMITIVE                    \
+        "},'shaders':{" SHADER                                                                     \
+        "},'materials':{'m':{'shader':'marble','properties':{'blend':0.2}},"                       \
+        "'n':{'shader':'phong'}},'models':{" MODELS "},'root':{'id':'root','type':'union',"        \
+        "'children':[{'id':'f','type':'field','params':{'primitive':'rod','r':0.7}},"              \
+        "{'id':'g','type':'field','params':{'code':'float sdf(vec3 p)'}},"                         \
+        "{'id':'i','type':'model','material':'n','params':{'model':'king'}}]}")
 
 static void test_resources_of_every_kind(void **state)
 {
     (void)state;
     assert_prints(EVERYTHING, EVERYTHING);
-    struct scene *read = parse(EVERYTHING), *copy = scene_copy(read);
+    struct scene *read = json_text_valid_scene(EVERYTHING), *copy = scene_copy(read);
     scene_destroy(read); /* a copy shares nothing */
     const struct node *field = scene_find(copy, "f");
     const struct resource *rod = resource_find(&copy->primitives, "rod");
@@ -182,8 +163,7 @@ static void test_resources_of_every_kind(void **state)
 static void test_order_of_members_does_not_matter(void **state)
 {
     (void)state;
-    cJSON *json = json_parse(EVERYTHING, strlen(EVERYTHING), &err), *backwards;
-    backwards = cJSON_CreateObject();
+    cJSON *json = json_text_parse(EVERYTHING, &err), *backwards = cJSON_CreateObject();
     while (json->child) {
         cJSON *last = cJSON_DetachItemViaPointer(json, json->child->prev);
         cJSON_AddItemToObject(backwards, last->string, last);
@@ -198,53 +178,49 @@ static void test_order_of_members_does_not_matter(void **state)
 static void test_ids_are_shared_by_all_trees(void **state)
 {
     (void)state;
-    assert_prints(DOC("\"models\":{\"a\":{\"type\":\"box\"},\"b\":{\"type\":\"box\"}},"
-                      "\"root\":{\"type\":\"union\",\"children\":[{\"type\":\"box\"},"
-                      "{\"id\":\"box-1\",\"type\":\"box\"}]}"),
-                  DOC("\"models\":{\"a\":{\"id\":\"box-2\",\"type\":\"box\"},"
-                      "\"b\":{\"id\":\"box-3\",\"type\":\"box\"}},"
-                      "\"root\":{\"id\":\"union-1\",\"type\":\"union\",\"children\":["
-                      "{\"id\":\"box-4\",\"type\":\"box\"},{\"id\":\"box-1\",\"type\":\"box\"}]}"));
-    assert_refused(DOC("\"models\":{\"a\":{\"id\":\"x\",\"type\":\"box\"}},"
-                       "\"root\":{\"id\":\"x\",\"type\":\"box\"}"),
+    assert_prints(DOC("'models':{'a':{'type':'box'},'b':{'type':'box'}},'root':{'type':'union',"
+                      "'children':[{'type':'box'},{'id':'box-1','type':'box'}]}"),
+                  DOC("'models':{'a':{'id':'box-2','type':'box'},'b':{'id':'box-3',"
+                      "'type':'box'}},'root':{'id':'union-1','type':'union',"
+                      "'children':[{'id':'box-4','type':'box'},{'id':'box-1','type':'box'}]}"));
+    assert_refused(DOC("'models':{'a':{'id':'x','type':'box'}},'root':{'id':'x','type':'box'}"),
                    ERROR_CONFLICT, "/nodes/x");
 }
 
 #define MODEL(name, names)                                                                         \
-    "\"" name "\":{\"id\":\"" name "\",\"type\":\"model\",\"params\":{\"model\":\"" names "\"}}"
+    "'" name "':{'id':'" name "','type':'model','params':{'model':'" names "'}}"
 
 static void test_models_in_a_circle(void **state)
 {
     (void)state;
-    static const char root[] = ",\"root\":{\"type\":\"union\"}";
+    static const char root[] = ",'root':{'type':'union'}";
     char text[400];
-    snprintf(text, sizeof text, DOC("\"models\":{" MODEL("a", "a") "}%s"), root);
+    snprintf(text, sizeof text, DOC("'models':{" MODEL("a", "a") "}%s"), root);
     assert_refused(text, ERROR_CONFLICT, "/models");
     assert_string_equal(err.message, "models in a circle: /models/a -> /models/a");
     snprintf(text, sizeof text,
-             DOC("\"models\":{" MODEL("d", "a") "," MODEL("a", "b") "," MODEL("b", "c") "," MODEL(
+             DOC("'models':{" MODEL("d", "a") "," MODEL("a", "b") "," MODEL("b", "c") "," MODEL(
                  "c", "a") "}%s"),
              root);
     assert_refused(text, ERROR_CONFLICT, "/models");
     assert_string_equal(err.message,
                         "models in a circle: /models/a -> /models/b -> /models/c -> /models/a");
     snprintf(text, sizeof text,
-             DOC("\"models\":{" MODEL("a", "b") "," MODEL("b", "c") "," MODEL("c", "") "}%s"),
-             root);
-    scene_destroy(parse(text));
+             DOC("'models':{" MODEL("a", "b") "," MODEL("b", "c") "," MODEL("c", "") "}%s"), root);
+    scene_destroy(json_text_valid_scene(text));
 }
 
 /* `levels` groups, one in the other. */
 static char *nested(size_t levels)
 {
-    static const char head[] = "{\"format\":\"fieldcast/1\",\"root\":";
+    static const char head[] = "{'format':'fieldcast/1','root':";
     char *text = malloc(levels * 40 + 100), *at = text;
     assert_non_null(text);
     at += sprintf(at, "%s", head);
     for (size_t i = 1; i < levels; i++) {
-        at += sprintf(at, "{\"type\":\"group\",\"children\":[");
+        at += sprintf(at, "{'type':'group','children':[");
     }
-    at += sprintf(at, "{\"type\":\"group\"}");
+    at += sprintf(at, "{'type':'group'}");
     for (size_t i = 1; i < levels; i++) {
         at += sprintf(at, "]}");
     }
@@ -257,11 +233,11 @@ static char *wide(size_t parents, size_t children)
 {
     char *text = malloc(parents * (children * 20 + 60) + 100), *at = text;
     assert_non_null(text);
-    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"union\",\"children\":[");
+    at += sprintf(at, "{'format':'fieldcast/1','root':{'type':'union','children':[");
     for (size_t i = 0; i < parents; i++) {
-        at += sprintf(at, "%s{\"type\":\"group\",\"children\":[", i ? "," : "");
+        at += sprintf(at, "%s{'type':'group','children':[", i ? "," : "");
         for (size_t j = 0; j < children; j++) {
-            at += sprintf(at, "%s{\"type\":\"sphere\"}", j ? "," : "");
+            at += sprintf(at, "%s{'type':'sphere'}", j ? "," : "");
         }
         at += sprintf(at, "]}");
     }
@@ -271,7 +247,7 @@ static char *wide(size_t parents, size_t children)
 
 static void assert_limit(char *text, size_t nodes, const char *message)
 {
-    struct scene *scene = scene_parse(text, strlen(text), &err);
+    struct scene *scene = json_text_scene(text, &err);
     free(text);
     if (message) {
         assert_null(scene);
@@ -301,12 +277,12 @@ static char *listed(const char *list, size_t count, const char *value)
     bool array = strcmp(list, "lights") == 0 || strcmp(list, "volumes") == 0;
     char *text = malloc(count * (strlen(value) + 20) + 200), *at = text;
     assert_non_null(text);
-    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"%s\":%c", list, array ? '[' : '{');
+    at += sprintf(at, "{'format':'fieldcast/1','%s':%c", list, array ? '[' : '{');
     for (size_t i = 0; i < count; i++) {
         at += sprintf(at, i ? "," : "");
-        at += array ? sprintf(at, "%s", value) : sprintf(at, "\"n%zu\":%s", i, value);
+        at += array ? sprintf(at, "%s", value) : sprintf(at, "'n%zu':%s", i, value);
     }
-    sprintf(at, "%c,\"root\":{\"type\":\"union\"}}", array ? ']' : '}');
+    sprintf(at, "%c,'root':{'type':'union'}}", array ? ']' : '}');
     return text;
 }
 
@@ -317,12 +293,12 @@ static void test_limits_of_lists(void **state)
         const char *list, *value;
         size_t limit, nodes; /* nodes of each */
     } lists[] = {
-        {"lights", "{\"type\":\"point\"}", LIMIT_LIGHTS, 0},
-        {"volumes", "{\"type\":\"sphere\"}", LIMIT_VOLUMES, 0},
+        {"lights", "{'type':'point'}", LIMIT_LIGHTS, 0},
+        {"volumes", "{'type':'sphere'}", LIMIT_VOLUMES, 0},
         {"primitives", "{}", LIMIT_PRIMITIVES, 0},
         {"shaders", "{}", LIMIT_SHADERS, 0},
-        {"materials", "{\"shader\":\"phong\"}", LIMIT_MATERIALS, 0},
-        {"models", "{\"type\":\"box\"}", LIMIT_MODELS, 1},
+        {"materials", "{'shader':'phong'}", LIMIT_MATERIALS, 0},
+        {"models", "{'type':'box'}", LIMIT_MODELS, 1},
     };
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         char message[80];
@@ -337,15 +313,15 @@ static void test_limits_of_lists(void **state)
 /* The tree of `document`, which is freed, as the only model beside a root with `children`. */
 static char *beside(char *document, size_t children)
 {
-    static const char root[] = "\"root\":";
+    static const char root[] = "'root':";
     char *tree = strstr(document, root) + strlen(root);
     char *text = malloc(strlen(tree) + children * 20 + 100), *at = text;
     assert_non_null(text);
-    at += sprintf(at, "{\"format\":\"fieldcast/1\",\"root\":{\"type\":\"union\",\"children\":[");
+    at += sprintf(at, "{'format':'fieldcast/1','root':{'type':'union','children':[");
     for (size_t i = 0; i < children; i++) {
-        at += sprintf(at, "%s{\"type\":\"sphere\"}", i ? "," : "");
+        at += sprintf(at, "%s{'type':'sphere'}", i ? "," : "");
     }
-    sprintf(at, "]},\"models\":{\"m\":%s}", tree);
+    sprintf(at, "]},'models':{'m':%s}", tree);
     free(document);
     return text;
 }
@@ -364,12 +340,12 @@ static void test_long_places_keep_their_end(void **state)
 {
     (void)state;
     static const char tail[] = "/children/0/params/radius";
-    char *text = nested(30), *last = strstr(text, "{\"type\":\"group\"}");
+    char *text = nested(30), *last = strstr(text, "{'type':'group'}");
     char *bad = malloc(strlen(text) + 100);
     assert_non_null(bad);
-    sprintf(bad, "%.*s{\"type\":\"sphere\",\"params\":{\"radius\":-1}}%s", (int)(last - text), text,
-            last + strlen("{\"type\":\"group\"}"));
-    assert_null(scene_parse(bad, strlen(bad), &err));
+    sprintf(bad, "%.*s{'type':'sphere','params':{'radius':-1}}%s", (int)(last - text), text,
+            last + strlen("{'type':'group'}"));
+    assert_null(json_text_scene(bad, &err));
     assert_int_equal(strncmp(err.place, "...", 3), 0);
     assert_string_equal(err.place + strlen(err.place) - strlen(tail), tail);
     free(bad);
@@ -391,12 +367,11 @@ static void note(void *data, const struct node *node, size_t index)
 static void test_tree_questions(void **state)
 {
     (void)state;
-    struct scene *scene = parse(
-        DOC("\"materials\":{\"a\":{\"shader\":\"phong\"},\"b\":{\"shader\":\"phong\"}},"
-            "\"root\":{\"id\":\"r\",\"type\":\"union\",\"children\":[{\"id\":\"x\","
-            "\"type\":\"group\",\"material\":\"a\",\"children\":[{\"id\":\"y\",\"type\":\"box\"},"
-            "{\"id\":\"z\",\"type\":\"box\",\"material\":\"b\",\"visible\":false}]},"
-            "{\"id\":\"w\",\"type\":\"box\"}]}"));
+    struct scene *scene = json_text_valid_scene(
+        DOC("'materials':{'a':{'shader':'phong'},'b':{'shader':'phong'}},'root':{'id':'r',"
+            "'type':'union','children':[{'id':'x','type':'group','material':'a',"
+            "'children':[{'id':'y','type':'box'},{'id':'z','type':'box','material':'b',"
+            "'visible':false}]},{'id':'w','type':'box'}]}"));
     struct walked walked = {.count = 0};
     scene_walk(scene, note, &walked);
     assert_int_equal(walked.count, 5);
@@ -418,13 +393,13 @@ static void test_empty_scene(void **state)
     (void)state;
     struct scene *scene = scene_create_empty();
     char *text = scene_print(scene, false);
-    assert_string_equal(text, ROOT(""));
+    json_text_assert_equal(text, ROOT(""));
     free(text);
     scene_destroy(scene);
     scene_destroy(NULL);
 }
 
-/* print(parse(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
+/* print(json_text_valid_scene(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
 static void test_random_documents_round_trip(void **state)
 {
     (void)state;
@@ -432,7 +407,8 @@ static void test_random_documents_round_trip(void **state)
         struct random random = {seed};
         struct scene *scene = random_document(&random, 1 + random_below(&random, 40));
         char *text = scene_print(scene, false), *pretty = scene_print(scene, true);
-        struct scene *from_text = parse(text), *from_pretty = parse(pretty);
+        struct scene *from_text = json_text_valid_scene(text),
+                     *from_pretty = json_text_valid_scene(pretty);
         struct scene *copy = scene_copy(scene);
         scene_destroy(scene);
         struct scene *const same[] = {from_text, from_pretty, copy};
@@ -468,7 +444,7 @@ static void test_damaged_documents(void **state)
         if (scene) {
             accepted++;
             text = scene_print(scene, false);
-            struct scene *again = parse(text);
+            struct scene *again = json_text_valid_scene(text);
             char *same = scene_print(again, false);
             assert_string_equal(text, same);
             free(text);
