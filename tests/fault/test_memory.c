@@ -22,6 +22,7 @@
 #include "renderer/field/shader.h"
 #include "server/cli/files.h"
 #include "server/store/store.h"
+#include "tests/support/json_text.h"
 #include "tests/support/preload.h"
 #include "tests/support/store_life.h"
 
@@ -30,18 +31,19 @@ enum { OTHERWISE = 20 };
 static void (*memory_fail)(long nth);
 static long (*memory_count)(void);
 
-static const char document[] =
-    "{\"format\":\"fieldcast/1\",\"lights\":[{\"id\":\"sun\",\"type\":\"directional\"}],"
-    "\"materials\":{\"red\":{\"shader\":\"phong\"}},"
-    "\"primitives\":{\"blob\":{\"params\":[{\"name\":\"blow\",\"type\":\"float\",\"default\":1}],"
-    "\"code\":\"float sdf(vec3 p) { return length(p) - blow; }\"}},"
-    "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-    "{\"id\":\"ball\",\"type\":\"sphere\",\"material\":\"red\"},"
-    "{\"id\":\"b\",\"type\":\"field\",\"params\":{\"primitive\":\"blob\"}}]}}";
-static const char edit[] = "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":2},"
-                           "{\"op\":\"remove\",\"at\":\"/nodes/b\"}]";
+static const char scene_text[] =
+    "{'format':'fieldcast/1','lights':[{'id':'sun','type':'directional'}],"
+    "'materials':{'red':{'shader':'phong'}},"
+    "'primitives':{'blob':{'params':[{'name':'blow','type':'float','default':1}],"
+    "'code':'float sdf(vec3 p) { return length(p) - blow; }'}},"
+    "'root':{'id':'root','type':'union','children':["
+    "{'id':'ball','type':'sphere','material':'red'},"
+    "{'id':'b','type':'field','params':{'primitive':'blob'}}]}}";
+static const char edit_text[] = "[{'op':'set','at':'/nodes/ball/params/radius','value':2},"
+                                "{'op':'remove','at':'/nodes/b'}]";
 
-static char *reference; /* the document as it is printed */
+static char *document, *edit; /* the texts as JSON */
+static char *reference;       /* the document as it is printed */
 
 /* --- operations: 0, or OTHERWISE where the result is another one --- */
 
@@ -198,13 +200,11 @@ static void test_store(void **state)
 
 static int prepare(void **state)
 {
-    struct error err = {0};
-    struct scene *scene = scene_parse(document, strlen(document), &err);
+    document = json_text(scene_text);
+    edit = json_text(edit_text);
+    struct scene *scene = json_text_valid_scene(document);
 
     (void)state;
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
     reference = scene_print(scene, false);
     scene_destroy(scene);
     store_life_make_base(base, sizeof base, "memory");
@@ -216,6 +216,8 @@ static int clean(void **state)
 {
     (void)state;
     free(reference);
+    free(document);
+    free(edit);
     directory_remove(base);
     return 0;
 }

@@ -18,6 +18,7 @@
 #include "renderer/renderer.h"
 #include "server/cli/local_render.h"
 #include "server/embedded.h"
+#include "tests/support/json_text.h"
 #include "tests/support/progress.h"
 
 #define CARD_MEAN 8.0
@@ -81,7 +82,7 @@ static double difference(const struct embedded *example, const struct embedded *
     int width, height;
     uint8_t *pixels = unpack(card, &width, &height);
     struct scene *scene = scene_parse((const char *)example->bytes, example->length, &err);
-    cJSON *ops = cJSON_Parse("[{\"op\":\"set\",\"at\":\"/render/exposure\",\"value\":0}]");
+    cJSON *ops = json_text_parse("[{'op':'set','at':'/render/exposure','value':0}]", NULL);
 
     assert_non_null(scene);
     local_render_give_example_file(renderer, scene);

@@ -9,6 +9,7 @@ import { OLD_NAMES } from './names.mjs';
 
 const FUNCTION_LINES = { c: 60, script: 120 };
 const LINE_COLUMNS = 100;
+const ESCAPED_LINES = 3; // of a file
 const CLANG_FORMAT = 14; // Debian 12's; others break lines a little differently
 
 const here = path.dirname(new URL(import.meta.url).pathname);
@@ -245,6 +246,19 @@ function checkText(files) {
     });
 }
 
+// Tests write JSON in single quotes, by tests/support/json_text.h; test_json.c reads JSON itself.
+function checkEscapes(files) {
+    const own = files.filter((file) => /^tests\/.*\.[ch]$/.test(file) && file !== 'tests/unit/test_json.c');
+    for (const file of own) {
+        const found = [];
+        search([file], /\\"[^"\\]*\\" ?:/, (match, name, line) => found.push(line));
+        if (found.length > ESCAPED_LINES) {
+            const message = `${found.length} lines of escaped JSON members, above the maximum ${ESCAPED_LINES}: use json_text`;
+            report(file, found[ESCAPED_LINES], 'escape', message);
+        }
+    }
+}
+
 // --- names ---
 
 const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
@@ -323,6 +337,7 @@ checkImports(files);
 checkFunctionsC(files);
 checkFunctionsScript(files);
 checkText(files);
+checkEscapes(files);
 checkNames(files);
 checkFormat(files);
 checkTools(files);

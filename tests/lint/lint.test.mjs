@@ -69,6 +69,7 @@ const BREAKS = [
     ['blank', 'renderer/glsl/march.glsl', `${C}\tfloat f();\n`],
     ['word', 'renderer/draw/draw.h', `${C}/* TO${'DO'} */\n`],
     ['word', 'renderer/draw/draw.c', `${C}#if 0\n#endif\n`],
+    ['escape', 'tests/unit/test_scene.c', `${C}const char *a =\n${'    "{\\"type\\":1}"\n'.repeat(4)};\n`],
     ['name', 'server/live/room.c', `${C}#include "fallback.h"\n\nvoid f(void)\n{\n    say_bye(0);\n}\n`],
     ['name', 'server/live/fallback.h', C],
     ['name', 'README.md', '`server/live/renders` asks again.\n'],

@@ -15,6 +15,7 @@
 #include "renderer/draw/frame.h"
 #include "renderer/gl/pass.h"
 #include "tests/support/formula.h"
+#include "tests/support/json_text.h"
 
 /* --- places --- */
 
@@ -82,17 +83,12 @@ static void members_lie_where_the_driver_reads_them(void **state)
 static struct frame_block block_of(const char *list, const char *type)
 {
     char text[256];
-    struct error err = {0};
     struct frame_block block;
 
     snprintf(text, sizeof text,
-             "{\"format\": \"fieldcast/1\", \"%s\": [{\"type\": \"%s\"}],"
-             "\"root\": {\"type\": \"sphere\"}}",
-             list, type);
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
+             "{'format': 'fieldcast/1', '%s': [{'type': '%s'}], 'root': {'type': 'sphere'}}", list,
+             type);
+    struct scene *scene = json_text_valid_scene(text);
     frame_set_scene(&block, scene, &(struct frame_extent){.scale = 1});
     scene_destroy(scene);
     return block;

@@ -14,6 +14,7 @@
 #include "renderer/field/field_patch.h"
 #include "server/embedded.h"
 #include "tests/support/compiled.h"
+#include "tests/support/json_text.h"
 #include "tests/support/numeric_edit.h"
 #include "tests/support/random_edit.h"
 
@@ -278,9 +279,9 @@ static struct scene *long_union(struct random *random, int count)
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    fputs("{\"format\":\"fieldcast/1\",\"materials\":{\"m0\":{\"shader\":\"phong\"},"
-          "\"m1\":{\"shader\":\"standard\",\"properties\":{\"transmission\":0.5}},"
-          "\"m2\":{\"shader\":\"checker\"}},\"root\":{\"type\":\"group\",\"children\":[",
+    fputs("{'format':'fieldcast/1','materials':{'m0':{'shader':'phong'},"
+          "'m1':{'shader':'standard','properties':{'transmission':0.5}},"
+          "'m2':{'shader':'checker'}},'root':{'type':'group','children':[",
           out);
     for (int i = 0; i < count; i++) {
         const struct node_type *type = node_type_at(random_below(random, node_type_count()));
@@ -292,11 +293,7 @@ static struct scene *long_union(struct random *random, int count)
     }
     fputs("]}}", out);
     assert_int_equal(fclose(out), 0);
-    struct error err = {0};
-    struct scene *scene = scene_parse(text, length, &err);
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
+    struct scene *scene = json_text_valid_scene(text);
     free(text);
     return scene;
 }

@@ -26,14 +26,14 @@ static char *write_document(void)
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    fputs("{\"format\":\"fieldcast/1\",\"camera\":{\"position\":[0,1,9],\"target\":[0,0,0]},"
-          "\"materials\":{\"red\":{\"shader\":\"phong\"}},\"environment\":{\"floor\":true},"
-          "\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":[",
+    fputs("{'format':'fieldcast/1','camera':{'position':[0,1,9],'target':[0,0,0]},"
+          "'materials':{'red':{'shader':'phong'}},'environment':{'floor':true},"
+          "'root':{'id':'root','type':'union','children':[",
           out);
     for (int i = 0; i < SHAPES; i++) {
         fprintf(out,
-                "%s{\"id\":\"ball-%d\",\"type\":\"sphere\",\"material\":\"red\",\"transform\":"
-                "{\"translation\":[%d,%d,0]},\"params\":{\"radius\":0.4}}",
+                "%s{'id':'ball-%d','type':'sphere','material':'red',"
+                "'transform':{'translation':[%d,%d,0]},'params':{'radius':0.4}}",
                 i ? "," : "", i, i % 10 - 5, i / 10 - 2);
     }
     fputs("]}}", out);

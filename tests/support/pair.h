@@ -5,10 +5,10 @@
 
 #include "renderer/field/field.h"
 
-#define BALL(more) "{\"type\":\"sphere\",\"params\":{\"radius\":1}" more "}"
-#define BOX "{\"type\":\"box\",\"params\":{\"size\":[2,2,2]}}"
-#define HIDDEN BALL(",\"visible\":false")
-#define NOTHING "{\"type\":\"group\"}"
+#define BALL(more) "{'type':'sphere','params':{'radius':1}" more "}"
+#define BOX "{'type':'box','params':{'size':[2,2,2]}}"
+#define HIDDEN BALL(",'visible':false")
+#define NOTHING "{'type':'group'}"
 
 struct pair {
     struct scene *scene;

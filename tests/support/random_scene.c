@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json_text.h"
 #include "protocol/limits.h"
 #include "renderer/sdf/sdf.h"
 
@@ -145,7 +146,7 @@ static void write_choice(struct random *random, FILE *out, const struct param *p
     while (param->choices[count]) {
         count++;
     }
-    fprintf(out, "\"%s\"", param->choices[random_below(random, count)]);
+    fprintf(out, "'%s'", param->choices[random_below(random, count)]);
 }
 
 /* Names and code keep their defaults. */
@@ -153,13 +154,13 @@ static void write_params(struct random *random, FILE *out, const struct node_typ
                          const struct random_limits *limits)
 {
     const char *comma = "";
-    fprintf(out, "\"params\":{");
+    fprintf(out, "'params':{");
     for (const struct param *param = type->record.params; param->name; param++) {
         if (component_count(param) == 0 && param->type != PARAM_ENUM &&
             param->type != PARAM_POINTS) {
             continue;
         }
-        fprintf(out, "%s\"%s\":", comma, param->name);
+        fprintf(out, "%s'%s':", comma, param->name);
         comma = ",";
         if (param->type == PARAM_ENUM) {
             write_choice(random, out, param);
@@ -198,8 +199,8 @@ static void write_transform(struct random *random, FILE *out, const struct node_
     double t[3], r[3], s[3];
     random_transform(random, type, limits, t, r, s);
     fprintf(out,
-            ",\"transform\":{\"translation\":[%.9g,%.9g,%.9g],\"rotation\":[%.9g,%.9g,%.9g],"
-            "\"scale\":[%.9g,%.9g,%.9g]}",
+            ",'transform':{'translation':[%.9g,%.9g,%.9g],'rotation':[%.9g,%.9g,%.9g],"
+            "'scale':[%.9g,%.9g,%.9g]}",
             t[0], t[1], t[2], r[0], r[1], r[2], s[0], s[1], s[2]);
 }
 
@@ -287,20 +288,20 @@ static size_t random_child_count(struct random *random, const struct node_type *
 void random_node(struct random *random, FILE *out, const struct node_type *type,
                  const struct random_limits *limits)
 {
-    fprintf(out, "{\"type\":\"%s\",", type->record.name);
+    fprintf(out, "{'type':'%s',", type->record.name);
     write_params(random, out, type, limits);
     if (!limits->plain) {
         write_transform(random, out, type, limits);
     }
     if (random_below(random, 2)) {
-        fprintf(out, ",\"material\":\"m%zu\"", random_below(random, 3));
+        fprintf(out, ",'material':'m%zu'", random_below(random, 3));
     }
     size_t count = random_child_count(random, type, limits);
     struct random_limits below = *limits;
     below.depth--;
     below.inner = true;
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, i ? "," : ",\"children\":[");
+        fprintf(out, i ? "," : ",'children':[");
         random_node(random, out, random_child(random, type, &below, i == 0), &below);
     }
     fprintf(out, count ? "]}" : "}");
@@ -308,10 +309,10 @@ void random_node(struct random *random, FILE *out, const struct node_type *type,
 
 static void write_material(struct random *random, FILE *out, const struct record_type *shader)
 {
-    fprintf(out, "{\"shader\":\"%s\",\"properties\":{", shader->name);
+    fprintf(out, "{'shader':'%s','properties':{", shader->name);
     for (const struct param *param = shader->params; param->name; param++) {
         double low = fmax(param->min, 0.5), high = fmin(param->max, 4 * low);
-        fprintf(out, "%s\"%s\":", param == shader->params ? "" : ",", param->name);
+        fprintf(out, "%s'%s':", param == shader->params ? "" : ",", param->name);
         if (param->type == PARAM_COLOR) {
             fprintf(out, "[%.9g,%.9g,%.9g]", random_between(random, 0.2, 1),
                     random_between(random, 0.2, 1), random_between(random, 0.2, 1));
@@ -325,9 +326,9 @@ static void write_material(struct random *random, FILE *out, const struct record
 static void write_materials(struct random *random, FILE *out)
 {
     static const char *const shaders[] = {"phong", "standard", "blinn"};
-    fprintf(out, "\"materials\":{");
+    fprintf(out, "'materials':{");
     for (int i = 0; i < 3; i++) {
-        fprintf(out, "%s\"m%d\":", i ? "," : "", i);
+        fprintf(out, "%s'm%d':", i ? "," : "", i);
         write_material(random, out, record_type_in(shader_types, shaders[i]));
     }
     fprintf(out, "}");
@@ -342,14 +343,14 @@ struct scene *random_scene(struct random *random, const struct node_type *type,
     if (!out) {
         abort();
     }
-    fprintf(out, "{\"format\":\"fieldcast/1\",");
+    fprintf(out, "{'format':'fieldcast/1',");
     write_materials(random, out);
-    fprintf(out, ",\"root\":");
+    fprintf(out, ",'root':");
     random_node(random, out, type, limits);
     fprintf(out, "}");
     fclose(out);
     struct error err = {0};
-    struct scene *scene = scene_parse(text, length, &err);
+    struct scene *scene = json_text_scene(text, &err);
     if (!scene) {
         error_print(&err, stderr);
         abort();

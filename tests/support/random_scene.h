@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Random scenes as JSON text, the same on every machine. All generated nodes lie within some units
+/* Random scenes, the same on every machine. All generated nodes lie within some units
  * of the origin. */
 #ifndef TESTS_SUPPORT_RANDOM_SCENE_H
 #define TESTS_SUPPORT_RANDOM_SCENE_H
@@ -28,7 +28,8 @@ struct random_limits {
     bool inner;   /* not the root; random_node sets it for what is below */
 };
 
-/* Writes {"type": ..., "params": ..., "transform": ..., "children": ...} without id. */
+/* Writes {'type': ..., 'params': ..., 'transform': ..., 'children': ...} without id, as for
+ * json_text. */
 void random_node(struct random *random, FILE *out, const struct node_type *type,
                  const struct random_limits *limits);
 /* A type of this kind, by chance. */

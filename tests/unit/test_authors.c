@@ -18,6 +18,7 @@
 #include "server/live/room.h"
 #include "server/live/room_authors.h"
 #include "server/live/room_store.h"
+#include "tests/support/json_text.h"
 
 enum { MANY = 25000 };
 
@@ -151,14 +152,13 @@ static void write_old_database(void)
     struct error err = {0};
     char path[200];
     sqlite3 *db = NULL;
-    const char text[] =
-        "{\"format\":\"fieldcast/1\",\"root\":{\"id\":\"ball\",\"type\":\"sphere\"}}";
-    const char ops[] = "[{\"op\":\"set\",\"at\":\"/name\",\"value\":\"new\"}]";
+    const char text[] = "{'format':'fieldcast/1','root':{'id':'ball','type':'sphere'}}";
+    const char ops[] = "[{'op':'set','at':'/name','value':'new'}]";
 
     open_hub(&hub);
-    struct room *room = room_create(&hub, "old", scene_parse(text, strlen(text), &err), 1);
+    struct room *room = room_create(&hub, "old", json_text_scene(text, &err), 1);
     struct author *author = authors_add(&room->authors, "the-author");
-    cJSON *json = cJSON_Parse(ops);
+    cJSON *json = json_text_parse(ops, &err);
     uint64_t revision = 0;
     room_store_new(room, scene_print(room->scene, false), NULL, NULL);
     assert_int_equal(room_edit(room,

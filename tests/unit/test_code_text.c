@@ -12,15 +12,17 @@
 #include "protocol/code_text.h"
 #include "protocol/edit.h"
 #include "protocol/json.h"
+#include "tests/support/json_text.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 #define DOCUMENT(rest)                                                                             \
-    "{\"format\": \"fieldcast/1\", " rest "\"root\": {\"id\": \"root\", \"type\": \"union\", "     \
-    "\"children\": [{\"id\": \"ball\", \"type\": \"sphere\", \"name\": \"code\"}]}}"
+    "{'format': 'fieldcast/1', " rest "'root': {'id': 'root', 'type': 'union',"                    \
+    " 'children': [{'id': 'ball', 'type': 'sphere',"                                               \
+    " 'name': 'code'}]}}"
 
 static cJSON *parse(const char *text)
 {
-    cJSON *json = json_parse(text, strlen(text), NULL);
+    cJSON *json = json_text_parse(text, NULL);
 
     assert_non_null(json);
     return json;
@@ -30,25 +32,23 @@ static cJSON *parse(const char *text)
 static const struct {
     const char *text, *place;
 } rows[] = {
-    {DOCUMENT("\"primitives\": {\"a\": {\"code\": \"\"}, \"b\": {\"code\": \"x\"}}, "),
-     "/primitives/b/code"},
-    {DOCUMENT("\"shaders\": {\"code\": {\"code\": \"x\"}}, "), "/shaders/code/code"},
-    {DOCUMENT("\"models\": {\"m\": {\"type\": \"field\", \"params\": {\"code\": \"x\"}}}, "),
+    {DOCUMENT("'primitives': {'a': {'code': ''}, 'b': {'code': 'x'}}, "), "/primitives/b/code"},
+    {DOCUMENT("'shaders': {'code': {'code': 'x'}}, "), "/shaders/code/code"},
+    {DOCUMENT("'models': {'m': {'type': 'field', 'params': {'code': 'x'}}}, "),
      "/models/m/params/code"},
-    {DOCUMENT("\"primitives\": {\"code\": {\"code\": \"\"}}, "), NULL},
-    {DOCUMENT("\"name\": \"code\", "), NULL},
-    {"[{\"op\": \"set\", \"at\": \"/name\", \"value\": \"code\"},"
-     " {\"op\": \"set\", \"at\": \"/shaders/s/code\", \"value\": \"x\"}]",
+    {DOCUMENT("'primitives': {'code': {'code': ''}}, "), NULL},
+    {DOCUMENT("'name': 'code', "), NULL},
+    {"[{'op': 'set', 'at': '/name', 'value': 'code'}, {'op': 'set', 'at': '/shaders/s/code',"
+     " 'value': 'x'}]",
      "/shaders/s/code"},
-    {"[{\"op\": \"set\", \"at\": \"/shaders/s/code\", \"value\": null}]", NULL},
-    {"[{\"op\": \"set\", \"at\": \"/shaders/s/code\", \"value\": \"\"}]", NULL},
-    {"[{\"op\": \"insert\", \"into\": \"/primitives\", \"name\": \"p\", \"value\": {\"code\": "
-     "\"x\"}}]",
+    {"[{'op': 'set', 'at': '/shaders/s/code', 'value': null}]", NULL},
+    {"[{'op': 'set', 'at': '/shaders/s/code', 'value': ''}]", NULL},
+    {"[{'op': 'insert', 'into': '/primitives', 'name': 'p', 'value': {'code': 'x'}}]",
      "/0/value/code"},
-    {"[{\"op\": \"insert\", \"into\": \"/nodes/root\", \"before\": null, \"value\": {\"type\": "
-     "\"union\", \"children\": [{\"type\": \"field\", \"params\": {\"code\": \"x\"}}]}}]",
+    {"[{'op': 'insert', 'into': '/nodes/root', 'before': null, 'value': {'type': 'union',"
+     " 'children': [{'type': 'field', 'params': {'code': 'x'}}]}}]",
      "/0/value/children/0/params/code"},
-    {"[{\"op\": \"remove\", \"at\": \"/shaders/s/code\"}]", NULL},
+    {"[{'op': 'remove', 'at': '/shaders/s/code'}]", NULL},
 };
 
 static void test_find(void **state)
@@ -79,27 +79,16 @@ static void test_remove(void **state)
     }
 }
 
-static struct scene *scene_of(const char *text)
-{
-    struct error err = {0};
-    struct scene *scene = scene_parse(text, strlen(text), &err);
-
-    if (!scene) {
-        fail_msg("%s: %s", err.place, err.message);
-    }
-    return scene;
-}
-
 static void test_scenes(void **state)
 {
     static const char text[] =
-        DOCUMENT("\"primitives\": {\"p\": {\"code\": \"float sdf(vec3 p) { return 1; }\"}},"
-                 "\"shaders\": {\"s\": {\"code\": \"x\"}},"
-                 "\"models\": {\"m\": {\"id\": \"in\", \"type\": \"field\", \"params\": "
-                 "{\"code\": \"x\"}}}, ");
+        DOCUMENT("'primitives': {'p': {'code': 'float sdf(vec3 p) { return 1; }'}},"
+                 "'shaders': {'s': {'code': 'x'}},'models': {'m': {'id': 'in', 'type': 'field',"
+                 " 'params': {'code': 'x'}}}, ");
     static const char *const changed[] = {"/primitives/p/code", "/shaders/s/code",
                                           "/nodes/in/params/code"};
-    struct scene *plain = scene_of(DOCUMENT("")), *before = scene_of(text);
+    struct scene *plain = json_text_valid_scene(DOCUMENT("")),
+                 *before = json_text_valid_scene(text);
     char place[ERROR_PLACE_BYTES];
 
     (void)state;
@@ -112,8 +101,7 @@ static void test_scenes(void **state)
         struct scene *after = scene_copy(before);
         char ops[128];
 
-        snprintf(ops, sizeof ops, "[{\"op\": \"set\", \"at\": \"%s\", \"value\": \"y\"}]",
-                 changed[i]);
+        snprintf(ops, sizeof ops, "[{'op': 'set', 'at': '%s', 'value': 'y'}]", changed[i]);
         cJSON *json = parse(ops);
         assert_true(edit_apply(after, json, NULL, NULL, NULL));
         assert_string_equal(code_text_changed(after, before, place), changed[i]);

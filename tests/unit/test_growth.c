@@ -16,6 +16,7 @@
 
 #include "protocol/edit.h"
 #include "protocol/limits.h"
+#include "tests/support/json_text.h"
 
 enum { FEW = 500, MANY = 16 * FEW, RUNS = 5 };
 
@@ -28,10 +29,10 @@ static double now(void)
 
 static void write_spheres(FILE *out, char letter, size_t count)
 {
-    fprintf(out, "\"children\":[");
+    fprintf(out, "'children':[");
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "%s{\"id\":\"%c%zu\",\"type\":\"sphere\",\"params\":{\"radius\":0.7}}",
-                i ? "," : "", letter, i);
+        fprintf(out, "%s{'id':'%c%zu','type':'sphere','params':{'radius':0.7}}", i ? "," : "",
+                letter, i);
     }
     fprintf(out, "]}");
 }
@@ -44,17 +45,18 @@ static char *document(size_t count)
     size_t length;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    fprintf(out, "{\"format\":\"fieldcast/1\",\"models\":{\"little\":{\"type\":\"box\"},"
-                 "\"m\":{\"id\":\"m\",\"type\":\"union\"}");
+    fprintf(out, "{'format':'fieldcast/1','models':{'little':{'type':'box'},'m':{'id':'m',"
+                 "'type':'union'}");
     for (const char *letter = "abc"; *letter; letter++) {
-        fprintf(out, ",\"%c\":{\"type\":\"union\",", *letter);
+        fprintf(out, ",'%c':{'type':'union',", *letter);
         write_spheres(out, *letter, count);
     }
-    fprintf(out, "},\"root\":{\"id\":\"root\",\"type\":\"union\",\"children\":["
-                 "{\"id\":\"h\",\"type\":\"group\"},{\"id\":\"g\",\"type\":\"group\",");
+    fprintf(out, "},'root':{'id':'root','type':'union','children':[{'id':'h','type':'group'},"
+                 "{'id':'g','type':'group',");
     write_spheres(out, 's', count);
     fprintf(out, "]}}");
     fclose(out);
+    json_text_quote(text);
     return text;
 }
 

@@ -13,6 +13,7 @@
 #include "protocol/nodes.h"
 #include "protocol/render_request.h"
 #include "renderer/renderer.h"
+#include "tests/support/json_text.h"
 
 struct member {
     const char *name, *text;
@@ -51,7 +52,7 @@ static void read_texts(struct render_request *out, enum request_form form, char 
 
 static bool read_json(struct render_request *out, const char *text, struct error *err)
 {
-    cJSON *json = json_parse(text, strlen(text), err);
+    cJSON *json = json_text_parse(text, err);
 
     assert_non_null(json);
     render_request_init(out);
@@ -70,10 +71,9 @@ static void every_form_says_the_same(void **state)
     read_texts(&query, REQUEST_QUERY, '.');
     read_texts(&option, REQUEST_OPTION, '-');
     assert_true(read_json(&json,
-                          "{\"width\":320,\"height\":200,\"region\":[1,2,30,40],"
-                          "\"aov\":\"color,depth\",\"level\":\"final\",\"samples\":2,"
-                          "\"transparent\":true,\"quality\":70,\"camera\":{\"fov\":50.5,"
-                          "\"up\":[0,0,1],\"type\":\"orthographic\"}}",
+                          "{'width':320,'height':200,'region':[1,2,30,40],'aov':'color,depth',"
+                          "'level':'final','samples':2,'transparent':true,'quality':70,"
+                          "'camera':{'fov':50.5,'up':[0,0,1],'type':'orthographic'}}",
                           &err));
     assert_true(render_request_equal(&query, &option));
     assert_true(render_request_equal(&query, &json));
@@ -112,7 +112,7 @@ static void what_is_printed_is_read(void **state)
     read_texts(&sent, REQUEST_QUERY, '.');
     sent.codec = CODEC_JPEG;
     record_put(&sent.delivery, "fast", true);
-    cJSON *ids = cJSON_Parse("[\"b\",\"a\",\"b\"]"), *printed;
+    cJSON *ids = json_text_parse("['b','a','b']", &err), *printed;
     assert_true(id_set_read(&sent.isolate, ids, "", &err));
     assert_int_equal(sent.isolate.count, 2);
     printed = render_request_print(&sent);
@@ -181,10 +181,10 @@ static void errors_name_the_place_in_its_form(void **state)
     check_refused(REQUEST_OPTION, "camera-fov", "500", "--camera-fov");
     check_refused(REQUEST_OPTION, "aov", "smell", "--aov");
     check_refused(REQUEST_QUERY, "exact", "true", "?exact"); /* a delivery is nobody's to ask */
-    assert_false(read_json(&request, "{\"camera\":{\"fov\":500}}", &err));
+    assert_false(read_json(&request, "{'camera':{'fov':500}}", &err));
     assert_string_equal(err.place, "/camera/fov");
     render_request_finish(&request);
-    assert_false(read_json(&request, "{\"delivery\":{}}", &err));
+    assert_false(read_json(&request, "{'delivery':{}}", &err));
     assert_string_equal(err.place, "/delivery");
     render_request_finish(&request);
 }

@@ -399,7 +399,7 @@ static void test_empty_scene(void **state)
     scene_destroy(NULL);
 }
 
-/* print(json_text_valid_scene(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
+/* print(parse(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
 static void test_random_documents_round_trip(void **state)
 {
     (void)state;

@@ -21,6 +21,7 @@
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "renderer/worker.h"
+#include "tests/support/json_text.h"
 #include "tests/support/picture.h"
 #include "tests/support/text_file.h"
 
@@ -159,7 +160,7 @@ static void send_scene(const char *name, uint64_t revision)
 
 static void send_edit(uint64_t revision, const char *ops)
 {
-    cJSON *json = cJSON_Parse(ops);
+    cJSON *json = json_text_parse(ops, NULL);
 
     assert_non_null(json);
     send_packet(fd, &(struct packet){.kind = TO_WORKER_EDIT, .edit = {"s", revision, json}});
@@ -177,9 +178,10 @@ static void send_request(const char *scene, int job, int priority, const char *m
     char line[768];
 
     snprintf(line, sizeof line,
-             "{\"render.job\":%d,\"render.scene\":\"%s\",\"render.priority\":%d,"
-             "\"render.patience\":1,\"render.request\":{%s}}",
+             "{'render.job':%d,'render.scene':'%s','render.priority':%d,'render.patience':1,"
+             "'render.request':{%s}}",
              job, scene, priority, members);
+    json_text_quote(line);
     send_text(TO_WORKER_RENDER, line);
 }
 
@@ -188,8 +190,7 @@ static void send_render_of(const char *scene, int job, int priority, int width, 
 {
     char members[512];
 
-    snprintf(members, sizeof members, "\"width\":%d,\"height\":%d,\"samples\":1%s", width, height,
-             more);
+    snprintf(members, sizeof members, "'width':%d,'height':%d,'samples':1%s", width, height, more);
     send_request(scene, job, priority, members);
 }
 
@@ -219,7 +220,7 @@ static void draw_here(const char *ops, struct picture *out)
     char *document = text_file_read(EXAMPLE, &length);
     struct scene *scene = scene_parse(document, length, NULL);
     struct resident *resident = resident_create(renderer, scene, 1);
-    cJSON *json = cJSON_Parse(ops);
+    cJSON *json = json_text_parse(ops, NULL);
     struct image image;
     uint8_t *bytes;
 
@@ -238,13 +239,12 @@ static void draw_here(const char *ops, struct picture *out)
 
 static void test_render_and_edit(void **state)
 {
-    static const char ops[] =
-        "[{\"op\":\"set\",\"at\":\"/nodes/ball/params/radius\",\"value\":0.9}]";
+    static const char ops[] = "[{'op':'set','at':'/nodes/ball/params/radius','value':0.9}]";
     struct picture first, second, here;
 
     (void)state;
     send_scene("s", 1);
-    send_render(1, 0, 80, 60, ",\"delivery\":{\"exact\":true}");
+    send_render(1, 0, 80, 60, ",'delivery':{'exact':true}");
     expect(TO_FRONT_FRAME);
     assert_int_equal(packet.frame.job, 1);
     assert_int_equal(packet.frame.revision, 1);
@@ -275,10 +275,9 @@ static void test_structural_edit(void **state)
     send_scene("s", 1);
     expect(TO_FRONT_SHOWN);
     assert_int_equal(packet.state.revision, 1);
-    send_edit(2, "[{\"op\":\"insert\",\"into\":\"/nodes/root\",\"before\":null,"
-                 "\"value\":{\"type\":\"torus\"}}]");
+    send_edit(2, "[{'op':'insert','into':'/nodes/root','before':null,'value':{'type':'torus'}}]");
     send_render(1, 0, 40, 30, "");
-    send_render(2, 0, 40, 30, ",\"delivery\":{\"exact\":true}");
+    send_render(2, 0, 40, 30, ",'delivery':{'exact':true}");
     /* In whatever order they come: the compiler may be faster than the first picture. */
     for (bool shown = false, drawn = false; !shown || !drawn;) {
         const int kind = receive();
@@ -464,12 +463,11 @@ static void test_outputs(void **state)
 {
     (void)state;
     send_scene("s", 1);
-    send_render(1, 0, 40, 30, ",\"format\":\"npy\",\"aov\":\"id\"");
-    send_request("s", 2, 0, "\"width\":40,\"height\":30,\"format\":\"npy\",\"aov\":\"id\"");
+    send_render(1, 0, 40, 30, ",'format':'npy','aov':'id'");
+    send_request("s", 2, 0, "'width':40,'height':30,'format':'npy','aov':'id'");
     send_request("s", 3, 0,
-                 "\"width\":40,\"height\":30,\"format\":\"jpg\",\"quality\":50,"
-                 "\"delivery\":{\"chroma_halved\":true},"
-                 "\"camera\":{\"position\":[0,9,0.1],\"fov\":20}");
+                 "'width':40,'height':30,'format':'jpg','quality':50,"
+                 "'delivery':{'chroma_halved':true},'camera':{'position':[0,9,0.1],'fov':20}");
     do {
         expect(TO_FRONT_FRAME);
         if (packet.frame.job == 2) {
@@ -499,13 +497,13 @@ static void test_what_is_asked(void **state)
 
     (void)state;
     send_scene("s", 1);
-    check_frame(",\"aov\":\"color,depth\"", CODEC_ZIP, 40, 30);
+    check_frame(",'aov':'color,depth'", CODEC_ZIP, 40, 30);
     assert_memory_equal(packet.payload, "PK\3\4", 4);
-    check_frame(",\"delivery\":{\"zipped\":true}", CODEC_ZIP, 40, 30);
-    check_frame(",\"region\":[30,7,10,2]", CODEC_PNG, 10, 2);
-    check_frame(",\"level\":\"draft\",\"transparent\":true", CODEC_PNG, 40, 30);
+    check_frame(",'delivery':{'zipped':true}", CODEC_ZIP, 40, 30);
+    check_frame(",'region':[30,7,10,2]", CODEC_PNG, 10, 2);
+    check_frame(",'level':'draft','transparent':true", CODEC_PNG, 40, 30);
     assert_int_equal(packet.payload[COLOR_TYPE], RGB_ALPHA);
-    check_frame(",\"transparent\":false", CODEC_PNG, 40, 30);
+    check_frame(",'transparent':false", CODEC_PNG, 40, 30);
     assert_int_equal(packet.payload[COLOR_TYPE], RGB);
 }
 
@@ -513,7 +511,7 @@ static void check_failed(const char *more, enum error_kind kind, const char *pla
 {
     char members[512];
 
-    snprintf(members, sizeof members, "\"width\":40,\"height\":30%s", more);
+    snprintf(members, sizeof members, "'width':40,'height':30%s", more);
     send_request("s", 5, 0, members);
     expect(TO_FRONT_FAILED);
     assert_int_equal(packet.failed.job, 5);
@@ -532,28 +530,28 @@ static void check_broken(const char *scene, uint64_t revision, enum error_kind k
 
 static void test_refusals(void **state)
 {
-    cJSON *document = cJSON_Parse("{\"format\":\"x\"}");
+    cJSON *document = json_text_parse("{'format':'x'}", NULL);
 
     (void)state;
     check_failed("", ERROR_NOT_FOUND, "scene");
     send_scene("s", 1);
     expect(TO_FRONT_SHOWN);
-    check_failed(",\"aov\":\"smell\"", ERROR_INVALID, "/aov");
-    check_failed(",\"format\":\"gif\"", ERROR_INVALID, "/format");
-    check_failed(",\"aov\":\"position\"", ERROR_INVALID, "aov");
-    check_failed(",\"format\":\"jpg\",\"transparent\":true", ERROR_INVALID, "format");
-    check_failed(",\"level\":\"best\"", ERROR_INVALID, "/level");
-    check_failed(",\"region\":[39,0,2,2]", ERROR_LIMIT, "region");
-    check_failed(",\"region\":[1,2]", ERROR_INVALID, "/region");
-    check_failed(",\"samples\":9", ERROR_INVALID, "/samples");
-    check_failed(",\"format\":\"jpg\",\"quality\":400", ERROR_INVALID, "/quality");
-    check_failed(",\"camera\":{\"fov\":500}", ERROR_INVALID, "/camera/fov");
-    check_failed(",\"isolate\":[7]", ERROR_INVALID, "/isolate/0");
-    check_failed(",\"delivery\":{\"by\":\"air\"}", ERROR_INVALID, "/delivery/by");
+    check_failed(",'aov':'smell'", ERROR_INVALID, "/aov");
+    check_failed(",'format':'gif'", ERROR_INVALID, "/format");
+    check_failed(",'aov':'position'", ERROR_INVALID, "aov");
+    check_failed(",'format':'jpg','transparent':true", ERROR_INVALID, "format");
+    check_failed(",'level':'best'", ERROR_INVALID, "/level");
+    check_failed(",'region':[39,0,2,2]", ERROR_LIMIT, "region");
+    check_failed(",'region':[1,2]", ERROR_INVALID, "/region");
+    check_failed(",'samples':9", ERROR_INVALID, "/samples");
+    check_failed(",'format':'jpg','quality':400", ERROR_INVALID, "/quality");
+    check_failed(",'camera':{'fov':500}", ERROR_INVALID, "/camera/fov");
+    check_failed(",'isolate':[7]", ERROR_INVALID, "/isolate/0");
+    check_failed(",'delivery':{'by':'air'}", ERROR_INVALID, "/delivery/by");
     send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE, .scene = {"t", 4, document}});
     check_broken("t", 4, ERROR_INVALID);
     cJSON_Delete(document);
-    send_edit(2, "[{\"op\":\"remove\",\"at\":\"/nodes/nobody\"}]");
+    send_edit(2, "[{'op':'remove','at':'/nodes/nobody'}]");
     check_broken("s", 2, ERROR_NOT_FOUND);
     send_render(6, 0, 40, 30, "");
     expect(TO_FRONT_FRAME);
