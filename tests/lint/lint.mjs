@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The rules of the house, checked by reading files: `node tests/lint/lint.mjs [ROOT]`. Prints
-// `file:line: rule: what is wrong` and fails when there is anything to print.
+// The rules of the house, checked by reading files: `node tests/lint/lint.mjs [ROOT [COMMIT]]`. Prints
+// `file:line: rule: what is wrong` and fails when there is anything to print. The subjects of commits
+// are checked after COMMIT.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 
+import { checkCommits } from './commits.mjs';
 import { OLD_NAMES } from './names.mjs';
 
 const FUNCTION_LINES = { c: 60, script: 120 };
@@ -339,6 +341,9 @@ checkFunctionsScript(files);
 checkText(files);
 checkEscapes(files);
 checkNames(files);
+if (checkCommits(root, (commit, message) => faults.push(`${commit}: commit: ${message}`), process.argv[3]) === 0) {
+    console.log('not checked: no commit, for the history from where the rule begins is not here');
+}
 checkFormat(files);
 checkTools(files);
 if (faults.length > 0) {

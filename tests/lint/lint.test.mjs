@@ -80,7 +80,7 @@ const BREAKS = [
 const trees = [];
 after(() => trees.forEach((tree) => fs.rmSync(tree, { recursive: true, force: true })));
 
-function lint(changes) {
+function makeTree(changes) {
     const tree = fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-lint-'));
     trees.push(tree);
     fs.copyFileSync(path.join(here, '../../.clang-format'), path.join(tree, '.clang-format'));
@@ -88,11 +88,13 @@ function lint(changes) {
         fs.mkdirSync(path.join(tree, path.dirname(file)), { recursive: true });
         fs.writeFileSync(path.join(tree, file), text);
     }
-    return lintTree(tree);
+    return tree;
 }
 
-function lintTree(tree) {
-    const run = spawnSync(process.execPath, [path.join(here, 'lint.mjs'), tree], {
+const lint = (changes) => lintTree(makeTree(changes));
+
+function lintTree(tree, ...args) {
+    const run = spawnSync(process.execPath, [path.join(here, 'lint.mjs'), tree, ...args], {
         encoding: 'utf8',
     });
     return { status: run.status, text: run.stdout + run.stderr };
@@ -131,4 +133,48 @@ describe('each rule can fail', () => {
             assert.match(round.result.text, new RegExp(place, 'm'));
         });
     }
+});
+
+const SUBJECTS = [
+    ['a full stop', 'server: say bye.'],
+    ['too long', `server: say ${'bye '.repeat(16)}`.trim()],
+    ['no area', 'say bye'],
+    ['no verb', 'server: the bye is said'],
+    ['no imperative', 'server, web: says bye'],
+    ['upper case', 'Server: say bye'],
+];
+
+test('subjects of commits are checked from a commit on', () => {
+    const tree = makeTree({});
+    const git = (...args) => {
+        const own = ['-C', tree, '-c', 'user.name=n', '-c', 'user.email=e@localhost', '-c', 'commit.gpgsign=false'];
+        const run = spawnSync('git', [...own, ...args], { encoding: 'utf8' });
+        assert.equal(run.status, 0, run.stderr);
+        return run.stdout.trim();
+    };
+    const commit = (subject) => {
+        git('commit', '-q', '--allow-empty', '-m', subject);
+        return git('rev-parse', '--short', 'HEAD');
+    };
+    git('init', '-q');
+    const first = commit('What was before the rule.');
+    commit('server/live, web: say bye');
+    assert.equal(lintTree(tree, first).status, 0);
+    const wrong = SUBJECTS.map(([what, subject]) => [what, commit(subject)]);
+    const { status, text } = lintTree(tree, first);
+    assert.equal(status, 1, text);
+    for (const [what, hash] of wrong) {
+        assert.match(text, new RegExp(`^${hash}: commit: `, 'm'), what);
+    }
+    assert.equal(text.match(/: commit: /g).length, SUBJECTS.length, text);
+    const shallow = path.join(tree, 'build/shallow');
+    git('clone', '-q', '--depth', '1', `file://${tree}`, shallow);
+    for (const [file, text] of Object.entries(CLEAN)) {
+        fs.mkdirSync(path.join(shallow, path.dirname(file)), { recursive: true });
+        fs.writeFileSync(path.join(shallow, file), text);
+    }
+    fs.copyFileSync(path.join(tree, '.clang-format'), path.join(shallow, '.clang-format'));
+    const none = lintTree(shallow, first);
+    assert.equal(none.status, 0, none.text);
+    assert.match(none.text, /^not checked: no commit/m);
 });
