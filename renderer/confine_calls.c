@@ -31,6 +31,14 @@
 
 #ifdef ARCHITECTURE
 
+/* LeakSanitizer starts a process at the end, which traces this one. It has itself killed when this
+ * one dies; else it would wait for locks of the dead one for ever. */
+#if defined(__SANITIZE_ADDRESS__)
+#define LOOKS_FOR_LEAKS 1
+#else
+#define LOOKS_FOR_LEAKS 0
+#endif
+
 enum {
     NEWEST = 450, /* set_mempolicy_home_node of Linux 5.17; what is newer is unknown here */
     NEW_NAMES = CLONE_NEWNS | CLONE_NEWCGROUP | CLONE_NEWUTS | CLONE_NEWIPC | CLONE_NEWUSER |
@@ -69,14 +77,14 @@ static const struct rule table[] = {
     {SYS_vfork, .when = ALWAYS},
 #endif
     {SYS_clone, IF_ANY, 0, NEW_NAMES, 0, 0},
-#if !defined(                                                                                      \
-    __SANITIZE_ADDRESS__) /* LeakSanitizer starts a process at the end, which traces this */
+#if !LOOKS_FOR_LEAKS
     {SYS_clone, IF_SAME, 0, CLONE_THREAD, 0, 0},
+    {SYS_prctl, IF_SAME, 0, ALL, PR_SET_PDEATHSIG, 0}, /* it ends with the front */
+    {SYS_ptrace, .when = ALWAYS},
 #endif
     {SYS_clone3, .when = ALWAYS, .error = ENOSYS}, /* its flags are in memory; clone() follows */
     {SYS_unshare, .when = ALWAYS},
     {SYS_setns, .when = ALWAYS},
-    {SYS_prctl, IF_SAME, 0, ALL, PR_SET_PDEATHSIG, 0}, /* it ends with the front */
     /* other processes */
     {SYS_kill, IF_OTHER, 0, ALL, SELF, 0},
     {SYS_tkill, .when = ALWAYS},
@@ -93,9 +101,6 @@ static const struct rule table[] = {
     {SYS_ioctl, IF_SAME, 1, ALL, SIOCSPGRP, 0},
     {SYS_ioctl, IF_SAME, 1, ALL, TIOCSTI, 0}, /* types into the terminal of stderr */
     {SYS_ioctl, IF_SAME, 1, ALL, TIOCLINUX, 0},
-#if !defined(__SANITIZE_ADDRESS__)
-    {SYS_ptrace, .when = ALWAYS},
-#endif
     {SYS_process_vm_readv, .when = ALWAYS},
     {SYS_process_vm_writev, .when = ALWAYS},
     {SYS_process_madvise, .when = ALWAYS},

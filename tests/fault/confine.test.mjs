@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: MIT
 // A driver in the wrong hands (support/drivers/escape_driver.c) tries to get out of the render process.
 import assert from 'node:assert/strict';
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
+import { once } from 'node:events';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { ask, counter, driverEnvironment, makeDirectory, program, removeDirectory, startDaemon } from '../support/daemon.mjs';
+import {
+    ask,
+    childrenOf,
+    counter,
+    driverEnvironment,
+    makeDirectory,
+    program,
+    removeDirectory,
+    startDaemon,
+    until,
+} from '../support/daemon.mjs';
 
 const { EPERM, EACCES } = os.constants.errno;
 const ACTS = 27;
-// LeakSanitizer starts a process at the end of another, so there that is not refused.
-const MAY = fs.readFileSync(program).includes('__asan_init') ? ['start a process'] : [];
+// LeakSanitizer starts a process at the end of another, which ends with it, so there that is not refused.
+const LOOKS_FOR_LEAKS = fs.readFileSync(program).includes('__asan_init');
+const MAY = LOOKS_FOR_LEAKS ? ['start a process', 'outlive the parent'] : [];
 const DOCUMENT = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 let cache;
@@ -136,4 +148,38 @@ test('doctor tells what is in force, and why not', () => {
     const strict = doctor(['--confine', 'strict'], { ESCAPE_WITHOUT: 'landlock' });
     assert.equal(strict.status, 1);
     assert.match(strict.stdout, /^FAIL {2}confinement +files: the kernel has no Landlock: /m);
+});
+
+/** A render process whose front goes as soon as it is ready, and which is killed while it ends. */
+async function killAtEnd() {
+    const child = spawn(program, ['worker', '--cache', cache], {
+        env: { ...process.env, ...driverEnvironment('null') },
+        stdio: ['ignore', 'ignore', 'pipe', 'pipe', 'pipe'],
+    });
+    let closed = false; // all that hold its stderr have ended
+    child.on('close', () => (closed = true));
+    const [, , stderr, ...sockets] = child.stdio;
+    stderr.resume();
+    await once(sockets[0], 'data');
+    sockets.forEach((socket) => socket.destroy());
+    let left = [];
+    while (LOOKS_FOR_LEAKS && left.length === 0 && child.exitCode === null) {
+        left = childrenOf(child.pid);
+        await new Promise(setImmediate);
+    }
+    child.kill('SIGKILL');
+    try {
+        await until(() => closed, 'whatever the render process started to end');
+    } finally {
+        left.filter(() => !closed).forEach((pid) => process.kill(pid, 'SIGKILL'));
+    }
+    return left.length;
+}
+
+test('a render process that is killed while it ends leaves no process behind', async () => {
+    let looked = 0;
+    for (let i = 0; i < 5; i += 1) {
+        looked += await killAtEnd();
+    }
+    assert.ok(!LOOKS_FOR_LEAKS || looked > 0, 'it was killed while it was looked at');
 });
