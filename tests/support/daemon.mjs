@@ -4,6 +4,7 @@ import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { errorsOf, killAndDescribe, writersTo } from './hung.mjs';
 import { descendantsOf, Patience } from './patience.mjs';
 
 const root = path.dirname(path.dirname(path.dirname(new URL(import.meta.url).pathname)));
@@ -52,15 +53,21 @@ export async function until(question, what) {
 export const makeDirectory = () => fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-test-'));
 export const removeDirectory = (name) => fs.rmSync(name, { recursive: true, force: true });
 
-/** Child processes of a process. */
-export function childrenOf(pid) {
-    const children = [];
-    for (const task of fs.readdirSync(`/proc/${pid}/task`)) {
-        const text = fs.readFileSync(`/proc/${pid}/task/${task}/children`, 'utf8');
-        children.push(...text.split(' ').filter(Boolean).map(Number));
+const textOf = (name) => {
+    try {
+        return fs.readFileSync(name, 'utf8');
+    } catch {
+        return ''; // whoever it was has ended
     }
-    return children;
-}
+};
+
+/** Child processes of a process. */
+export const childrenOf = (pid) =>
+    fs
+        .readdirSync(`/proc/${pid}/task`)
+        .flatMap((task) => textOf(`/proc/${pid}/task/${task}/children`).split(' '))
+        .filter(Boolean)
+        .map(Number);
 
 export const memoryOf = (pid) =>
     Number(/VmRSS:\s+(\d+)/.exec(fs.readFileSync(`/proc/${pid}/status`, 'utf8'))[1]) * 1024;
@@ -79,6 +86,16 @@ export const driverEnvironment = (...names) => ({
     FIELDCAST_STAGE: 'compute', // else they have nothing to draw
     ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`,
 });
+
+/** Waits for the end of a daemon; where it does not come, all who write to `errors` are told and killed. */
+async function untilEnded(ended, errors, what) {
+    try {
+        await until(ended, what);
+    } catch (error) {
+        error.message += `\n${killAndDescribe(writersTo(errors))}`;
+        throw error;
+    }
+}
 
 /**
  * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
@@ -105,13 +122,17 @@ export async function startDaemon(options = {}) {
     const daemon = { child, data: directory, errors: '', output: '' };
     child.stderr.on('data', (bytes) => heard() && (daemon.errors += bytes));
     child.stdout.on('data', (bytes) => heard() && (daemon.output += bytes));
-    daemon.exited = new Promise((done) =>
-        child.on('exit', (status, signal) => done({ status, signal })),
-    );
     let gone = false;
-    daemon.exited.then(() => (gone = true));
+    let closed = false; // nobody holds its pipes any more
+    daemon.exited = new Promise((done) =>
+        child.on('exit', (status, signal) => {
+            gone = true;
+            done({ status, signal });
+        }),
+    );
+    child.on('close', () => (closed = true));
     child.on('error', (error) => {
-        gone = true;
+        gone = closed = true;
         daemon.errors += error;
     });
     const match = await until(() => {
@@ -123,13 +144,16 @@ export async function startDaemon(options = {}) {
     daemon.url = match[1].slice(0, -1);
     daemon.port = Number(match[2]);
     daemon.pid = child.pid;
+    const errors = errorsOf(daemon.pid);
     daemon.worker = () => childrenOf(daemon.pid)[0];
     daemon.kill = async (signal = 'SIGKILL') => {
         child.kill(signal);
+        await untilEnded(() => gone, errors, `the daemon to end after ${signal}`);
         return daemon.exited;
     };
     daemon.stop = async () => {
         const result = gone ? await daemon.exited : await daemon.kill('SIGTERM');
+        await untilEnded(() => closed, errors, 'what the daemon started to end');
         if (!data) {
             removeDirectory(directory);
         }
