@@ -42,7 +42,7 @@ extern const char *const aov_picture_names[]; /* those with a picture form; NULL
 bool aovs_read(const char *text, bool out[AOV_COUNT], const char *place, struct error *err);
 enum { AOVS_TEXT_BYTES = 128 };
 /* The same in the table's order. */
-void aovs_print(const bool aovs[AOV_COUNT], char out[AOVS_TEXT_BYTES]);
+void aovs_print(const bool which[AOV_COUNT], char out[AOVS_TEXT_BYTES]);
 
 /* The picture form of `steps`: evenly from the first of these colours, no step, to the last, which
  * STEPS_WHITE and more have. sRGB, in equal steps of lightness. */

@@ -38,7 +38,7 @@ struct encoding *encode_thread_begin(struct encode_thread *encode_thread,
                                      struct error *err);
 /* The next rows of an output; takes them. */
 void encode_thread_add(struct encode_thread *encode_thread, struct encoding *encoding, enum aov aov,
-                       struct image rows);
+                       struct image image);
 /* No more rows come: the picture is whole, or is not wanted any more. */
 void encode_thread_end(struct encode_thread *encode_thread, struct encoding *encoding, bool whole);
 /* Whether so much waits that more rows would only fill memory. */

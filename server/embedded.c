@@ -7,8 +7,9 @@
 static const struct embedded *find(const struct embedded *table, size_t count, const char *path)
 {
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(table[i].path, path) == 0)
+        if (strcmp(table[i].path, path) == 0) {
             return &table[i];
+        }
     }
     return NULL;
 }

@@ -78,7 +78,7 @@ void sites_destroy(struct field_sites *sites); /* NULL: nothing */
 
 /* A node begins, and ends. */
 uint32_t sites_open(struct builder *b, const struct node *node);
-void sites_close(struct builder *b, uint32_t site, const struct result *result);
+void sites_close(struct builder *b, uint32_t index, const struct result *result);
 /* The node has no part in the program. */
 void sites_leave_out(struct builder *b);
 /* The next operand of a union is the child at `index`, and those before came to `own`. Returns the

@@ -270,7 +270,9 @@ void session_receive_apart(struct session *session, const char *scene, char *tex
     struct hub *hub = session->hub;
     struct errand *errand = memory_alloc(1, sizeof(*errand));
 
-    *errand = (struct errand){.session = session, .text = text, .length = length};
+    errand->session = session;
+    errand->text = text;
+    errand->length = length;
     snprintf(errand->scene, sizeof(errand->scene), "%s", scene);
     hub_lock(hub);
     session->working = true;

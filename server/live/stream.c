@@ -254,8 +254,8 @@ static bool is_too_large(const struct session *session, const struct stream_view
     const double target_ms = preference_rules[view->preference].target_ms;
 
     if (ns_per_pixel(session) == 0) { /* those who wait share the machine with this one */
-        return pixels_of(view, step) >
-               FIRST_PIXELS / (1 + render_queue_moving(session->hub->render_queue));
+        const int sharing = 1 + render_queue_moving(session->hub->render_queue);
+        return pixels_of(view, step) > (double)FIRST_PIXELS / sharing;
     }
     /* Only a clear gain makes it larger again, lest the size jumps to and fro. */
     return predicted_ms(session, view, step) >

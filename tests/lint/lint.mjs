@@ -8,6 +8,7 @@ import path from 'node:path';
 
 import { checkCommits } from './commits.mjs';
 import { OLD_NAMES } from './names.mjs';
+import { checkTidy } from './tidy.mjs';
 
 const FUNCTION_LINES = { c: 60, script: 120 };
 const LINE_COLUMNS = 100;
@@ -346,6 +347,11 @@ if (checkCommits(root, (commit, message) => faults.push(`${commit}: commit: ${me
 }
 checkFormat(files);
 checkTools(files);
+const tidy = await checkTidy(root, files);
+faults.push(...tidy.faults);
+if (tidy.skipped) {
+    console.log(`not checked: ${tidy.skipped}`);
+}
 if (faults.length > 0) {
     console.log(faults.join('\n'));
     console.log(`${faults.length} faults`);

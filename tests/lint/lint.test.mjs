@@ -14,12 +14,14 @@ const TS = '// SPDX-License-Identifier: MIT\n';
 
 const CLEAN = {
     'protocol/scene.c': `${C}#include "scene.h"\n\n#include <cjson/cJSON.h>\n#include <string.h>\n`,
-    'protocol/error.c': `${C}void print(FILE *out)\n{\n    fprintf(out, "x");\n}\n`,
+    'protocol/error.c': `${C}#include <stdio.h>\n\nvoid print(FILE *out)\n{\n    fprintf(out, "x");\n}\n`,
     'protocol/scene.h': C,
     'renderer/draw/draw.c': `${C}#include "draw.h"\n\n#include <GL/gl.h>\n\n#include "protocol/scene.h"\n`,
     'renderer/draw/draw.h': C,
+    'renderer/renderer.h': C,
     'renderer/glsl/march.glsl': `${C}float f();\n`,
     'server/live/room.c': `${C}#include "protocol/scene.h"\n#include "renderer/renderer.h"\n`,
+    'server/live/room.h': C,
     'server/live/hub.c': `${C}#include "room.h"\n`,
     'web/src/model/document.ts': `${TS}import { b } from './operations';\n`,
     'web/src/link/link.ts': `${TS}import { b } from '../model/operations';\n`,
@@ -74,6 +76,8 @@ const BREAKS = [
     ['name', 'server/live/fallback.h', C],
     ['name', 'README.md', '`server/live/renders` asks again.\n'],
     ['format', 'renderer/draw/draw.c', `${C}int f(void) { return 0; }\n`],
+    ['tidy', 'server/live/hub.c', `${C}int f(int a)\n{\n    return a == 1 || a == 1;\n}\n`],
+    ['tidy', 'server/live/room.c', `${C}int f(int a)\n{\n    if (a > 0);\n    return a;\n}\n`],
     ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
 ];
 
@@ -83,7 +87,9 @@ after(() => trees.forEach((tree) => fs.rmSync(tree, { recursive: true, force: tr
 function makeTree(changes) {
     const tree = fs.mkdtempSync(path.join(os.tmpdir(), 'fieldcast-lint-'));
     trees.push(tree);
-    fs.copyFileSync(path.join(here, '../../.clang-format'), path.join(tree, '.clang-format'));
+    for (const name of ['.clang-format', '.clang-tidy']) {
+        fs.copyFileSync(path.join(here, '../..', name), path.join(tree, name));
+    }
     for (const [file, text] of Object.entries({ ...CLEAN, ...changes })) {
         fs.mkdirSync(path.join(tree, path.dirname(file)), { recursive: true });
         fs.writeFileSync(path.join(tree, file), text);
@@ -135,6 +141,22 @@ describe('each rule can fail', () => {
     }
 });
 
+test('what was clean is read again when a header changes', () => {
+    const tree = makeTree({});
+    assert.equal(lintTree(tree).status, 0);
+    const stamp = path.join(tree, 'build/lint/tidy');
+    const before = fs.readFileSync(stamp, 'utf8');
+    assert.equal(lintTree(tree).status, 0);
+    assert.equal(fs.readFileSync(stamp, 'utf8'), before);
+    const wrong = `${C}static inline int f(int a)\n{\n    return a - a;\n}\n`;
+    fs.writeFileSync(path.join(tree, 'server/live/room.h'), wrong);
+    for (let again = 0; again < 2; again++) {
+        const { status, text } = lintTree(tree);
+        assert.equal(status, 1, text);
+        assert.match(text, /^server\/live\/room\.h:4: tidy: /m);
+    }
+});
+
 const SUBJECTS = [
     ['a full stop', 'server: say bye.'],
     ['too long', `server: say ${'bye '.repeat(16)}`.trim()],
@@ -157,6 +179,7 @@ test('subjects of commits are checked from a commit on', () => {
         return git('rev-parse', '--short', 'HEAD');
     };
     git('init', '-q');
+    git('add', '.');
     const first = commit('What was before the rule.');
     commit('server/live, web: say bye');
     assert.equal(lintTree(tree, first).status, 0);
@@ -169,11 +192,6 @@ test('subjects of commits are checked from a commit on', () => {
     assert.equal(text.match(/: commit: /g).length, SUBJECTS.length, text);
     const shallow = path.join(tree, 'build/shallow');
     git('clone', '-q', '--depth', '1', `file://${tree}`, shallow);
-    for (const [file, text] of Object.entries(CLEAN)) {
-        fs.mkdirSync(path.join(shallow, path.dirname(file)), { recursive: true });
-        fs.writeFileSync(path.join(shallow, file), text);
-    }
-    fs.copyFileSync(path.join(tree, '.clang-format'), path.join(shallow, '.clang-format'));
     const none = lintTree(shallow, first);
     assert.equal(none.status, 0, none.text);
     assert.match(none.text, /^not checked: no commit/m);
