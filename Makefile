@@ -253,9 +253,10 @@ gallery: fieldcast ## draw the pictures of README.md anew: a quarter of an hour 
 	  $(S)/protocol/examples/$$(basename $$f .jpg).json --width 1920 --height 1080 --level final \
 	  --quality 88 -o $$f || exit 1; done
 
-docs: fieldcast ## write the reference page, and the table of options into README.md
+docs: fieldcast ## write the reference page, and into README.md the table of options and the arrows
 	$(Q)$(OUT)/fieldcast schema --reference >$(S)/protocol/REFERENCE.md
 	$(Q)$(S)/deploy/update-readme.sh $(OUT)/fieldcast $(S)/README.md
+	$(Q)node $(S)/tests/lint/arrows.mjs $(S)/README.md
 
 # --- use ---
 

@@ -6,6 +6,7 @@ import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 
+import { checkCircles, checkDrawing, checkImports, checkIncludes, checkUnused } from './arrows.mjs';
 import { checkCommits } from './commits.mjs';
 import { OLD_NAMES } from './names.mjs';
 import { checkTidy } from './tidy.mjs';
@@ -47,88 +48,7 @@ function search(files, pattern, see) {
     }
 }
 
-// --- the arrows of the house ---
-
-// What every folder of server/ may use, and what it uses nothing of.
-const BASE = 'server/(clock|digest|directory|embedded|log|metrics|tasks)';
-const base = new RegExp(`^${BASE}\\.h$`);
-const worker = /^renderer\/(renderer|worker|pick)\.h$/;
-
-// protocol <- renderer <- server, and the folders of renderer/ and server/ among themselves. What the files of a
-// folder may include besides its own headers ("name.h" in the same folder, "server/live/room.h" in
-// another) and, where nothing is said of the system's, <any>.
-const LAYERS = {
-    protocol: {
-        others: [],
-        system: /^(cjson\/cJSON|assert|ctype|errno|float|inttypes|limits|math|search|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\.h$/,
-    },
-    renderer: { others: [/^protocol\//] },
-    'renderer/sdf': { others: [/^protocol\//] },
-    'renderer/image': { others: [/^protocol\//] },
-    'renderer/glsl': { others: [/^protocol\//] },
-    'renderer/code': { others: [/^protocol\//, /^renderer\/sdf\//] },
-    'renderer/field': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl)\//] },
-    'renderer/spmd': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field)\//] },
-    'renderer/engine': { others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field)\//] },
-    'renderer/gl': { others: [/^protocol\//, /^renderer\/(glsl\/|vigil\.h$)/] },
-    'renderer/draw': {
-        others: [/^protocol\//, /^renderer\/(sdf|code|glsl|field|engine|gl|image)\//, /^renderer\/renderer\.h$/],
-    },
-    server: { others: [/^protocol\//, worker] },
-    [BASE]: { others: [/^protocol\//, base] },
-    'server/net': { others: [/^protocol\//, base] },
-    'server/store': { others: [/^protocol\//, base] },
-    'server/live': { others: [/^protocol\//, worker, base, /^server\/(net|store)\//] },
-    'server/rest': { others: [/^protocol\//, worker, base, /^server\/(net|store|live)\//] },
-    'server/cli': { others: [/^protocol\//, worker, base, /^server\/(net|store|live|rest)\/|^server\/serve\.h$/] },
-};
-
-function checkIncludes(files) {
-    for (const [layer, may] of Object.entries(LAYERS)) {
-        const pattern = new RegExp(`^${layer}(/.*)?\\.[ch]$`);
-        const own = files.filter((file) => pattern.test(file));
-        search(own, /^\s*#\s*include\s*(["<])([^">]+)[">]/, ([, quote, name], file, line) => {
-            const allowed =
-                quote === '<'
-                    ? !may.system || may.system.test(name)
-                    : !name.includes('/') ||
-                      name.startsWith(`${layer}/`) ||
-                      may.others.some((pattern) => pattern.test(name));
-            if (!allowed) {
-                report(file, line, 'arrow', `${layer}/ may not include ${name}`);
-            }
-        });
-    }
-}
-
-// Within these folders no file needs itself by way of others; `a.c` and `a.h` are one.
-const WITHOUT_CIRCLES = ['server/net', 'server/live', 'server/rest'];
-
-function checkCircles(files) {
-    const needs = new Map();
-    const stem = (file) => file.replace(/\.[ch]$/, '');
-    for (const folder of WITHOUT_CIRCLES) {
-        const own = files.filter((file) => path.dirname(file) === folder && /\.[ch]$/.test(file));
-        search(own, /^\s*#\s*include\s*"([^"]+)"/, ([, name], file, line) => {
-            const target = name.includes('/') ? name : path.join(folder, name);
-            if (path.dirname(target) === folder && stem(target) !== stem(file)) {
-                needs.set(stem(file), [...(needs.get(stem(file)) ?? []), { to: stem(target), file, line }]);
-            }
-        });
-    }
-    const done = new Set();
-    const visit = (node, way) => {
-        for (const { to, file, line } of done.has(node) ? [] : needs.get(node) ?? []) {
-            if (way.includes(to)) {
-                report(file, line, 'circle', [...way.slice(way.indexOf(to)), to].join(' -> '));
-            } else {
-                visit(to, [...way, to]);
-            }
-        }
-        done.add(node);
-    };
-    [...needs.keys()].forEach((node) => visit(node, [node]));
-}
+// --- the layers ---
 
 // What C and GLSL have in common has a name in renderer/glsl/interface.h.
 function checkBindings(files) {
@@ -147,28 +67,6 @@ function checkPurity(files) {
             report(file, line, 'pure', `protocol/ does no input or output: ${what}`);
         }
     });
-}
-
-// model <- link, model <- overlay, both <- ui; only ui knows React.
-const PAGE = { model: [], link: ['model'], overlay: ['model'], ui: ['model', 'link', 'overlay'] };
-
-function checkImports(files) {
-    const source = 'web/src/';
-    for (const [part, others] of Object.entries(PAGE)) {
-        const own = files.filter(
-            (file) => file.startsWith(`${source}${part}/`) && /\.tsx?$/.test(file),
-        );
-        const pattern = /(?:\bfrom|\bimport)\s*\(?\s*['"]([^'"]+)['"]/;
-        search(own, pattern, ([, name], file, line) => {
-            const target = path.join(path.dirname(file), name).replace(source, '').split('/')[0];
-            const wrong = name.startsWith('.')
-                ? target in PAGE && target !== part && !others.includes(target)
-                : part !== 'ui' && /^(react|@base-ui|@headless-tree|lucide-react)/.test(name);
-            if (wrong) {
-                report(file, line, 'arrow', `web/src/${part} may not import ${name}`);
-            }
-        });
-    }
 }
 
 // --- size ---
@@ -332,11 +230,14 @@ function checkTools(files) {
 }
 
 const files = listFiles().sort();
-checkIncludes(files);
-checkCircles(files);
+checkIncludes(files, search, report);
+checkCircles(files, search, report);
+if (checkDrawing(root, report)) {
+    checkUnused(files, search, report);
+}
 checkBindings(files);
 checkPurity(files);
-checkImports(files);
+checkImports(files, search, report);
 checkFunctionsC(files);
 checkFunctionsScript(files);
 checkText(files);

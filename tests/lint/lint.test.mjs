@@ -157,6 +157,15 @@ test('what was clean is read again when a header changes', () => {
     }
 });
 
+test('the drawing of the arrows is theirs, and each arrow is needed', () => {
+    const readme = fs.readFileSync(path.join(here, '../../README.md'), 'utf8');
+    const wrong = lint({ 'README.md': readme.replace('| `renderer/code` | `renderer/sdf` |', '| `renderer/code` | nothing else |') });
+    assert.match(wrong.text, /^README\.md:\d+: drawing: /m);
+    const right = lint({ 'README.md': readme });
+    assert.doesNotMatch(right.text, /: drawing: /);
+    assert.match(right.text, /: arrow: no file of renderer\/code\/ includes renderer\/sdf: take it out/);
+});
+
 const SUBJECTS = [
     ['a full stop', 'server: say bye.'],
     ['too long', `server: say ${'bye '.repeat(16)}`.trim()],
