@@ -115,6 +115,8 @@ static const struct message_type server_messages[] = {
          .kind = MEMBER_OBJECT},
         {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
          .required = true},
+        {.param = {"undo", COUNT, .doc = "Steps of this client left to undo."}, .required = true},
+        {.param = {"redo", COUNT, .doc = "Steps left to redo."}, .required = true},
         {.param = {"undo_labels", .doc = "Names of this client's newest steps, newest first."},
          .kind = MEMBER_OBJECT},
         {.param = {"redo_labels", .doc = "The same of steps that can be redone."},

@@ -134,7 +134,8 @@ static void handle(struct session *session, const struct message *message)
     case MESSAGE_ACK:
         stream_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
         break;
-    default:
+    case MESSAGE_HELLO: /* hello_receive */
+    case MESSAGE_COUNT:
         break;
     }
     stream_pump(session, clock_ms());

@@ -46,7 +46,12 @@ beforeEach(async () => {
     await ask(daemon, 'POST', `/v1/scenes?id=${scene}`, DOCUMENT);
 });
 
-const open = (options) => Live.open(daemon, scene, options);
+const opened = [];
+const open = async (options) => {
+    const live = await Live.open(daemon, scene, options);
+    opened.push(live);
+    return live;
+};
 const read = async () => (await fetch(`${daemon.url}/v1/scenes/${scene}`)).text();
 const still = (live, from = 0) => live.nextFrame((frame) => frame.lossless, from);
 
@@ -654,4 +659,43 @@ describe('who may', () => {
 
 test('a public address without a token is refused, with the remedy', async () => {
     await assert.rejects(startDaemon({ args: ['--host', '0.0.0.0'] }), /--token-file/);
+});
+
+/* After all that was said above. */
+describe('the table of messages', () => {
+    let table;
+    before(async () => {
+        table = (await (await fetch(`${daemon.url}/v1/schema.json`)).json())['x-fieldcast'].messages;
+    });
+
+    test('says what each message of the server holds', () => {
+        const rows = new Map(table.server.map((row) => [row.type, row.members]));
+        const seen = new Set();
+        for (const { at, type, ...members } of opened.flatMap((live) => live.messages)) {
+            const row = rows.get(type);
+            assert.ok(row, `a message ${type} is in no row of protocol/messages.c`);
+            const known = row.map(({ name }) => name);
+            const lacking = row.filter(({ name, required }) => required && !(name in members)).map(({ name }) => name);
+            assert.deepEqual(lacking, [], `${type} lacks members`);
+            assert.deepEqual(Object.keys(members).filter((name) => !known.includes(name)), [], `${type} has members of no row`);
+            seen.add(type);
+        }
+        assert.deepEqual([...rows.keys()].filter((type) => !seen.has(type)), [], 'messages that nobody was sent here');
+    });
+
+    test('is known to the page', () => {
+        const files = ['web/src/link/protocol.ts', 'web/src/model/session.ts'];
+        const texts = files.map((file) => fs.readFileSync(file, 'utf8')).join('');
+        const page = new Set([...texts.matchAll(/\breadonly type: "(\w+)"/g)].map(([, type]) => type));
+        assert.deepEqual([...page].sort(), [...table.client, ...table.server].map(({ type }) => type).sort());
+    });
+
+    test('stands in protocol/README.md', () => {
+        const readme = fs.readFileSync('protocol/README.md', 'utf8');
+        for (const [side, title] of [['client', 'Client to server'], ['server', 'Server to client']]) {
+            const [, section] = new RegExp(`^### ${title}\\n([^#]*)`, 'm').exec(readme);
+            const first = [...section.matchAll(/^\| (`.*?) \|/gm)].flatMap(([, cell]) => cell.match(/\w+/g));
+            assert.deepEqual(first.sort(), table[side].map(({ type }) => type).sort());
+        }
+    });
 });

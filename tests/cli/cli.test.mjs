@@ -512,3 +512,11 @@ test("README's table is that of `fieldcast help options`", () => {
     const readme = fs.readFileSync(path.join(root, 'README.md'), 'utf8');
     assert.ok(readme.includes(succeed(['help', 'options']).out), 'run: make docs');
 });
+
+test('README shows every command', () => {
+    const readme = fs.readFileSync(path.join(root, 'README.md'), 'utf8');
+    const [, list] = /^Commands:\n((?: {2}.*\n)+)/m.exec(succeed(['--help']).out);
+    const commands = [...list.matchAll(/^ {2}(\w+)/gm)].map(([, name]) => name);
+    const shown = [...readme.matchAll(/^fieldcast (\w+)/gm)].map(([, name]) => name);
+    assert.deepEqual(shown.sort(), commands.sort());
+});

@@ -13,6 +13,8 @@
 #include "protocol/messages.h"
 #include "tests/support/json_text.h"
 
+static bool accepted[MESSAGE_COUNT];
+
 static bool read_text(const char *text, struct message *out, struct error *err)
 {
     char *json = json_text(text);
@@ -29,6 +31,7 @@ static void assert_accepted(const char *text, enum message_kind kind)
         fail_msg("%s: %s: %s", text, err.place, err.message);
     }
     assert_int_equal(message.kind, kind);
+    accepted[kind] = true;
     assert_string_equal(json_member_text(message.json, "type", ""), message_name(kind));
     message_finish(&message);
     message_finish(&message); /* twice is fine */
@@ -70,6 +73,12 @@ static void test_accepts(void **state)
     assert_accepted("{'type':'redo','edit':3}", MESSAGE_REDO);
     assert_accepted("{'type':'pick','pick':1,'x':0,'y':10.5,'seq':4}", MESSAGE_PICK);
     assert_accepted("{'type':'ack','frame':1}", MESSAGE_ACK);
+    assert_accepted("{'type':'retry','place':'/nodes/a'}", MESSAGE_RETRY);
+    for (enum message_kind kind = 0; kind < MESSAGE_COUNT; kind++) {
+        if (!accepted[kind]) {
+            fail_msg("nothing above says %s", message_name(kind));
+        }
+    }
 }
 
 static void test_refuses(void **state)
