@@ -12,9 +12,14 @@ static const struct {
     [CODEC_ZIP] = {"zip", "application/zip"},
 };
 
+const char *codec_choice(size_t index)
+{
+    return index + CODEC_JPEG < CODEC_ZIP ? rows[index + CODEC_JPEG].name : NULL;
+}
+
 enum codec codec_find(const char *word)
 {
-    for (enum codec codec = CODEC_JPEG; codec <= CODEC_NPY; codec++) {
+    for (enum codec codec = CODEC_JPEG; codec < CODEC_ZIP; codec++) {
         if (strcmp(rows[codec].name, word) == 0) {
             return codec;
         }

@@ -3,6 +3,8 @@
 #ifndef PROTOCOL_CODEC_H
 #define PROTOCOL_CODEC_H
 
+#include <stddef.h>
+
 /* The numbers are those of a frame's header. */
 enum codec {
     CODEC_JPEG = 1,
@@ -12,7 +14,10 @@ enum codec {
     CODEC_COUNT
 };
 
-/* One that a picture may be asked in: "jpg" "jpeg" "png" "npy"; 0: none. */
+/* Those before CODEC_ZIP: the formats that a request may name. */
+#define CODEC_CHOICES "png, jpg or npy"
+const char *codec_choice(size_t index); /* their names; NULL: no more */
+/* One of them, by its name or as "jpeg"; 0: none. */
 enum codec codec_find(const char *word);
 const char *codec_name(enum codec codec); /* as a file's extension */
 const char *codec_mime(enum codec codec);

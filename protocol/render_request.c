@@ -164,7 +164,7 @@ static bool read_format(struct render_request *request, const cJSON *json, struc
 
     request->codec = codec_find(word);
     return request->codec ||
-           error_set(err, ERROR_INVALID, "/format", "%.40s is not png, jpg or npy", word);
+           error_set(err, ERROR_INVALID, "/format", "%.40s is not " CODEC_CHOICES, word);
 }
 
 static bool read_member(struct render_request *request, const cJSON *member, struct error *err)

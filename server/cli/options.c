@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "protocol/codec.h"
 #include "protocol/memory.h"
 #include "renderer/renderer.h"
 #include "renderer/worker.h"
@@ -25,12 +26,6 @@ static const char *word_of(const char *const *words, size_t count, size_t index)
 static const char *aov_choice(size_t index)
 {
     return index < AOV_COUNT ? aov_name((enum aov)index) : NULL;
-}
-
-static const char *format_choice(size_t index)
-{
-    static const char *const words[] = {"png", "jpg", "npy"};
-    return word_of(words, 3, index);
 }
 
 static const char *level_choice(size_t index)
@@ -168,7 +163,7 @@ static const struct option_row table[OPTION_COUNT] = {
         .commands = FOR(RENDER),
         .doc = "What the picture shows. Several, with commas between them, go into a .zip or "
                ".npz."},
-    [OPTION_FORMAT] = {"format", 0, "FORMAT", OPTION_CHOICE, .choice = format_choice,
+    [OPTION_FORMAT] = {"format", 0, "FORMAT", OPTION_CHOICE, .choice = codec_choice,
         .commands = FOR(RENDER),
         .doc = "Format of the picture. By default the output's extension says it: also .zip "
                "(png) and .npz (npy)."},

@@ -222,7 +222,7 @@ static bool read_query(const struct request *request, const char *format,
     }
     out->codec = codec_find(format);
     if (!out->codec) {
-        return error_set(err, ERROR_NOT_FOUND, "?format", "%.40s is not png, jpg or npy", format);
+        return error_set(err, ERROR_NOT_FOUND, "?format", "%.40s is not " CODEC_CHOICES, format);
     }
     record_put(&out->delivery, "exact", true);
     return render_request_check(out, REQUEST_QUERY, err);

@@ -520,3 +520,9 @@ test('README shows every command', () => {
     const shown = [...readme.matchAll(/^fieldcast (\w+)/gm)].map(([, name]) => name);
     assert.deepEqual(shown.sort(), commands.sort());
 });
+
+test('the page asks for the formats that there are', () => {
+    const [, formats] = /--format FORMAT.*One of ([a-z, ]+)\./.exec(succeed(['help', 'options']).out);
+    const [, page] = /FORMATS = \[(.*)\] as const/.exec(fs.readFileSync(path.join(root, 'web/src/model/picture.ts'), 'utf8'));
+    assert.deepEqual(page.match(/\w+/g).sort(), formats.split(', ').sort());
+});

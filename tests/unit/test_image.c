@@ -331,6 +331,16 @@ static void test_names(void **state)
     assert_int_equal(codec_find("npy"), CODEC_NPY);
     assert_int_equal(codec_find("gif"), 0);
     assert_int_equal(codec_find("zip"), 0); /* nobody asks for it */
+    for (size_t i = 0; codec_choice(i); i++) {
+        struct image image = make_colors(255);
+        size_t length;
+        uint8_t *bytes =
+            encode(&image, &(struct encode_params){.format = codec_find(codec_choice(i))}, &length);
+        assert_non_null(strstr(CODEC_CHOICES, codec_choice(i)));
+        assert_true(length > 0);
+        free(bytes);
+        image_finish(&image);
+    }
     assert_string_equal(codec_mime(CODEC_JPEG), "image/jpeg");
     for (int i = 0; i < AOV_COUNT; i++) {
         assert_int_equal(aov_find(aov_name((enum aov)i)), i);

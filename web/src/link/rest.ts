@@ -2,6 +2,7 @@
 /* The REST side of the server: scenes, examples, pictures, schema, files. */
 import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "../model/json.ts";
 import type { Operation } from "../model/operation.ts";
+import type { Format } from "../model/picture.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
 
 export interface SceneEntry {
@@ -35,7 +36,7 @@ export interface Asset {
 export interface PictureWish {
     readonly width: number;
     readonly height: number;
-    readonly format: "png" | "jpg" | "npy";
+    readonly format: Format;
     readonly outputs?: readonly string[];
     readonly level?: string;
     readonly transparent?: boolean;
