@@ -61,8 +61,9 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     }
     renderer->pictures = pictures_create();
     renderer->programs =
-        program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms, err);
-    if (!renderer->programs) {
+        program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms);
+    /* Before the process is confined, where it is going to compile. */
+    if (renderer->info.stage == RENDER_COMPUTE && !program_cache_start(renderer->programs, err)) {
         goto fail;
     }
     return renderer;

@@ -134,13 +134,13 @@ static EGLDisplay open_display(const struct candidate *candidate)
                : eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, candidate->device, NULL);
 }
 
-static bool make_contexts(struct egl *egl, bool debug, struct error *err)
+static bool make_draw_context(struct egl *egl, struct error *err)
 {
     egl->robust = true;
-    egl->draw = make_context(egl->display, EGL_NO_CONTEXT, true, debug);
+    egl->draw = make_context(egl->display, EGL_NO_CONTEXT, true, egl->debug);
     if (egl->draw == EGL_NO_CONTEXT) {
         egl->robust = false;
-        egl->draw = make_context(egl->display, EGL_NO_CONTEXT, false, debug);
+        egl->draw = make_context(egl->display, EGL_NO_CONTEXT, false, egl->debug);
     }
     if (egl->draw == EGL_NO_CONTEXT) {
         return error_set(err, ERROR_UNAVAILABLE, "",
@@ -149,8 +149,15 @@ static bool make_contexts(struct egl *egl, bool debug, struct error *err)
                          GL_MAJOR_NEEDED, GL_MINOR_NEEDED, egl_error_name(eglGetError()),
                          GL_MAJOR_NEEDED, GL_MINOR_NEEDED);
     }
+    return true;
+}
+
+bool egl_make_compilers(struct egl *egl, struct error *err)
+{
     for (int i = 0; i < EGL_COMPILERS; i++) {
-        egl->compile[i] = make_context(egl->display, egl->draw, egl->robust, debug);
+        if (egl->compile[i] == EGL_NO_CONTEXT) {
+            egl->compile[i] = make_context(egl->display, egl->draw, egl->robust, egl->debug);
+        }
         if (egl->compile[i] == EGL_NO_CONTEXT) {
             return egl_fail(err, "no second context that shares objects");
         }
@@ -195,7 +202,7 @@ static bool open_candidate(struct egl *egl, const struct candidate *candidate, b
 {
     const char *extensions;
 
-    *egl = (struct egl){.software = candidate->software};
+    *egl = (struct egl){.software = candidate->software, .debug = debug};
     snprintf(egl->device, sizeof egl->device, "%s", candidate->name);
     egl->display = open_display(candidate);
     if (egl->display == EGL_NO_DISPLAY) {
@@ -214,7 +221,8 @@ static bool open_candidate(struct egl *egl, const struct candidate *candidate, b
                   "EGL_KHR_no_config_context)");
         goto fail;
     }
-    if (!make_contexts(egl, debug, err) || !identify(egl, out_name, name_size, err)) {
+    if (!make_draw_context(egl, err) || !identify(egl, out_name, name_size, err) ||
+        (!egl->software && !egl_make_compilers(egl, err))) {
         goto fail;
     }
     return true;

@@ -16,6 +16,7 @@ struct egl {
     EGLDisplay display;
     EGLContext draw, compile[EGL_COMPILERS]; /* sharing objects; one thread each */
     bool software;
+    bool debug;
     bool robust; /* the contexts report resets */
     char device[192];
 };
@@ -25,6 +26,9 @@ struct egl {
  * only where `debug` is set. */
 bool egl_init(struct egl *out_egl, const struct device_params *params, struct error *err);
 void egl_finish(struct egl *egl);
+/* Makes the compile contexts that are not there. egl_init does it for all but software, which draws
+ * without them and takes long to make one. The draw context is current. */
+bool egl_make_compilers(struct egl *egl, struct error *err);
 /* Makes a context current in the calling thread; EGL_NO_CONTEXT releases it. */
 bool egl_bind(const struct egl *egl, EGLContext context, struct error *err);
 /* Tries every device as egl_init would; writes at most `max` rows, returns how many. */

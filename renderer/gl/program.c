@@ -16,9 +16,8 @@ static int64_t now_ms(void)
     return (int64_t)t.tv_sec * 1000 + t.tv_nsec / 1000000;
 }
 
-struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
-                                           const struct gl_sink *sink, int code_ms,
-                                           struct error *err)
+struct program_cache *program_cache_create(struct egl *egl, const struct gl *gl,
+                                           const struct gl_sink *sink, int code_ms)
 {
     struct program_cache *cache = memory_alloc(1, sizeof *cache);
     pthread_condattr_t clock;
@@ -33,6 +32,11 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
     pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
     pthread_cond_init(&cache->done, &clock);
     pthread_condattr_destroy(&clock);
+    return cache;
+}
+
+static void start_threads(struct program_cache *cache)
+{
     for (int i = 0; i < EGL_COMPILERS; i++) {
         struct compiler *compiler = &cache->compilers[i];
         compiler->cache = cache;
@@ -40,20 +44,27 @@ struct program_cache *program_cache_create(const struct egl *egl, const struct g
             abort(); /* as where there is no memory */
         }
     }
+    cache->has_threads = true;
+}
+
+bool program_cache_start(struct program_cache *cache, struct error *err)
+{
+    if (!cache->has_threads) {
+        if (!egl_make_compilers(cache->egl, err)) {
+            return false;
+        }
+        start_threads(cache);
+    }
     pthread_mutex_lock(&cache->lock);
     while (cache->running < EGL_COMPILERS && !cache->stop) {
         pthread_cond_wait(&cache->done, &cache->lock);
     }
     const bool ok = !cache->stop;
     pthread_mutex_unlock(&cache->lock);
-    if (!ok) {
-        if (err) {
-            *err = cache->start_error;
-        }
-        program_cache_destroy(cache);
-        return NULL;
+    if (!ok && err) {
+        *err = cache->start_error;
     }
-    return cache;
+    return ok;
 }
 
 static void destroy_program(const struct gl *gl, struct program *program)
@@ -76,7 +87,7 @@ void program_cache_destroy(struct program_cache *cache)
     cache->stop = true;
     pthread_cond_broadcast(&cache->work);
     pthread_mutex_unlock(&cache->lock);
-    for (int i = 0; i < EGL_COMPILERS; i++) {
+    for (int i = 0; i < EGL_COMPILERS && cache->has_threads; i++) {
         pthread_join(cache->compilers[i].thread, NULL);
     }
     while (cache->first) {
@@ -159,6 +170,10 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->stages = source->volumes ? STAGE_COUNT : STAGE_VOLUME;
     program->refs = 1;
     program->added_ms = now_ms();
+    if (!program_cache_start(cache, &program->error)) {
+        program->state = PROGRAM_FAILED;
+        program->taken = program->done = program->stages;
+    }
     pthread_mutex_lock(&cache->lock);
     program->last_use = ++cache->uses;
     program->next = cache->first;

@@ -43,9 +43,11 @@ char *program_text(const struct program_source *source, enum program_stage stage
                    struct error *err);
 
 /* The compile contexts of `egl` belong to the cache until program_cache_destroy. */
-struct program_cache *program_cache_create(const struct egl *egl, const struct gl *gl,
-                                           const struct gl_sink *sink, int code_ms,
-                                           struct error *err);
+struct program_cache *program_cache_create(struct egl *egl, const struct gl *gl,
+                                           const struct gl_sink *sink, int code_ms);
+/* Starts the threads that compile, where they do not run yet; the first program does it too, and
+ * fails where this fails. The drawing thread's. */
+bool program_cache_start(struct program_cache *cache, struct error *err);
 void program_cache_destroy(struct program_cache *cache);
 
 /* A new reference, or NULL where the shape is not known yet. */

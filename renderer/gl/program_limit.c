@@ -152,7 +152,7 @@ int64_t program_cache_cpu_us(const struct program_cache *cache)
 {
     int64_t together = 0;
 
-    for (int i = 0; i < EGL_COMPILERS; i++) {
+    for (int i = 0; i < EGL_COMPILERS && cache->has_threads; i++) {
         struct timespec t;
         clockid_t clock;
 

@@ -43,9 +43,10 @@ struct compiler {
 };
 
 struct program_cache {
-    const struct egl *egl;
+    struct egl *egl;
     const struct gl *gl;
     const struct gl_sink *sink;
+    bool has_threads;
     struct compiler compilers[EGL_COMPILERS];
     int started, running; /* threads */
     bool stop;

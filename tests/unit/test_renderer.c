@@ -735,6 +735,27 @@ static void test_code_beyond_compilers(void **state)
     code_destroy(alone);
 }
 
+/* The engine's pictures start no thread that compiles; a program that is asked for later does. */
+static void test_compilers_wait_for_programs(void **state)
+{
+    static const struct job_desc small = {.width = 16, .height = 12, .samples = 1};
+    static const char ball[] = "{'format':'fieldcast/1','root':{'type':'sphere'}}";
+    struct resident *by_engine = make_resident(ball), *by_program;
+    struct image a = draw(by_engine, &small), b;
+
+    (void)state;
+    assert_int_equal(program_cache_cpu_us(renderer->programs), 0);
+    renderer_use_stage(renderer, RENDER_COMPUTE);
+    by_program = make_resident(ball);
+    b = draw(by_program, &small);
+    assert_true(program_cache_cpu_us(renderer->programs) > 0);
+    renderer_use_stage(renderer, RENDER_ENGINE);
+    image_finish(&a);
+    image_finish(&b);
+    resident_destroy(by_engine);
+    resident_destroy(by_program);
+}
+
 static void test_gpu_asked_for(void **state)
 {
     struct renderer_params params = {.device = {DEVICE_GPU, .index = -1}};
@@ -815,11 +836,10 @@ int main(void)
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_loop_budget),
     };
-    /* What programs take long for. */
-    const struct CMUnitTest many[] = {};
+    const struct CMUnitTest engine[] = {cmocka_unit_test(test_compilers_wait_for_programs)};
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
            cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +
            cmocka_run_group_tests_name("engine", common, set_up_engine, tear_down) +
-           cmocka_run_group_tests_name("many", many, set_up_engine, tear_down);
+           cmocka_run_group_tests_name("engine alone", engine, set_up_engine, tear_down);
 }
