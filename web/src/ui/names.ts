@@ -21,8 +21,9 @@ const spoken: Record<string, string> = {
     shadow: "shadow kind",
 };
 
+/* The texts of the page are British. */
 export function words(name: string): string {
-    return name.replaceAll("_", " ");
+    return name.replaceAll("_", " ").replace(/\bcolor\b/, "colour");
 }
 
 export function paramTitle(param: Param): string {
@@ -52,7 +53,6 @@ export function shortTitle(param: Param): string {
 }
 
 const outputs: Record<string, string> = {
-    color: "Colour",
     normal: "Normals",
     id: "Node ids",
 };

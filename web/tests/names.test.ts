@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* Names of the schema in the words of the page. */
+import { expect, test } from "vitest";
+import { outputTitle, typeTitle, words } from "../src/ui/names.ts";
+
+test("names are words, spelled as the page's texts are", () => {
+    expect(words("base_color")).toBe("base colour");
+    expect(words("color1")).toBe("color1");
+    expect(typeTitle("floor_color")).toBe("Floor colour");
+    expect(outputTitle("color")).toBe("Colour");
+    expect(outputTitle("node_id")).toBe("Node id");
+});
