@@ -18,11 +18,19 @@
 
 enum { WEB_FILE_BYTES = 67108864 };
 
+/* A browser that shows the answer gets a page, all others JSON. */
 static void reply_not_found(struct request *request)
 {
+    static const char page[] = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
+                               "<title>Not found</title><h1>There is nothing at this address</h1>"
+                               "<p><a href=\"/\">The scenes of this server</a></p></html>\n";
+    const char *accept = request_header(request, "Accept");
     struct response response =
-        response_problem(404, "not_found", "", "there is nothing at this address");
+        accept && strstr(accept, "text/html")
+            ? response_text(404, "text/html; charset=utf-8", memory_text(page))
+            : response_problem(404, "not_found", "", "there is nothing at this address");
 
+    response_add(&response, "Vary", "Accept");
     request_reply(request, &response);
 }
 
