@@ -28,7 +28,7 @@ const VERBS = new Set(
     repeat replace reply report require reserve reset resize resolve respect rest restart restore restrict retry return
     reuse revert review rewrite rotate round route run sample save say scale scan schedule search seal see select send
     separate serialise serve set shade share shorten show shrink shut sign simplify size skip smooth snap solve sort
-    speak speed split spread stage stand start starve state stay step stop store stream strip style submit subtract
+    speak speed spell split spread stage stand start starve state stay step stop store stream strip style submit subtract
     suggest supervise supply support suspend swap switch synchronise sync take teach tell test think throttle
     tidy tie tighten time trace track translate treat trim trust try tune turn type undo unify unite unload unpack
     update upgrade upload use validate vary verify wait wake walk warm warn watch weigh widen wrap write`.split(/\s+/),
