@@ -112,6 +112,63 @@ static void assert_trees(const struct scene *scene)
     }
 }
 
+static struct scene *parse(const char *text)
+{
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+    assert_non_null(scene); /* whatever edits do, the document stays valid */
+    return scene;
+}
+
+/* A document that is edited, its text, and what is read of that. */
+struct edited {
+    struct scene *wild, *read;
+    char *text;
+};
+
+/* Of the copy of before: the canonical form does what the edit did, the inverse takes it back. */
+static void follow(struct edited *edited, struct scene *copy, const cJSON *ops,
+                   const cJSON *applied, const cJSON *inverse)
+{
+    char *after = scene_print(edited->wild, false);
+    assert_true(edit_apply(copy, applied, NULL, NULL, &err));
+    char *again = scene_print(copy, false);
+    assert_same(after, again, ops);
+    free(again);
+    assert_true(edit_apply(copy, inverse, NULL, NULL, &err));
+    again = scene_print(copy, false);
+    assert_same(edited->text, again, ops);
+    free(again);
+    assert_true(edit_check(applied, NULL));
+    note_reached(applied, inverse);
+    free(edited->text);
+    edited->text = after;
+    scene_destroy(edited->read);
+    edited->read = parse(after);
+}
+
+static bool try_edit(struct edited *edited, struct random *random)
+{
+    cJSON *ops = random_edit(random, edited->wild), *applied, *inverse;
+    struct scene *copy = scene_copy(edited->wild);
+    const bool accepted = edit_apply(edited->wild, ops, &applied, &inverse, &err);
+    if (accepted) {
+        follow(edited, copy, ops, applied, inverse);
+        cJSON_Delete(applied);
+        cJSON_Delete(inverse);
+    } else {
+        assert_true(*err.message);
+        char *after = scene_print(edited->wild, false);
+        assert_same(edited->text, after, ops);
+        free(after);
+    }
+    assert_int_equal(edited->read->node_count, edited->wild->node_count);
+    assert_same_users(edited->read, edited->wild);
+    assert_trees(edited->wild);
+    scene_destroy(copy);
+    cJSON_Delete(ops);
+    return accepted;
+}
+
 /* An edit and its inverse leave the document byte for byte as it was; a refused edit changes
  * nothing; the canonical form does what the edit did. */
 static void test_random_edits_have_exact_inverses(void **state)
@@ -120,44 +177,19 @@ static void test_random_edits_have_exact_inverses(void **state)
     int accepted = 0, refused = 0;
     for (uint64_t seed = 1; seed <= DOCUMENTS; seed++) {
         struct random random = {seed};
-        struct scene *wild = random_document(&random, 1 + random_below(&random, 20));
+        struct edited edited = {.wild = random_document(&random, 1 + random_below(&random, 20))};
+        edited.text = scene_print(edited.wild, false);
+        edited.read = parse(edited.text);
         for (int i = 0; i < EDITS; i++) {
-            cJSON *ops = random_edit(&random, wild), *applied, *inverse;
-            char *before = scene_print(wild, false), *after;
-            struct scene *copy = scene_copy(wild);
-            if (edit_apply(wild, ops, &applied, &inverse, &err)) {
+            if (try_edit(&edited, &random)) {
                 accepted++;
-                after = scene_print(wild, false);
-                assert_true(edit_apply(copy, applied, NULL, NULL, &err));
-                char *again = scene_print(copy, false);
-                assert_same(after, again, ops);
-                assert_true(edit_apply(copy, inverse, NULL, NULL, &err));
-                free(again);
-                again = scene_print(copy, false);
-                assert_same(before, again, ops);
-                assert_true(edit_check(applied, NULL));
-                note_reached(applied, inverse);
-                free(again);
-                cJSON_Delete(applied);
-                cJSON_Delete(inverse);
             } else {
                 refused++;
-                assert_true(*err.message);
-                after = scene_print(wild, false);
-                assert_same(before, after, ops);
             }
-            struct scene *read = scene_parse(after, strlen(after), &err);
-            assert_non_null(read); /* whatever edits do, the document stays valid */
-            assert_int_equal(read->node_count, wild->node_count);
-            assert_same_users(read, wild);
-            assert_trees(wild);
-            scene_destroy(read);
-            scene_destroy(copy);
-            free(before);
-            free(after);
-            cJSON_Delete(ops);
         }
-        scene_destroy(wild);
+        free(edited.text);
+        scene_destroy(edited.read);
+        scene_destroy(edited.wild);
     }
     assert_true(accepted > 1000 && refused > 500);
     for (int i = 0; i < REACHED; i++) {
