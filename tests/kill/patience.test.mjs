@@ -73,7 +73,7 @@ const SMALL = { width: 12, height: 8 };
 function starve(pid) {
     const processor = /^Cpus_allowed_list:\s+(\d+)/m.exec(fs.readFileSync(`/proc/${pid}/status`, 'utf8'))[1];
     const loop = ['-c', processor, 'sh', '-c', 'while :; do :; done'];
-    const loops = Array.from({ length: 32 }, () => spawn('taskset', loop, { stdio: 'ignore' }));
+    const loops = Array.from({ length: 8 }, () => spawn('taskset', loop, { stdio: 'ignore' }));
     const endLoops = () => loops.forEach((one) => one.kill('SIGKILL'));
     after(endLoops);
     execFileSync('taskset', ['-a', '-p', '-c', processor, String(pid)]);
