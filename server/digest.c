@@ -11,8 +11,8 @@ void digest_text(const void *bytes, size_t length, char out[ASSET_ID_CHARACTERS 
 
     sha256_init(&state);
     sha256_update(&state, length, bytes);
-    sha256_digest(&state, sizeof(digest), digest);
-    for (size_t i = 0; i < sizeof(digest); i++) {
+    sha256_digest(&state, sizeof digest, digest);
+    for (size_t i = 0; i < sizeof digest; i++) {
         snprintf(out + 2 * i, 3, "%02x", digest[i]);
     }
 }

@@ -14,7 +14,7 @@ static atomic_int threshold = LEVEL_INFO;
 
 bool log_set_level(const char *name)
 {
-    for (size_t i = 0; i < sizeof(names) / sizeof(*names); i++) {
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(names[i], name) == 0) {
             atomic_store(&threshold, (int)i);
             return true;
@@ -45,11 +45,11 @@ void log_line(enum log_level level, const char *component, const char *format, .
     }
     clock_gettime(CLOCK_REALTIME, &now);
     gmtime_r(&now.tv_sec, &parts);
-    strftime(stamp, sizeof(stamp), "%Y-%m-%dT%H:%M:%S", &parts);
-    int length = snprintf(line, sizeof(line), "%s.%03ldZ %s %s: ", stamp, now.tv_nsec / 1000000,
+    strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%S", &parts);
+    int length = snprintf(line, sizeof line, "%s.%03ldZ %s %s: ", stamp, now.tv_nsec / 1000000,
                           names[level], component);
     va_start(arguments, format);
-    vsnprintf(line + length, sizeof(line) - (size_t)length - 1, format, arguments);
+    vsnprintf(line + length, sizeof line - (size_t)length - 1, format, arguments);
     va_end(arguments);
     blank_controls(line);
     size_t end = strlen(line);

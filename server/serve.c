@@ -45,14 +45,14 @@ struct server {
 static bool live_scene(const char *target, char out[LIMIT_ID_BYTES + 1])
 {
     static const char before[] = "/v1/scenes/", after[] = "/live";
-    size_t length = strcspn(target, "?"), around = sizeof(before) + sizeof(after) - 2;
+    size_t length = strcspn(target, "?"), around = sizeof before + sizeof after - 2;
 
     if (length <= around || length > around + LIMIT_ID_BYTES ||
-        strncmp(target, before, sizeof(before) - 1) != 0 ||
-        strncmp(target + length - sizeof(after) + 1, after, sizeof(after) - 1) != 0) {
+        strncmp(target, before, sizeof before - 1) != 0 ||
+        strncmp(target + length - sizeof after + 1, after, sizeof after - 1) != 0) {
         return false;
     }
-    snprintf(out, LIMIT_ID_BYTES + 1, "%.*s", (int)(length - around), target + sizeof(before) - 1);
+    snprintf(out, LIMIT_ID_BYTES + 1, "%.*s", (int)(length - around), target + sizeof before - 1);
     return hub_id_is_valid(out);
 }
 
@@ -208,7 +208,7 @@ static void on_end(int signal)
 {
     static const char text[] = "fieldcast: the drain took too long, ending now\n";
 
-    if (signal == SIGALRM && write(STDERR_FILENO, text, sizeof(text) - 1) < 0) {
+    if (signal == SIGALRM && write(STDERR_FILENO, text, sizeof text - 1) < 0) {
         _exit(2);
     }
     _exit(1);

@@ -131,7 +131,7 @@ bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error
     pthread_mutex_lock(&tasks->lock);
     const bool ok = admits(tasks, order, err);
     if (ok) {
-        struct task *task = memory_alloc(1, sizeof(*task));
+        struct task *task = memory_alloc(1, sizeof *task);
 
         task->order = *order;
         task->scene = memory_text(order->scene);
@@ -181,13 +181,13 @@ static void *run(void *data)
 
 struct tasks *tasks_create(struct metrics *metrics, struct error *err)
 {
-    struct tasks *tasks = memory_alloc(1, sizeof(*tasks));
+    struct tasks *tasks = memory_alloc(1, sizeof *tasks);
 
     tasks->metrics = metrics;
     pthread_mutex_init(&tasks->lock, NULL);
     pthread_cond_init(&tasks->news, NULL);
     while (tasks->started < THREADS) {
-        struct seat *seat = memory_alloc(1, sizeof(*seat));
+        struct seat *seat = memory_alloc(1, sizeof *seat);
 
         *seat = (struct seat){.tasks = tasks, .thread = tasks->started};
         if (pthread_create(&tasks->threads[tasks->started], NULL, run, seat) != 0) {

@@ -17,13 +17,13 @@ void asset_index_add(void *data, const struct store_asset *asset)
     if (asset_index_find(assets, asset->id)) {
         return;
     }
-    assets->items = memory_resize(assets->items, assets->count + 1, sizeof(*assets->items));
+    assets->items = memory_resize(assets->items, assets->count + 1, sizeof *assets->items);
     entry = &assets->items[assets->count++];
     assets->bytes += example_files_find(asset->id) ? 0 : asset->length;
     *entry = (struct asset_entry){
         .width = asset->info.width, .height = asset->info.height, .length = asset->length};
-    snprintf(entry->id, sizeof(entry->id), "%s", asset->id);
-    snprintf(entry->type, sizeof(entry->type), "%s", asset->info.type);
+    snprintf(entry->id, sizeof entry->id, "%s", asset->id);
+    snprintf(entry->type, sizeof entry->type, "%s", asset->info.type);
 }
 
 void asset_index_add_embedded(struct asset_index *assets)
@@ -32,7 +32,7 @@ void asset_index_add_embedded(struct asset_index *assets)
         const struct embedded *file = &example_files_table[i];
         struct store_asset asset = {.length = file->length};
 
-        snprintf(asset.id, sizeof(asset.id), "%s", file->path);
+        snprintf(asset.id, sizeof asset.id, "%s", file->path);
         if (asset_inspect(file->bytes, file->length, &asset.info, NULL)) {
             asset_index_add(assets, &asset);
         }
@@ -46,7 +46,7 @@ void asset_index_remove(struct asset_index *assets, const char *id)
             assets->bytes -= assets->items[i].length;
             assets->count--;
             memmove(assets->items + i, assets->items + i + 1,
-                    (assets->count - i) * sizeof(*assets->items));
+                    (assets->count - i) * sizeof *assets->items);
             return;
         }
     }

@@ -29,7 +29,7 @@ static void add(struct asset_uses *names, const char *id, size_t length, const c
     struct asset_use *name = find(names, id, length);
 
     if (name) {
-        snprintf(name->scene, sizeof(name->scene), "%s", scene);
+        snprintf(name->scene, sizeof name->scene, "%s", scene);
     }
 }
 
@@ -49,9 +49,9 @@ static void read_text(void *data, const char *scene, const char *text)
 static void begin(struct hub *hub, struct asset_uses *out)
 {
     out->count = hub->assets->count;
-    out->items = memory_alloc(out->count, sizeof(*out->items));
+    out->items = memory_alloc(out->count, sizeof *out->items);
     for (size_t i = 0; i < out->count; i++) {
-        memcpy(out->items[i].id, hub->assets->items[i].id, sizeof(out->items[i].id));
+        memcpy(out->items[i].id, hub->assets->items[i].id, sizeof out->items[i].id);
     }
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->edits_since_snapshot && !room->deleted) {

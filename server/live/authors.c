@@ -40,9 +40,9 @@ struct author *authors_find(const struct authors *authors, const char *id)
 
 struct author *authors_add(struct authors *authors, const char *id)
 {
-    struct author *author = memory_alloc(1, sizeof(*author));
+    struct author *author = memory_alloc(1, sizeof *author);
 
-    snprintf(author->id, sizeof(author->id), "%s", id);
+    snprintf(author->id, sizeof author->id, "%s", id);
     if (!tsearch(author, &authors->by_id, compare_ids)) {
         abort();
     }
@@ -97,10 +97,10 @@ void author_make_key(char out[MESSAGE_KEY_CHARACTERS + 1])
 {
     unsigned char bytes[MESSAGE_KEY_CHARACTERS / 2];
 
-    if (getrandom(bytes, sizeof(bytes), 0) != sizeof(bytes)) {
+    if (getrandom(bytes, sizeof bytes, 0) != sizeof bytes) {
         abort();
     }
-    for (size_t i = 0; i < sizeof(bytes); i++) {
+    for (size_t i = 0; i < sizeof bytes; i++) {
         snprintf(out + 2 * i, 3, "%02x", bytes[i]);
     }
 }
@@ -109,11 +109,11 @@ void author_set_digest(struct author *author, const char *digest)
 {
     char name[ASSET_ID_CHARACTERS + 1] = "";
 
-    snprintf(author->key, sizeof(author->key), "%s", digest);
+    snprintf(author->key, sizeof author->key, "%s", digest);
     if (*digest) {
         digest_text(author->key, strlen(author->key), name);
     }
-    snprintf(author->name, sizeof(author->name), "%.*s", AUTHOR_NAME_CHARACTERS, name);
+    snprintf(author->name, sizeof author->name, "%.*s", AUTHOR_NAME_CHARACTERS, name);
 }
 
 void author_set_key(struct author *author, const char *key)
@@ -129,5 +129,5 @@ bool author_has_key(const struct author *author, const char *key)
     char digest[ASSET_ID_CHARACTERS + 1];
 
     digest_text(key, strlen(key), digest);
-    return memeql_sec(digest, author->key, sizeof(digest)) != 0;
+    return memeql_sec(digest, author->key, sizeof digest) != 0;
 }

@@ -36,7 +36,7 @@ void catalog_finish(struct catalog *catalog)
         entry_destroy(catalog->entries[i]);
     }
     free(catalog->entries);
-    memset(catalog, 0, sizeof(*catalog));
+    memset(catalog, 0, sizeof *catalog);
 }
 
 struct catalog_entry *catalog_find(const struct catalog *catalog, const char *id)
@@ -50,18 +50,18 @@ struct catalog_entry *catalog_find(const struct catalog *catalog, const char *id
 static struct catalog_entry *insert(struct catalog *catalog, const char *id)
 {
     size_t at = position(catalog, id);
-    struct catalog_entry *entry = memory_alloc(1, sizeof(*entry));
+    struct catalog_entry *entry = memory_alloc(1, sizeof *entry);
 
     if (catalog->count == catalog->capacity) {
         catalog->capacity = catalog->capacity ? catalog->capacity * 2 : 64;
         catalog->entries =
-            memory_resize(catalog->entries, catalog->capacity, sizeof(*catalog->entries));
+            memory_resize(catalog->entries, catalog->capacity, sizeof *catalog->entries);
     }
     memmove(catalog->entries + at + 1, catalog->entries + at,
-            (catalog->count - at) * sizeof(*catalog->entries));
+            (catalog->count - at) * sizeof *catalog->entries);
     catalog->entries[at] = entry;
     catalog->count++;
-    snprintf(entry->id, sizeof(entry->id), "%s", id);
+    snprintf(entry->id, sizeof entry->id, "%s", id);
     return entry;
 }
 
@@ -93,5 +93,5 @@ void catalog_remove(struct catalog *catalog, const char *id)
     entry_destroy(entry);
     catalog->count--;
     memmove(catalog->entries + at, catalog->entries + at + 1,
-            (catalog->count - at) * sizeof(*catalog->entries));
+            (catalog->count - at) * sizeof *catalog->entries);
 }

@@ -43,8 +43,8 @@ int64_t compiles_expected(const struct compiles *compiles, size_t nodes)
     if (count == 0) {
         return -1;
     }
-    memcpy(sorted, compiles->classes[class].ms, sizeof(sorted));
-    qsort(sorted, count, sizeof(*sorted), compare);
+    memcpy(sorted, compiles->classes[class].ms, sizeof sorted);
+    qsort(sorted, count, sizeof *sorted, compare);
     return sorted[count / 2];
 }
 

@@ -41,7 +41,7 @@ void heartbeat_ask(struct heartbeat *heartbeat, int64_t now_ms)
 void heartbeat_receive(struct heartbeat *heartbeat)
 {
     uint8_t bytes[4096];
-    const ssize_t got = recv(heartbeat->fd, bytes, sizeof(bytes), MSG_DONTWAIT);
+    const ssize_t got = recv(heartbeat->fd, bytes, sizeof bytes, MSG_DONTWAIT);
 
     if (got > 0) {
         packet_reader_add(&heartbeat->reader, bytes, (size_t)got);

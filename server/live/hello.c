@@ -100,7 +100,7 @@ static void enter_room(struct session *session, struct room *room, struct author
         session_close(other, CLOSE_NORMAL, "replaced", -1);
         other->author = NULL;
     }
-    snprintf(session->client, sizeof(session->client), "%s", author->id);
+    snprintf(session->client, sizeof session->client, "%s", author->id);
     session->author = author;
     session->newest_edit = author->edit;
     author->session = session;

@@ -52,9 +52,9 @@ static void on_ready(void *data, const struct packet_ready *ready)
     struct renderer_info *info = &hub->renderer;
 
     hub_lock(hub);
-    snprintf(info->name, sizeof(info->name), "%s", ready->name);
-    snprintf(info->version, sizeof(info->version), "%s", ready->version);
-    snprintf(info->device, sizeof(info->device), "%s", ready->device);
+    snprintf(info->name, sizeof info->name, "%s", ready->name);
+    snprintf(info->version, sizeof info->version, "%s", ready->version);
+    snprintf(info->device, sizeof info->device, "%s", ready->device);
     info->software = ready->software;
     log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
     tell_confinement(hub, ready);
@@ -258,7 +258,7 @@ static void build_schema(struct hub *hub)
     for (const char *c = hub->schema; *c; c++) {
         sum = sum * 31 + (unsigned char)*c;
     }
-    snprintf(hub->schema_tag, sizeof(hub->schema_tag), "\"schema-%08x\"", sum);
+    snprintf(hub->schema_tag, sizeof hub->schema_tag, "\"schema-%08x\"", sum);
 }
 
 static void add_to_catalog(void *data, const struct store_scene *scene)
@@ -274,18 +274,18 @@ static void *load_file(void *data, const char *id, size_t *out_length)
 
 struct hub *hub_create(const struct hub_params *params, struct error *err)
 {
-    struct hub *hub = memory_alloc(1, sizeof(*hub));
+    struct hub *hub = memory_alloc(1, sizeof *hub);
 
     pthread_mutex_init(&hub->lock, NULL);
     pthread_mutex_init(&hub->load_lock[0], NULL);
     pthread_mutex_init(&hub->load_lock[1], NULL);
     pthread_cond_init(&hub->released, NULL);
-    hub->catalog = memory_alloc(1, sizeof(*hub->catalog));
-    hub->assets = memory_alloc(1, sizeof(*hub->assets));
-    hub->render_queue = memory_alloc(1, sizeof(*hub->render_queue));
-    hub->quarantine = memory_alloc(1, sizeof(*hub->quarantine));
-    hub->compiles = memory_alloc(1, sizeof(*hub->compiles));
-    hub->image_cache = memory_alloc(1, sizeof(*hub->image_cache));
+    hub->catalog = memory_alloc(1, sizeof *hub->catalog);
+    hub->assets = memory_alloc(1, sizeof *hub->assets);
+    hub->render_queue = memory_alloc(1, sizeof *hub->render_queue);
+    hub->quarantine = memory_alloc(1, sizeof *hub->quarantine);
+    hub->compiles = memory_alloc(1, sizeof *hub->compiles);
+    hub->image_cache = memory_alloc(1, sizeof *hub->image_cache);
     render_queue_init(hub->render_queue);
     hub->access = params->access;
     hub->web_dir = params->web_dir;

@@ -147,7 +147,7 @@ static void invent_id(const struct hub *hub, char out[LIMIT_ID_BYTES + 1])
     uint32_t number = 0;
 
     do {
-        if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+        if (getrandom(&number, sizeof number, 0) != sizeof number) {
             abort();
         }
         snprintf(out, LIMIT_ID_BYTES + 1, "%s-%s-%u", colours[number & 15],
@@ -161,7 +161,7 @@ struct room *hub_lock_new_room(struct hub *hub, const char *id, struct scene *sc
     char name[LIMIT_ID_BYTES + 1];
 
     hub_lock(hub);
-    snprintf(name, sizeof(name), "%s", id);
+    snprintf(name, sizeof name, "%s", id);
     if (!*name) {
         invent_id(hub, name);
     }

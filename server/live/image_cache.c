@@ -11,7 +11,7 @@ enum { LARGEST_PART = 4 }; /* one picture takes at most this part of the limit *
 
 static size_t weight(const struct cached_image *image)
 {
-    return sizeof(*image) + strlen(image->key) + image->length;
+    return sizeof *image + strlen(image->key) + image->length;
 }
 
 static void unlink_image(struct image_cache *cache, struct cached_image *image)
@@ -64,7 +64,7 @@ void image_cache_add(struct image_cache *cache, const char *key, enum codec code
         image_cache_find(cache, key)) {
         return;
     }
-    struct cached_image *image = memory_alloc(1, sizeof(*image) + length);
+    struct cached_image *image = memory_alloc(1, sizeof *image + length);
     image->key = memory_text(key);
     image->codec = codec;
     image->revision = revision;

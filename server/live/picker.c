@@ -70,7 +70,7 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
         return error_set(err, ERROR_INVALID, "/seq", "there was no view yet");
     }
     make_room(picker, session);
-    struct question *question = memory_alloc(1, sizeof(*question));
+    struct question *question = memory_alloc(1, sizeof *question);
     struct question **end = &picker->first;
     *question = (struct question){
         .session = session,
@@ -317,7 +317,7 @@ static void *run(void *data)
 
 struct picker *picker_create(struct hub *hub, struct error *err)
 {
-    struct picker *picker = memory_alloc(1, sizeof(*picker));
+    struct picker *picker = memory_alloc(1, sizeof *picker);
 
     picker->hub = hub;
     pthread_cond_init(&picker->work, NULL);

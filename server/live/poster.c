@@ -24,14 +24,14 @@ void poster_store(struct room *room)
     if (!room->poster || room->poster_stored) {
         return;
     }
-    struct store_write *write = memory_alloc(1, sizeof(*write));
-    struct store_asset *picture = memory_alloc(1, sizeof(*picture));
+    struct store_write *write = memory_alloc(1, sizeof *write);
+    struct store_asset *picture = memory_alloc(1, sizeof *picture);
 
     picture->length = room->poster->length;
     picture->bytes = memory_alloc(picture->length, 1);
     memcpy(picture->bytes, room->poster->bytes, picture->length);
     *write = (struct store_write){.kind = STORE_POSTER, .asset = picture};
-    snprintf(write->scene, sizeof(write->scene), "%s", room->id);
+    snprintf(write->scene, sizeof write->scene, "%s", room->id);
     room->poster_stored = true;
     store_push(room->hub->store, write);
 }

@@ -38,9 +38,9 @@ static struct quarantine_case *get_case(struct quarantine *quarantine,
     if (!known) {
         known = &quarantine->cases[quarantine->count++ % QUARANTINE_SHAPES];
         *known = (struct quarantine_case){.times = 1};
-        memcpy(known->shape, suspect->shape, sizeof(known->shape));
+        memcpy(known->shape, suspect->shape, sizeof known->shape);
     }
-    memcpy(known->scene, suspect->scene, sizeof(known->scene));
+    memcpy(known->scene, suspect->scene, sizeof known->scene);
     return known;
 }
 
@@ -93,10 +93,10 @@ static struct suspect read_suspect(const struct packet_suspect *named)
 {
     struct suspect suspect = {.revision = named->revision, .job = named->job};
 
-    snprintf(suspect.scene, sizeof(suspect.scene), "%s", named->scene);
+    snprintf(suspect.scene, sizeof suspect.scene, "%s", named->scene);
     quarantine_shape(named->shape, suspect.shape);
     if (named->asset && *named->asset) {
-        snprintf(suspect.shape, sizeof(suspect.shape), "%s", named->asset);
+        snprintf(suspect.shape, sizeof suspect.shape, "%s", named->asset);
     }
     return suspect;
 }
@@ -170,7 +170,7 @@ static const char *place_of(const struct room *room, const struct scene *good,
 static void tell(struct room *room, const struct error *err, const char *shape, uint64_t revision)
 {
     scene_error_set(room, err, revision);
-    snprintf(room->refused_shape, sizeof(room->refused_shape), "%s", shape);
+    snprintf(room->refused_shape, sizeof room->refused_shape, "%s", shape);
 }
 
 /* `what`: "code" or the like. `shown`: what is seen instead. */
@@ -181,7 +181,7 @@ static void describe_refusal(const struct quarantine_case *known, const char *pl
 
     if (known->refused == ERROR_TOO_SLOW) {
         error_set_slow(out, place, "", known->measured_ms, known->limit_ms);
-        snprintf(out->message, sizeof(out->message),
+        snprintf(out->message, sizeof out->message,
                  "This %s took over %.3g s to %s here (limit %.3g s). %s", what,
                  known->measured_ms / 1000.0, image ? "read" : "compile", known->limit_ms / 1000.0,
                  shown);

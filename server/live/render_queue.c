@@ -21,7 +21,7 @@
 
 void render_queue_init(struct render_queue *queue)
 {
-    memset(queue, 0, sizeof(*queue));
+    memset(queue, 0, sizeof *queue);
     queue->end = &queue->first;
 }
 
@@ -212,7 +212,7 @@ uint32_t render_queue_submit(struct hub *hub, struct render_order *order, struct
         render_request_finish(&order->request);
         return 0;
     }
-    struct render_entry *entry = memory_alloc(1, sizeof(*entry));
+    struct render_entry *entry = memory_alloc(1, sizeof *entry);
 
     queue->last_id = queue->last_id % 0x7fffffff + 1;
     entry->id = queue->last_id;
@@ -355,7 +355,7 @@ static void describe_slow(const struct room *room, int measured_ms, int limit_ms
     char place[ERROR_PLACE_BYTES];
 
     error_set_slow(out, root_place(room, place), "", measured_ms, limit_ms);
-    snprintf(out->message, sizeof(out->message),
+    snprintf(out->message, sizeof out->message,
              "Drawing the smallest part of this scene took over %.3g s here (limit %.3g s). It is "
              "not drawn until it is edited or tried again.",
              measured_ms / 1000.0, limit_ms / 1000.0);

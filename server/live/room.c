@@ -32,7 +32,7 @@ static void make_epoch(char out[17])
 {
     uint64_t number = 0;
 
-    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+    if (getrandom(&number, sizeof number, 0) != sizeof number) {
         abort();
     }
     snprintf(out, 17, "%016" PRIx64, number);
@@ -40,10 +40,10 @@ static void make_epoch(char out[17])
 
 struct room *room_create(struct hub *hub, const char *id, struct scene *scene, uint64_t revision)
 {
-    struct room *room = memory_alloc(1, sizeof(*room));
+    struct room *room = memory_alloc(1, sizeof *room);
 
     room->hub = hub;
-    snprintf(room->id, sizeof(room->id), "%s", id);
+    snprintf(room->id, sizeof room->id, "%s", id);
     room->scene = scene;
     room->history = history_create();
     room->revision = room->durable = room->log_from = revision;

@@ -18,7 +18,7 @@ void room_log_clear(struct room *room)
     for (size_t i = 0; i < ROOM_LOG; i++) {
         free(room->log[i].ops);
     }
-    memset(room->log, 0, sizeof(room->log));
+    memset(room->log, 0, sizeof room->log);
     room->log_bytes = 0;
     room->log_from = room->revision;
 }
@@ -30,7 +30,7 @@ static void forget_oldest(struct room *room)
 
     room->log_bytes -= strlen(entry->ops);
     free(entry->ops);
-    memset(entry, 0, sizeof(*entry));
+    memset(entry, 0, sizeof *entry);
 }
 
 void room_log_add(struct room *room, const struct room_change *change, const char *ops)
@@ -45,8 +45,8 @@ void room_log_add(struct room *room, const struct room_change *change, const cha
     struct room_entry *entry = entry_at(room, room->revision);
     *entry = (struct room_entry){
         .revision = room->revision, .edit = change->edit, .ops = memory_text(ops)};
-    snprintf(entry->author, sizeof(entry->author), "%s", change->author);
-    snprintf(entry->name, sizeof(entry->name), "%s", room_change_name(change));
+    snprintf(entry->author, sizeof entry->author, "%s", change->author);
+    snprintf(entry->name, sizeof entry->name, "%s", room_change_name(change));
     room->log_bytes += length;
 }
 

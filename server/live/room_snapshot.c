@@ -54,10 +54,10 @@ void room_snapshot_soon(struct room *room)
     if (room->snapshot_soon) {
         return;
     }
-    struct snapshot *snapshot = memory_alloc(1, sizeof(*snapshot));
+    struct snapshot *snapshot = memory_alloc(1, sizeof *snapshot);
 
     snapshot->hub = room->hub;
-    snprintf(snapshot->id, sizeof(snapshot->id), "%s", room->id);
+    snprintf(snapshot->id, sizeof snapshot->id, "%s", room->id);
     room->snapshot_soon = tasks_add(room->hub->tasks,
                                     &(struct task_order){.scene = room->id,
                                                          .account = "",

@@ -49,8 +49,8 @@ static void on_durable(void *data)
 void room_store_push(struct room *room, enum store_kind kind, const struct room_change *change,
                      char *text, const struct store_step *step)
 {
-    struct store_write *write = memory_alloc(1, sizeof(*write));
-    struct commit *commit = memory_alloc(1, sizeof(*commit));
+    struct store_write *write = memory_alloc(1, sizeof *write);
+    struct commit *commit = memory_alloc(1, sizeof *commit);
     const char *name = record_text(&room->scene->info, "name");
 
     commit->room = room;
@@ -58,7 +58,7 @@ void room_store_push(struct room *room, enum store_kind kind, const struct room_
     commit->edit = change->edit;
     commit->then = change->then;
     commit->data = change->data;
-    snprintf(commit->author, sizeof(commit->author), "%s", change->author);
+    snprintf(commit->author, sizeof commit->author, "%s", change->author);
     write->kind = kind;
     write->revision = room->revision;
     write->edit = change->edit;
@@ -68,9 +68,9 @@ void room_store_push(struct room *room, enum store_kind kind, const struct room_
     write->nodes = room->scene->node_count;
     write->on_durable = on_durable;
     write->data = commit;
-    snprintf(write->scene, sizeof(write->scene), "%s", room->id);
-    snprintf(write->author, sizeof(write->author), "%s", change->author);
-    snprintf(write->key, sizeof(write->key), "%s", change->by ? change->by->key : "");
+    snprintf(write->scene, sizeof write->scene, "%s", room->id);
+    snprintf(write->author, sizeof write->author, "%s", change->author);
+    snprintf(write->key, sizeof write->key, "%s", change->by ? change->by->key : "");
     room->pending++;
     store_push(room->hub->store, write);
     if (kind == STORE_CREATE || kind == STORE_EDIT || kind == STORE_REPLACE) {

@@ -18,7 +18,7 @@ static void send_image(struct room *room, const struct scene *scene)
     const char *image = record_text(&scene->environment, "image");
 
     if (*image && strcmp(image, room->image) != 0 && asset_index_find(room->hub->assets, image)) {
-        snprintf(room->image, sizeof(room->image), "%s", image);
+        snprintf(room->image, sizeof room->image, "%s", image);
         asset_index_send(room->hub, image);
     }
 }

@@ -16,18 +16,18 @@
 
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
 {
-    struct session *session = memory_alloc(1, sizeof(*session));
+    struct session *session = memory_alloc(1, sizeof *session);
     uint64_t number = 0;
 
-    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) {
+    if (getrandom(&number, sizeof number, 0) != sizeof number) {
         abort();
     }
-    snprintf(session->id, sizeof(session->id), "%016" PRIx64, number);
+    snprintf(session->id, sizeof session->id, "%016" PRIx64, number);
     session->hub = hub;
     session->wake = wake;
     session->connection = connection;
     send_queue_init(&session->send_queue);
-    session->stream = memory_alloc(1, sizeof(*session->stream));
+    session->stream = memory_alloc(1, sizeof *session->stream);
     stream_init(session->stream);
     metric_add(&hub->metrics, METRIC_SESSIONS, 1);
     metric_add(&hub->metrics, METRIC_SESSIONS_TOTAL, 1);

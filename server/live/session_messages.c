@@ -269,12 +269,12 @@ static void run_errand(void *data, bool dropped)
 void session_receive_apart(struct session *session, const char *scene, char *text, size_t length)
 {
     struct hub *hub = session->hub;
-    struct errand *errand = memory_alloc(1, sizeof(*errand));
+    struct errand *errand = memory_alloc(1, sizeof *errand);
 
     errand->session = session;
     errand->text = text;
     errand->length = length;
-    snprintf(errand->scene, sizeof(errand->scene), "%s", scene);
+    snprintf(errand->scene, sizeof errand->scene, "%s", scene);
     hub_lock(hub);
     session->working = true;
     const bool heavy = session->heavy || length > SESSION_LIGHT_BYTES;

@@ -16,7 +16,7 @@
 /* Side lengths of moving pictures, relative to the view. */
 static const double scales[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125, 0.09375, 0.0625};
 enum {
-    SCALE_COUNT = sizeof(scales) / sizeof(*scales),
+    SCALE_COUNT = sizeof scales / sizeof *scales,
     USUAL_STEPS = 5,      /* scales for all views; the others are for large ones */
     FIRST_PIXELS = 57600, /* of a moving picture at most, where nothing is known of the scene */
     LEAST_PIXELS = 10000, /* of a moving picture with one of the other scales */
@@ -59,7 +59,7 @@ static const struct stage_rule stage_rules[] = {
 
 void stream_init(struct stream *stream)
 {
-    memset(stream, 0, sizeof(*stream));
+    memset(stream, 0, sizeof *stream);
 }
 
 void stream_stop(struct session *session)
@@ -357,7 +357,7 @@ static struct frame_header header_of(struct session *session, const struct pictu
         .rounds = (uint8_t)frame->rounds.count,
     };
 
-    memcpy(header.stage_us, frame->times.us, sizeof(header.stage_us));
+    memcpy(header.stage_us, frame->times.us, sizeof header.stage_us);
     return header;
 }
 

@@ -159,7 +159,7 @@ static void send_chunk(struct supervisor *supervisor, struct chunk *chunk)
 
 void supervisor_send(struct supervisor *supervisor, const struct packet *packet)
 {
-    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
+    struct chunk *chunk = memory_alloc(1, sizeof *chunk);
 
     chunk->bytes = packet_pack(PACKET_TO_WORKER, packet, &chunk->length);
     send_chunk(supervisor, chunk);
@@ -167,7 +167,7 @@ void supervisor_send(struct supervisor *supervisor, const struct packet *packet)
 
 void supervisor_send_asset(struct supervisor *supervisor, const char *id)
 {
-    struct chunk *chunk = memory_alloc(1, sizeof(*chunk));
+    struct chunk *chunk = memory_alloc(1, sizeof *chunk);
 
     chunk->asset = memory_text(id);
     send_chunk(supervisor, chunk);
@@ -221,7 +221,7 @@ static bool make_spare(struct supervisor *supervisor)
 
         if (supervisor->spare[i][0] < 0 &&
             socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0) {
-            memcpy(supervisor->spare[i], pair, sizeof(pair));
+            memcpy(supervisor->spare[i], pair, sizeof pair);
         }
         ok = ok && supervisor->spare[i][0] >= 0;
     }
@@ -241,9 +241,9 @@ static void start(struct supervisor *supervisor)
         supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
         return;
     }
-    memcpy(pair, supervisor->spare[0], sizeof(pair));
-    memcpy(pulse, supervisor->spare[1], sizeof(pulse));
-    memset(supervisor->spare, -1, sizeof(supervisor->spare));
+    memcpy(pair, supervisor->spare[0], sizeof pair);
+    memcpy(pulse, supervisor->spare[1], sizeof pulse);
+    memset(supervisor->spare, -1, sizeof supervisor->spare);
     bool ok = spawn(supervisor, pair[1], pulse[1]);
     close(pair[1]);
     close(pulse[1]);
@@ -253,7 +253,7 @@ static void start(struct supervisor *supervisor)
         supervisor->next_start = supervisor->started + BACKOFF_MAX_MS;
         return;
     }
-    memset(supervisor->counted, 0, sizeof(supervisor->counted));
+    memset(supervisor->counted, 0, sizeof supervisor->counted);
     heartbeat_init(&supervisor->heartbeat, pulse[0]);
     pthread_mutex_lock(&supervisor->lock);
     supervisor->fd = pair[0];
@@ -300,13 +300,13 @@ static void take_down(struct supervisor *supervisor, const struct supervisor_end
     chunks_clear(supervisor);
     pthread_mutex_unlock(&supervisor->lock);
     packet_reader_finish(&supervisor->reader);
-    memset(&supervisor->reader, 0, sizeof(supervisor->reader));
+    memset(&supervisor->reader, 0, sizeof supervisor->reader);
     heartbeat_finish(&supervisor->heartbeat);
     kill(supervisor->pid, SIGKILL);
     waitpid(supervisor->pid, &status, 0);
     supervisor->pid = 0;
     if (!why) {
-        describe_exit(status, end.text, sizeof(end.text));
+        describe_exit(status, end.text, sizeof end.text);
     }
     metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 0);
     if (atomic_load(&supervisor->stopping)) {
@@ -382,7 +382,7 @@ static void receive_packet(struct supervisor *supervisor, const struct packet *p
 static bool receive(struct supervisor *supervisor)
 {
     uint8_t bytes[65536];
-    ssize_t got = recv(supervisor->fd, bytes, sizeof(bytes), MSG_DONTWAIT);
+    ssize_t got = recv(supervisor->fd, bytes, sizeof bytes, MSG_DONTWAIT);
     struct packet packet;
     int result;
 
@@ -416,11 +416,11 @@ static bool hangs(struct supervisor *supervisor, int64_t now, struct supervisor_
     vigil_look(&supervisor->vigil, now, &use);
     if (vigil->still_ms > still_limit) {
         *out = (struct supervisor_end){SUPERVISOR_STILL, vigil->still_ms, still_limit, ""};
-        snprintf(out->text, sizeof(out->text), "silent and still for %lld ms",
+        snprintf(out->text, sizeof out->text, "silent and still for %lld ms",
                  (long long)vigil->still_ms);
     } else if (vigil->spent_ms > busy_limit) {
         *out = (struct supervisor_end){SUPERVISOR_BUSY, vigil->spent_ms, busy_limit, ""};
-        snprintf(out->text, sizeof(out->text), "silent for %lld ms of the processor",
+        snprintf(out->text, sizeof out->text, "silent for %lld ms of the processor",
                  (long long)vigil->spent_ms);
     }
     return out->limit_ms > 0;
@@ -503,11 +503,11 @@ static void *run(void *data)
 
 struct supervisor *supervisor_create(const struct supervisor_params *params)
 {
-    struct supervisor *supervisor = memory_alloc(1, sizeof(*supervisor));
+    struct supervisor *supervisor = memory_alloc(1, sizeof *supervisor);
 
     supervisor->params = *params;
     supervisor->fd = supervisor->heartbeat.fd = -1;
-    memset(supervisor->spare, -1, sizeof(supervisor->spare));
+    memset(supervisor->spare, -1, sizeof supervisor->spare);
     supervisor->end = &supervisor->first;
     supervisor->wake_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     pthread_mutex_init(&supervisor->lock, NULL);

@@ -113,11 +113,11 @@ static void send_refusal(int fd, int status, const char *message)
     char body[512], reply[1024];
 
     int body_length =
-        snprintf(body, sizeof(body),
+        snprintf(body, sizeof body,
                  "{\"type\":\"about:blank\",\"title\":\"%s\",\"status\":%d,"
                  "\"detail\":\"%s\",\"code\":\"%s\",\"place\":\"\"}\n",
                  status_title(status), status, message, status == 503 ? "unavailable" : "syntax");
-    int length = snprintf(reply, sizeof(reply),
+    int length = snprintf(reply, sizeof reply,
                           "HTTP/1.1 %d %s\r\nContent-Type: application/problem+json\r\n"
                           "Content-Length: %d\r\n%s%sConnection: close\r\n\r\n%s",
                           status, status_title(status), body_length, safety,
@@ -132,7 +132,7 @@ static void send_refusal(int fd, int status, const char *message)
 static bool discard_input(struct acceptor *acceptor, int fd)
 {
     for (int i = 0; i < 16; i++) {
-        ssize_t got = recv(fd, acceptor->bytes, sizeof(acceptor->bytes), MSG_DONTWAIT);
+        ssize_t got = recv(fd, acceptor->bytes, sizeof acceptor->bytes, MSG_DONTWAIT);
 
         if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) {
             return true;
@@ -248,18 +248,18 @@ static void set_options(int fd)
     int one = 1, low = SEND_BUFFER_LOW, after = PROBE_AFTER, probes = PROBES;
     int every = (LIMIT_LIVE_SILENCE - PROBE_AFTER) / PROBES;
 
-    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof(one));
-    setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &one, sizeof(one));
-    setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &after, sizeof(after));
-    setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &every, sizeof(every));
-    setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &probes, sizeof(probes));
-    setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &low, sizeof(low));
+    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &one, sizeof one);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &after, sizeof after);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &every, sizeof every);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &probes, sizeof probes);
+    setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &low, sizeof low);
 }
 
 static void admit(struct acceptor *acceptor, int fd, const struct sockaddr_storage *address,
                   socklen_t length)
 {
-    struct client *client = memory_alloc(1, sizeof(*client));
+    struct client *client = memory_alloc(1, sizeof *client);
     struct epoll_event event = {.events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = client};
 
     set_options(fd);
@@ -277,7 +277,7 @@ static void accept_clients(struct acceptor *acceptor)
 {
     for (int i = 0; i < 64; i++) {
         struct sockaddr_storage address;
-        socklen_t length = sizeof(address);
+        socklen_t length = sizeof address;
         int fd = accept4(acceptor->listener, (struct sockaddr *)&address, &length,
                          SOCK_NONBLOCK | SOCK_CLOEXEC);
 
@@ -373,17 +373,17 @@ static bool listen_on(struct acceptor *acceptor, const char *address, int port, 
                              .ai_socktype = SOCK_STREAM};
     struct addrinfo *info = NULL;
     struct sockaddr_storage bound;
-    socklen_t length = sizeof(bound);
+    socklen_t length = sizeof bound;
     char service[16];
     int one = 1;
 
-    snprintf(service, sizeof(service), "%d", port);
+    snprintf(service, sizeof service, "%d", port);
     if (getaddrinfo(address, service, &hints, &info) != 0) {
         return error_set(err, ERROR_INVALID, address, "not an IPv4 or IPv6 address");
     }
     acceptor->listener = socket(info->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     bool ok = acceptor->listener >= 0 &&
-              setsockopt(acceptor->listener, SOL_SOCKET, SO_REUSEADDR, &one, sizeof(one)) == 0 &&
+              setsockopt(acceptor->listener, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one) == 0 &&
               bind(acceptor->listener, info->ai_addr, info->ai_addrlen) == 0 &&
               listen(acceptor->listener, 1024) == 0 &&
               getsockname(acceptor->listener, (struct sockaddr *)&bound, &length) == 0;
@@ -408,7 +408,7 @@ struct acceptor *acceptor_create(const char *address, int port,
                                  const struct acceptor_events *events, struct metrics *metrics,
                                  struct error *err)
 {
-    struct acceptor *acceptor = memory_alloc(1, sizeof(*acceptor));
+    struct acceptor *acceptor = memory_alloc(1, sizeof *acceptor);
 
     acceptor->events = *events;
     acceptor->metrics = metrics;

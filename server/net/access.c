@@ -85,7 +85,7 @@ static bool is_equal(const char *given, size_t length, const char *secret)
 
 static bool token_in_protocols(const char *list, const char *token)
 {
-    size_t prefix = sizeof(token_subprotocol) - 1;
+    size_t prefix = sizeof token_subprotocol - 1;
 
     while (list && *list) {
         list += strspn(list, ", \t");

@@ -214,7 +214,7 @@ static const char *find_header(const struct request *request, const char *name)
     if (!value || !value[length]) {
         return value;
     }
-    struct trimmed *trimmed = memory_alloc(1, sizeof(*trimmed) + length + 1);
+    struct trimmed *trimmed = memory_alloc(1, sizeof *trimmed + length + 1);
     memcpy(trimmed->text, value, length);
     trimmed->next = exchange->trimmed;
     exchange->trimmed = trimmed;
@@ -239,7 +239,7 @@ static void read_address(struct MHD_Connection *connection, char out[INET6_ADDRS
 static void *on_target(void *data, const char *target, struct MHD_Connection *connection)
 {
     struct http *http = data;
-    struct exchange *exchange = memory_alloc(1, sizeof(*exchange));
+    struct exchange *exchange = memory_alloc(1, sizeof *exchange);
 
     exchange->http = http;
     exchange->connection = connection;
@@ -281,7 +281,7 @@ static void refuse_memory(struct exchange *exchange)
 {
     char detail[120];
 
-    snprintf(detail, sizeof(detail),
+    snprintf(detail, sizeof detail,
              "bodies of requests hold %zu bytes already; the limit is %d bytes",
              exchange->http->bodies.held, LIMIT_BODIES_BYTES);
     struct response response = response_problem(503, "unavailable", "", detail);
@@ -309,7 +309,7 @@ static enum MHD_Result refuse_body(struct exchange *exchange)
 {
     char detail[100];
 
-    snprintf(detail, sizeof(detail), "the body of %zu bytes is above the maximum %zu",
+    snprintf(detail, sizeof detail, "the body of %zu bytes is above the maximum %zu",
              exchange->body_bytes, body_limit(exchange));
     struct response response = response_problem(413, "too_large", "", detail);
     return answer_now(exchange, &response);
@@ -490,7 +490,7 @@ __attribute__((format(printf, 2, 0))) static void on_log(void *data, const char 
     char line[400];
 
     (void)data;
-    vsnprintf(line, sizeof(line), format, arguments);
+    vsnprintf(line, sizeof line, format, arguments);
     log_debug("http", "%s", line);
 }
 
@@ -498,7 +498,7 @@ __attribute__((format(printf, 2, 0))) static void on_log(void *data, const char 
 
 struct http *http_create(const struct http_app *app, struct error *err)
 {
-    struct http *http = memory_alloc(1, sizeof(*http));
+    struct http *http = memory_alloc(1, sizeof *http);
 
     http->app = *app;
     pthread_mutex_init(&http->lock, NULL);

@@ -158,7 +158,7 @@ static bool store_field(struct http_head *head, const char *name, size_t name_le
         if (before && !rules[i].list) {
             return refuse(fault, 400, "a header that may come once comes twice");
         }
-        if (head->used + before + value_length + 1 > sizeof(head->text)) {
+        if (head->used + before + value_length + 1 > sizeof head->text) {
             return refuse(fault, 431, "a list header comes too often");
         }
         char *joined = head->text + head->used;
@@ -235,7 +235,7 @@ bool http_head_read(const char *bytes, size_t length, struct http_head *out,
     const char *line = bytes, *end = bytes + length;
     bool first = true;
 
-    memset(out->field, 0, sizeof(out->field));
+    memset(out->field, 0, sizeof out->field);
     out->method = out->target = NULL;
     out->used = 0;
     out->length = length;

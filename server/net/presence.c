@@ -21,7 +21,7 @@ void presence_unwatch(int epoll, const struct presence *presence)
 static bool send_word(int fd)
 {
     static const char word[] = "HTTP/1.1 100 Continue\r\n\r\n";
-    const size_t length = sizeof(word) - 1;
+    const size_t length = sizeof word - 1;
 
     return send(fd, word, length, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)length;
 }

@@ -129,7 +129,7 @@ bool request_check_query(const struct request *request, const char *const *names
         while (*name && strcmp(*name, request->query[i].name) != 0) {
             name++;
         }
-        snprintf(place, sizeof(place), "?%s", request->query[i].name);
+        snprintf(place, sizeof place, "?%s", request->query[i].name);
         if (!*name) {
             return error_set(err, ERROR_INVALID, place, "there is no such parameter");
         }
@@ -168,7 +168,7 @@ void response_add(struct response *response, const char *name, const char *forma
     }
     response->headers[response->header_count].name = name;
     va_start(arguments, format);
-    vsnprintf(response->headers[response->header_count].value, sizeof(response->headers->value),
+    vsnprintf(response->headers[response->header_count].value, sizeof response->headers->value,
               format, arguments);
     va_end(arguments);
     response->header_count++;
@@ -196,7 +196,7 @@ const char *response_title(int status)
                   {503, "Service Unavailable"},
                   {507, "Insufficient Storage"}};
 
-    for (size_t i = 0; i < sizeof(titles) / sizeof(*titles); i++) {
+    for (size_t i = 0; i < sizeof titles / sizeof *titles; i++) {
         if (titles[i].status == status) {
             return titles[i].title;
         }

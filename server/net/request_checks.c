@@ -124,7 +124,7 @@ static bool check_body(const struct request *request, const struct route *route,
     if (route->body == BODY_NONE && request_checks_has_body(request)) {
         *out = response_problem(400, "syntax", "", "this request takes no body");
     } else if (length > request_checks_body_limit(route)) {
-        snprintf(detail, sizeof(detail), "the body of %" PRIu64 " bytes is above the maximum %zu",
+        snprintf(detail, sizeof detail, "the body of %" PRIu64 " bytes is above the maximum %zu",
                  length, request_checks_body_limit(route));
         *out = response_problem(413, "too_large", "", detail);
     } else if (route->body == BODY_JSON && !is_json(request_header(request, "Content-Type"))) {

@@ -56,9 +56,9 @@ const struct route *route_find(const struct route_table *table, struct request *
         if (method_fits(route, request->method)) {
             return route;
         }
-        add_method(allowed, sizeof(allowed), route->method);
+        add_method(allowed, sizeof allowed, route->method);
         if (strcmp(route->method, "GET") == 0) {
-            add_method(allowed, sizeof(allowed), "HEAD");
+            add_method(allowed, sizeof allowed, "HEAD");
         }
     }
     bool under_api = strncmp(request->path, "/v1/", 4) == 0 || strcmp(request->path, "*") == 0;

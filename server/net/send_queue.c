@@ -14,7 +14,7 @@ struct send_queue_text {
 
 struct shared_buffer *shared_buffer_create(const void *bytes, size_t length)
 {
-    struct shared_buffer *buffer = memory_alloc(1, sizeof(*buffer) + length);
+    struct shared_buffer *buffer = memory_alloc(1, sizeof *buffer + length);
 
     atomic_init(&buffer->references, 1);
     buffer->length = length;
@@ -38,7 +38,7 @@ void shared_buffer_unref(struct shared_buffer *buffer)
 static void frame_clear(struct send_queue_frame *frame)
 {
     shared_buffer_unref(frame->payload);
-    memset(frame, 0, sizeof(*frame));
+    memset(frame, 0, sizeof *frame);
 }
 
 static void text_remove(struct send_queue *queue)
@@ -57,7 +57,7 @@ static void text_remove(struct send_queue *queue)
 
 void send_queue_init(struct send_queue *queue)
 {
-    memset(queue, 0, sizeof(*queue));
+    memset(queue, 0, sizeof *queue);
     queue->end = &queue->first;
 }
 
@@ -75,7 +75,7 @@ bool send_queue_text(struct send_queue *queue, struct shared_buffer *text)
     if (queue->first && queue->text_bytes - queue->first->text->length > SEND_QUEUE_TEXT_BYTES) {
         return false;
     }
-    struct send_queue_text *entry = memory_alloc(1, sizeof(*entry));
+    struct send_queue_text *entry = memory_alloc(1, sizeof *entry);
     entry->text = shared_buffer_ref(text);
     *queue->end = entry;
     queue->end = &entry->next;
@@ -166,7 +166,7 @@ static void next_frame_part(struct send_queue *queue, uint8_t *out, struct send_
         piece->frame_bytes = frame->payload->length;
         frame_clear(frame);
         queue->current = queue->next;
-        memset(&queue->next, 0, sizeof(queue->next));
+        memset(&queue->next, 0, sizeof queue->next);
     }
 }
 

@@ -96,12 +96,12 @@ static void wake(void *connection)
 
 void ws_adopt(struct ws *ws, int fd, const struct http_head *head, const char *scene)
 {
-    struct link *link = memory_alloc(1, sizeof(*link));
+    struct link *link = memory_alloc(1, sizeof *link);
 
     link->ws = ws;
     link->fd = fd;
-    snprintf(link->scene, sizeof(link->scene), "%s", scene);
-    snprintf(link->handshake, sizeof(link->handshake),
+    snprintf(link->scene, sizeof link->scene, "%s", scene);
+    snprintf(link->handshake, sizeof link->handshake,
              "GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
              "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: %s\r\n"
              "Sec-WebSocket-Protocol: " WS_SUBPROTOCOL "\r\n\r\n",
@@ -346,8 +346,8 @@ static int write_close(struct link *link, int code)
 
     link->silent = true;
     lws_set_timeout(link->wsi, PENDING_TIMEOUT_USER_REASON_BASE, CLOSE_SECONDS);
-    return send(lws_get_socket_fd(link->wsi), frame, sizeof(frame), MSG_DONTWAIT | MSG_NOSIGNAL) ==
-                   sizeof(frame)
+    return send(lws_get_socket_fd(link->wsi), frame, sizeof frame, MSG_DONTWAIT | MSG_NOSIGNAL) ==
+                   sizeof frame
                ? 0
                : -1;
 }
@@ -502,7 +502,7 @@ static void on_log(int level, const char *line)
 
 struct ws *ws_create(const struct ws_app *app, struct error *err)
 {
-    struct ws *ws = memory_alloc(1, sizeof(*ws));
+    struct ws *ws = memory_alloc(1, sizeof *ws);
     struct lws_context_creation_info info = {
         .port = CONTEXT_PORT_NO_LISTEN_SERVER,
         .vhost_name = "fieldcast",

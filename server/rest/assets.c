@@ -90,8 +90,8 @@ static void on_stored(void *data)
 /* Takes `asset`. */
 static void store_asset(struct request *request, struct store_asset *asset)
 {
-    struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
-    struct store_write *write = memory_alloc(1, sizeof(*write));
+    struct waiting *waiting = memory_alloc(1, sizeof *waiting);
+    struct store_write *write = memory_alloc(1, sizeof *write);
 
     hub_lock(request->hub);
     request->hub->assets->pending_count++;
@@ -107,13 +107,13 @@ static void store_asset(struct request *request, struct store_asset *asset)
 static void remove_asset(struct hub *hub, const char *id, void (*on_durable)(void *data),
                          void *data)
 {
-    struct store_write *write = memory_alloc(1, sizeof(*write));
+    struct store_write *write = memory_alloc(1, sizeof *write);
 
     *write = (struct store_write){.kind = STORE_ASSET_DELETE,
-                                  .asset = memory_alloc(1, sizeof(*write->asset)),
+                                  .asset = memory_alloc(1, sizeof *write->asset),
                                   .on_durable = on_durable,
                                   .data = data};
-    snprintf(write->asset->id, sizeof(write->asset->id), "%s", id);
+    snprintf(write->asset->id, sizeof write->asset->id, "%s", id);
     asset_index_remove(hub->assets, id);
     store_push(hub->store, write);
 }
@@ -162,7 +162,7 @@ void assets_create(struct request *request)
 {
     static const char *const queries[] = {NULL};
     struct hub *hub = request->hub;
-    struct store_asset *asset = memory_alloc(1, sizeof(*asset));
+    struct store_asset *asset = memory_alloc(1, sizeof *asset);
     struct error err = {0};
     cJSON *known = NULL;
 
@@ -194,12 +194,12 @@ void assets_read(struct request *request)
     struct hub *hub = request->hub;
     struct response response = {.status = 200};
     struct error err = {0};
-    char type[sizeof(hub->assets->items->type)] = "";
+    char type[sizeof hub->assets->items->type] = "";
 
     hub_lock(hub);
     const struct asset_entry *entry = asset_index_find(hub->assets, request->capture[0]);
     if (entry) {
-        memcpy(type, entry->type, sizeof(type));
+        memcpy(type, entry->type, sizeof type);
     }
     hub_unlock(hub);
     response.body = asset_index_load(hub, request->capture[0], &response.length, &err);

@@ -139,7 +139,7 @@ static void order(struct request *request, struct render_request *asked, struct 
                   const char *document)
 {
     struct error err = {0};
-    struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
+    struct waiting *waiting = memory_alloc(1, sizeof *waiting);
     struct render_order order = {.room = room,
                                  .document = document,
                                  .request = *asked,
@@ -213,7 +213,7 @@ static bool read_query(const struct request *request, const char *format,
         if (request_query(request, name) != text) {
             char place[ERROR_PLACE_BYTES];
 
-            snprintf(place, sizeof(place), "?%.64s", name);
+            snprintf(place, sizeof place, "?%.64s", name);
             return error_set(err, ERROR_INVALID, place, "given twice");
         }
         if (!render_request_set_text(out, REQUEST_QUERY, name, text, err)) {

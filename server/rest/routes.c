@@ -34,4 +34,4 @@ static const struct route table[] = {
 /* Everything else that can be read is a file of the page. */
 static const struct route asset_route = {"GET", "", site_asset, BODY_NONE, OPEN, SCENE_NONE};
 
-const struct route_table routes = {table, sizeof(table) / sizeof(*table), &asset_route};
+const struct route_table routes = {table, sizeof table / sizeof *table, &asset_route};

@@ -58,11 +58,11 @@ static void answer_change(void *data)
 
 static struct waiting *wait_for(struct request *request, int status, const char *id)
 {
-    struct waiting *waiting = memory_alloc(1, sizeof(*waiting));
+    struct waiting *waiting = memory_alloc(1, sizeof *waiting);
 
     waiting->request = request;
     waiting->status = status;
-    snprintf(waiting->id, sizeof(waiting->id), "%s", id);
+    snprintf(waiting->id, sizeof waiting->id, "%s", id);
     return waiting;
 }
 
@@ -75,7 +75,7 @@ static void time_text(int64_t ms, char out[40])
     char date[32];
 
     gmtime_r(&seconds, &parts);
-    strftime(date, sizeof(date), "%Y-%m-%dT%H:%M:%S", &parts);
+    strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S", &parts);
     snprintf(out, 40, "%s.%03dZ", date, (int)(ms % 1000));
 }
 
@@ -210,7 +210,7 @@ static void create(struct request *request, const char *id, struct scene *scene,
         return;
     }
     /* The commit's answer cannot overtake this: it waits for the lock first. */
-    snprintf(waiting->id, sizeof(waiting->id), "%s", room->id);
+    snprintf(waiting->id, sizeof waiting->id, "%s", room->id);
     waiting->revision = room->revision;
     if (poster) {
         poster_set(room, poster);
@@ -315,7 +315,7 @@ static bool read_import(const cJSON *json, struct import_source *source, struct 
     {
         char place[80];
 
-        snprintf(place, sizeof(place), "/%.64s", member->string);
+        snprintf(place, sizeof place, "/%.64s", member->string);
         if (strcmp(member->string, "files") == 0 && cJSON_IsObject(member)) {
             cJSON_ArrayForEach(file, member)
             {
@@ -351,7 +351,7 @@ void scenes_import(struct request *request)
     }
     if (json) {
         const cJSON *list = cJSON_GetObjectItemCaseSensitive(json, "files");
-        struct import_file *files = memory_alloc((size_t)cJSON_GetArraySize(list), sizeof(*files));
+        struct import_file *files = memory_alloc((size_t)cJSON_GetArraySize(list), sizeof *files);
         struct import_source source = {.files = files};
 
         if (read_import(json, &source, files, &err)) {

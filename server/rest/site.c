@@ -57,7 +57,7 @@ static const char *mime_of(const char *path)
                                            {".wasm", "application/wasm"}};
     const char *dot = strrchr(path, '.');
 
-    for (size_t i = 0; dot && i < sizeof(types) / sizeof(*types); i++) {
+    for (size_t i = 0; dot && i < sizeof types / sizeof *types; i++) {
         if (strcmp(types[i][0], dot) == 0) {
             return types[i][1];
         }
@@ -72,7 +72,7 @@ static char *read_below(const char *directory, const char *path, size_t *out_len
     struct stat status;
     char *bytes = NULL;
 
-    if (snprintf(wanted, sizeof(wanted), "%s%s", directory, path) >= (int)sizeof(wanted) ||
+    if (snprintf(wanted, sizeof wanted, "%s%s", directory, path) >= (int)sizeof wanted ||
         !realpath(directory, root) || !realpath(wanted, real) ||
         strncmp(real, root, strlen(root)) != 0 || real[strlen(root)] != '/') {
         return NULL;
@@ -174,7 +174,7 @@ static const struct {
     {"lecture-5-camera", LESSON},
     {"own-code", LESSON},
 };
-enum { EXAMPLE_ROWS = sizeof(example_rows) / sizeof(example_rows[0]) };
+enum { EXAMPLE_ROWS = sizeof example_rows / sizeof example_rows[0] };
 
 static bool is_row(const char *id)
 {
@@ -204,7 +204,7 @@ static void add_example(cJSON *list, const struct embedded *example, int group)
         return; /* a test reads them all */
     }
     cJSON *item = cJSON_CreateObject();
-    describe(scene, description, sizeof(description));
+    describe(scene, description, sizeof description);
     cJSON_AddStringToObject(item, "id", example->path);
     cJSON_AddStringToObject(item, "name", record_text(&scene->info, "name"));
     cJSON_AddStringToObject(item, "description", description);
@@ -313,7 +313,7 @@ void site_ready(struct request *request)
     if (*damage) {
         char detail[300];
 
-        snprintf(detail, sizeof(detail), "the database is damaged: %s", damage);
+        snprintf(detail, sizeof detail, "the database is damaged: %s", damage);
         struct response response = response_problem(503, "unavailable", "store", detail);
         request_reply(request, &response);
         return;

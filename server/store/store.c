@@ -65,7 +65,7 @@ void store_loaded_finish(struct store_loaded *loaded)
     edits_destroy(loaded->past, loaded->past_count);
     free(loaded->authors);
     free(loaded->document);
-    memset(loaded, 0, sizeof(*loaded));
+    memset(loaded, 0, sizeof *loaded);
 }
 
 static void commit_batch(struct store *store, const struct store_write *batch)
@@ -142,7 +142,7 @@ static bool take_directory(struct store *store, const char *directory, struct er
     } else if (errno != EEXIST) {
         return error_set(err, ERROR_UNAVAILABLE, directory, "cannot be made: %s", strerror(errno));
     }
-    if (snprintf(path, sizeof(path), "%s/lock", directory) >= (int)sizeof(path)) {
+    if (snprintf(path, sizeof path, "%s/lock", directory) >= (int)sizeof path) {
         return error_set(err, ERROR_LIMIT, directory, "the path is too long");
     }
     store->lock_fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
@@ -162,7 +162,7 @@ static void database_path(char *out, size_t size, const char *directory)
 
 struct store *store_open(const char *directory, struct metrics *metrics, struct error *err)
 {
-    struct store *store = memory_alloc(1, sizeof(*store));
+    struct store *store = memory_alloc(1, sizeof *store);
     char path[4096];
 
     store->metrics = metrics;
@@ -173,7 +173,7 @@ struct store *store_open(const char *directory, struct metrics *metrics, struct 
     if (!take_directory(store, directory, err)) {
         goto fail;
     }
-    database_path(path, sizeof(path), directory);
+    database_path(path, sizeof path, directory);
     store->db = store_sqlite_open(path, err);
     if (!store->db) {
         goto fail;
@@ -202,7 +202,7 @@ bool store_check(const char *directory, struct error *err)
 {
     char path[4096];
 
-    database_path(path, sizeof(path), directory);
+    database_path(path, sizeof path, directory);
     return access(path, F_OK) != 0 || store_sqlite_check(path, err);
 }
 

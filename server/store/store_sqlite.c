@@ -219,7 +219,7 @@ static bool open_reader(sqlite3 **out, const char *file, struct error *err)
 
 struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
 {
-    struct store_sqlite *db = memory_alloc(1, sizeof(*db));
+    struct store_sqlite *db = memory_alloc(1, sizeof *db);
 
     pthread_mutex_init(&db->read_lock, NULL);
     pthread_mutex_init(&db->find_lock, NULL);
@@ -227,7 +227,7 @@ struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
         !open_reader(&db->finder, file, err)) {
         goto fail;
     }
-    look_for_damage(db->writer, db->damage, sizeof(db->damage));
+    look_for_damage(db->writer, db->damage, sizeof db->damage);
     if (sqlite3_prepare_v2(db->finder,
                            "SELECT revision FROM edits"
                            " WHERE scene=?1 AND author=?2 AND edit=?3 AND edit>0",
@@ -255,7 +255,7 @@ bool store_sqlite_check(const char *file, struct error *err)
 
     if (ok) {
         sqlite3_busy_timeout(db, 5000);
-        look_for_damage(db, damage, sizeof(damage));
+        look_for_damage(db, damage, sizeof damage);
         ok = !*damage || error_set(err, ERROR_INTERNAL, file, "damaged: %s", damage);
     }
     sqlite3_close(db);
@@ -506,7 +506,7 @@ static void author_row(void *data, sqlite3_stmt *statement)
     struct store_loaded *loaded = data;
 
     loaded->authors =
-        memory_resize(loaded->authors, loaded->author_count + 1, sizeof(*loaded->authors));
+        memory_resize(loaded->authors, loaded->author_count + 1, sizeof *loaded->authors);
     struct store_author *author = &loaded->authors[loaded->author_count++];
     column_id(statement, 0, author->author);
     author->edit = sqlite3_column_int64(statement, 1);
@@ -540,7 +540,7 @@ static bool load_rows(struct store_sqlite *db, const char *scene, struct store_l
 bool store_sqlite_load(struct store_sqlite *db, const char *scene, struct store_loaded *out,
                        struct error *err)
 {
-    memset(out, 0, sizeof(*out));
+    memset(out, 0, sizeof *out);
     pthread_mutex_lock(&db->read_lock);
     /* One transaction: the three queries see one state. */
     bool ok = execute(db->reader, "BEGIN", err) && load_rows(db, scene, out, err);

@@ -160,6 +160,17 @@ function checkEscapes(files) {
     }
 }
 
+// `sizeof value`, `sizeof(type)`; macros may have either.
+const TYPE = '(struct|enum|union|unsigned|void|char|bool|short|int|long|float|double|type|\\w+_t|v[a-z])\\b';
+
+function checkSizeof(files) {
+    const own = files.filter((file) => /\.[ch]$/.test(file));
+    const value = new RegExp(`^(?!\\s*#\\s*define).*\\bsizeof\\((?!${TYPE})\\*?[a-zA-Z_][\\w.>-]*\\)(?![[.])`);
+    search(own, value, (match, file, line) => {
+        report(file, line, 'sizeof', 'a value needs no parentheses: `sizeof value`, `sizeof(type)`');
+    });
+}
+
 // --- names ---
 
 const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
@@ -242,6 +253,7 @@ checkFunctionsC(files);
 checkFunctionsScript(files);
 checkText(files);
 checkEscapes(files);
+checkSizeof(files);
 checkNames(files);
 if (checkCommits(root, (commit, message) => faults.push(`${commit}: commit: ${message}`), process.argv[3]) === 0) {
     console.log('not checked: no commit, for the history from where the rule begins is not here');

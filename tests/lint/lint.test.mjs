@@ -71,6 +71,7 @@ const BREAKS = [
     ['blank', 'renderer/glsl/march.glsl', `${C}\tfloat f();\n`],
     ['word', 'renderer/draw/draw.h', `${C}/* TO${'DO'} */\n`],
     ['word', 'renderer/draw/draw.c', `${C}#if 0\n#endif\n`],
+    ['sizeof', 'server/live/room.c', `${C}static int a[3];\n\nint f(void)\n{\n    return sizeof(a);\n}\n`],
     ['escape', 'tests/unit/test_scene.c', `${C}const char *a =\n${'    "{\\"type\\":1}"\n'.repeat(4)};\n`],
     ['name', 'server/live/room.c', `${C}#include "fallback.h"\n\nvoid f(void)\n{\n    say_bye(0);\n}\n`],
     ['name', 'server/live/fallback.h', C],

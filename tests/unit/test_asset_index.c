@@ -15,7 +15,7 @@ static void add(struct asset_index *assets, int number, size_t length)
     struct store_asset asset = {.info = {.type = "image/png", .width = 1, .height = 1},
                                 .length = length};
 
-    snprintf(asset.id, sizeof(asset.id), "%064x", (unsigned)number);
+    snprintf(asset.id, sizeof asset.id, "%064x", (unsigned)number);
     asset_index_add(assets, &asset);
 }
 
@@ -23,7 +23,7 @@ static void remove_number(struct asset_index *assets, int number)
 {
     char id[ASSET_ID_CHARACTERS + 1];
 
-    snprintf(id, sizeof(id), "%064x", (unsigned)number);
+    snprintf(id, sizeof id, "%064x", (unsigned)number);
     asset_index_remove(assets, id);
 }
 

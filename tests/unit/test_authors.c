@@ -28,7 +28,7 @@ static const char *nth(int i)
 {
     static char id[LIMIT_ID_BYTES + 1];
 
-    snprintf(id, sizeof(id), "author-%d", i * 7919 % MANY);
+    snprintf(id, sizeof id, "author-%d", i * 7919 % MANY);
     return id;
 }
 
@@ -119,9 +119,9 @@ static void open_hub(struct hub *hub)
 {
     struct error err = {0};
 
-    memset(hub, 0, sizeof(*hub));
+    memset(hub, 0, sizeof *hub);
     pthread_mutex_init(&hub->lock, NULL);
-    hub->catalog = memory_alloc(1, sizeof(*hub->catalog));
+    hub->catalog = memory_alloc(1, sizeof *hub->catalog);
     hub->store = store_open(directory, &hub->metrics, &err);
     assert_non_null(hub->store);
 }
@@ -169,7 +169,7 @@ static void write_old_database(void)
     cJSON_Delete(json);
     room_destroy(room);
     close_hub(&hub);
-    snprintf(path, sizeof(path), "%s/scenes.sqlite", directory);
+    snprintf(path, sizeof path, "%s/scenes.sqlite", directory);
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(sqlite3_exec(db,
                                   "ALTER TABLE authors DROP COLUMN key;"
@@ -236,7 +236,7 @@ static int remove_directory(void **state)
     char command[100];
 
     (void)state;
-    snprintf(command, sizeof(command), "rm -r %s", directory);
+    snprintf(command, sizeof command, "rm -r %s", directory);
     return system(command);
 }
 

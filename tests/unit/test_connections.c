@@ -18,7 +18,7 @@
 
 static int status_of(const char *text)
 {
-    struct http_head *head = memory_alloc(1, sizeof(*head));
+    struct http_head *head = memory_alloc(1, sizeof *head);
     struct http_head_fault fault = {0};
     int status = http_head_read(text, strlen(text), head, &fault) ? 200 : fault.status;
 
@@ -34,7 +34,7 @@ static void finds_the_end(void **state)
     (void)state;
     for (size_t seen = 0; seen <= (size_t)end - 1; seen++) {
         assert_int_equal(http_head_end(text, seen, 0), 0);
-        assert_int_equal(http_head_end(text, sizeof(text) - 1, seen), end);
+        assert_int_equal(http_head_end(text, sizeof text - 1, seen), end);
     }
     assert_int_equal(http_head_end("GET /\n", 6, 0), -1);
     assert_int_equal(http_head_end("GET /\r", 6, 0), 0);
@@ -59,7 +59,7 @@ static void refuses_what_two_could_read_differently(void **state)
 /* Values of one list header are joined; so many that they would not fit are refused. */
 static void joins_lists_within_bounds(void **state)
 {
-    struct http_head *head = memory_alloc(1, sizeof(*head));
+    struct http_head *head = memory_alloc(1, sizeof *head);
     struct http_head_fault fault = {0};
     char text[LIMIT_HEAD_BYTES];
     size_t used = (size_t)sprintf(text, "GET / HTTP/1.1\r\nHost: x\r\nConnection: a\r\n"
@@ -71,7 +71,7 @@ static void joins_lists_within_bounds(void **state)
     assert_true(http_head_list_has(head->field[HEAD_CONNECTION], "upgrade"));
     assert_false(http_head_list_has(head->field[HEAD_CONNECTION], "up"));
     used -= 2;
-    while (used + 40 < sizeof(text)) {
+    while (used + 40 < sizeof text) {
         used += (size_t)sprintf(text + used, "Upgrade: websocket\r\n");
     }
     used += (size_t)sprintf(text + used, "\r\n");

@@ -29,8 +29,8 @@ static struct store_write write_of(enum store_kind kind, const char *scene, uint
                                 .name = "name",
                                 .nodes = 3};
 
-    snprintf(write.scene, sizeof(write.scene), "%s", scene);
-    snprintf(write.author, sizeof(write.author), "%s", author);
+    snprintf(write.scene, sizeof write.scene, "%s", scene);
+    snprintf(write.author, sizeof write.author, "%s", author);
     return write;
 }
 
@@ -39,7 +39,7 @@ static struct store_sqlite *open_database(const char *name)
     char path[200];
     struct error err = {0};
 
-    snprintf(path, sizeof(path), "%s/%s", directory, name);
+    snprintf(path, sizeof path, "%s/%s", directory, name);
     struct store_sqlite *db = store_sqlite_open(path, &err);
     assert_non_null(db);
     return db;
@@ -175,7 +175,7 @@ static void a_commit_is_all_or_nothing(void **state)
     assert_int_equal(loaded.edit_count, 0);
     assert_int_equal(loaded.author_count, 0);
     store_loaded_finish(&loaded);
-    snprintf(again.author, sizeof(again.author), "bob");
+    snprintf(again.author, sizeof again.author, "bob");
     assert_true(store_sqlite_commit(db, &once, &err));
     store_sqlite_close(db);
 }
@@ -215,9 +215,9 @@ static void keeps_the_authors_of_the_log(void **state)
 
     (void)state;
     assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
-    struct store_write *writes = memory_alloc((size_t)last, sizeof(*writes));
+    struct store_write *writes = memory_alloc((size_t)last, sizeof *writes);
     for (uint64_t revision = 2; revision <= last; revision++) {
-        snprintf(author, sizeof(author), "%u", (unsigned)revision);
+        snprintf(author, sizeof author, "%u", (unsigned)revision);
         writes[revision - 2] = write_of(STORE_EDIT, "s", revision, author, 1, "[]");
         writes[revision - 2].next = revision < last ? &writes[revision - 1] : NULL;
     }
@@ -246,7 +246,7 @@ static void keep_a_file(struct store_sqlite *db)
 {
     char bytes[] = "any\0bytes";
     struct store_asset asset = {
-        .id = "d1", .info = {"image/png", 3, 2, 0}, .length = sizeof(bytes), .bytes = bytes};
+        .id = "d1", .info = {"image/png", 3, 2, 0}, .length = sizeof bytes, .bytes = bytes};
     struct store_write write = write_of(STORE_ASSET, "", 0, "", 0, NULL);
     struct store_asset seen = {0};
     size_t length = 0;
@@ -260,9 +260,9 @@ static void keep_a_file(struct store_sqlite *db)
     assert_string_equal(seen.id, "d1");
     assert_string_equal(seen.info.type, "image/png");
     assert_int_equal(seen.info.width * 10 + seen.info.height, 32);
-    assert_int_equal(seen.length, sizeof(bytes));
+    assert_int_equal(seen.length, sizeof bytes);
     assert_true(store_sqlite_load_asset(db, "d1", &found, &length, NULL));
-    assert_int_equal(length, sizeof(bytes));
+    assert_int_equal(length, sizeof bytes);
     assert_memory_equal(found, bytes, length);
     free(found);
     assert_false(store_sqlite_load_asset(db, "d2", &found, &length, &err));
@@ -284,7 +284,7 @@ static void run_sql(const char *name, const char *sql)
     char path[200];
     sqlite3 *db = NULL;
 
-    snprintf(path, sizeof(path), "%s/%s", directory, name);
+    snprintf(path, sizeof path, "%s/%s", directory, name);
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
     sqlite3_close(db);
@@ -318,7 +318,7 @@ static void knows_older_databases(void **state)
     store_sqlite_close(db);
 
     run_sql("d.sqlite", "PRAGMA user_version = 99");
-    snprintf(path, sizeof(path), "%s/d.sqlite", directory);
+    snprintf(path, sizeof path, "%s/d.sqlite", directory);
     assert_null(store_sqlite_open(path, &err));
     assert_non_null(strstr(err.message, "another version: 99"));
 }
@@ -337,7 +337,7 @@ static void flush_waits_until_all_is_told(void **state)
     (void)state;
     assert_non_null(store);
     for (uint64_t revision = 1; revision <= 500; revision++) {
-        struct store_write *write = memory_alloc(1, sizeof(*write));
+        struct store_write *write = memory_alloc(1, sizeof *write);
 
         *write = write_of(revision == 1 ? STORE_CREATE : STORE_EDIT, "s", revision, "ann",
                           (int64_t)revision, NULL);
@@ -365,7 +365,7 @@ static int remove_directory(void **state)
     char command[100];
 
     (void)state;
-    snprintf(command, sizeof(command), "rm -r %s", directory);
+    snprintf(command, sizeof command, "rm -r %s", directory);
     return system(command);
 }
 

@@ -56,7 +56,7 @@ static bool delta_end(void *state, struct stream_packet *out, struct error *err)
     const uint32_t base = delta->key ? 0 : delta->last;
 
     (void)err;
-    fwrite(&base, sizeof(base), 1, delta->out);
+    fwrite(&base, sizeof base, 1, delta->out);
     delta->last++;
     *out = (struct stream_packet){.codec = CODEC_JPEG, .key = delta->key};
     return true;
@@ -110,7 +110,7 @@ static void pictures_are_keys(void **state)
 {
     struct stream_encoder *stream = stream_encoder_open(&picture_stream);
     uint8_t pixels[4 * 4 * 4] = {0};
-    struct image image = {4, 4, 3, PIXEL_RGBA8, pixels, sizeof(pixels)};
+    struct image image = {4, 4, 3, PIXEL_RGBA8, pixels, sizeof pixels};
     const struct image shapes[AOV_COUNT] = {[AOV_COLOR] = image};
     static const enum codec codecs[] = {CODEC_JPEG, CODEC_PNG};
 
@@ -191,7 +191,7 @@ static void take(struct viewer *viewer)
     if (!send_queue_next(&viewer->send_queue, bytes, &piece) || !piece.frame_done) {
         return;
     }
-    memcpy(&base, bytes + FRAME_HEADER_BYTES, sizeof(base));
+    memcpy(&base, bytes + FRAME_HEADER_BYTES, sizeof base);
     if (base != 0 && base != viewer->decoded) {
         fail_msg("picture %u needs %u, but the last seen is %u", piece.frame_done, base,
                  viewer->decoded);
