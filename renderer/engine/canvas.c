@@ -30,6 +30,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas)
         for (int k = 0; k < ENGINE_SPACES; k++) {
             free(canvas->cells[i][k].at);
             free(canvas->cells[i][k].tapes);
+            free(canvas->cells[i][k].drops);
         }
     }
     free(canvas->pixels);

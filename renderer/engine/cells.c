@@ -4,12 +4,15 @@
  * leaves out changes no bit of the field in the cube, so cubes may be any, and each thread has its
  * own. */
 
-#define LOOSE 1.5f      /* of its half: the points of a vector need not be in one cube */
-#define CELL_PIXELS 4   /* half of the smallest, in footprints */
-#define CELL_NEAR 0.15f /* half of the smallest, as a part of the distance to a surface */
-#define CELL_SHORT 3    /* such a tape is not made shorter */
-#define CELL_RUN 4      /* operations that take as long as it does to begin a tape */
-#define CELL_LIMIT (1 << 18)
+#define LOOSE 1.1f            /* of its half: the points of a vector need not be in one cube */
+#define CELL_PIXELS 4         /* half of the smallest, in footprints */
+#define CELL_NEAR 0.15f       /* half of the smallest, as a part of the distance to a surface */
+#define CELL_SHORT 3          /* such a tape is not made shorter */
+#define CELL_RUN 4            /* operations that take as long as it does to begin a tape */
+#define CELL_LIMIT (1 << 18)  /* with more cubes, */
+#define TAPES_LIMIT (1 << 24) /* or words of tapes, all are made anew */
+#define BOUND_NEAR 2          /* a cube is far from surfaces that are so many of its halves away */
+#define BOUND_TAPE 96         /* operations that take longer than more steps by a bound */
 
 static struct cell *cell_add(struct cells *cells)
 {
@@ -28,23 +31,54 @@ static void tape_room(struct cells *cells, size_t count)
     }
 }
 
-/* The root holds everything, wherever it is asked for. Cubes that are too many are left. */
+/* The index of so many, 0. */
+static size_t drops_add(struct cells *cells, size_t count)
+{
+    const size_t at = cells->drops_used;
+    if (cells->drops_room - at < count) {
+        cells->drops_room = 2 * (cells->drops_room + count);
+        cells->drops = memory_resize(cells->drops, cells->drops_room, sizeof *cells->drops);
+    }
+    memset(cells->drops + at, 0, count * sizeof *cells->drops);
+    cells->drops_used += count;
+    return at;
+}
+
+/* The root holds all that rays reach: their last step may lead as far again as they go. */
 static void cells_begin(struct lanes *c)
 {
     struct cells *cells = c->cells;
-    if (cells->count && cells->count <= CELL_LIMIT) {
+    if (cells->count) {
         return; /* the picture's other tiles made them */
     }
     cells->last = 0;
+    cells->used = cells->drops_used = 0;
     tape_room(cells, c->program->count);
     for (size_t i = 0; i < c->program->count; i++) {
         cells->tapes[cells->used++] = (uint32_t)i;
     }
     struct cell *root = cell_add(cells);
-    *root = (struct cell){
-        .half = c->frame->max_distance, .count = (uint32_t)c->program->count, .parent = -1};
+    *root = (struct cell){.half = c->frame->max_distance,
+                          .count = (uint32_t)c->program->count,
+                          .parent = -1,
+                          .made = true};
     for (int i = 0; i < 3; i++) {
         root->half = f_max(root->half, 2.0f * fabsf(c->frame->eye[i]));
+    }
+    root->half *= 4.0f;
+    for (int i = 0; i < 3; i++) {
+        root->low[i] = -root->half;
+        root->high[i] = root->half;
+    }
+}
+
+/* Where they are too many they are made anew. Not while one of them is used. */
+static void cells_limit(struct lanes *c)
+{
+    struct cells *cells = c->cells;
+    if (cells->count > CELL_LIMIT || cells->used > TAPES_LIMIT) {
+        cells->count = 0;
+        cells_begin(c);
     }
 }
 
@@ -56,10 +90,19 @@ static vb cell_lanes(const struct cell *cell, vb m, const vf *p)
            (vf_abs(p[1] - cell->centre[1]) <= reach) & (vf_abs(p[2] - cell->centre[2]) <= reach);
 }
 
+/* Each point is in one child of its cube. */
+static vb cell_holds(const struct cell *cell, vb m, const vf *p)
+{
+    for (int i = 0; i < 3; i++) {
+        m &= (p[i] > cell->low[i]) & (p[i] <= cell->high[i]);
+    }
+    return m;
+}
+
 static bool cell_has(const struct cell *cell, const vf *p, int lane)
 {
     for (int i = 0; i < 3; i++) {
-        if (fabsf(p[i][lane] - cell->centre[i]) > cell->half) {
+        if (!(p[i][lane] > cell->low[i] && p[i][lane] <= cell->high[i])) {
             return false;
         }
     }
@@ -67,14 +110,14 @@ static bool cell_has(const struct cell *cell, const vf *p, int lane)
 }
 
 /* The tape of one child, from behind: only what a result is made of. */
-static void make_tape(struct lanes *c, const struct cell *parent, const struct drop *drops,
-                      int lane, struct cell *child)
+static void make_tape(struct lanes *c, const struct cell *parent, int number, struct cell *child)
 {
     struct cells *cells = c->cells;
     const struct operation *operations = c->program->operations;
     bool distance[FIELD_SLOTS_MAX] = {true}, point[FIELD_SLOTS_MAX] = {false};
     tape_room(cells, parent->count);
     const uint32_t *from = cells->tapes + parent->tape;
+    const uint16_t *drops = cells->drops + parent->drops;
     uint32_t *const to = cells->tapes + cells->used;
     uint32_t *at = to + parent->count;
     for (uint32_t i = parent->count; i-- > 0;) {
@@ -92,10 +135,10 @@ static void make_tape(struct lanes *c, const struct cell *parent, const struct d
         } else if (in->op == FIELD_COMBINE && (word & ~(uint32_t)TAPE_INDEX)) {
             distance[in->a] = false;
             distance[in->b] = true;
-        } else if (in->op == FIELD_COMBINE && drops[i].second[lane]) {
+        } else if (in->op == FIELD_COMBINE && drops[i] >> (8 + number) & 1) {
             continue;
         } else if (in->op == FIELD_COMBINE) {
-            const bool first = drops[i].first[lane];
+            const bool first = drops[i] >> number & 1;
             distance[in->a] = !first;
             distance[in->b] = true;
             kept |= !first ? 0 : in->rule == SDF_FIRST ? TAPE_NEGATE : TAPE_MOVE;
@@ -116,6 +159,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, const struct d
         }
         *--at = kept;
     }
+    child->made = true;
     child->tape = (uint32_t)cells->used;
     child->count = (uint32_t)(to + parent->count - at);
     memmove(to, at, child->count * sizeof *at);
@@ -125,12 +169,13 @@ static void make_tape(struct lanes *c, const struct cell *parent, const struct d
 /* Of the part of the field that the first of these lanes is to see; answers which see the same. */
 static vb choose_space(struct lanes *c, vb m)
 {
-    if (!c->frame->has_clear) {
-        return m;
+    if (c->frame->has_clear) {
+        const float through = c->through_0[lanes_first(m)];
+        c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
+        m &= c->through_0 == through;
     }
-    const float through = c->through_0[lanes_first(m)];
-    c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
-    return m & (c->through_0 == through);
+    cells_limit(c);
+    return m;
 }
 
 /* `through`: of the lanes that ask. */
@@ -138,21 +183,23 @@ static void cell_split(struct lanes *c, int32_t index, float through)
 {
     struct machine v;
     const vf asked = c->through_0;
-    const struct cell parent = c->cells->at[index];
-    struct drop *drops = aligned_alloc(sizeof(vf), (parent.count + 1) * sizeof *drops);
     const int32_t children = (int32_t)c->cells->count;
+    const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
-    if (!drops) {
-        abort();
-    }
-    c->through_0 = vf_all(through);
+    c->cells->at[index].children = children;
+    c->cells->at[index].drops = drops_add(c->cells, parent.count);
     for (int k = 0; k < 8; k++) {
         struct cell *child = cell_add(c->cells);
-        *child = (struct cell){.half = half, .parent = index};
+        *child = (struct cell){
+            .half = half, .tape = parent.tape, .count = parent.count, .parent = index};
         for (int i = 0; i < 3; i++) {
-            child->centre[i] = parent.centre[i] + (k >> i & 1 ? half : -half);
+            const bool upper = k >> i & 1;
+            child->centre[i] = parent.centre[i] + (upper ? half : -half);
+            child->low[i] = upper ? parent.centre[i] : parent.low[i];
+            child->high[i] = upper ? parent.high[i] : parent.centre[i];
         }
     }
+    c->through_0 = vf_all(through);
     for (int first = 0; first < 8; first += LANES) {
         vf centre[3] = {0};
         for (int k = 0; k < LANES; k++) {
@@ -161,24 +208,21 @@ static void cell_split(struct lanes *c, int32_t index, float through)
             }
         }
         machine_of(&v, c, vb_all(true), centre);
-        v.drops = drops;
+        v.drops = c->cells->drops + c->cells->at[index].drops;
+        v.child = first;
         v.radius = LOOSE * half * 1.7320508f;
         run(&v, c->cells->tapes + parent.tape, parent.count);
         for (int k = 0; k < LANES && first + k < 8; k++) {
-            struct cell *child = &c->cells->at[children + first + k];
-            make_tape(c, &parent, drops, k, child);
-            child->distance = v.d[0][k];
+            c->cells->at[children + first + k].distance = v.d[0][k];
         }
     }
-    c->cells->at[index].children = children;
     c->through_0 = asked;
-    free(drops);
 }
 
 /* Whether smaller cubes would be worth it. */
 static bool cell_splits(const struct lanes *c, const struct cell *cell)
 {
-    if (cell->children || cell->count <= CELL_SHORT || c->cells->count > CELL_LIMIT) {
+    if (cell->children || cell->count <= CELL_SHORT) {
         return cell->children != 0;
     }
     float square = 0;
@@ -206,13 +250,23 @@ static float cell_cost(const struct cell *cell, vb held)
     return (float)(cell->count + CELL_RUN) / (float)lanes_count(held);
 }
 
-static int32_t child_at(const struct cell *cell, const vf *p, int lane)
+/* The cube's child that a lane is in. */
+static int32_t child_at(struct lanes *c, int32_t at, const vf *p, int lane)
 {
-    int32_t child = cell->children;
-    for (int i = 0; i < 3; i++) {
-        child += (p[i][lane] > cell->centre[i]) << i;
+    struct cells *cells = c->cells;
+    if (!cells->at[at].children) {
+        cell_split(c, at, c->through_0[lane]);
     }
-    return child;
+    const struct cell parent = cells->at[at];
+    int number = 0;
+    for (int i = 0; i < 3; i++) {
+        number += (p[i][lane] > parent.centre[i]) << i;
+    }
+    struct cell *child = &cells->at[parent.children + number];
+    if (!child->made) {
+        make_tape(c, &parent, number, child);
+    }
+    return parent.children + number;
 }
 
 /* A cube for the first of these lanes, and those that it holds: of the cubes around that lane, the
@@ -224,25 +278,23 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
     int32_t at = cells->last;
     const int lane = lanes_first(m);
     vb held = cell_lanes(&cells->at[at], m, p);
-    if (lanes_any(m & ~held)) {
-        /* The cube that the first lane is in without what is around it, so that it is in one of its
-         * children as well. */
-        while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
-            at = cells->at[at].parent;
-        }
-        held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
-    } else if (!cell_has(&cells->at[at], p, lane) || !cell_splits(c, &cells->at[at])) {
+    const struct cell *last = &cells->at[at];
+    if (!lanes_any(m & ~held) &&
+        ((last->count <= BOUND_TAPE && !cell_has(last, p, lane)) || !cell_splits(c, last))) {
         *out_lanes = held;
         return &cells->at[at];
     }
+    /* The cube that the first lane is in without what is around it, so that it is in one of its
+     * children as well. */
+    while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
+        at = cells->at[at].parent;
+    }
+    held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
     int32_t best = at;
     float least = cell_cost(&cells->at[at], held);
     *out_lanes = held;
     while (cell_splits(c, &cells->at[at])) {
-        if (!cells->at[at].children) {
-            cell_split(c, at, c->through_0[lane]);
-        }
-        at = child_at(&cells->at[at], p, lane);
+        at = child_at(c, at, p, lane);
         held = cell_lanes(&cells->at[at], held, p);
         const float cost = cell_cost(&cells->at[at], held);
         if (cost <= least) {
@@ -253,4 +305,49 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_la
     }
     cells->last = best;
     return &cells->at[best];
+}
+
+/* If a cube is far from all surfaces, its children are. */
+static bool cell_is_far(const struct cell *cell)
+{
+    return fabsf(cell->distance) > BOUND_NEAR * cell->half;
+}
+
+/* Whether a lower bound of the distance is worth having: of the cubes on the way down to a point,
+ * the first far one tells, whose tape is the longest. */
+static bool cell_bounds(const struct cell *cell)
+{
+    return cell_is_far(cell) && cell->count > BOUND_TAPE;
+}
+
+/* No point of the cube is nearer to a surface than the middle is, less its way there. */
+static vf cell_bound(const struct cell *cell, const vf *p)
+{
+    vf square = vf_zero;
+    for (int i = 0; i < 3; i++) {
+        const vf way = p[i] - cell->centre[i];
+        square += way * way;
+    }
+    const vf bound = fabsf(cell->distance) - vf_sqrt(square);
+    return cell->distance < 0.0f ? -bound : bound;
+}
+
+/* The largest cube that bounds the field at a lane's point, or else the smallest that it is in.
+ * Which one it is depends on the point alone, so pictures do not depend on cubes. */
+static const struct cell *bound_at(struct lanes *c, const vf *p, int lane)
+{
+    struct cells *cells = c->cells;
+    int32_t at = cells->last;
+    while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
+        at = cells->at[at].parent;
+    }
+    while (at > 0 && cell_is_far(&cells->at[cells->at[at].parent])) {
+        at = cells->at[at].parent;
+    }
+    while ((at > 0 || cell_has(&cells->at[at], p, lane)) && !cell_bounds(&cells->at[at]) &&
+           cell_splits(c, &cells->at[at])) {
+        at = child_at(c, at, p, lane);
+    }
+    cells->last = at;
+    return &cells->at[at];
 }

@@ -71,8 +71,12 @@ void find(Ray ray, float start, out Hit found, out vec4 g, out Surface s)
     vec3 p = ray.origin + ray.direction * t;
     g = vec4(found.hit ? found.normal : vec3(0.0), found.solid ? -max(found.t, 1e-30) : found.t);
     through = found.solid ? FAR : ray.inside ? -FAR : 0.0;
-    surface(p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
-    s.id = found.hit ? s.id : 0u;
+    Mixture nothing = mixture_far();
+    s = surface_begin(nothing);
+    s.id = 0u;
+    if (found.hit) {
+        surface(p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
+    }
 }
 
 /* What comes to a light's ray through clear things, `depth` surfaces at most. */

@@ -5,10 +5,6 @@
 #include "lanes_parts.h"
 #include "protocol/memory.h"
 
-struct drop {
-    vb first, second;
-};
-
 /* --- the field --- */
 
 typedef vf shape_function(struct lanes *c, vb m, const vf *p);
@@ -35,10 +31,12 @@ struct machine {
     vf p[FIELD_SLOTS_MAX][3];
     vf d[FIELD_SLOTS_MAX];
     vf (*mixtures)[MIXTURE]; /* NULL: distances alone */
-    /* NULL, or what each operation of the tape may leave out where `radius` around its point is all
-     * that is asked for. */
-    struct drop *drops;
+    /* NULL, or which operand each operation of the tape may leave out where `radius` around its
+     * point is all that is asked for: the first in bit `child` and on, a bit for each lane, the
+     * second in bit 8 + `child` and on. */
+    uint16_t *drops;
     float radius;
+    int child;
     struct open open[OPEN_MAX];
     int depth;
 };
@@ -98,8 +96,6 @@ static void run_combine(struct machine *v, const struct operation *in)
  * slopes of at most 1 (Barbier et al.: Lipschitz pruning, Computer Graphics Forum 2025). */
 static void record(struct machine *v, const struct operation *in, size_t at)
 {
-    struct drop *drop = &v->drops[at];
-    *drop = (struct drop){vb_zero, vb_zero};
     if (!in->prunes) {
         return;
     }
@@ -109,13 +105,12 @@ static void record(struct machine *v, const struct operation *in, size_t at)
                                          : v->d[in->a];
     const vf b = in->rule == SDF_ALL ? -v->d[in->b] : v->d[in->b];
     const vf far = 2.0f * v->radius + (float)in->reach(n) + 1e-5f * (vf_abs(a) + vf_abs(b));
-    drop->first = a - b > far;
-    drop->second = b - a > far;
+    uint32_t first = lanes_bits(a - b > far), second = lanes_bits(b - a > far);
     if (in->seen && v->c->numbers[in->seen] != 0.0f) {
-        const bool second = v->c->numbers[in->seen] > 0.0f;
-        drop->first = vb_all(second);
-        drop->second = vb_all(!second);
+        first = v->c->numbers[in->seen] > 0.0f ? 0xff : 0;
+        second = ~first;
     }
+    v->drops[at] |= (uint16_t)((first & 0xff) << v->child | (second & 0xff) << (8 + v->child));
 }
 
 static void set_distance(struct machine *v, uint16_t slot, vf d)
@@ -268,6 +263,25 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
         m &= ~held;
     }
     return d;
+}
+
+static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, bool exact)
+{
+    vf d = vf_zero;
+    vb ask = exact || c->program->count <= BOUND_TAPE ? vb_zero : m;
+    while (lanes_any(ask)) {
+        const vb same = choose_space(c, ask);
+        const int first = lanes_first(same);
+        const struct cell *cell = bound_at(c, p, first);
+        vb held = cell_holds(cell, same, p);
+        held[first] = -1; /* also where its place is no number */
+        if (cell_bounds(cell)) {
+            d = vf_select(held, cell_bound(cell, p), d);
+            m &= ~held;
+        }
+        ask &= ~held;
+    }
+    return lanes_any(m) ? vf_select(m, spmd_map(c, m, p), d) : d;
 }
 
 static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *out)

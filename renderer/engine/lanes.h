@@ -152,6 +152,21 @@ LANES_INLINE vf vf_floor(vf x)
 }
 #endif
 
+/* A bit for each. */
+LANES_INLINE uint32_t lanes_bits(vb m)
+{
+#if defined __AVX512F__ && LANES == 16
+    return _mm512_test_epi32_mask((__m512i)m, (__m512i)m);
+#elif defined __AVX__ && LANES == 8
+    return (uint32_t)_mm256_movemask_ps((__m256)m);
+#else
+    uint32_t bits = 0;
+    for (int i = 0; i < LANES; i++) {
+        bits |= (uint32_t)(m[i] & 1) << i;
+    }
+    return bits;
+#endif
+}
 /* The first that is on; the last where none is. */
 LANES_INLINE int lanes_first(vb m)
 {

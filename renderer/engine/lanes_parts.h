@@ -31,9 +31,12 @@ enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
 /* A cube, and what of the program matters in it. */
 struct cell {
     float centre[3], half;    /* the tape holds for LOOSE times this */
+    float low[3], high[3];    /* what is in it is above, and not above */
     float distance;           /* of the field in its centre */
     uint32_t tape, count;     /* among the tapes */
     int32_t parent, children; /* the first of eight; 0: not made yet */
+    size_t drops;             /* what its children's tapes leave out, for each word of its own */
+    bool made;                /* its tape; else it is its parent's */
 };
 
 struct cells {
@@ -41,6 +44,8 @@ struct cells {
     size_t count, capacity;
     uint32_t *tapes;
     size_t used, room;
+    uint16_t *drops;
+    size_t drops_used, drops_room;
     int32_t last; /* that was asked for */
 };
 

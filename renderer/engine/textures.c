@@ -39,7 +39,8 @@ static const struct engine_sky *sky_of(const struct lanes *c, int unit)
 static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4])
 {
     const struct engine_sky *sky = sky_of(c, unit);
-    const vf at = vf_clamp(level, vf_zero, vf_all((float)(sky->levels - 1)));
+    /* What is no number is the first level. */
+    const vf at = vf_min(vf_max(vf_zero, level), vf_all((float)(sky->levels - 1)));
     for (int k = 0; k < 4; k++) {
         out[k] = vf_zero;
     }

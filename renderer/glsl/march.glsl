@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Where a ray meets the field, and its normal. */
 
-#include "field_map.glsl"
+#include "field_bound.glsl"
 #include "ray.glsl"
 
 struct Hit {
@@ -93,7 +93,7 @@ Hit march(Ray ray, float start, float cone, int most)
             vec3 corner = vec3((((i + 3) >> 1) & 1), ((i >> 1) & 1), (i & 1)) * 2.0 - 1.0;
             corner = round == 3 ? east * around.x + north * around.y : corner;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
-            float d = map(base + offset);
+            float d = field_bound(base + offset, round > 0);
             d = clear ? -d : d;
             gradient += corner * d;
             rest += 0.25 * d;

@@ -8,6 +8,10 @@
 #include "local_render.h"
 #include "server/embedded.h"
 
+enum bench_part { BENCH_ALL, BENCH_DRAWING, BENCH_GROWTH, BENCH_DOCUMENTS, BENCH_EDITS };
+/* NULL behind the last. */
+const char *bench_part_name(size_t part);
+
 /* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);
 /* Adds a number with three decimals; more would be noise. */

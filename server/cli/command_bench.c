@@ -36,6 +36,12 @@ double bench_ms_since(int64_t start_us)
     return (double)(clock_us() - start_us) / 1000;
 }
 
+const char *bench_part_name(size_t part)
+{
+    static const char *const names[] = {"all", "drawing", "growth", "documents", "edits"};
+    return part < sizeof names / sizeof names[0] ? names[part] : NULL;
+}
+
 /* Takes `item`; false where the measurement failed. */
 static bool add(cJSON *result, const char *name, cJSON *item)
 {
@@ -45,25 +51,43 @@ static bool add(cJSON *result, const char *name, cJSON *item)
     return item;
 }
 
+static cJSON *measure(const struct options *options, enum bench_part part, struct error *err)
+{
+    const int rounds = option_int(options, OPTION_ROUNDS);
+    struct renderer_params params;
+    local_render_params(options, &params);
+    switch (part) {
+    case BENCH_DRAWING:
+        return bench_drawing(&params, option_text(options, OPTION_ONLY), rounds, err);
+    case BENCH_GROWTH:
+        return bench_growth(&params, rounds, err);
+    case BENCH_DOCUMENTS:
+        return bench_documents(err);
+    case BENCH_EDITS:
+        return bench_store(option_text(options, OPTION_DATA), err);
+    default:
+        return bench_renderer(&params, err);
+    }
+}
+
 int command_bench(const struct options *options)
 {
     const char *only = option_text(options, OPTION_ONLY);
-    int rounds = option_int(options, OPTION_ROUNDS);
-    struct renderer_params params;
+    const enum bench_part asked = (enum bench_part)option_int(options, OPTION_PART);
     struct error err = {0};
     if (only && !examples_find(only)) {
         fprintf(stderr, "fieldcast: --only: %s is no example\n", only);
         return EXIT_USAGE;
     }
-    local_render_params(options, &params);
     cJSON *result = cJSON_CreateObject();
     cJSON_AddStringToObject(result, "fieldcast", FIELDCAST_VERSION);
-    cJSON_AddNumberToObject(result, "rounds", rounds);
-    bool ok = add(result, "renderer", bench_renderer(&params, &err)) &&
-              add(result, "drawing", bench_drawing(&params, only, rounds, &err)) &&
-              (only || add(result, "growth", bench_growth(&params, rounds, &err))) &&
-              add(result, "documents", bench_documents(&err)) &&
-              add(result, "edits", bench_store(option_text(options, OPTION_DATA), &err));
+    cJSON_AddNumberToObject(result, "rounds", option_int(options, OPTION_ROUNDS));
+    bool ok = add(result, "renderer", measure(options, BENCH_ALL, &err));
+    for (enum bench_part part = BENCH_DRAWING; ok && bench_part_name(part); part++) {
+        if (asked == part || (asked == BENCH_ALL && !(only && part == BENCH_GROWTH))) {
+            ok = add(result, bench_part_name(part), measure(options, part, &err));
+        }
+    }
     if (ok) {
         char *text = json_print(result, true);
         puts(text);

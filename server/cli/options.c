@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench.h"
 #include "command.h"
 #include "protocol/codec.h"
 #include "protocol/memory.h"
@@ -213,6 +214,10 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "How often each thing is measured; the median counts."},
     [OPTION_ONLY] = {"only", 0, "EXAMPLE", OPTION_TEXT, .commands = FOR(BENCH),
         .doc = "Measure this example scene alone."},
+    [OPTION_PART] = {"part", 0, "WORD", OPTION_CHOICE, .choice = bench_part_name,
+        .fallback = "all", .commands = FOR(BENCH),
+        .doc = "What is measured: drawing of the examples, growth with the number of shapes, "
+               "documents, edits."},
     [OPTION_REFERENCE] = {"reference", 0, NULL, OPTION_FLAG, .commands = FOR(SCHEMA),
         .doc = "Print the reference page, in Markdown, instead."},
     [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_stage_name,

@@ -13,6 +13,7 @@
 #include "server/cli/local_render.h"
 #include "server/embedded.h"
 #include "tests/support/drawing.h"
+#include "tests/support/json_text.h"
 #include "tests/support/progress.h"
 
 enum {
@@ -21,6 +22,7 @@ enum {
     STEPS = 2,      /* of 255, by which a pixel may differ; */
     PER_MILLE = 10, /* more of them are edges, where one ray meets another surface */
     FRACTAL_PER_MILLE = 60,
+    SCENE_BYTES = 10000,
     SMALL_BYTES = 6000, /* of a document; drivers compile larger ones for long */
 };
 
@@ -136,6 +138,44 @@ static void small_examples_are_the_same_by_both(void **state)
     free(device);
 }
 
+/* So many that far from them the engine looks at a part of the field alone. */
+static struct embedded many_shapes(char *text, size_t room)
+{
+    enum { SHAPES = 64 };
+    size_t at = (size_t)snprintf(text, room, "%s",
+                                 "{'format':'fieldcast/1','root':"
+                                 "{'type':'union','children':[");
+    for (unsigned i = 0; i < SHAPES; i++) {
+        const unsigned place[] = {i * 37 % 64, i * 23 % 64, i * 11 % 64};
+        at += (size_t)snprintf(text + at, room - at,
+                               "%s{'type':'%s','transform':{'translation':"
+                               "[%g,%g,%g],'scale':[0.2,0.2,0.2]}}",
+                               i > 0 ? "," : "", i % 2 ? "sphere" : "box", 0.05 * place[0] - 1.6,
+                               0.03 * place[1] - 1, 0.05 * place[2] - 1.6);
+    }
+    at += (size_t)snprintf(text + at, room - at, "]}}");
+    assert_true(at < room);
+    json_text_quote(text);
+    return (struct embedded){.path = "many", .bytes = (const unsigned char *)text, .length = at};
+}
+
+static void many_shapes_are_the_same_by_both(void **state)
+{
+    static char text[SCENE_BYTES];
+    const struct embedded many = many_shapes(text, sizeof text);
+    struct image images[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct renderer *renderer = open_renderer(i == 0 ? RENDER_COMPUTE : RENDER_ENGINE, usual);
+        images[i] = draw(renderer, &many, 1);
+        renderer_destroy(renderer);
+    }
+    assert_in_range(difference(&images[0], &images[1]), 0, bound_of(&many));
+    image_finish(&images[0]);
+    image_finish(&images[1]);
+}
+
 static const struct embedded *example(const char *name)
 {
     const struct embedded *found = examples_find(name);
@@ -177,18 +217,25 @@ static size_t list_ways(struct way *out)
 /* Small, because the narrowest is checked by the sanitizers. */
 static void all_ways_give_the_same_bytes(void **state)
 {
-    static const char *const names[] = {"csg",   "snowman",      "mirrors",
-                                        "twist", "repeat-polar", "coloured-glass"};
-    enum { NAMES = sizeof names / sizeof names[0], SMALLER = 2, WAYS_MAX = 16 };
-    struct image first[NAMES];
+    static char text[SCENE_BYTES];
+    const struct embedded many = many_shapes(text, sizeof text);
+    const struct embedded *const scenes[] = {example("csg"),
+                                             example("snowman"),
+                                             example("mirrors"),
+                                             example("twist"),
+                                             example("repeat-polar"),
+                                             example("coloured-glass"),
+                                             &many};
+    enum { SCENES = sizeof scenes / sizeof scenes[0], SMALLER = 2, WAYS_MAX = 16 };
+    struct image first[SCENES];
     struct way ways[WAYS_MAX];
     const size_t count = list_ways(ways);
 
     (void)state;
     for (size_t k = 0; k < count; k++) {
         struct renderer *renderer = open_renderer(RENDER_ENGINE, ways[k]);
-        for (size_t i = 0; i < NAMES; i++) {
-            struct image image = draw_part(renderer, example(names[i]), 2, SMALLER);
+        for (size_t i = 0; i < SCENES; i++) {
+            struct image image = draw_part(renderer, scenes[i], 2, SMALLER);
             if (k == 0) {
                 first[i] = image;
                 continue;
@@ -199,7 +246,7 @@ static void all_ways_give_the_same_bytes(void **state)
         }
         renderer_destroy(renderer);
     }
-    for (size_t i = 0; i < NAMES; i++) {
+    for (size_t i = 0; i < SCENES; i++) {
         image_finish(&first[i]);
     }
 }
@@ -208,6 +255,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_examples_are_the_same_by_both),
+        cmocka_unit_test(many_shapes_are_the_same_by_both),
         cmocka_unit_test(other_pictures_are_noticed),
         cmocka_unit_test(all_ways_give_the_same_bytes),
     };
