@@ -78,7 +78,7 @@ endif
 # --- the program ---
 
 # The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
-apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile threads,$(S)/renderer/engine/$(f).c)
+apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile skies threads,$(S)/renderer/engine/$(f).c)
 sources := $(filter-out $(apart),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
@@ -121,7 +121,8 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 # GLSL as C over vectors: the shaders that the engine runs, and each instruction of a field.
 spmd := $(OUT)/spmd
 spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far shown is_edge block_start \
-                pixel_light pixel_color output_of id_bits cell_count cell_next
+                pixel_light pixel_color output_of id_bits cell_count cell_next \
+                environment_sky environment_mirror environment_matt
 spmd_objects := $(call object,$(wildcard $(S)/renderer/spmd/*.c $(S)/protocol/*.c \
                     $(S)/protocol/*/*.c $(S)/renderer/code/*.c $(S)/renderer/field/*.c \
                     $(S)/renderer/sdf/*.c $(S)/renderer/glsl/*.c)) $(OUT)/generated/glsl.o

@@ -54,11 +54,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!renderer->draw) {
         goto fail;
     }
-    renderer->environments = environments_create(
-        &renderer->gl, renderer->info.software || renderer->info.stage == RENDER_ENGINE, err);
-    if (!renderer->environments) {
-        goto fail;
-    }
+    renderer->environments = environments_create(&renderer->gl);
     renderer->pictures = pictures_create();
     renderer->programs =
         program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms);

@@ -43,7 +43,7 @@ struct tile {
 struct draw_scene {
     struct program *program;
     const struct numbers *numbers;
-    const struct environment *environment;
+    struct environment *environment;
     const float *values;                 /* the numbers in memory */
     const struct engine_program *engine; /* NULL: it cannot draw this */
 };

@@ -253,20 +253,11 @@ static void bind_scene(const struct draw *draw, const struct draw_picture *pictu
                        const struct draw_scene *scene)
 {
     const struct gl *gl = draw->gl;
-    const struct {
-        GLenum unit;
-        GLuint texture;
-    } rows[] = {{UNIT_PANORAMA, scene->environment->panorama},
-                {UNIT_MIRRORED, scene->environment->mirrored},
-                {UNIT_IRRADIANCE, scene->environment->irradiance}};
 
     targets_bind(&draw->targets[set_of(picture)], gl);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
     numbers_bind(scene->numbers, gl);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        gl->ActiveTexture(GL_TEXTURE0 + rows[i].unit);
-        gl->BindTexture(GL_TEXTURE_2D, rows[i].texture);
-    }
+    environment_bind(scene->environment, gl);
 }
 
 static struct wave make_wave(const struct draw *draw, struct draw_picture *picture,

@@ -7,21 +7,9 @@
 #include <time.h>
 
 #include "protocol/memory.h"
-#include "renderer/gl/pass.h"
-
-enum {
-    PLAIN_WIDTH = 128, /* of what is drawn where there is no picture; twice the height */
-    MIRROR_WIDTH = 128,
-    MATT_WIDTH = 32,
-};
-
-enum maker { MAKE_PLAIN, MAKE_MIRROR, MAKE_MATT, MAKER_COUNT };
 
 struct environments {
-    bool read; /* into memory */
     const struct gl *gl;
-    struct pass makers[MAKER_COUNT];
-    GLuint frame;
     struct environment *first; /* the last used first */
 };
 
@@ -67,138 +55,49 @@ static uint64_t key_of(const struct frame_block *block, const char *image)
     return sun ? mix_sun(state, block) : state;
 }
 
-/* --- pictures --- */
+/* --- pictures on the device --- */
 
-static int levels_of(int width, int height)
-{
-    int levels = 1;
-
-    for (int side = width > height ? width : height; side > 1; side /= 2) {
-        levels++;
-    }
-    return levels;
-}
-
-static size_t texels_of(int width, int height, int level)
-{
-    const size_t across = width >> level ? (size_t)(width >> level) : 1;
-    const size_t down = height >> level ? (size_t)(height >> level) : 1;
-
-    return across * down;
-}
-
-/* Longitudes meet, latitudes end. Counts its bytes with those of its levels. */
-static GLuint create_picture(const struct gl *gl, int width, int height, int levels,
-                             size_t *out_bytes)
+/* Longitudes meet, latitudes end. */
+static GLuint upload(const struct gl *gl, const struct engine_sky *sky)
 {
     GLuint texture;
 
-    for (int level = 0; level < levels; level++) {
-        *out_bytes += DECODED_TEXEL_BYTES * texels_of(width, height, level);
-    }
-
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, width, height);
+    gl->TexStorage2D(GL_TEXTURE_2D, sky->levels, GL_RGBA16F, sky->width, sky->height);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                      levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+                      sky->levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    for (int level = 0; level < sky->levels; level++) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_sky_side(sky->width, level),
+                          engine_sky_side(sky->height, level), GL_RGBA, GL_FLOAT,
+                          sky->texels + 4 * sky->starts[level]);
+    }
     return texture;
 }
 
-/* Draws one mip level of a picture. */
-static void make(const struct environments *environments, enum maker maker, GLuint out, int level,
-                 int width)
+void environment_bind(struct environment *environment, const struct gl *gl)
 {
-    const struct gl *gl = environments->gl;
-    const struct pass_place place = {.width = width, .height = width / 2, .mode = PASS_TILE};
+    static const GLenum units[ENGINE_SKIES] = {UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE};
 
-    gl->BindImageTexture(IMAGE_ENVIRONMENT, out, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
-    pass_compute(&environments->makers[maker], gl, &place,
-                 PASS_ARGS(struct environment_args, .level = level));
-}
-
-/* The gradient, or the one colour. */
-static void make_plain(const struct environments *environments, struct environment *out)
-{
-    out->panorama = create_picture(environments->gl, PLAIN_WIDTH, PLAIN_WIDTH / 2,
-                                   levels_of(PLAIN_WIDTH, PLAIN_WIDTH / 2), &out->bytes);
-    make(environments, MAKE_PLAIN, out->panorama, 0, PLAIN_WIDTH);
-}
-
-static void upload(const struct environments *environments, const struct decoded *image,
-                   struct environment *out)
-{
-    const struct gl *gl = environments->gl;
-
-    out->panorama = create_picture(gl, image->width, image->height,
-                                   levels_of(image->width, image->height), &out->bytes);
-    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width, image->height, GL_RGBA, GL_HALF_FLOAT,
-                      image->rgba);
-}
-
-/* What is made of `panorama`. */
-static void make_light(const struct environments *environments, struct environment *out)
-{
-    const struct gl *gl = environments->gl;
-
-    out->mirrored = create_picture(gl, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS, &out->bytes);
-    out->irradiance = create_picture(gl, MATT_WIDTH, MATT_WIDTH / 2, 1, &out->bytes);
-    gl->ActiveTexture(GL_TEXTURE0 + UNIT_PANORAMA);
-    gl->BindTexture(GL_TEXTURE_2D, out->panorama);
-    gl->GenerateMipmap(GL_TEXTURE_2D);
-    for (int level = 0; level < MIRROR_LEVELS; level++) {
-        make(environments, MAKE_MIRROR, out->mirrored, level, MIRROR_WIDTH >> level);
+    for (int i = 0; i < ENGINE_SKIES; i++) {
+        gl->ActiveTexture(GL_TEXTURE0 + units[i]);
+        if (environment->textures[i] == 0) {
+            environment->textures[i] = upload(gl, &environment->skies[i]);
+        }
+        gl->BindTexture(GL_TEXTURE_2D, environment->textures[i]);
     }
-    make(environments, MAKE_MATT, out->irradiance, 0, MATT_WIDTH);
-}
-
-static void read_picture(const struct gl *gl, GLuint texture, int width, int height, int levels,
-                         struct environment *out, int index)
-{
-    struct engine_sky *sky = &out->skies[index];
-    size_t count = 0;
-
-    *sky = (struct engine_sky){.width = width, .height = height, .levels = levels};
-    for (int level = 0; level < levels; level++) {
-        sky->starts[level] = count;
-        count += texels_of(width, height, level);
-    }
-    sky->texels = memory_alloc(count, 4 * sizeof *sky->texels);
-    out->bytes += count * 4 * sizeof *sky->texels;
-    gl->ActiveTexture(GL_TEXTURE0);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    for (int level = 0; level < levels; level++) {
-        gl->GetTexImage(GL_TEXTURE_2D, level, GL_RGBA, GL_FLOAT,
-                        sky->texels + 4 * sky->starts[level]);
-    }
-}
-
-/* Into memory. */
-static void read_back(const struct gl *gl, const struct decoded *image, struct environment *out)
-{
-    const int width = image ? image->width : PLAIN_WIDTH;
-    const int height = image ? image->height : PLAIN_WIDTH / 2;
-
-    read_picture(gl, out->panorama, width, height, levels_of(width, height), out, 0);
-    read_picture(gl, out->mirrored, MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS, out, 1);
-    read_picture(gl, out->irradiance, MATT_WIDTH, MATT_WIDTH / 2, 1, out, 2);
 }
 
 /* --- the list --- */
 
 static void destroy(const struct environments *environments, struct environment *environment)
 {
-    const GLuint textures[] = {environment->panorama, environment->mirrored,
-                               environment->irradiance};
-
-    environments->gl->DeleteTextures(3, textures);
-    for (int i = 0; i < ENGINE_SKIES; i++) {
-        free(environment->skies[i].texels);
-    }
+    environments->gl->DeleteTextures(ENGINE_SKIES, environment->textures);
+    engine_skies_finish(environment->skies);
     free(environment);
 }
 
@@ -230,30 +129,14 @@ static void clean(struct environments *environments)
     }
 }
 
-static struct environment *create(struct environments *environments,
-                                  const struct frame_block *block, const struct decoded *image,
-                                  struct error *err)
+static struct environment *create(const struct frame_block *block, const struct decoded *image)
 {
-    const struct gl *gl = environments->gl;
     struct environment *environment = memory_alloc(1, sizeof *environment);
 
-    gl->BindBuffer(GL_UNIFORM_BUFFER, environments->frame);
-    gl->BufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_STREAM_DRAW);
-    gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, environments->frame);
-    gl->ActiveTexture(GL_TEXTURE0 + UNIT_PANORAMA);
-    if (image) {
-        upload(environments, image, environment);
-    } else {
-        make_plain(environments, environment);
-    }
-    make_light(environments, environment);
-    if (environments->read) {
-        read_back(gl, image, environment);
-    }
-    gl->Finish(); /* so that its time is told apart */
-    if (!gl_check(gl, "environment", err)) {
-        destroy(environments, environment);
-        return NULL;
+    engine_skies_make(block, image ? image->rgba : NULL, image ? image->width : 0,
+                      image ? image->height : 0, environment->skies);
+    for (int i = 0; i < ENGINE_SKIES; i++) {
+        environment->bytes += environment->skies[i].bytes;
     }
     return environment;
 }
@@ -282,8 +165,7 @@ bool environments_have(struct environments *environments, const struct frame_blo
 
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_block *block, const char *image,
-                                     const struct decoded *decoded, uint32_t *out_us,
-                                     struct error *err)
+                                     const struct decoded *decoded, uint32_t *out_us)
 {
     const uint64_t begun = now_us(), key = key_of(block, image);
     struct environment **at = find(environments, key), *environment = *at;
@@ -292,10 +174,7 @@ struct environment *environments_get(struct environments *environments,
     if (environment) {
         *at = environment->next;
     } else {
-        environment = create(environments, block, decoded, err);
-        if (!environment) {
-            return NULL;
-        }
+        environment = create(block, decoded);
         environment->key = key;
         *out_us = (uint32_t)(now_us() - begun);
     }
@@ -315,24 +194,11 @@ void environment_unref(struct environments *environments, struct environment *en
 
 /* --- birth and death --- */
 
-struct environments *environments_create(const struct gl *gl, bool read, struct error *err)
+struct environments *environments_create(const struct gl *gl)
 {
-    static const char *const files[MAKER_COUNT] = {[MAKE_PLAIN] = "environment_sky.glsl",
-                                                   [MAKE_MIRROR] = "environment_mirror.glsl",
-                                                   [MAKE_MATT] = "environment_matt.glsl"};
     struct environments *environments = memory_alloc(1, sizeof *environments);
 
     environments->gl = gl;
-    environments->read = read;
-    gl->GenBuffers(1, &environments->frame);
-    for (int i = 0; i < MAKER_COUNT; i++) {
-        const struct pass_source source = {.compute = true, .file = files[i]};
-
-        if (!pass_init(&environments->makers[i], gl, &source, err)) {
-            environments_destroy(environments);
-            return NULL;
-        }
-    }
     return environments;
 }
 
@@ -347,9 +213,5 @@ void environments_destroy(struct environments *environments)
         environments->first = environment->next;
         destroy(environments, environment);
     }
-    for (int i = 0; i < MAKER_COUNT; i++) {
-        pass_finish(&environments->makers[i], environments->gl);
-    }
-    environments->gl->DeleteBuffers(1, &environments->frame);
     free(environments);
 }

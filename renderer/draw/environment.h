@@ -17,21 +17,17 @@
 #include "renderer/image/decode.h"
 
 struct environment {
-    GLuint panorama; /* the picture, or the gradient as one; rgba16f as the others, with mipmaps */
-    GLuint mirrored; /* mip level i for roughness (i + 1) / levels */
-    GLuint irradiance;                     /* over pi, so 1 in an environment of 1 */
-    struct engine_sky skies[ENGINE_SKIES]; /* the same in memory, where that is wanted */
+    struct engine_sky skies[ENGINE_SKIES];
+    GLuint textures[ENGINE_SKIES]; /* the same as rgba16f; 0: not on the device */
     int references;
     uint64_t key;
-    size_t bytes;
+    size_t bytes; /* in memory */
     struct environment *next;
 };
 
 struct environments; /* those of a renderer */
 
-/* Compiles its shaders. `read`: environments are wanted in memory as well. NULL and `err` where GL
- * fails. */
-struct environments *environments_create(const struct gl *gl, bool read, struct error *err);
+struct environments *environments_create(const struct gl *gl);
 void environments_destroy(struct environments *environments); /* NULL: nothing */
 
 /* The same without its picture: one colour. */
@@ -40,14 +36,14 @@ void environment_leave_out(struct frame_block *block);
  * a block with SKY_IMAGE; else it means nothing. */
 bool environments_have(struct environments *environments, const struct frame_block *block,
                        const char *image);
-/* What is around a scene with this frame block; a new reference, NULL and `err` where GL fails.
- * `decoded`: its picture, where it has one that environments_have does not know. `*out_us`: the
- * time it took, 0 where it was ready. Changes bindings of textures, images, buffers and the
- * program. */
+/* What is around a scene with this frame block; a new reference. `decoded`: its picture, where it
+ * has one that environments_have does not know. `*out_us`: the time it took, 0 where it was
+ * ready. */
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_block *block, const char *image,
-                                     const struct decoded *decoded, uint32_t *out_us,
-                                     struct error *err);
+                                     const struct decoded *decoded, uint32_t *out_us);
+/* Binds its pictures to their units, after copying them to the device where they are not there. */
+void environment_bind(struct environment *environment, const struct gl *gl);
 void environment_unref(struct environments *environments, struct environment *environment);
 
 #endif

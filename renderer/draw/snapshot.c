@@ -201,8 +201,8 @@ static bool is_unreadable(const struct renderer *renderer, const char *id, struc
 }
 
 /* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. */
-static bool surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
-                     const struct decoded *decoded, const struct error *problem, struct error *err)
+static void surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
+                     const struct decoded *decoded, const struct error *problem)
 {
     if (problem->kind != ERROR_NONE) {
         environment_leave_out(&snapshot->frame);
@@ -211,13 +211,12 @@ static bool surround(struct renderer *renderer, struct snapshot *snapshot, const
         snapshot->warning = (struct warning){WARNING_ASSET, *problem};
     }
     snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
-                                             decoded, &snapshot->environment_us, err);
-    return snapshot->environment != NULL;
+                                             decoded, &snapshot->environment_us);
 }
 
 /* What does not depend on the program. A picture is waited for. */
-static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
-                        const struct scene *scene, struct error *err)
+static void look_around(struct renderer *renderer, struct snapshot *snapshot,
+                        const struct scene *scene)
 {
     const char *image = record_text(&scene->environment, "image");
     struct error problem = {0};
@@ -227,12 +226,12 @@ static bool look_around(struct renderer *renderer, struct snapshot *snapshot,
     if (snapshot->frame.sky_kind != SKY_IMAGE ||
         environments_have(renderer->environments, &snapshot->frame, image) ||
         is_unreadable(renderer, image, &problem)) {
-        return surround(renderer, snapshot, image, NULL, &problem, err);
+        surround(renderer, snapshot, image, NULL, &problem);
+        return;
     }
     snapshot->picture = pictures_want(renderer->pictures, assets_find(renderer->assets, image));
     snapshot->next = renderer->waiting;
     renderer->waiting = snapshot;
-    return true;
 }
 
 /* It waits for its picture no longer. */
@@ -260,9 +259,9 @@ void snapshots_settle(struct renderer *renderer)
         if (!picture_is_done(picture)) {
             continue;
         }
-        if (surround(renderer, snapshot, picture_id(picture), picture_pixels(picture),
-                     picture_problem(picture), &snapshot->error) &&
-            snapshot->environment_us > 0) {
+        surround(renderer, snapshot, picture_id(picture), picture_pixels(picture),
+                 picture_problem(picture));
+        if (snapshot->environment_us > 0) {
             snapshot->environment_us += picture_us(picture);
         }
         leave_waiting(renderer, snapshot);
@@ -320,10 +319,7 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent =
         extent_of(field, &scene->camera, renderer->info.software && !snapshot->engine);
-    if (!look_around(renderer, snapshot, scene, err)) {
-        snapshot_unref(renderer, snapshot);
-        return NULL;
-    }
+    look_around(renderer, snapshot, scene);
     return snapshot;
 }
 

@@ -5,6 +5,7 @@
 
 #include "camera.glsl"
 #include "clear.glsl"
+#include "environment.glsl"
 #include "field_surface.glsl"
 #include "forward_store.glsl"
 #include "kernels.glsl"

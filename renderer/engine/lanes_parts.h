@@ -127,8 +127,13 @@ struct engine_width {
     uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
     void (*distances)(const struct engine_program *program, const float *numbers,
                       const float (*points)[3], size_t count, float *out);
+    /* A level of one of the pictures; all but the first are made of that. */
+    void (*make_sky)(const struct frame_block *frame, struct engine_sky skies[ENGINE_SKIES],
+                     int number, int level);
 };
 extern const struct engine_width engine_16, engine_8, engine_4;
+/* The widest that the processor has. */
+const struct engine_width *engine_widest(void);
 
 struct lanes;
 struct scene_block {

@@ -23,6 +23,11 @@ static const struct engine_width *width_at(size_t index)
     return first + index < sizeof widths / sizeof widths[0] ? widths[first + index] : NULL;
 }
 
+const struct engine_width *engine_widest(void)
+{
+    return width_at(0);
+}
+
 int engine_lanes(size_t index)
 {
     const struct engine_width *width = width_at(index);

@@ -11,6 +11,7 @@
 #include "textures.c"
 #include "tile.c"
 
+#include "skies.c"
 #include "threads.c"
 
 #define CALL_ROW(row, base, size, one, function)
@@ -29,6 +30,11 @@ static const struct call_row calls[] = {
 
 #define JOIN(a, b) a##b
 #define NAME(lanes) JOIN(engine_, lanes)
-const struct engine_width NAME(LANES) = {
-    LANES, kernels,  sizeof kernels / sizeof kernels[0], calls, sizeof calls / sizeof calls[0],
-    draw,  distances};
+const struct engine_width NAME(LANES) = {LANES,
+                                         kernels,
+                                         sizeof kernels / sizeof kernels[0],
+                                         calls,
+                                         sizeof calls / sizeof calls[0],
+                                         draw,
+                                         distances,
+                                         make_sky};

@@ -47,7 +47,6 @@
     X(FLUSH, Flush)                                                                                \
     X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                                                  \
     X(GENBUFFERS, GenBuffers)                                                                      \
-    X(GENERATEMIPMAP, GenerateMipmap)                                                              \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
     X(GENQUERIES, GenQueries)                                                                      \
     X(GENTEXTURES, GenTextures)                                                                    \
@@ -61,7 +60,6 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSTRING, GetString)                                                                        \
-    X(GETTEXIMAGE, GetTexImage)                                                                    \
     X(GETUNIFORMBLOCKINDEX, GetUniformBlockIndex)                                                  \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(MAPBUFFERRANGE, MapBufferRange)                                                              \

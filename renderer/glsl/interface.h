@@ -102,7 +102,6 @@
     X(IMAGE_SEEN) /* visibility */                                                                 \
     X(IMAGE_PIXELS)                                                                                \
     X(IMAGE_COUNTED)
-#define ENVIRONMENT_IMAGES(X) X(IMAGE_ENVIRONMENT)
 
 /* --- the uniform block of a picture --- */
 
@@ -207,8 +206,7 @@
     X(blend_edges)
 #define FORWARD_ARGS(X)                                                                            \
     X(sample_index)                                                                                \
-    X(rays)                          /* after the first */
-#define ENVIRONMENT_ARGS(X) X(level) /* of the mip map */
+    X(rays) /* after the first */
 
 /* --- the same in C --- */
 
@@ -232,7 +230,6 @@ enum { STORAGE_BLOCKS(INTERFACE_NAME) };
 enum { TEXTURE_UNITS(INTERFACE_NAME) UNIT_COUNT };
 enum { FIELD_IMAGES(INTERFACE_NAME) };
 enum { COMMON_IMAGES(INTERFACE_NAME) };
-enum { ENVIRONMENT_IMAGES(INTERFACE_NAME) };
 enum {
     GROUP_SIZE = 64, /* of a work group: GROUP_SIDE x GROUP_SIDE samples */
     GROUP_SIDE = 8,  /* samples that one work group covers: group.glsl */
@@ -275,9 +272,6 @@ struct resolve_args {
 };
 struct forward_args {
     FORWARD_ARGS(INTERFACE_ARG)
-};
-struct environment_args {
-    ENVIRONMENT_ARGS(INTERFACE_ARG)
 };
 
 /* The text of "interface.glsl". */

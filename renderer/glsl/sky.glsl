@@ -2,7 +2,7 @@
 /* The environment: what a ray that hits nothing sees, and the light that comes from there.
  *
  * It lies in pictures by longitude and latitude: the middle looks along -Z, +X is right of it, the
- * first row is straight up. In those that environment_*.glsl make, first and last row are the poles
+ * first row is straight up. In those that environment.glsl makes, first and last row are the poles
  * themselves, so that nothing is pinched there. */
 
 #include "frame.glsl"

@@ -56,8 +56,7 @@ static int set_up(void **state)
 
     (void)state;
     if (!egl_init(&egl, &params, &err) || !gl_load(&gl, &err) ||
-        !pass_init(&asking, &gl, &source, &err) ||
-        !(environments = environments_create(&gl, false, &err))) {
+        !pass_init(&asking, &gl, &source, &err) || !(environments = environments_create(&gl))) {
         error_print(&err, stderr);
         return -1;
     }
@@ -77,18 +76,10 @@ static int tear_down(void **state)
 
 /* --- asking --- */
 
-static void bind(GLuint unit, GLuint texture)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-}
-
-static void ask(const struct frame_block *block, const struct environment *environment,
+static void ask(const struct frame_block *block, struct environment *environment,
                 const struct question *questions, size_t count, float (*answers)[4])
 {
-    bind(UNIT_PANORAMA, environment->panorama);
-    bind(UNIT_MIRRORED, environment->mirrored);
-    bind(UNIT_IRRADIANCE, environment->irradiance);
+    environment_bind(environment, &gl);
     gl.BindBuffer(GL_UNIFORM_BUFFER, buffers[0]);
     gl.BufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_STREAM_DRAW);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, buffers[0]);
@@ -118,10 +109,9 @@ static struct environment *get(const struct frame_block *block, const struct ass
     const bool read = block->sky_kind == SKY_IMAGE && !environments_have(environments, block, id);
     struct decoded decoded = {0};
     struct environment *environment;
-    struct error err = {0};
 
     assert_true(!read || image_decode(image->bytes, image->length, &decoded, NULL));
-    environment = environments_get(environments, block, id, read ? &decoded : NULL, out_us, &err);
+    environment = environments_get(environments, block, id, read ? &decoded : NULL, out_us);
     assert_non_null(environment);
     decoded_finish(&decoded);
     return environment;
