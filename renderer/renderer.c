@@ -50,16 +50,14 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     gl_debug(&renderer->gl, &renderer->sink);
     read_info(renderer);
     renderer_use_stage(renderer, params->stage);
-    renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side, err);
-    if (!renderer->draw) {
-        goto fail;
-    }
+    renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
     renderer->environments = environments_create(&renderer->gl);
     renderer->pictures = pictures_create();
     renderer->programs =
         program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms);
     /* Before the process is confined, where it is going to compile. */
-    if (renderer->info.stage == RENDER_COMPUTE && !program_cache_start(renderer->programs, err)) {
+    if (renderer->info.stage == RENDER_COMPUTE &&
+        (!draw_prepare(renderer->draw, err) || !program_cache_start(renderer->programs, err))) {
         goto fail;
     }
     return renderer;

@@ -83,7 +83,7 @@ uint64_t draw_now_us(void)
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
 {
     const bool full = plan->antialiasing == ANTIALIASING_FULL;
-    int side = draw->targets[0].side;
+    int side = draw->side;
 
     for (int samples = full ? plan->samples : 1; samples > 4 && side > TILE_LEAST; samples /= 4) {
         side /= 2;

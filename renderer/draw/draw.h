@@ -87,7 +87,10 @@ struct draw_picture {
 
 /* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the
  * device. */
-struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err);
+struct draw *draw_create(const struct gl *gl, bool software, int tile_side);
+/* Makes what the device draws with, where it is not there. The first picture that the device draws
+ * does it too, and fails where this fails. */
+bool draw_prepare(struct draw *draw, struct error *err);
 void draw_destroy(struct draw *draw);
 /* Largest side of the tiles that a picture is drawn in, in pixels: less for many samples. */
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan);

@@ -16,26 +16,44 @@ enum {
     FENCE_WAIT_MS = 60000, /* beyond it the device is taken for lost */
 };
 
-struct draw *draw_create(const struct gl *gl, bool software, int tile_side, struct error *err)
+struct draw *draw_create(const struct gl *gl, bool software, int tile_side)
 {
     struct draw *draw = memory_alloc(1, sizeof *draw);
-    const int side = tile_side > 0 ? tile_side : software ? TILE_SOFTWARE : TILE_GPU;
 
     draw->gl = gl;
     draw->software = software;
-    for (int i = 0; i < DRAW_SETS; i++) {
-        if (!targets_init(&draw->targets[i], gl, side, err)) {
-            draw_destroy(draw);
-            return NULL;
-        }
-    }
-    if (!common_init(&draw->common, gl, err)) {
-        draw_destroy(draw);
-        return NULL;
-    }
-    draw->compilations = COMMON_COUNT;
-    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    draw->side = tile_side > 0 ? tile_side : software ? TILE_SOFTWARE : TILE_GPU;
     return draw;
+}
+
+static void forget_targets(struct draw *draw)
+{
+    common_finish(&draw->common, draw->gl);
+    for (int i = 0; i < DRAW_SETS; i++) {
+        targets_finish(&draw->targets[i], draw->gl);
+    }
+    memset(&draw->common, 0, sizeof draw->common);
+    memset(draw->targets, 0, sizeof draw->targets);
+}
+
+bool draw_prepare(struct draw *draw, struct error *err)
+{
+    bool ok = true;
+
+    if (draw->prepared) {
+        return true;
+    }
+    for (int i = 0; ok && i < DRAW_SETS; i++) {
+        ok = targets_init(&draw->targets[i], draw->gl, draw->side, err);
+    }
+    if (!ok || !common_init(&draw->common, draw->gl, err)) {
+        forget_targets(draw);
+        return false;
+    }
+    draw->prepared = true;
+    draw->compilations += COMMON_COUNT;
+    draw->gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    return true;
 }
 
 void draw_destroy(struct draw *draw)
@@ -46,10 +64,7 @@ void draw_destroy(struct draw *draw)
     for (size_t i = 0; i < OUTPUT_COUNT; i++) {
         pass_finish(&draw->resolve[i], draw->gl);
     }
-    common_finish(&draw->common, draw->gl);
-    for (int i = 0; i < DRAW_SETS; i++) {
-        targets_finish(&draw->targets[i], draw->gl);
-    }
+    forget_targets(draw);
     free(draw);
 }
 
@@ -89,7 +104,7 @@ static void make_slot(const struct draw *draw, struct draw_slot *slot,
                       const struct draw_form *const wanted[AOV_COUNT])
 {
     const struct gl *gl = draw->gl;
-    const GLsizeiptr pixels = (GLsizeiptr)draw->targets[0].side * draw->targets[0].side;
+    const GLsizeiptr pixels = (GLsizeiptr)draw->side * draw->side;
 
     for (int i = 0; i < AOV_COUNT; i++) {
         if (wanted[i]) {
@@ -108,6 +123,9 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
     const struct gl *gl = draw->gl;
 
     (void)scene;
+    if (!draw_prepare(draw, err)) {
+        return false;
+    }
     for (int i = 0; i < AOV_COUNT; i++) {
         if (picture->forms[i] && !resolve_pass(draw, picture->forms[i], err)) {
             return false;

@@ -9,6 +9,8 @@
 struct draw {
     const struct gl *gl;
     bool software;
+    int side;      /* of a tile with its margin */
+    bool prepared; /* targets and common passes are there */
     struct targets targets[DRAW_SETS];
     struct common common;
     struct pass resolve[OUTPUT_COUNT]; /* linked when first needed */
