@@ -5,7 +5,15 @@ import { execFile } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { ask, counter, makeDirectory, program, removeDirectory, startDaemon } from '../support/daemon.mjs';
+import {
+    ask,
+    counter,
+    logged,
+    makeDirectory,
+    program,
+    removeDirectory,
+    startDaemon,
+} from '../support/daemon.mjs';
 
 const PAGE = 4096;
 const data = makeDirectory();
@@ -55,7 +63,7 @@ test('a whole one is said to be whole', async () => {
 test('a damaged one is told by the log, by readiness, by doctor, and counted', async () => {
     assert.ok(losePages('lostlost') > 0);
     daemon = await startDaemon({ data, driver: 'null', ready: false });
-    assert.match(daemon.errors, /scenes\.sqlite is damaged: /);
+    await logged(daemon, /scenes\.sqlite is damaged: /);
     const ready = await fetch(`${daemon.url}/readyz`);
     assert.equal(ready.status, 503);
     assert.match((await ready.json()).detail, /the database is damaged: /);

@@ -3,7 +3,16 @@
 import assert from 'node:assert/strict';
 import net from 'node:net';
 import { after, test } from 'node:test';
-import { ask, counter, makeDirectory, removeDirectory, sleep, startDaemon, until } from '../support/daemon.mjs';
+import {
+    ask,
+    counter,
+    logged,
+    makeDirectory,
+    removeDirectory,
+    sleep,
+    startDaemon,
+    until,
+} from '../support/daemon.mjs';
 import { encodeMessage, Live } from '../support/live.mjs';
 
 const data = makeDirectory();
@@ -102,7 +111,7 @@ test('a commit that fails ends the daemon, and nothing is told durable', async (
     }
     const { status, signal } = await daemon.exited;
     assert.equal(status, 74, `${signal} ${daemon.errors.slice(-500)}`);
-    assert.match(daemon.errors, /error store: /);
+    await logged(daemon, /error store: /);
     const durable = live.messages.filter((m) => m.type === 'applied' && m.durable).map((m) => m.edit);
     const again = await startDaemon({ data, ready: false, driver: 'null' });
     const back = await Live.open(again, 's', { client: live.client });

@@ -8,6 +8,7 @@ import {
     ask,
     counter,
     driverEnvironment,
+    logged,
     makeDirectory,
     memoryOf,
     program,
@@ -172,7 +173,7 @@ test('pictures that end whoever reads them', async (t) => {
         await live.nextFrame((frame) => frame.lossless);
         assert.equal(await counter(daemon, 'worker_restarts_total'), restarts + 1);
         assert.ok(!live.find('notice', { level: 'error' }));
-        assert.match(daemon.errors, /scene hangs, revision 1, took too long; it is tried again/);
+        await logged(daemon, /scene hangs, revision 1, took too long; it is tried again/);
         await live.close();
     });
 

@@ -12,6 +12,7 @@ import {
     counter,
     cpuSecondsOf,
     driverEnvironment,
+    logged,
     makeDirectory,
     program,
     removeDirectory,
@@ -122,7 +123,7 @@ test('a process that is stopped is replaced', async () => {
     const pid = daemon.worker();
     process.kill(pid, 'SIGSTOP');
     await until(() => daemon.worker() && daemon.worker() !== pid, 'another worker');
-    assert.match(daemon.errors, /silent and still for/);
+    await logged(daemon, /silent and still for/);
 });
 
 test('a process that waits for a processor is not', async () => {

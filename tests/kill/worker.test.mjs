@@ -2,7 +2,7 @@
 // The render process is killed, stopped, and killed again by a scene, while clients drag.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { ask, counter, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, logged, sleep, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 import net from 'node:net';
 
@@ -121,7 +121,7 @@ test('where nothing can be drawn the daemon ends and says why', async () => {
     const daemon = await startDaemon({ args: ['--device-index', '200'], ready: false });
     const { status } = await daemon.exited;
     assert.equal(status, 1);
-    assert.match(daemon.errors, /device/i);
+    await logged(daemon, /device/i);
     await daemon.stop();
 });
 

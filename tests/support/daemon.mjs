@@ -87,6 +87,9 @@ export const driverEnvironment = (...names) => ({
     ASAN_OPTIONS: `${process.env.ASAN_OPTIONS ?? ''}:verify_asan_link_order=0`,
 });
 
+/** Waits for the log to say it: its bytes are on their way when what they tell of has happened. */
+export const logged = (daemon, pattern) => until(() => pattern.test(daemon.errors), `${pattern} in the log`);
+
 /** Waits for the end of a daemon; where it does not come, all who write to `errors` are told and killed. */
 async function untilEnded(ended, errors, what) {
     try {
