@@ -73,8 +73,8 @@ static GLuint upload(const struct gl *gl, const struct engine_sky *sky)
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     for (int level = 0; level < sky->levels; level++) {
         gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_sky_side(sky->width, level),
-                          engine_sky_side(sky->height, level), GL_RGBA, GL_FLOAT,
-                          sky->texels + 4 * sky->starts[level]);
+                          engine_sky_side(sky->height, level), GL_RGBA, GL_HALF_FLOAT,
+                          sky->texels[level]);
     }
     return texture;
 }
@@ -129,12 +129,16 @@ static void clean(struct environments *environments)
     }
 }
 
-static struct environment *create(const struct frame_block *block, const struct decoded *image)
+static struct environment *create(const struct frame_block *block, struct decoded *image)
 {
     struct environment *environment = memory_alloc(1, sizeof *environment);
 
-    engine_skies_make(block, image ? image->rgba : NULL, image ? image->width : 0,
-                      image ? image->height : 0, environment->skies);
+    if (image) {
+        engine_skies_make(block, image->rgba, image->width, image->height, environment->skies);
+        image->rgba = NULL;
+    } else {
+        engine_skies_make(block, NULL, 0, 0, environment->skies);
+    }
     for (int i = 0; i < ENGINE_SKIES; i++) {
         environment->bytes += environment->skies[i].bytes;
     }
@@ -165,7 +169,7 @@ bool environments_have(struct environments *environments, const struct frame_blo
 
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_block *block, const char *image,
-                                     const struct decoded *decoded, uint32_t *out_us)
+                                     struct decoded *decoded, uint32_t *out_us)
 {
     const uint64_t begun = now_us(), key = key_of(block, image);
     struct environment **at = find(environments, key), *environment = *at;

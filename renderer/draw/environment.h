@@ -37,11 +37,11 @@ void environment_leave_out(struct frame_block *block);
 bool environments_have(struct environments *environments, const struct frame_block *block,
                        const char *image);
 /* What is around a scene with this frame block; a new reference. `decoded`: its picture, where it
- * has one that environments_have does not know. `*out_us`: the time it took, 0 where it was
- * ready. */
+ * has one that environments_have does not know; its pixels are taken. `*out_us`: the time it took,
+ * 0 where it was ready. */
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_block *block, const char *image,
-                                     const struct decoded *decoded, uint32_t *out_us);
+                                     struct decoded *decoded, uint32_t *out_us);
 /* Binds its pictures to their units, after copying them to the device where they are not there. */
 void environment_bind(struct environment *environment, const struct gl *gl);
 void environment_unref(struct environments *environments, struct environment *environment);

@@ -115,7 +115,7 @@ bool picture_is_done(const struct picture *picture)
     return picture->done;
 }
 
-const struct decoded *picture_pixels(const struct picture *picture)
+struct decoded *picture_pixels(struct picture *picture)
 {
     return picture->decoded.rgba ? &picture->decoded : NULL;
 }

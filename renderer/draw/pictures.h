@@ -21,8 +21,9 @@ void picture_unref(struct pictures *pictures, struct picture *picture); /* NULL:
 const char *picture_id(const struct picture *picture);
 /* It was read, or cannot be. */
 bool picture_is_done(const struct picture *picture);
-/* Of one that is done: its pixels, the picture's own. NULL: it has none. */
-const struct decoded *picture_pixels(const struct picture *picture);
+/* Of one that is done: its pixels, the picture's own; who needs them may take them. NULL: it has
+ * none, or they were taken. */
+struct decoded *picture_pixels(struct picture *picture);
 /* Why it has none, as a warning at /environment/image; the asset has it too. */
 const struct error *picture_problem(const struct picture *picture);
 uint32_t picture_us(const struct picture *picture); /* time that reading took */

@@ -202,7 +202,7 @@ static bool is_unreadable(const struct renderer *renderer, const char *id, struc
 
 /* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. */
 static void surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
-                     const struct decoded *decoded, const struct error *problem)
+                     struct decoded *decoded, const struct error *problem)
 {
     if (problem->kind != ERROR_NONE) {
         environment_leave_out(&snapshot->frame);

@@ -16,18 +16,18 @@ enum { ENGINE_LEVELS = 16 };
 /* A picture by longitude and latitude, with smaller ones of it. Linear light. */
 struct engine_sky {
     int width, height, levels;
-    size_t starts[ENGINE_LEVELS]; /* texels in front of each level's */
-    float *texels;                /* four for each, level by level */
-    size_t bytes;                 /* of them */
+    uint16_t *texels[ENGINE_LEVELS]; /* of each level, four halves for each */
+    size_t bytes;                    /* of all of them */
 };
 
 enum { ENGINE_SKIES = 3 }; /* UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE */
 
 /* The surroundings of a scene (glsl/environment.glsl): as they are, as surfaces of each roughness
  * mirror them, and as matt ones receive them. `halves`: their picture, four for each texel, row 0
- * on top, finite, 0 and above; NULL: the frame block's colours. */
-void engine_skies_make(const struct frame_block *frame, const uint16_t *halves, int width,
-                       int height, struct engine_sky out[ENGINE_SKIES]);
+ * on top, finite, 0 and above; allocated, and the skies' own from then on. NULL: the frame block's
+ * colours. */
+void engine_skies_make(const struct frame_block *frame, uint16_t *halves, int width, int height,
+                       struct engine_sky out[ENGINE_SKIES]);
 void engine_skies_finish(struct engine_sky skies[ENGINE_SKIES]);
 /* Width or height of a level of a picture so wide or high. */
 int engine_sky_side(int side, int level);

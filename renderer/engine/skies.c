@@ -20,7 +20,7 @@ static void make_level(struct lanes *c, struct engine_sky *sky, int level, sky_t
     const int width = engine_sky_side(sky->width, level);
     const int height = engine_sky_side(sky->height, level);
     const vf size[2] = {(vf)vi_all(width), (vf)vi_all(height)};
-    float *to = sky->texels + 4 * sky->starts[level];
+    uint16_t *to = sky->texels[level];
     for (int first = 0; first < width * height; first += LANES) {
         const vi at = first + count_up();
         const vf here[2] = {(vf)(at % width), (vf)(at / width)};
@@ -28,7 +28,7 @@ static void make_level(struct lanes *c, struct engine_sky *sky, int level, sky_t
         texel(c, at < width * height, here, size, level, color);
         for (int i = 0; i < LANES && first + i < width * height; i++, to += 4) {
             for (int k = 0; k < 4; k++) {
-                to[k] = k < 3 ? color[k][i] : 1;
+                to[k] = half_of(k < 3 ? color[k][i] : 1);
             }
         }
     }

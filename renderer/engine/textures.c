@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures of environments as shaders read them, and what a tile has of its pixels. */
 
-typedef float texel4 __attribute__((vector_size(16), aligned(4)));
+typedef float texel4 __attribute__((vector_size(16)));
+typedef uint32_t bits4 __attribute__((vector_size(16)));
+typedef uint16_t halves4 __attribute__((vector_size(8), aligned(2)));
 
 /* Of one level. It goes around, and ends at the poles. */
-static texel4 texel(const float *texels, int width, int height, int x, int y)
+static texel4 texel(const uint16_t *texels, int width, int height, int x, int y)
 {
     x = x >= 0 && x < width ? x : ((x % width) + width) % width;
     y = y < 0 ? 0 : y >= height ? height - 1 : y;
-    return *(const texel4 *)(texels + 4 * ((size_t)y * (size_t)width + (size_t)x));
+    const halves4 halves = *(const halves4 *)(texels + 4 * ((size_t)y * (size_t)width + (size_t)x));
+    const bits4 bits = __builtin_convertvector(halves, bits4) << 13;
+    return (texel4)bits * 0x1p112f; /* as half_value() does */
 }
 
 static texel4 mix4(texel4 a, texel4 b, float part)
@@ -18,7 +22,7 @@ static texel4 mix4(texel4 a, texel4 b, float part)
 
 static texel4 sample_level(const struct engine_sky *sky, int level, float u, float v)
 {
-    const float *texels = sky->texels + 4 * sky->starts[level];
+    const uint16_t *texels = sky->texels[level];
     const int width = sky->width >> level > 1 ? sky->width >> level : 1;
     const int height = sky->height >> level > 1 ? sky->height >> level : 1;
     const float x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;

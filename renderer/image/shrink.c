@@ -5,23 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "half.h"
 #include "protocol/memory.h"
-
-static const float most = 65504; /* of a half */
-
-/* The nearest half, even ones in the middle. `value` is 0 or above. */
-static uint16_t half_of(float value)
-{
-    uint32_t bits;
-
-    value = fminf(value, most);
-    if (value < 0x1p-14f) {
-        return (uint16_t)lrintf(value * 0x1p24f); /* below the least normal one */
-    }
-    memcpy(&bits, &value, sizeof bits);
-    bits += 0xfff + (bits >> 13 & 1);
-    return (uint16_t)((bits - (112u << 23)) >> 13);
-}
 
 /* Where one of `from` parts lies among `to` of them, which are no more: in `first`, with this
  * weight, and with the rest in the one after it. */

@@ -19,7 +19,7 @@ export const INCLUDES = {
     'renderer/code': ['protocol', 'renderer/sdf'],
     'renderer/field': ['protocol', 'renderer/sdf', 'renderer/code', 'renderer/glsl'],
     'renderer/spmd': ['renderer/code', 'renderer/glsl', 'renderer/field'],
-    'renderer/engine': ['protocol', 'renderer/code', 'renderer/glsl', 'renderer/field'],
+    'renderer/engine': ['protocol', 'renderer/image', 'renderer/code', 'renderer/glsl', 'renderer/field'],
     'renderer/gl': ['protocol', 'renderer/glsl', 'renderer/vigil.h'],
     'renderer/draw': [
         'protocol',
