@@ -134,7 +134,7 @@ describe('numbers', () => {
         await valueIs(turn, '90°');
     });
 
-    test('a thousand numeric edits compile nothing', async () => {
+    test('two hundred numeric edits compile nothing', async () => {
         const id = await stage.scene();
         const page = await open(id);
         await row(page, 'ball').click();
@@ -142,12 +142,12 @@ describe('numbers', () => {
         const compiled = await counter(stage.daemon, 'shader_compilations_total');
         const x = field(page, 'translation x');
         await x.focus();
-        for (let i = 0; i < 1000; i += 1) {
+        for (let i = 0; i < 200; i += 1) {
             await page.keyboard.press(i % 100 < 50 ? 'ArrowUp' : 'ArrowDown');
         }
         await waitForSaved(page);
         const scene = await (await fetch(`${stage.daemon.url}/v1/scenes/${id}`)).headers.get('etag');
-        assert.ok(Number(scene.replaceAll('"', '')) >= 1001, `revision ${scene}`);
+        assert.ok(Number(scene.replaceAll('"', '')) >= 201, `revision ${scene}`);
         await settled(page);
         assert.equal(await counter(stage.daemon, 'shader_compilations_total'), compiled);
     });

@@ -193,7 +193,7 @@ static void nested_scenes_agree(void **state)
     struct random random = {2};
     struct random_limits limits = {.lean = true};
     struct plan plan = {.rounds = 2, .points = 64};
-    for (int i = 0; i < 240; i++) {
+    for (int i = 0; i < 120; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 8;
         batch_add_random(&random, random_type(&random, kind, &limits), -1, 0, &limits);

@@ -286,7 +286,7 @@ static void hidden_nodes_are_left_out(void **state)
     (void)state;
     struct random random = {31};
     struct random_limits limits = {.depth = 1};
-    for (int i = 0; i < 1200; i++) {
+    for (int i = 0; i < 600; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
@@ -329,7 +329,7 @@ static void isolated_nodes_are_alone(void **state)
     (void)state;
     struct random random = {35};
     struct random_limits limits = {.depth = 1};
-    for (int i = 0; i < 1200; i++) {
+    for (int i = 0; i < 600; i++) {
         enum node_kind kind = (enum node_kind)(KIND_COMBINE + i % 4);
         limits.depth = 1 + i % 4;
         struct scene *scene = random_scene(&random, random_type(&random, kind, &limits), &limits);
