@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { after, before, describe, test } from 'node:test';
+import { check as lookAt } from './screens/checks.mjs';
 import { closePage, openStage, row, SCENE, settled } from './stage.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
@@ -268,6 +269,32 @@ test('F6 goes round the regions and back', async () => {
     assert.deepEqual(seen, ['Tools', 'Scene', 'Picture', 'Inspector', 'Status']);
     await page.keyboard.press('Shift+F6');
     assert.equal(await region(), 'Inspector');
+    await closePage(page);
+});
+
+test('what is chosen is in sight, what is named has one ring, texts over the picture can be read', async () => {
+    const page = await stage.page({ scene: await stage.scene(OWN), theme: 'light', width: 1024, height: 640 });
+    await row(page, 'it').click();
+    await page.keyboard.press('Shift+H');
+    await page.getByTestId('isolated').waitFor();
+    assert.deepEqual(await lookAt(page), []);
+    await row(page, 'it').press('F2');
+    await page.locator('.tree-rename').waitFor();
+    assert.deepEqual(await lookAt(page), []);
+    await page.keyboard.press('Escape');
+    await page.getByRole('tab', { name: 'Looks' }).click();
+    await page.getByRole('button', { name: 'Write a shader' }).first().click();
+    await page.locator('.cm-content').waitFor();
+    await page.locator('[data-resource=shader-1][data-selected]').waitFor();
+    assert.deepEqual(await lookAt(page), []);
+    await closePage(page);
+});
+
+test('a palette on a phone tells that its question goes on', async () => {
+    const page = await stage.page({ scene, width: 390, height: 844, touch: true });
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').waitFor();
+    assert.deepEqual(await lookAt(page), []);
     await closePage(page);
 });
 

@@ -236,7 +236,7 @@ test('a shader of the scene: its properties are a form, colours and sliders chan
     await page.keyboard.press('Escape');
     await page.locator('.resources').getByText('shader-1').last().click();
     await page.getByRole('button', { name: 'More actions' }).click();
-    await page.getByText('It stays: the shader shader-1 is used by material shader-1.').waitFor();
+    await page.getByText('This cannot be deleted: the shader shader-1 is used by material shader-1.').waitFor();
     assert.ok(await page.getByRole('menuitem', { name: 'Delete' }).isDisabled());
     await page.keyboard.press('Escape');
 });

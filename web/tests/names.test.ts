@@ -5,7 +5,8 @@ import { outputTitle, typeTitle, words } from "../src/ui/names.ts";
 
 test("names are words, spelled as the page's texts are", () => {
     expect(words("base_color")).toBe("base colour");
-    expect(words("color1")).toBe("color1");
+    expect(words("color1")).toBe("colour 1");
+    expect(typeTitle("color2")).toBe("Colour 2");
     expect(typeTitle("floor_color")).toBe("Floor colour");
     expect(outputTitle("color")).toBe("Colour");
     expect(outputTitle("node_id")).toBe("Node id");

@@ -46,9 +46,15 @@ test("rounds are told where there are some", () => {
     expect(told({ frame: { ...still, round: 1, rounds: 1 } }).round).toBe(0);
 });
 
+test("a connection that the server has ended is told as that", () => {
+    expect(told({ connection: "refused" }).state).toBe("ended");
+    expect(told({ connection: "refused", compiling: true }).state).toBe("ended");
+    expect(told({ connection: "refused", frame: NO_FRAME }).state).toBe("ended");
+});
+
 test("without a connection the picture is old, whatever it was", () => {
     expect(told({ connection: "offline" }).state).toBe("offline");
-    expect(told({ connection: "refused", compiling: true }).state).toBe("offline");
+    expect(told({ connection: "offline", compiling: true }).state).toBe("offline");
     expect(told({ connection: "connecting" }).state).toBe("final");
 });
 

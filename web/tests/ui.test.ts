@@ -5,12 +5,41 @@ import { StringStream } from "@codemirror/language";
 import { expect, test } from "vitest";
 import { RestError } from "../src/link/rest.ts";
 import { findParam, nodeType, type Param } from "../src/model/schema.ts";
+import { NO_FRAME, type Statistics } from "../src/model/stores.ts";
 import { changeBetween } from "../src/ui/code/change.ts";
 import { shaderLanguage } from "../src/ui/code/language.ts";
 import { frameOf, type Point, pointAt, ticksOf, toView } from "../src/ui/fields/grid.ts";
 import { problemOf, type TextFile, withoutFolder } from "../src/ui/import.ts";
 import { defaultOf, rangeOf, topicsOf, typeOf } from "../src/ui/reference/topics.ts";
+import { rateText } from "../src/ui/view/rate.ts";
 import { choose, random, SCHEMA } from "./fixture.ts";
+
+const NO_STATISTICS: Statistics = {
+    fps: 0,
+    state: "still",
+    stages: [10],
+    receive: 1,
+    decode: 1,
+    present: 0,
+    photonP50: null,
+    photonP95: null,
+    bytesPerFrame: 0,
+    bytesPerSecond: 0,
+    dropped: 0,
+};
+
+test("the rate is never told higher than it is", () => {
+    const state = (fps: number): Parameters<typeof rateText>[0] => ({
+        statistics: { ...NO_STATISTICS, fps },
+        frame: { ...NO_FRAME, state: "still" },
+        compiling: null,
+        connection: "live",
+    });
+    expect(rateText(state(0.5))).toBe("less than 1 fps");
+    expect(rateText(state(0.99))).toBe("less than 1 fps");
+    expect(rateText(state(1))).toBe("1 fps · 12 ms");
+    expect(rateText({ ...state(0.5), frame: { ...NO_FRAME, state: "lossless" } })).toBe("idle");
+});
 
 test("one change makes any text of any other", () => {
     const next = random(1);

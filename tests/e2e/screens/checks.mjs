@@ -94,15 +94,54 @@ function cutTexts({ SLACK, parentsOf, nameOf, isSeen, scrolls, hides }) {
 
 /* Values without an ellipsis; words of buttons, which have to be read, even with one. */
 function cutValues({ SLACK, nameOf, isSeen }) {
+    const wordsWidth = (one) => {
+        const context = document.createElement('canvas').getContext('2d');
+        const { fontWeight, fontSize, fontFamily } = getComputedStyle(one);
+        context.font = `${fontWeight} ${fontSize} ${fontFamily}`;
+        return context.measureText(one.placeholder).width;
+    };
     const isShort = (one) => isSeen(one) && one.scrollWidth > one.clientWidth + SLACK;
     const values = [...document.querySelectorAll('input:not([type=checkbox]), textarea')].filter(
         (one) => isShort(one) && one !== document.activeElement && getComputedStyle(one).textOverflow !== 'ellipsis',
     );
     const buttons = [...document.querySelectorAll('.segment, .button, .menu-text, .tabs button')].filter(isShort);
     return [
+        ...[...document.querySelectorAll('input:placeholder-shown')]
+            .filter((one) => isSeen(one) && getComputedStyle(one).textOverflow !== 'ellipsis' && wordsWidth(one) > one.clientWidth)
+            .map((one) => `words are cut off: ${nameOf(one)} ${one.placeholder}`),
         ...values.map((one) => `value is cut off: ${nameOf(one)} ${one.value}`),
         ...buttons.map((one) => `words are shortened: ${nameOf(one)}`),
     ];
+}
+
+/* Texts on glass, which is dark in both themes: what is behind it, nobody can compute. */
+function darkOnGlass({ nameOf, isSeen }) {
+    const LIGHT = 140; // of 255
+    const isDark = (one) => {
+        const [red, green, blue] = getComputedStyle(one).color.match(/[\d.]+/g).map(Number);
+        return Math.max(red, green, blue) < LIGHT;
+    };
+    const onAccent = (one) => one.closest('[data-look=primary], [data-aov]:not([data-aov=color])') !== null;
+    return [...document.querySelectorAll('.glass, .glass button, .glass span')]
+        .filter((one) => isSeen(one) && one.textContent.trim() !== '' && !onAccent(one) && isDark(one))
+        .map((one) => `dark text on glass: ${nameOf(one)}`);
+}
+
+/* What was chosen is to be seen in its list, whole. */
+function clippedChoices({ SLACK, nameOf, isSeen, shownPart }) {
+    const CHOSEN = '.resource-row[data-selected], [aria-current=true], .tree-row[aria-selected=true]:focus';
+    return [...document.querySelectorAll(CHOSEN)]
+        .filter((one) => isSeen(one) && shownPart(one).bottom - shownPart(one).top < one.offsetHeight - SLACK)
+        .map((one) => `what is chosen is not in sight: ${nameOf(one)}`);
+}
+
+/* A field that draws its own ring has no second one around it. */
+function doubleRings({ nameOf }) {
+    const one = document.activeElement;
+    const { outlineStyle, boxShadow } = getComputedStyle(one);
+    return outlineStyle !== 'none' && /inset/.test(boxShadow) && one.matches('input')
+        ? [`two rings around the focus: ${nameOf(one)}`]
+        : [];
 }
 
 /* Controls outside of the window, under something else, or over each other. */
@@ -117,9 +156,12 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
         const { overflowX, overflowY } = getComputedStyle(one);
         return scrolls(overflowX) || scrolls(overflowY);
     };
-    /* What floats may cover what is below it; a message may not. */
+    /* What floats may cover what is below it; a message may not, but where that can be scrolled. */
     const mayCover = (at, one) => {
         const above = at?.closest(LAYERS);
+        if (at?.closest('.leaving') && one.closest('.scenes')) {
+            return true;
+        }
         return above && !above.contains(one) && !above.classList.contains('notices') && !at.closest('.notice');
     };
     const found = [];
@@ -156,11 +198,12 @@ function lostControls({ parentsOf, nameOf, isSeen, isEmpty, overlap, scrolls, is
 function look(page) {
     const { scrollWidth, clientWidth } = document.documentElement;
     const wide = scrollWidth > clientWidth ? [`the page is ${scrollWidth - clientWidth} pixels too wide`] : [];
-    return [...new Set([...cutTexts(page), ...cutValues(page), ...lostControls(page), ...wide])];
+    const checks = [cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, lostControls];
+    return [...new Set([...checks.flatMap((find) => find(page)), ...wide])];
 }
 
 const LOOK = `(() => {
-    ${[tools, cutTexts, cutValues, lostControls, look].join('\n')}
+    ${[tools, cutTexts, cutValues, darkOnGlass, clippedChoices, doubleRings, lostControls, look].join('\n')}
     return look(tools(${JSON.stringify({ SLACK, LAP })}));
 })()`;
 

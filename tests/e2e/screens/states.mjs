@@ -419,7 +419,7 @@ const CHANGES = [
         await page.getByText('Offline, 2 edits waiting').waitFor();
     }],
     ['refused', async (page) => {
-        page.tell({ type: 'bye', reason: 'The scene was deleted.' });
+        page.tell({ type: 'bye', reason: 'replaced' });
         page.cut();
         await page.getByTestId('strip').waitFor();
     }],

@@ -522,8 +522,8 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "view.theme",
-        words: "dark light mode appearance",
-        title: "Next theme: as the system, light, dark",
+        words: "next dark light system mode appearance",
+        title: "Switch the theme",
         group: "view",
         whyNot: never,
         run: ({ stores }) =>

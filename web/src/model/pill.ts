@@ -8,6 +8,8 @@ import type { Connection, FrameInfo } from "./stores.ts";
 export type PillState =
     /* No connection: the picture is old, or there is none. */
     | "offline"
+    /* The server has ended the connection, or has no such scene: nothing comes any more. */
+    | "ended"
     /* What was to be drawn was too slow, or crashed: the picture is the last good one. */
     | "givenUp"
     /* The code does not compile: the same. */
@@ -51,7 +53,7 @@ export interface Pill {
 function stateOf(input: PillInput, behind: number): PillState {
     const { connection, frame, problem, compiling, moving } = input;
     if (connection === "offline" || connection === "refused") {
-        return "offline";
+        return connection === "offline" ? "offline" : "ended";
     }
     if (problem !== null && (frame.stale || behind > 0 || frame.state === "none")) {
         return problem.code === COMPILE ? "kept" : "givenUp";

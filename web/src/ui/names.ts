@@ -23,7 +23,9 @@ const spoken: Record<string, string> = {
 
 /* The texts of the page are British. */
 export function words(name: string): string {
-    return name.replaceAll("_", " ").replace(/\bcolor\b/, "colour");
+    return name
+        .replaceAll("_", " ")
+        .replace(/\bcolor(\d*)\b/, (_, number: string) => `colour ${number}`.trimEnd());
 }
 
 export function paramTitle(param: Param): string {

@@ -97,7 +97,7 @@ export default function RowsField(props: Props) {
                 disabled={rows.length >= most}
                 onClick={add}
             >
-                {t("rows.add")}
+                {t(owner?.list === "shaders" ? "rows.addProperty" : "rows.add")}
             </Button>
         </div>
     );

@@ -95,7 +95,7 @@ const NoticeCard = memo(function NoticeCard({ notice }: { notice: Notice }) {
                             <ActButton key={act.kind} act={act} id={id} />
                         ))}
                         {known && (
-                            <Button onClick={() => showPlace(editor, place, false)}>
+                            <Button look="outline" onClick={() => showPlace(editor, place, false)}>
                                 {t("notices.show")}
                             </Button>
                         )}

@@ -10,6 +10,7 @@ import { TypePicture } from "../palettes/TypePicture.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
+import { Filter } from "../widgets/Filter.tsx";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { conditionOf, defaultOf, rangeOf, type Topic, topicsOf, typeOf } from "./topics.ts";
 import "./reference.css";
@@ -44,15 +45,11 @@ export function Reference({ field }: { field: RefObject<HTMLInputElement | null>
     return (
         <div className="reference-view" data-testid="reference" data-topic={shown?.key}>
             <div className="reference-list">
-                <input
+                <Filter
                     ref={field}
-                    type="search"
-                    className="text-field"
-                    aria-label={t("reference.search")}
-                    placeholder={t("reference.search")}
+                    label={t("reference.search")}
                     value={query}
-                    spellCheck={false}
-                    onChange={(event) => setQuery(event.target.value)}
+                    onChange={setQuery}
                     onKeyDown={(event) => {
                         const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
                         if (by) {
@@ -81,7 +78,7 @@ function Index({ topics, shown, onGo }: IndexProps) {
     const key = shown?.key;
     // biome-ignore lint/correctness/useExhaustiveDependencies: what is shown is brought in sight
     useEffect(() => {
-        list.current?.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
+        list.current?.querySelector("[aria-current]")?.scrollIntoView({ block: "center" });
     }, [key]);
     return (
         <nav ref={list} className="reference-index" aria-label={t("reference.index")}>

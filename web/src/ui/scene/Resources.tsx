@@ -11,6 +11,7 @@ import {
     Plus,
     SlidersHorizontal,
 } from "lucide-react";
+import { useEffect, useRef } from "react";
 import { type Resource, typesOf } from "../../model/document.ts";
 import {
     LIST_NAMES,
@@ -119,8 +120,19 @@ function ResourceRow({ list, resource }: { list: ListName; resource: Resource })
         const found = problemIn(problems, resourcePlace(list, name));
         return found && sentence(found);
     });
+    const row = useRef<HTMLLIElement>(null);
+    useEffect(() => {
+        if (selected) {
+            row.current?.scrollIntoView({ block: "nearest" });
+        }
+    }, [selected]);
     return (
-        <li className="resource-row" data-selected={selected || undefined} data-resource={name}>
+        <li
+            ref={row}
+            className="resource-row"
+            data-selected={selected || undefined}
+            data-resource={name}
+        >
             <button
                 type="button"
                 className="resource-pick"

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The scene panel: what can be added, a filter, the tree of nodes. */
-import { Plus, Search, X } from "lucide-react";
+import { Plus } from "lucide-react";
 import { useState } from "react";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
+import { Filter } from "../widgets/Filter.tsx";
 import { Tree } from "./Tree.tsx";
 import { useTreeDocument } from "./treeDocument.ts";
 import "./scene.css";
@@ -25,25 +26,12 @@ export function Scene() {
                     <Plus size={15} />
                 </IconButton>
             </div>
-            <div className="tree-filter">
-                <Search size={13} aria-hidden="true" />
-                <input
-                    type="text"
-                    aria-label={t("scene.filter")}
-                    placeholder={t("scene.filter")}
-                    value={query}
-                    onChange={(event) => setQuery(event.target.value)}
-                />
-                {query !== "" && (
-                    <IconButton
-                        title={t("scene.clearFilter")}
-                        data-size="s"
-                        onClick={() => setQuery("")}
-                    >
-                        <X size={13} />
-                    </IconButton>
-                )}
-            </div>
+            <Filter
+                className="tree-filter"
+                label={t("scene.filter")}
+                value={query}
+                onChange={setQuery}
+            />
             {document && <Tree document={document} query={query} />}
         </>
     );

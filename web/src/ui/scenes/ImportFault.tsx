@@ -44,7 +44,10 @@ export default function ImportFault({ problem, onChoose, onClose }: Props) {
                             </Button>
                         ))}
                     </div>
-                    <Button look="primary" onClick={onClose}>
+                    <Button
+                        look={problem.choices.length > 0 ? undefined : "primary"}
+                        onClick={onClose}
+                    >
                         {t("close")}
                     </Button>
                 </div>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The start page: own scenes, examples, a new scene, files dropped anywhere. */
-import { CircleHelp, FolderUp, Plus, Search, Upload } from "lucide-react";
+import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
 import { search } from "../../model/search.ts";
@@ -12,6 +12,7 @@ import { goTo } from "../route.ts";
 import { useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
+import { Filter } from "../widgets/Filter.tsx";
 import { Logo } from "../widgets/Logo.tsx";
 import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
 import { useDrop } from "./drop.ts";
@@ -195,16 +196,12 @@ function Examples({ examples, onOpen }: ExamplesProps) {
                 <h2>{t("scenes.examples")}</h2>
                 <p>{t("scenes.examplesDoc")}</p>
                 <span className="bar-space" />
-                <label className="tree-filter scenes-search">
-                    <Search size={13} aria-hidden="true" />
-                    <input
-                        type="search"
-                        aria-label={t("scenes.search")}
-                        placeholder={t("scenes.search")}
-                        value={query}
-                        onChange={(event) => setQuery(event.target.value)}
-                    />
-                </label>
+                <Filter
+                    className="scenes-search"
+                    label={t("scenes.search")}
+                    value={query}
+                    onChange={setQuery}
+                />
             </div>
             {groups.map((group) => {
                 const own = found.filter((example) => example.group === group);

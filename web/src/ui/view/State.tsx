@@ -50,6 +50,8 @@ function textOf(pill: Pill, empty: boolean, problem: Problem | null): string {
     switch (state) {
         case "offline":
             return t(empty ? "state.offlineEmpty" : "state.offline");
+        case "ended":
+            return t(empty ? "state.endedEmpty" : "state.ended");
         case "givenUp":
             return t(problem?.code === TOO_SLOW ? "state.tooSlow" : "state.crashed");
         case "behind":
@@ -74,7 +76,9 @@ function CompilingText({ since, expected }: Compiling) {
     const about = expected === null ? 0 : Math.round(expected / 1000);
     return about >= 1 && elapsed <= 2 * about
         ? t("state.compilingOf", { elapsed, about })
-        : t("state.compiling", { elapsed });
+        : elapsed >= 1
+          ? t("state.compiling", { elapsed })
+          : t("state.compilingNow");
 }
 
 /* The picture is that of the last code that compiled; a press leads to what does not. */

@@ -8,6 +8,7 @@ import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Popover } from "../widgets/Popover.tsx";
+import { frameTime, rateText } from "./rate.ts";
 import "./view.css";
 
 /* Where the time of a frame goes, in milliseconds. */
@@ -55,31 +56,14 @@ function stagesOf(schema: Schema, numbers: Numbers): readonly Stage[] {
     ];
 }
 
-function total({ stages, receive, decode, present }: Numbers): number {
-    return stages.reduce((sum, time) => sum + time, receive + decode + present);
-}
-
 /* Milliseconds; less is written 0.0. */
 const LEAST_SHOWN = 0.05;
 
 const round = (x: number): string => (x >= 10 ? x.toFixed(0) : x.toFixed(1));
 
-/* Nothing more comes after the final picture of what is looked at. */
-function summary({ statistics: numbers, frame, compiling, connection }: LinkState): string {
-    if (numbers === null || connection !== "live") {
-        return t("stats.open");
-    }
-    if (numbers.fps < 0.5) {
-        const done = frame.state === "lossless" && !frame.stale && !frame.outdated;
-        return t(done && compiling === null ? "stats.idle" : "stats.busy");
-    }
-    const ms = numbers.photonP50 ?? total(numbers);
-    return t("stats.fps", { fps: Math.round(numbers.fps), ms: Math.round(ms) });
-}
-
 export default function StatisticsPill() {
     const { stores } = useEditor();
-    const text = useLink(summary);
+    const text = useLink(rateText);
     const open = useView((view) => view.popup === "statistics");
     return (
         <Popover
@@ -112,7 +96,7 @@ function Sheet() {
         return <p className="stats">{t("stats.none")}</p>;
     }
     const stages = stagesOf(schema, numbers);
-    const sum = Math.max(0.001, total(numbers));
+    const sum = Math.max(0.001, frameTime(numbers));
     return (
         <div className="stats">
             <div className="stats-title">

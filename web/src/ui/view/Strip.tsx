@@ -9,7 +9,10 @@ import { Button } from "../widgets/Button.tsx";
 import "./view.css";
 
 /* Why a connection is refused when there is no such scene, or no longer. */
-const GONE = /^(404|deleted)/;
+const GONE = /^(404|deleted|not_found)/;
+
+const reasonText = (reason: string): string =>
+    reason === "replaced" ? t("link.replaced") : t("link.refused", { reason });
 
 export function Strip() {
     const { link } = useEditor();
@@ -20,7 +23,7 @@ export function Strip() {
     const text = gone
         ? t("link.gone")
         : connection === "refused"
-          ? t("link.refused", { reason })
+          ? reasonText(reason)
           : waiting > 0
             ? t("link.offlineWaiting", { count: waiting })
             : t("link.offline");
