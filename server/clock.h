@@ -19,7 +19,7 @@ static inline int64_t clock_ms(void)
     return clock_us() / 1000;
 }
 
-/* The earlier of two deadlines; 0 means none. */
+/* The earlier of two deadlines. 0 means that there is no deadline. */
 static inline int64_t clock_earlier(int64_t a, int64_t b)
 {
     if (!a || !b) {
@@ -28,7 +28,7 @@ static inline int64_t clock_earlier(int64_t a, int64_t b)
     return a < b ? a : b;
 }
 
-/* Time of the processor that this thread has used: who waits does no work. */
+/* Processor time that this thread has used, in microseconds. Waiting costs none. */
 static inline int64_t clock_thread_us(void)
 {
     struct timespec t;

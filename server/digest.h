@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The name of a file by what is in it. */
+/* The digest of a file's content, which is its name. */
 #ifndef SERVER_DIGEST_H
 #define SERVER_DIGEST_H
 
@@ -7,7 +7,7 @@
 
 #include "protocol/asset.h"
 
-/* SHA-256 in hexadecimal digits. */
+/* SHA-256 as small hexadecimal digits with a NUL. */
 void digest_text(const void *bytes, size_t length, char out[ASSET_ID_CHARACTERS + 1]);
 
 #endif

@@ -2,8 +2,8 @@
 #ifndef SERVER_DIRECTORY_H
 #define SERVER_DIRECTORY_H
 
-/* Of what was just made: its name outlasts a loss of power. Nothing where the parent directory is
- * closed to this user. */
+/* Syncs the directory that holds `path`, so that the name of a new file survives a loss of power.
+ * Does nothing where this user may not open that directory. */
 void directory_sync_parent(const char *path);
 
 #endif

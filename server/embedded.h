@@ -22,19 +22,19 @@ extern const size_t page_count;
 extern const struct embedded examples_table[];
 extern const size_t examples_count;
 
-/* Their pictures, the .jpg files there: path is the file name without ".jpg". */
+/* Pictures of the examples, from the .jpg files there: path is the file name without ".jpg". */
 extern const struct embedded cards_table[];
 extern const size_t cards_count;
 
-/* Files that examples name, protocol/examples/assets: path is the SHA-256. */
+/* Files that examples name, from protocol/examples/assets: path is the SHA-256. */
 extern const struct embedded example_files_table[];
 extern const size_t example_files_count;
 
-/* Pictures of the node types, protocol/reference: path is the type. */
+/* Pictures of the node types, from protocol/reference: path is the type. */
 extern const struct embedded references_table[];
 extern const size_t references_count;
 
-/* NULL: none. */
+/* The row with this path or id; NULL where there is none. */
 const struct embedded *page_find(const char *path);
 const struct embedded *examples_find(const char *id);
 const struct embedded *example_files_find(const char *id);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One line per message on stderr: time, level, component, text. Any thread. Never given tokens. */
+/* The log: one line on stderr for each message, with time, level, component and text. Any thread.
+ * Callers never pass tokens. */
 #ifndef SERVER_LOG_H
 #define SERVER_LOG_H
 
@@ -7,7 +8,8 @@
 
 enum log_level { LEVEL_ERROR, LEVEL_WARNING, LEVEL_INFO, LEVEL_DEBUG };
 
-/* "error" "warning" "info" "debug"; false: unknown, nothing changed. */
+/* `name`: "error", "warning", "info" or "debug". False: the name is unknown, and nothing
+ * changes. */
 bool log_set_level(const char *name);
 void log_line(enum log_level level, const char *component, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

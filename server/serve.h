@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The daemon's life: start everything, wait for a signal, drain. The options and their texts are
- * not here; the command line fills struct serve_params. */
+/* The life of the daemon: it starts everything, waits for a signal, and drains. The options are in
+ * server/cli/options.h; the command line fills struct serve_params. */
 #ifndef SERVER_SERVE_H
 #define SERVER_SERVE_H
 
@@ -20,9 +20,9 @@ struct serve_params {
     const char *token;                  /* NULL: none; required unless bound to loopback */
     const char *const *allowed_origins; /* besides the server's own: "https://example.org" */
     const char *const *allowed_hosts;   /* besides localhost, when bound to loopback */
-    int worker_silence_ms;              /* of being silent and still: it is replaced; 0: 5000 */
-    int worker_busy_ms;                 /* of the processor, used in silence; 0: 60000 */
-    bool code_refused;                  /* no code of users is taken, nor compiled */
+    int worker_silence_ms;              /* silent and still for so long: replaced; 0: 5000 */
+    int worker_busy_ms;                 /* processor time used in silence; 0: 60000 */
+    bool code_refused;                  /* users' code is neither accepted nor compiled */
     const char *log_level;              /* "error" "warning" "info" "debug"; NULL: "info" */
 };
 

@@ -9,59 +9,61 @@
 #include "server/embedded.h"
 
 enum bench_part { BENCH_ALL, BENCH_DRAWING, BENCH_GROWTH, BENCH_DOCUMENTS, BENCH_EDITS };
-/* NULL behind the last. */
+/* The name of a part; NULL behind the last one. */
 const char *bench_part_name(size_t part);
 
-/* Sorts `count` numbers; the one below which lies this share of them (0.5: the median). */
+/* Sorts `count` numbers and returns their quantile (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);
-/* Adds a number with three decimals; more would be noise. */
+/* Adds a number, rounded to three decimals. */
 void bench_add(cJSON *object, const char *name, double value);
 double bench_number(const cJSON *object, const char *name);
 double bench_ms_since(int64_t start_us);
 
-/* Name and version of what draws. */
+/* Name and version of the renderer. */
 cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
 
-/* One row for each example, or for that called `only`: compiling, drawing by pass and size,
- * encoding. NULL and `err` when something cannot be drawn. */
+/* One row for each example, or for the example `only`: times of compilation, of drawing by pass and
+ * size, and of encoding. NULL and `err` when one cannot be drawn. */
 cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
                      struct error *err);
 
-/* An example with the file that it names. NULL and `err` when it is no scene. */
+/* Opens an example with the file that it names. NULL and `err` when it is no scene. */
 struct resident *bench_open(struct renderer *renderer, const struct embedded *example,
                             struct error *err);
 
-/* One picture, for its times alone. */
+/* Draws one picture for its times. */
 bool bench_draw(struct renderer *renderer, struct resident *resident, const struct job_desc *desc,
                 struct job_times *out_times, struct error *err);
 
-/* Adds medians over the rounds: `ms` of the whole, and of each stage that took any. */
+/* Adds medians over the rounds: `ms` of the whole picture and of each stage that took time. */
 bool bench_medians(struct renderer *renderer, struct resident *resident,
                    const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
-/* `engine_ratio`: what a picture takes by compute shaders, by what it takes by the engine. */
+/* Adds `engine_ratio`: the time of a picture by compute shaders, divided by its time by the
+ * engine. */
 bool bench_stages(struct renderer *renderer, const struct embedded *example,
                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
-/* `effects_off_ratio`: what the example takes with reflections and refractions off, by what it
- * takes where no material asks for any. */
+/* Adds `effects_off_ratio`: the time of the example with reflections and refractions off, divided
+ * by its time with materials that need neither. */
 bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
                    cJSON *row, struct error *err);
 
-/* One row for each family of scenes: `ms` of a picture by the number of shapes, the `ratio` of the
- * most to the fewest, and the exponent of growth without these. By the engine. */
+/* One row for each family of scenes, drawn by the engine: `ms` of a picture by the number of
+ * shapes, the `ratio` of the most to the fewest shapes, and the exponent of growth without these
+ * two. */
 cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err);
 
-/* `edit_us` and `edit_p95_us`: edits that move one node of the scene after the other. */
+/* Adds `edit_us` and `edit_p95_us`: times of edits that move each node of the scene in turn. */
 bool bench_edits(struct resident *resident, cJSON *row, struct error *err);
 
-/* A document of so many nodes, node-I in groups of a hundred; caller frees. */
+/* A document of `nodes` nodes, named node-I, in groups of a hundred; caller frees. */
 char *bench_document(size_t nodes, size_t *out_length);
-/* Reading, copying, printing and editing of documents of 1,000 to 100,000 nodes. */
+/* Times of reading, copying, printing and editing documents of 1,000 to 100,000 nodes. */
 cJSON *bench_documents(struct error *err);
 
-/* Edits applied and committed in a store of its own below `directory`: of a scene of one node and
- * of 10,000. */
+/* Times of edits that are applied and committed, in scenes of one and of 10,000 nodes. The store is
+ * a new one below `directory`. */
 cJSON *bench_store(const char *directory, struct error *err);
 
 #endif

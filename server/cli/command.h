@@ -21,14 +21,14 @@ enum command_id {
     COMMAND_COUNT
 };
 
-/* What every command returns, and the program as its exit status. */
+/* Results of commands, which are the exit status of the program. */
 enum { EXIT_OK = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
 struct command {
     const char *name;
-    const char *operands; /* as help writes them; NULL: takes none */
+    const char *operands; /* as help shows them; NULL: it takes none */
     bool many;            /* more than one operand is allowed */
-    bool hidden;          /* not for users: left out of help */
+    bool hidden;          /* for the program itself; help does not show it */
     const char *doc;      /* one line */
     const char *more;     /* the rest of --help, may be NULL */
     int (*run)(const struct options *options);

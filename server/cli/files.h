@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Whole files: read, replaced at once, and the directories they stand in. */
+/* Whole files: reading, atomic replacement, and directories. */
 #ifndef SERVER_FILES_H
 #define SERVER_FILES_H
 
@@ -9,27 +9,26 @@
 
 #include "protocol/error.h"
 
-/* At most `limit` bytes of a file, or of stdin for "-", with a NUL behind them. NULL and `err`
- * (its place is `path`) on failure. Caller frees. */
+/* Reads a file of at most `limit` bytes, or stdin for "-", and adds a NUL. NULL and `err` (its
+ * place is `path`) on failure. Caller frees. */
 char *file_read(const char *path, size_t limit, size_t *out_length, struct error *err);
 
-/* A file that becomes `path` when it is whole: it is written beside it and renamed, so that `path`
- * stays as it was until then. "-" is stdout; what is no regular file (a pipe, a device) is written
- * in place. */
+/* Writes a file beside `path` and renames it when it is complete, so `path` is never incomplete.
+ * "-" is stdout. A pipe or a device is written in place. */
 struct file_writer {
     FILE *file;
-    char *path, *temporary; /* NULL: written in place */
+    char *path, *temporary; /* both NULL: written in place */
 };
 bool file_writer_open(struct file_writer *writer, const char *path, struct error *err);
-/* Closes it; `whole` is false after a failure: then `path` stays as it was. */
+/* Closes the file. Pass `whole` as false after a failure; then `path` stays unchanged. */
 bool file_writer_close(struct file_writer *writer, bool whole, struct error *err);
 
-/* Makes `path` hold exactly these bytes, in the same way. */
+/* Replaces the content of `path`, in the same way. */
 bool file_replace(const char *path, const void *bytes, size_t length, struct error *err);
 
-/* mkdir -p, for the user alone. */
+/* Creates a directory and its parents, accessible to this user alone. */
 bool directory_make(const char *path, struct error *err);
-/* rm -rf of a directory that this program made for itself. */
+/* Removes a directory that this program has made, with its content. */
 void directory_remove(const char *path);
 
 #endif

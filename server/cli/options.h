@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What a user can set. One table of options gives the command line, the environment, the config
- * file, --help and the table in the README. Reads no option's meaning: that is up to the commands.
- *
- * The first of these that names an option gives its value:
+/* The options. One table describes the command line, the environment, the config file, --help and
+ * the table in the README. The commands interpret the values.
+ * The first of these sources that names an option gives its value:
  *   --name VALUE or --name=VALUE     on the command line
+ *
  *   FIELDCAST_NAME                   in the environment     } only for rows that are `stored`
+ *
  *   name = VALUE                     in the config file     }
- *   the table's default */
+ * the table's default */
 #ifndef SERVER_OPTIONS_H
 #define SERVER_OPTIONS_H
 
@@ -74,7 +75,7 @@ enum option_type {
     OPTION_PIXELS, /* x,y,width,height: whole numbers */
     OPTION_TEXT,
     OPTION_LIST,  /* texts with commas between them */
-    OPTION_FILES, /* may be named again: paths with line ends between them */
+    OPTION_FILES, /* may be repeated: paths with line ends between them */
     OPTION_PATH,  /* a leading ~/ is the home directory */
     OPTION_CHOICE,
     OPTION_CHOICES, /* several of them, with commas between them */
@@ -98,11 +99,11 @@ struct option_row {
 };
 
 const struct option_row *option_row(enum option option);
-/* OPTION_COUNT: none. */
+/* The option with this name; OPTION_COUNT: none. */
 enum option option_find(const char *name);
 /* "FIELDCAST_TOKEN_FILE" for "token-file". */
 void option_variable(const struct option_row *row, char *out, size_t size);
-/* The default with its base directory resolved; malloc'ed, NULL where there is none. */
+/* The default with its base directory resolved. Caller frees; NULL: there is none. */
 char *option_default(const struct option_row *row);
 
 enum option_source {
@@ -114,7 +115,7 @@ enum option_source {
 };
 
 struct option_value {
-    enum option_source source; /* SOURCE_NONE: not set and no default */
+    enum option_source source; /* SOURCE_NONE: no value and no default */
     char *text;                /* owned; NULL where not set */
     double number[4];          /* flags 0 or 1; a choice its index, several 1 << each */
 };
@@ -128,14 +129,13 @@ struct options {
     int operand_count;
 };
 
-/* Reads the arguments after the command's name, the environment and the config file. `--help`
- * stops reading: then only option_flag(OPTION_HELP) is meaningful. The caller calls
- * options_finish also after a failure. */
+/* Reads the arguments after the command's name, the environment and the config file. `--help` ends
+ * the reading: then only OPTION_HELP is set. Call options_finish also after a failure. */
 bool options_read(struct options *options, const struct command *command, int argc, char **argv,
                   struct error *err);
 void options_finish(struct options *options);
 
-/* Checks `text` as the value of `option` and keeps it. `place` names where it stands. */
+/* Checks `text` as the value of `option` and keeps a copy. `place` names its origin in errors. */
 bool option_set(struct options *options, enum option option, const char *text,
                 enum option_source source, const char *place, struct error *err);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The files that scenes may name: those that clients sent, and those built in. What is known of
- * them is kept here; their bytes are in the store, or in the program. Under the hub's lock but for
- * asset_index_load. */
+/* The files that scenes may name: uploaded ones and built-in ones. The index holds their types and
+ * sizes; their bytes are in the store or in the program. Every function but asset_index_load is
+ * called under the hub's lock. */
 #ifndef SERVER_ASSET_INDEX_H
 #define SERVER_ASSET_INDEX_H
 
@@ -20,11 +20,11 @@ struct asset_entry {
 struct asset_index {
     struct asset_entry *items; /* oldest first */
     size_t count;
-    size_t bytes;                        /* of those that clients sent */
-    size_t pending_count, pending_bytes; /* on their way to the disk */
+    size_t bytes;                        /* of uploaded files */
+    size_t pending_count, pending_bytes; /* being written to the disk */
 };
 
-/* What the store lists; `data` is the index. */
+/* Adds a file that the store lists; `data` is the index. */
 void asset_index_add(void *data, const struct store_asset *asset);
 void asset_index_add_embedded(struct asset_index *assets);
 void asset_index_remove(struct asset_index *assets, const char *id);
@@ -34,10 +34,12 @@ void asset_index_finish(struct asset_index *assets);
 /* NULL: there is no such file. */
 const struct asset_entry *asset_index_find(const struct asset_index *assets, const char *id);
 
-/* Any thread, without the lock: reads a file. Caller frees; NULL and `err`: there is none. */
+/* Reads a file. Any thread, without the lock. Caller frees. NULL and `err`: there is no such
+ * file. */
 void *asset_index_load(struct hub *hub, const char *id, size_t *out_length, struct error *err);
 
-/* Sends the worker a file, before the first scene that names it. None of that name: nothing. */
+/* Sends a file to the worker, before the first scene that names it. Does nothing for an unknown
+ * id. */
 void asset_index_send(struct hub *hub, const char *id);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The list of all scenes, kept in memory so that nobody asks the disk whether one exists. Not
+/* The list of all scenes, in memory. Whether a scene exists is answered without the disk. Not
  * thread-safe. */
 #ifndef SERVER_CATALOG_H
 #define SERVER_CATALOG_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What all threads share, under one mutex: open scenes (rooms), the list of scenes, live sessions,
- * pictures being rendered. Who looks into one of these includes its header. Sections under the
- * lock are short: nothing in them waits for the disk, a socket or the worker.
+ * and pictures being rendered. Each of these has its own header. Sections under the lock are short:
+ * no code in them waits for the disk, a socket or the worker.
  *
  * Threads: acceptor | HTTP | WebSocket | supervisor of the worker | picker | tasks | store writer |
  * main (signals).
@@ -32,8 +32,8 @@ struct ws;
 
 struct hub {
     pthread_mutex_t lock;         /* guards everything below that changes */
-    pthread_mutex_t load_lock[2]; /* one load of a light, one of a heavy scene; before `lock` */
-    pthread_cond_t released;      /* with `lock`: a document is held by nobody, or by one less */
+    pthread_mutex_t load_lock[2]; /* one for light scenes, one for heavy ones; before `lock` */
+    pthread_cond_t released;      /* with `lock`: somebody has released a document */
     struct access access;
     struct metrics metrics; /* atomic by itself */
     struct store *store;
@@ -42,7 +42,7 @@ struct hub {
     struct tasks *tasks;
     struct ws *ws; /* set before its thread starts */
     const char *web_dir;
-    bool code_refused;            /* no code of users is taken, nor compiled */
+    bool code_refused;            /* users' code is neither accepted nor compiled */
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */
 
     struct catalog *catalog;
@@ -60,10 +60,10 @@ struct hub {
 
 void hub_lock(struct hub *hub);
 void hub_unlock(struct hub *hub);
-/* An open room; NULL: none of that id is. Under the lock. */
+/* The open room with that id; NULL: none is open. Under the lock. */
 struct room *hub_find_room(const struct hub *hub, const char *id);
-/* Whether code of users may come in: refuses (ERROR_FORBIDDEN, with its place) a scene, or
- * operations, that have some where the server takes none. */
+/* Refuse users' code where the server accepts none: false and ERROR_FORBIDDEN, with the place of
+ * the code in the scene or in the operations. */
 bool hub_accepts_scene(const struct hub *hub, const struct scene *scene, struct error *err);
 bool hub_accepts_edit(const struct hub *hub, const cJSON *ops, struct error *err);
 /* `[a-z0-9-]{1,64}` */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The life of the hub: its start, what the worker tells it, its timers, its end. */
+/* The life of the hub: start, events of the worker, timers, end. */
 #ifndef SERVER_HUB_LIFE_H
 #define SERVER_HUB_LIFE_H
 
@@ -16,11 +16,11 @@ struct hub_params {
 
 /* Opens the store, reads the list of scenes, starts the worker. */
 struct hub *hub_create(const struct hub_params *params, struct error *err);
-/* From here on edits are refused; commits what there is, with snapshots, and waits for it. */
+/* Refuses edits from now on. Commits all that is pending, with snapshots, and waits for it. */
 void hub_drain(struct hub *hub);
-/* Ends the worker and its thread; sessions may still go. */
+/* Ends the worker and its thread. Sessions may still leave afterwards. */
 void hub_stop(struct hub *hub);
-/* After everybody who calls into the hub has stopped. */
+/* Call it when all threads that call the hub have stopped. */
 void hub_destroy(struct hub *hub);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The last state of a scene that a worker could draw, for a scene with code of users: its newest
- * state may be one that ends workers. Every function is called under the hub's lock.
+/* The last state of a scene that a worker could draw. It is kept for scenes with users' code,
+ * because their newest state may end workers. Every function is called under the hub's lock.
  *
  *     last_good.scene --- log of edits ---> proven --- log of edits ---> newest
  *
- * The copy is made before the first edit of a scene with code, and brought nearer only when it is
- * needed or the log grows too long. */
+ * The copy is made before the first edit of a scene with code. It is brought forward only when it
+ * is needed, or when the log grows too long. */
 #ifndef SERVER_LAST_GOOD_H
 #define SERVER_LAST_GOOD_H
 
@@ -17,14 +17,15 @@ struct room;
 struct scene;
 
 void last_good_finish(struct room *room);
-/* The scene is about to change; `ops` NULL: by what was there before. */
+/* Call it before the scene changes by `ops`. NULL: the operations bring no new code. */
 void last_good_before_edit(struct room *room, const cJSON *ops);
-/* `next` is about to take the place of the room's scene; true: that one is kept here. */
+/* Call it before `next` replaces the room's scene. True: the old scene is kept here. */
 bool last_good_before_replace(struct room *room, const struct scene *next);
-/* The log is about to forget this revision, the oldest that it has. */
+/* Call it before the log drops this revision, its oldest one. */
 void last_good_forget(struct room *room, uint64_t revision);
+/* A worker can draw this revision. */
 void last_good_proven(struct room *room, uint64_t revision);
-/* The newest proven state, if that is older than the room's, and its revision; NULL: none. */
+/* The newest proven state and its revision. NULL: there is none older than the room's state. */
 const struct scene *last_good_state(struct room *room, uint64_t *out_revision);
 
 #endif

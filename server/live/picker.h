@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What is under the pointer, answered by a thread of its own and without the worker, so that a
- * click never waits for a picture. Where many wait, the session whose turn was longest ago comes
- * first. */
+/* Picks: which node is under the pointer. A thread of its own answers them without the worker, so
+ * that a click never waits for a picture. Among waiting sessions, the one served longest ago is
+ * next. */
 #ifndef SERVER_PICKER_H
 #define SERVER_PICKER_H
 
@@ -17,17 +17,18 @@ struct picker;
 struct room;
 struct session;
 
-enum { PICKER_WAITING = 8 }; /* questions of one session; beyond them its oldest is given up */
+enum { PICKER_WAITING = 8 }; /* picks of one session; one more drops its oldest */
 
 struct picker *picker_create(struct hub *hub, struct error *err);
-/* Ends the thread; what waits is never answered. */
+/* Ends the thread. Waiting picks are never answered. */
 void picker_destroy(struct picker *picker); /* NULL: nothing */
 
 /* Under the hub's lock. */
 
-/* The checked `pick` message; the answer is told to the session. False and `err`: no view yet. */
+/* Queues a checked `pick` message; the session gets the answer. False and `err`: it has no view
+ * yet. */
 bool picker_ask(struct session *session, const cJSON *message, struct error *err);
-/* The session asks no longer. */
+/* Drops all picks of the session. */
 void picker_forget(struct session *session);
 void picker_finish_room(struct room *room);
 

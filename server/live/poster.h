@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The last picture of a scene as one of its viewers saw it, a JPEG: who opens the scene looks at it
- * until there is a picture of their own. Kept with the room, written to the store when the room
- * closes; lost where the daemon is killed. All but poster_find is called under the hub's lock. */
+/* The poster of a scene: the last picture that one of its viewers saw, as JPEG. A page shows it
+ * until it has a picture of its own. The room holds it and writes it to the store when the room
+ * closes; a killed daemon loses it. All functions but poster_find are called under the hub's
+ * lock. */
 #ifndef SERVER_POSTER_H
 #define SERVER_POSTER_H
 
@@ -12,12 +13,12 @@ struct shared_buffer;
 struct hub;
 struct room;
 
-/* Takes a reference. A picture above LIMIT_POSTER_BYTES is passed over. */
+/* Takes a reference. Ignores pictures above LIMIT_POSTER_BYTES. */
 void poster_set(struct room *room, struct shared_buffer *jpeg);
-/* Queues a write where there is a new one. */
+/* Queues a write if the poster is new. */
 void poster_store(struct room *room);
 void poster_finish(struct room *room);
-/* Takes the lock. A reference for the caller; NULL: there is none. */
+/* Takes the lock. The caller gets a reference; NULL: there is no poster. */
 struct shared_buffer *poster_find(struct hub *hub, const char *scene);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Shapes that ended a worker while they were compiled, and files while their picture was read: what
- * is called a shape here may be the id of a file, which is longer. The worker names what it will
- * compile, read or draw. What was being compiled or read when it ended gets a second try, with
- * LIMIT_RETRY_FACTOR times the time; if that ends a worker too, it is left alone until somebody
- * asks for a retry: a scene falls back to its last good state, or to a sky without its picture.
- * Drawing counts against a scene (render_queue.h). Every function is called under the hub's
- * lock. */
+/* The quarantine of shapes that ended a worker during compilation, and of files that ended one
+ * while their picture was read. "Shape" here means either; the id of a file is longer. The worker
+ * names what it is about to compile, read or draw. The shape named when a worker ended gets a
+ * second try with LIMIT_RETRY_FACTOR times the time. If that ends a worker too, the shape is
+ * refused until somebody asks for a retry. Its scene falls back to the last good state, or to a sky
+ * without the picture. Drawing counts against a scene instead (render_queue.h). Every function is
+ * called under the hub's lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 
@@ -22,56 +22,56 @@ struct hub;
 struct room;
 
 enum {
-    QUARANTINE_SHAPES = 256, /* the oldest are forgotten: they may try again */
+    QUARANTINE_SHAPES = 256, /* the oldest are dropped and may try again */
     QUARANTINE_SHAPE_BYTES = ASSET_ID_CHARACTERS + 1,
 };
 
-/* "" in `scene`: nobody. */
+/* What a worker was at. `scene` is "": nothing. */
 struct suspect {
     char scene[LIMIT_ID_BYTES + 16];
-    uint64_t revision; /* of what is compiled */
+    uint64_t revision; /* that is compiled */
     char shape[QUARANTINE_SHAPE_BYTES];
-    uint32_t job; /* of what is drawn */
+    uint32_t job; /* that is drawn */
 };
 
 /* What is known of a shape. */
 struct quarantine_case {
     char shape[QUARANTINE_SHAPE_BYTES];
-    char scene[LIMIT_ID_BYTES + 16]; /* that it was named with last */
-    int times;                       /* of the usual time, for the next try */
-    bool tried;                      /* it ended a worker; the next time it is refused */
-    enum error_kind refused;         /* ERROR_NONE: it is not */
+    char scene[LIMIT_ID_BYTES + 16]; /* scene of its last naming */
+    int times;                       /* factor on the usual time for the next try */
+    bool tried;                      /* it ended one worker; after another it is refused */
+    enum error_kind refused;         /* why; ERROR_NONE: it is not refused */
     int measured_ms, limit_ms;       /* of ERROR_TOO_SLOW */
 };
 
 struct quarantine {
     struct suspect compiling, reading, drawing;
-    bool named;                                      /* the last worker to end had named somebody */
-    struct suspect drawn;                            /* what drawing may have ended it */
-    struct suspect slow;                             /* what the worker ended itself for */
-    int measured_ms, limit_ms;                       /* of `slow` */
+    bool named;                /* the last worker that ended had named a suspect */
+    struct suspect drawn;      /* the picture that may have ended it */
+    struct suspect slow;       /* why the worker ended itself */
+    int measured_ms, limit_ms; /* of `slow` */
     struct quarantine_case cases[QUARANTINE_SHAPES]; /* a ring */
-    size_t count;                                    /* ever */
-    double pace; /* how slow this machine compiles, as the workers measured it; 0: not known */
+    size_t count;                                    /* ever added */
+    double pace; /* compile time on this machine, measured by workers; 0: not known */
 };
 
-/* What the worker says of what it compiles, reads or draws, or that it was too slow. */
+/* The worker has named a suspect, or has reported that one was too slow. */
 void quarantine_named(struct hub *hub, enum packet_to_front kind,
                       const struct packet_suspect *named);
-/* A shape as it is called here. "" for 0. */
+/* The name of a shape in this file; "" for 0. */
 void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES]);
-/* Tells a new worker what earlier ones learned. */
+/* Tells a new worker what earlier workers measured and which shapes are refused. */
 void quarantine_worker_ready(struct hub *hub);
-/* True: it had named somebody. */
+/* A worker has ended. True: it had named a suspect. */
 bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end);
-/* Whether the worker that has just ended may have done so by drawing this. Where it had named
- * nobody, all that it was asked for is suspect: `asked`. */
+/* Whether drawing this scene may have ended the last worker. If that worker had named nothing,
+ * every scene with a picture asked of it is suspect: `asked`. */
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);
-/* A shape of the scene waits for its second try. */
+/* Whether a shape of the scene waits for its second try. */
 bool quarantine_is_tried_again(const struct hub *hub, const struct room *room);
-/* Lets the shape be compiled once more, with more time than the last. False: it is not refused. */
+/* Allows one more compilation with more time than the last. False: the shape is not refused. */
 bool quarantine_pardon(struct hub *hub, const char *shape);
-/* The picture that the room's scene names was refused before; tells so. `err`: the worker's. */
+/* Tells the room that the picture of its environment stays refused. `err` is the worker's error. */
 void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t revision);
 
 #endif

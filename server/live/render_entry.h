@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pictures that are asked of the worker and not yet there, as render_queue.c keeps them. */
+/* The orders of pictures that the worker has not answered yet, as render_queue.c keeps them. */
 #ifndef SERVER_RENDER_ENTRY_H
 #define SERVER_RENDER_ENTRY_H
 
@@ -13,23 +13,23 @@ struct room;
 struct render_entry;
 
 enum {
-    RENDER_MOVING = 0, /* priorities: the lowest number goes first */
+    RENDER_MOVING = 0, /* priorities: the lowest number is drawn first */
     RENDER_STILL = 1,
     RENDER_LOSSLESS = 2,
     RENDER_IMAGE = 3,
-    RENDER_DEADLINE_MS = 120000, /* without progress */
-    RENDER_DEATHS = 2,           /* workers that one scene may take with it */
+    RENDER_DEADLINE_MS = 120000, /* after so long without progress an order fails */
+    RENDER_DEATHS = 2,           /* workers that one scene may end */
 };
 
 struct render_queue {
-    struct render_entry *first, **end; /* in order of asking */
+    struct render_entry *first, **end; /* in the order of submission */
     uint32_t last_id;
-    int64_t image_done; /* clock_ms when the last of these was there */
-    int64_t image_ms;   /* running mean of what one of these takes; 0: none yet */
-    bool ready;         /* a worker is there */
+    int64_t image_done; /* clock_ms of the last finished RENDER_IMAGE */
+    int64_t image_ms;   /* running mean of their drawing times; 0: none yet */
+    bool ready;         /* a worker is ready */
 };
 
-/* A picture that has come. */
+/* A picture from the worker. */
 struct picture_answer {
     const struct packet_frame *frame;
     const void *bytes;
@@ -38,15 +38,16 @@ struct picture_answer {
 
 struct render_order {
     struct room *room;             /* the scene; or */
-    const char *document;          /* the text of one that is used once */
+    const char *document;          /* a document for this picture alone */
     struct render_request request; /* taken */
     int priority;
-    /* Whose time it takes: the id of a live connection, or the address of a client; copied. */
+    /* Who pays for the time: the id of a live connection, or the address of a client; copied. */
     const char *account;
-    bool again; /* ask the next worker when this one dies */
-    /* Called once, under the hub's lock, with the answer or with `err`; not after a cancel. */
+    bool again; /* repeat the order when the worker ends */
+    /* Called once, under the hub's lock, with the answer or with `err`. Not called after a
+     * cancel. */
     void (*on_done)(void *data, const struct picture_answer *answer, const struct error *err);
-    /* Called before it with each answer that is not the last; NULL: there is one. */
+    /* Called before on_done with each earlier answer; NULL: only one answer is wanted. */
     void (*on_more)(void *data, const struct picture_answer *answer);
     void *data;
 };
@@ -58,7 +59,7 @@ struct render_entry {
     char *document; /* a copy of order.document */
     char *account;  /* a copy of order.account */
     int64_t asked;  /* clock_ms */
-    int deaths;     /* workers lost while this was asked and belongs to no room */
+    int deaths;     /* workers lost to this order, if it belongs to no room */
     bool sent;
     int64_t deadline;
 };

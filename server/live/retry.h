@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Second chances that somebody asks for. Under the hub's lock. */
+/* Retries that a user asks for. Called under the hub's lock. */
 #ifndef SERVER_RETRY_H
 #define SERVER_RETRY_H
 
@@ -9,8 +9,8 @@
 
 struct room;
 
-/* What was refused, or the suspended scene, is tried again with more time. `place`: of the
- * error; NULL: whatever it is. False and `err` where nothing there waits for it. */
+/* Tries a refused shape or a suspended scene again, with more time. `place` is the place of the
+ * error; NULL means any place. False and `err` where nothing waits for a retry. */
 bool retry_place(struct room *room, const char *place, struct error *err);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The whole document into the store, after which its older edits are not needed. Every function is
- * called under the hub's lock. */
+/* Snapshots: the whole document goes to the store, which then needs no older edits to load it.
+ * Every function is called under the hub's lock. */
 #ifndef SERVER_ROOM_SNAPSHOT_H
 #define SERVER_ROOM_SNAPSHOT_H
 
 #include "room_state.h"
 
 void room_snapshot(struct room *room);
-/* Stores a snapshot soon, or at once where that is quick. */
+/* Stores a snapshot: at once where that is quick, else by a task. */
 void room_snapshot_soon(struct room *room);
 
 #endif

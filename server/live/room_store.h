@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* What of a room is written to the store, and what happens when it is committed. Every function is
- * called under the hub's lock. */
+/* The writes of a room to the store, and what follows their commits. Every function is called under
+ * the hub's lock. */
 #ifndef SERVER_ROOM_STORE_H
 #define SERVER_ROOM_STORE_H
 
 #include "room_state.h"
 #include "server/store/store.h"
 
-/* Queues a write of the room's newest state. Takes `text` and what `step` holds; NULL: none. */
+/* Queues a write of the room's newest state. Takes `text` and the members of `step`; both may be
+ * NULL. */
 void room_store_push(struct room *room, enum store_kind kind, const struct room_change *change,
                      char *text, const struct store_step *step);
-/* Queues the creation of a new room's scene, whose text it takes, or its deletion, after which the
- * room frees itself. */
+/* Queue the creation of a new room's scene (takes `text`), and its deletion, after which the room
+ * frees itself. */
 void room_store_new(struct room *room, char *text, void (*then)(void *data), void *data);
 void room_store_deleted(struct room *room, void (*then)(void *data), void *data);
-/* Queues the key of an author whose edits are older than it. */
+/* Queues the new key of an author whose edits are older than keys. */
 void room_store_author(struct room *room, struct author *author);
 
 #endif

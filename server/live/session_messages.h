@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* What a client says on a live connection. */
+/* The messages of a client on a live connection. */
 #ifndef SERVER_SESSION_MESSAGES_H
 #define SERVER_SESSION_MESSAGES_H
 
 #include "session.h"
 
-enum { SESSION_LIGHT_BYTES = 8192 }; /* of a message; a longer one is a task */
+enum { SESSION_LIGHT_BYTES = 8192 }; /* of a message; a longer one becomes a task */
 
-/* A whole text message. Takes the lock itself, since hello may load the scene. False: nothing was
- * done, because it may take long: session_receive_apart shall have it. */
+/* Handles a whole text message. Takes the lock itself, because hello may load the scene. False: the
+ * message may take long and was not handled; pass it to session_receive_apart. */
 bool session_receive(struct session *session, const char *scene, const char *text, size_t length);
-/* The same as a task, whatever it takes; takes `text`. Nothing else of the session may be received
- * until `working` is false, of which `wake` tells. */
+/* Handles the message as a task; takes `text`. Pass no other message of the session until `working`
+ * is false. `wake` is called then. */
 void session_receive_apart(struct session *session, const char *scene, char *text, size_t length);
 
 #endif

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* When a session gets a picture, and how good a one. One picture of a session is asked of the
- * worker at a time, always of the newest view; at most LIMIT_FRAMES_IN_FLIGHT are on their way
- * without an acknowledgement, one until the first comes.
+/* The stream of pictures of a session: when a picture is drawn, and in which quality. The worker
+ * draws one picture of a session at a time, always of the newest view. At most
+ * LIMIT_FRAMES_IN_FLIGHT frames are on their way without an acknowledgement; before the first
+ * acknowledgement it is one.
  *
  *   changed --> moving pictures, scaled so that each takes about 50 ms
+ *
  *           --100 ms rest--> one larger, where full size takes long, then one still in full size
+ *
  *           --300 ms rest--> one lossless, shown after 4 and 16 samples too --> nothing
  *
  * Every function is called under the hub's lock. */
@@ -27,13 +30,13 @@ enum stream_preference { PREFER_AUTO, PREFER_SMOOTH, PREFER_SHARP };
 enum {
     STREAM_STILL_MS = 100,
     STREAM_LOSSLESS_MS = 300,
-    STREAM_LARGER_MS = 300, /* what the larger picture in between may take */
-    STREAM_STALL_MS = 2000, /* without an acknowledgement for so long nothing is rendered */
-    STREAM_VIEWS = 8,       /* older views that a pick may mean */
+    STREAM_LARGER_MS = 300, /* time limit of the larger picture in between */
+    STREAM_STALL_MS = 2000, /* without an acknowledgement for so long, nothing is drawn */
+    STREAM_VIEWS = 8,       /* older views that a pick may refer to */
 };
 
 struct stream_view {
-    uint32_t seq;                  /* `picture.values` NULL: there was none yet */
+    uint32_t seq;                  /* `picture.values` is NULL: there was no view yet */
     struct render_request picture; /* the whole view: its size, camera, output, what it isolates */
     enum stream_preference preference;
     bool visible;
@@ -44,12 +47,12 @@ struct stream {
     int newest;
     bool has_view;
 
-    int64_t changed_at;     /* clock_ms of the last change that shows */
-    enum stream_stage done; /* best picture asked for since then */
+    int64_t changed_at;     /* clock_ms of the last visible change */
+    enum stream_stage done; /* best picture ordered since then */
     bool stale;             /* the newest picture is older than the document */
     uint64_t revision;      /* of the newest picture */
 
-    uint32_t job; /* asked of the worker; 0: none */
+    uint32_t job; /* the order at the worker; 0: none */
     enum stream_stage job_stage;
     int64_t job_asked_us;
     uint32_t job_seq;
@@ -69,20 +72,20 @@ struct stream {
 
 void stream_init(struct stream *stream);
 void stream_finish(struct session *session);
-/* No picture is wanted any more, for now. */
+/* Cancels the order. A new view or change starts the stream again. */
 void stream_stop(struct session *session);
-/* The checked `view` message. False and `err`: the camera is wrong. */
+/* Sets the view of a checked `view` message. False and `err`: the camera is wrong. */
 bool stream_set_view(struct session *session, const cJSON *message, struct error *err);
-/* The view that a pick means, or the newest; NULL: none yet. */
+/* The view with this number, else the newest; NULL: there is none yet. */
 const struct stream_view *stream_find_view(const struct stream *stream, uint32_t seq);
 void stream_acknowledge(struct session *session, uint32_t number);
-/* The document or the view changed. */
+/* Call it when the document or the view has changed. */
 void stream_changed(struct session *session);
-/* The worker can draw a newer revision than before. */
+/* Call it when the worker can draw a newer revision. */
 void stream_shown(struct session *session);
-/* Somebody waits for a picture, or for a better one. */
+/* Whether the client waits for a picture, or for a better one. */
 bool stream_is_waiting(const struct stream *stream);
-/* Asks for a picture if one is due; returns when to look again, clock_ms or 0. */
+/* Orders a picture if one is due. Returns the time of the next call (clock_ms), or 0. */
 int64_t stream_pump(struct session *session, int64_t now_ms);
 
 #endif

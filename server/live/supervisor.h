@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The life of the render process: starts it, speaks packets with it, notices that it died or hangs,
- * starts another. Knows nothing of scenes or pictures.
- *
- * It hangs when it gave no sign of life and was still all the while (renderer/vigil.h), or used
- * more of the processor than any tile should. Signs of life are bytes of a packet, and pongs that
- * say that the drawing thread went on, or has nothing to do. A process that is slow,
- * or does not get the processor, is left alone however long it takes. */
+/* The supervisor starts the worker (the render process), exchanges packets with it, notices that it
+ * ended or hangs, and starts the next one. It knows nothing of scenes or pictures.
+ * A worker hangs in two cases: it gave no sign of life and was still for `silence_ms`
+ * (renderer/vigil.h), or it used `busy_ms` of processor time without a sign of life. Signs of life
+ * are bytes of a packet, and pongs which say that the drawing thread made progress or is idle. A
+ * worker that is slow, or that gets no processor, may take any time. */
 #ifndef SERVER_SUPERVISOR_H
 #define SERVER_SUPERVISOR_H
 
@@ -18,51 +17,51 @@ struct supervisor;
 
 enum supervisor_end_kind {
     SUPERVISOR_ENDED, /* by itself */
-    SUPERVISOR_STILL, /* killed: it waited for nothing that would come */
-    SUPERVISOR_BUSY,  /* killed: it was at work for too long */
+    SUPERVISOR_STILL, /* killed: it was still */
+    SUPERVISOR_BUSY,  /* killed: it used too much processor time */
 };
 
-/* How a worker came to its end. */
+/* How a worker ended. */
 struct supervisor_end {
     enum supervisor_end_kind kind;
-    int64_t measured_ms, limit_ms; /* what it used, and might have; 0 where it ended by itself */
+    int64_t measured_ms, limit_ms; /* time used, and allowed; 0 where it ended by itself */
     char text[160];
 };
 
 struct supervisor_params {
     const char *const *argv; /* of the worker, NULL at the end; borrowed */
-    int silence_ms;          /* of being still without a sign of life: it is replaced */
-    int busy_ms;             /* of the processor, used without a sign of life: the same */
+    int silence_ms;          /* still without a sign of life for so long: replaced */
+    int busy_ms;             /* processor time without a sign of life: the same */
     struct metrics *metrics;
     void *data;
-    /* All are called on the supervisor's thread, holding nothing. */
+    /* All are called on the supervisor's thread, without locks. */
     void (*on_ready)(void *data, const struct packet_ready *ready);
-    void (*on_packet)(void *data, const struct packet *packet); /* any other but pongs */
-    /* True: it is known what ended it, and kept from the next, which need not wait. */
+    void (*on_packet)(void *data, const struct packet *packet); /* all but pongs */
+    /* True: the cause is known and avoided, so the next worker starts at once. */
     bool (*on_down)(void *data, const struct supervisor_end *end);
     /* How slow this machine compiles, as a worker measured it. */
     void (*on_pace)(void *data, double pace);
-    /* The first worker ended by itself before it was ready: here nothing can be drawn. No other is
+    /* The first worker ended by itself before it was ready: no device can draw. No other worker is
      * started. */
     void (*on_hopeless)(void *data);
-    /* Called after everything that happens; returns when to be called again at the latest
-     * (clock_ms; 0: no wish). */
+    /* Called after every event. Returns the latest time of the next call (clock_ms; 0: any
+     * time). */
     int64_t (*on_tick)(void *data, int64_t now_ms);
     /* A file for supervisor_send_asset, which frees it; NULL: there is none. */
     void *(*load_file)(void *data, const char *id, size_t *out_length);
 };
 
-/* Starts the thread, which starts the worker. Dies without a thread (aborts). */
+/* Starts the thread, which starts the worker. Aborts where there is no thread. */
 struct supervisor *supervisor_create(const struct supervisor_params *params);
-/* Any thread; never waits. Dropped while no worker is ready. */
+/* Any thread; never waits. The packet is dropped while no worker is ready. */
 void supervisor_send(struct supervisor *supervisor, const struct packet *packet);
-/* The same of a file, read when its turn comes: nobody waits for it here. */
+/* The same for a file. The supervisor's thread reads it, so the caller does not wait. */
 void supervisor_send_asset(struct supervisor *supervisor, const char *id);
-/* Any thread: what the worker is at may take so many times `busy_ms`. */
+/* Any thread: multiplies `busy_ms` for the current work by `times`. */
 void supervisor_set_patience(struct supervisor *supervisor, int times);
-/* Any thread: have on_tick called soon. */
+/* Any thread: on_tick is called soon. */
 void supervisor_wake(struct supervisor *supervisor);
-/* Ends worker and thread: no event comes afterwards, and what is sent is dropped. */
+/* Ends worker and thread. No event follows, and packets are dropped. */
 void supervisor_stop(struct supervisor *supervisor);
 void supervisor_destroy(struct supervisor *supervisor);
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The listening socket. Peeks at each connection's first request head, refuses what is malformed,
- * late or too much, and hands the socket to the WebSocket or the HTTP side. Knows neither.
- *
- *   accept -> [head complete within 5 s?] -> well formed? -> upgrade accepted? -> ws
- *                  | 408, 431                  | 400, 505         `-----------> http
- */
+/* The listening socket. It reads ahead each connection's first request head and refuses malformed,
+ * late and surplus connections. Others go to the WebSocket or the HTTP side, which it does not
+ * know.
+ * accept -> [head complete within 5 s?] -> well formed? -> upgrade accepted? -> ws
+ *                  | 408, 431                  | 400, 505         `-----------> http */
 #ifndef SERVER_ACCEPTOR_H
 #define SERVER_ACCEPTOR_H
 
@@ -19,14 +18,14 @@ struct acceptor;
 /* All are called on the acceptor's thread. */
 struct acceptor_events {
     void *data;
-    /* Takes `fd` when it returns true; the head has been read from it. False: http gets it. */
+    /* True: takes `fd`, from which the head has been read. False: `http` gets it. */
     bool (*upgrade)(void *data, int fd, const struct http_head *head);
-    /* Takes `fd`, nothing has been read from it. */
+    /* Takes `fd`, from which nothing has been read. */
     void (*http)(void *data, int fd, const struct sockaddr *address, socklen_t length);
-    /* Connections http serves now; above `http_limit` new ones get 503. */
+    /* Number of HTTP connections now; above `http_limit` new ones get 503. */
     int (*http_count)(void *data);
     int http_limit;
-    /* `watch_fd` became readable (-1: nothing to watch). */
+    /* Called when `watch_fd` becomes readable; -1: there is none. */
     int watch_fd;
     void (*watch)(void *data);
 };
@@ -36,7 +35,7 @@ struct acceptor *acceptor_create(const char *address, int port,
                                  const struct acceptor_events *events, struct metrics *metrics,
                                  struct error *err);
 int acceptor_port(const struct acceptor *acceptor);
-/* Ends the thread, closes the listening socket and everything undecided. */
+/* Ends the thread; closes the listening socket and all connections that are still here. */
 void acceptor_stop(struct acceptor *acceptor);
 void acceptor_destroy(struct acceptor *acceptor);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Who may speak with the server: Host (against DNS rebinding), Origin (against other pages), token.
- * Pure: sees header values only. */
+/* Access control by header values: Host (against DNS rebinding), Origin (against other pages),
+ * token. Pure. */
 #ifndef SERVER_ACCESS_H
 #define SERVER_ACCESS_H
 
@@ -10,7 +10,7 @@
 
 struct access {
     bool loopback;     /* bound to loopback: Host must name this machine */
-    const char *token; /* NULL: none needed */
+    const char *token; /* NULL: no token is needed */
     const char *const *allowed_origins, *const *allowed_hosts; /* end with NULL; may be NULL */
 };
 
@@ -18,8 +18,8 @@ struct access {
 struct access_request {
     const char *host, *origin, *authorization;
     const char *protocols; /* subprotocols offered by a WebSocket handshake */
-    const char *site;      /* Sec-Fetch-Site: whose page made a browser ask */
-    bool to_page;          /* somebody follows a link to the page */
+    const char *site;      /* Sec-Fetch-Site: relation to the page that asks */
+    bool to_page;          /* a browser follows a link to the page */
 };
 
 /* 0, or the HTTP status of the refusal (401, 403) with `err` filled. `open`: a resource that needs

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The memory of request bodies that are being received: what each needs, and a bound for all
- * together. Of the thread of http. */
+/* The memory of request bodies during their reception, with one bound for all of them. Used on the
+ * thread of http alone. */
 #ifndef SERVER_BODY_H
 #define SERVER_BODY_H
 
@@ -9,21 +9,21 @@
 
 #include "request.h"
 
-/* All of them. */
+/* All bodies together. */
 struct bodies {
-    size_t held; /* bytes, without the first of each */
+    size_t held; /* bytes, without the first block of each body */
 };
 
-/* One, beside its request. */
+/* One body, beside its request. */
 struct body {
     struct bodies *bodies;
-    size_t most; /* bytes that it may come to: as announced, else by its limit */
+    size_t most; /* greatest length: as announced, else by its limit */
     size_t capacity;
 };
 
-/* False: all together would be above LIMIT_BODIES_BYTES; the body is gone. */
+/* Appends bytes. False: all bodies would exceed LIMIT_BODIES_BYTES; this body is freed. */
 bool body_add(struct body *body, struct request *request, const char *bytes, size_t length);
-/* Gives back what it held; the request keeps its bytes. */
+/* Returns its share of the bound. The request keeps the bytes. */
 void body_finish(struct body *body);
 
 #endif

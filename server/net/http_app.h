@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the HTTP side is handed of those who answer. */
+/* What the HTTP side gets from the layers that answer requests. */
 #ifndef SERVER_HTTP_APP_H
 #define SERVER_HTTP_APP_H
 
@@ -12,17 +12,17 @@ struct metrics;
 struct route_table;
 struct tasks;
 
-/* Who answers the requests; all of it outlives the http. */
+/* All members outlive the http. */
 struct http_app {
     const struct route_table *routes;
     const struct access *access;
     struct metrics *metrics;
     struct tasks *tasks;
-    const atomic_bool *draining;   /* what is guarded is refused */
-    struct hub *hub;               /* that handlers get with a request; nothing is known of it */
-    void (*lock)(struct hub *hub); /* under it the requests with a `gone` are answered */
+    const atomic_bool *draining;   /* while true, guarded routes are refused */
+    struct hub *hub;               /* opaque; passed to handlers with a request */
+    void (*lock)(struct hub *hub); /* held when requests with `gone` are answered */
     void (*unlock)(struct hub *hub);
-    bool (*scene_is_heavy)(struct hub *hub, const char *id); /* to read, print or copy */
+    bool (*scene_is_heavy)(struct hub *hub, const char *id); /* takes long to read, print or copy */
 };
 
 #endif

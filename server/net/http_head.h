@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The head of an HTTP/1 request, read strictly (RFC 9112): whatever two parsers could understand
- * differently is refused. Pure: no sockets. */
+/* The head of an HTTP/1 request, read strictly (RFC 9112). Any head that two parsers may understand
+ * differently is refused. Pure. */
 #ifndef SERVER_HTTP_HEAD_H
 #define SERVER_HTTP_HEAD_H
 
@@ -23,14 +23,14 @@ enum http_head_field {
     HEAD_FIELD_COUNT
 };
 
-/* The values that matter, as copies that end with NUL; NULL where the field is absent. Fields
- * which may be lists and come twice are joined by ", "; the others are refused when they do. */
+/* Copies of the values that the server needs, with NUL; NULL where a field is absent. A repeated
+ * field that may be a list is joined by ", ". Any other repeated field is refused. */
 struct http_head {
     char *method, *target;
     int minor;     /* HTTP/1.minor */
     size_t length; /* bytes that were read */
     char *field[HEAD_FIELD_COUNT];
-    char text[2 * LIMIT_HEAD_BYTES + 64]; /* backs all of the above */
+    char text[2 * LIMIT_HEAD_BYTES + 64]; /* storage of all values */
     size_t used;
 };
 
@@ -40,17 +40,18 @@ struct http_head_fault {
     const char *message;
 };
 
-/* Looks for the end of a head in `length` bytes of which the first `seen` have been looked at.
- * Bytes of the head including the empty line; 0: more are needed; -1: a byte that no head holds. */
+/* Searches `length` bytes for the end of a head; the first `seen` were searched before. Returns the
+ * length of the head with its empty line. 0: more bytes are needed. -1: a byte is not allowed in a
+ * head. */
 long http_head_end(const char *bytes, size_t length, size_t seen);
-/* Reads `length` bytes that http_head_end delimited. */
+/* Reads a head of `length` bytes, as http_head_end returned it. */
 bool http_head_read(const char *bytes, size_t length, struct http_head *out,
                     struct http_head_fault *fault);
-/* The same rule for one field of a request that somebody else parsed: duplicates excepted. `value`
- * is what stands behind the colon, with the white space behind it. */
+/* The same rules, except for duplicates, for one field that another parser has read. `value` is the
+ * text behind the colon, with trailing white space. */
 bool http_head_field_check(const char *name, size_t name_length, const char *value,
                            size_t value_length, struct http_head_fault *fault);
-/* Rules between fields: one length at most, a transfer coding that is known, a Host. */
+/* Rules between fields: at most one length, a known transfer coding, a Host. */
 bool http_head_framing_check(const char *host, const char *content_length,
                              const char *transfer_encoding, int minor,
                              struct http_head_fault *fault);

@@ -22,12 +22,12 @@ struct request_pair {
 struct request {
     struct hub *hub;
     const char *method;
-    char client[INET6_ADDRSTRLEN];              /* the address that it came from */
+    char client[INET6_ADDRSTRLEN];              /* the client's address */
     char *path;                                 /* percent-decoded, starts with '/' */
     struct request_pair query[REQUEST_QUERIES]; /* percent-decoded */
     size_t query_count;
-    char capture[REQUEST_CAPTURES][LIMIT_ID_BYTES + 1]; /* what {} of the route matched */
-    char *body;                                         /* ends with NUL besides */
+    char capture[REQUEST_CAPTURES][LIMIT_ID_BYTES + 1]; /* matches of {} in the route */
+    char *body;                                         /* with a NUL behind it */
     size_t body_length;
     const char *(*header)(const struct request *request, const char *name);
 };
@@ -37,7 +37,7 @@ struct response {
     const char *type; /* Content-Type */
     void *body;
     size_t length;
-    bool borrowed; /* the body is not freed */
+    bool borrowed; /* the body is static and not freed */
     struct {
         const char *name;
         char value[256];
@@ -45,26 +45,26 @@ struct response {
     size_t header_count;
 };
 
-/* Splits and decodes "/path?a=b"; false and `err` when it is malformed. */
+/* Splits and decodes "/path?a=b". False and `err` when it is malformed. */
 bool request_parse_target(struct request *request, const char *target, struct error *err);
 void request_finish(struct request *request);
-/* NULL: absent. */
+/* Both return NULL where it is absent. */
 const char *request_header(const struct request *request, const char *name);
 const char *request_query(const struct request *request, const char *name);
-/* Refuses queries that are not among `names` (NULL at the end). */
+/* False and `err` where the request has a query that is not in `names`, which end with NULL. */
 bool request_check_query(const struct request *request, const char *const *names,
                          struct error *err);
 /* Whether an If-Match or If-None-Match list names `tag` (with its quotes). */
 bool request_tag_listed(const char *list, const char *tag);
 
-/* Answers, from any thread, once; takes the body of `response`. The request may be gone when this
- * returns. */
+/* Answers the request once; any thread. Takes the body of `response`. The request must not be used
+ * afterwards. */
 void request_reply(struct request *request, const struct response *response);
 void request_reply_error(struct request *request, const struct error *err);
-/* `json` is taken. */
+/* Takes `json`. */
 void request_reply_json(struct request *request, int status, cJSON *json);
-/* `gone` is called under the hub's lock when the client leaves before the answer. Only for requests
- * that are answered under the hub's lock. */
+/* `gone` is called under the hub's lock when the client leaves before the answer. Such requests
+ * have to be answered under the hub's lock. */
 void request_on_gone(struct request *request, void (*gone)(void *data), void *data);
 
 void response_add(struct response *response, const char *name, const char *format, ...)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A table of what HTTP offers: method, path, handler. Its rows are handed in. */
+/* A table of routes: method, path, handler. The layer above supplies its rows. */
 #ifndef SERVER_ROUTE_H
 #define SERVER_ROUTE_H
 
@@ -8,16 +8,16 @@
 enum route_body { BODY_NONE, BODY_JSON, BODY_FILE };
 
 enum route_access {
-    GUARDED, /* by the token, if there is one */
+    GUARDED, /* needs the token, if there is one */
     OPEN,    /* to everybody */
-    PAGE,    /* open, and pages of other sites may lead here */
+    PAGE,    /* open, also to links from pages of other sites */
 };
 
-/* The scene that a handler works on. Then it runs on a thread of the tasks. */
+/* The scene of a handler. With a scene, the handler runs on a thread of the tasks. */
 enum route_scene {
     SCENE_NONE,
-    SCENE_NEW,   /* none that is there, or named in the body */
-    SCENE_NAMED, /* by the first capture */
+    SCENE_NEW,   /* a new one, or one named in the body */
+    SCENE_NAMED, /* named by the first capture */
 };
 
 struct route {
@@ -32,10 +32,10 @@ struct route {
 struct route_table {
     const struct route *rows;
     size_t count;
-    const struct route *file; /* of everything else that can be read outside of /v1/ */
+    const struct route *file; /* for all other readable paths outside of /v1/ */
 };
 
-/* The route of a request, whose captures are filled in. NULL: none, and `*out` says 404 or 405. */
+/* Finds the route of a request and fills in its captures. NULL: none; `*out` is a 404 or 405. */
 const struct route *route_find(const struct route_table *table, struct request *request,
                                struct response *out);
 

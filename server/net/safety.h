@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What every answer tells a browser, whoever writes it: types are not guessed, addresses not told,
- * and pages of other sites may not embed it. */
+/* Headers of every answer of the server. A browser then guesses no types, sends no Referer, and
+ * lets no page of another site embed the answer. */
 #ifndef SERVER_SAFETY_H
 #define SERVER_SAFETY_H
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What waits to be written to one live connection, and in which pieces: text first, frames in
- * parts between texts, at most one frame waiting behind the one being written. Pure; not
- * thread-safe.
- *
- * Frames are a stream: a key decodes alone, any other one with all frames since the last key. So
- * one that is lost takes those with it that follow until the next key, which is asked for
- * (send_queue_wants_key). A key takes the place of what waits; no other frame does, since it needs
- * that. */
+/* The send queue of one live connection: messages and the pieces in which they are written. Texts
+ * go first; a frame goes in parts between texts. At most one frame waits behind the one being
+ * written. Pure; not thread-safe.
+ * Frames are a stream. A key frame decodes alone; any other frame needs all frames since the last
+ * key. A lost frame therefore makes all frames up to the next key useless; send_queue_wants_key
+ * asks for that key. A key replaces the waiting frame. No other frame does, because it needs the
+ * waiting one. */
 #ifndef SERVER_SEND_QUEUE_H
 #define SERVER_SEND_QUEUE_H
 
@@ -18,10 +17,10 @@
 
 enum {
     SEND_QUEUE_PART_BYTES = 65536,
-    SEND_QUEUE_TEXT_BYTES = 2097152, /* queued for one client at most, behind a first message */
+    SEND_QUEUE_TEXT_BYTES = 2097152, /* most text queued, apart from a first message */
 };
 
-/* Immutable bytes shared by those who send them. */
+/* Immutable bytes with a reference count. */
 struct shared_buffer {
     _Atomic int references;
     size_t length;
@@ -35,8 +34,8 @@ struct send_queue_frame {
     struct shared_buffer *payload; /* NULL: no frame */
     uint8_t header[FRAME_HEADER_BYTES];
     uint32_t number;
-    bool precious; /* a moving picture, which is finished once begun */
-    size_t sent;   /* payload bytes */
+    bool precious; /* a moving picture; once begun, it is written to its end */
+    size_t sent;   /* payload bytes written */
     bool begun;
 };
 
@@ -46,7 +45,7 @@ struct send_queue {
     struct send_queue_text *first, **end;
     size_t text_bytes, text_offset;
     struct send_queue_frame current, next;
-    bool linked; /* what comes next can build on the last frame: none has been lost since a key */
+    bool linked; /* no frame was lost since the last key */
 };
 
 enum send_queue_kind { SEND_QUEUE_TEXT, SEND_QUEUE_BINARY };
@@ -62,21 +61,21 @@ struct send_queue_piece {
 
 void send_queue_init(struct send_queue *queue);
 void send_queue_finish(struct send_queue *queue);
-/* Takes a reference of its own. False: too much waits already; nothing was queued. */
+/* Queues a text; takes a reference of its own. False: too much waits, and nothing was queued. */
 bool send_queue_text(struct send_queue *queue, struct shared_buffer *text);
-/* Queues a frame. Returns the number of the frame that is given up: an older one, this one where it
- * cannot be decoded or would take the place of what it needs, or 0. */
+/* Queues a frame. Returns the number of the frame that is given up, or 0. That is an older frame,
+ * or this one if it could not be decoded. */
 uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *header,
                           struct shared_buffer *payload);
-/* A frame of the stream, a key or not, is not queued at all. */
+/* Call it when a frame of the stream is dropped before the queue. */
 void send_queue_skip(struct send_queue *queue);
-/* No other frame than a key would be queued. */
+/* Whether the queue accepts a key frame alone. */
 bool send_queue_wants_key(const struct send_queue *queue);
 bool send_queue_is_empty(const struct send_queue *queue);
-/* A frame waits to be written. `*out_precious`: it would not be given up for a newer one. */
+/* Whether a frame waits to be written. `*out_precious`: a newer frame would not replace it. */
 bool send_queue_has_frame(const struct send_queue *queue, bool *out_precious);
-/* Copies the next piece to `out`, which holds SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES. False:
- * there is nothing. */
+/* Copies the next piece to `out`, which has SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES. False: the
+ * queue is empty. */
 bool send_queue_next(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The WebSocket side: an adapter to libwebsockets, with one thread of its own. It gets sockets
- * whose handshake the acceptor has judged, moves bytes between them and sessions, and decides
+/* The WebSocket side: an adapter to libwebsockets with one thread of its own. It gets sockets whose
+ * handshake the acceptor has accepted. It moves bytes between sockets and sessions, and decides
  * nothing. */
 #ifndef SERVER_WS_H
 #define SERVER_WS_H
@@ -28,26 +28,27 @@ struct send_queue_piece;
 struct session;
 struct ws;
 
-/* Who is behind the connections: one session each. All but `receive` and `receive_apart` are called
- * under the lock. */
+/* The layer above: it has one session for each connection. All functions but `receive` and
+ * `receive_apart` are called under the lock. */
 struct ws_app {
-    struct hub *hub; /* nothing is known of it */
+    struct hub *hub; /* opaque */
     struct metrics *metrics;
     void (*lock)(struct hub *hub);
     void (*unlock)(struct hub *hub);
-    /* The connection is open. `wake`: something is to be written or closed; any thread. */
+    /* A connection is open. The session calls `wake` (any thread) when it has something to write or
+     * to close. */
     struct session *(*open)(struct hub *hub, void (*wake)(void *connection), void *connection);
-    void (*leave)(struct session *session); /* it has closed */
-    /* A whole message. False: it may take long, and `receive_apart` shall have it, which takes the
-     * text; nothing else is read until it is done. */
+    void (*leave)(struct session *session); /* the connection has closed */
+    /* Handles a whole message. False: it may take long. Then `receive_apart` gets it and takes the
+     * text; nothing else is read until `is_done`. */
     bool (*receive)(struct session *session, const char *scene, const char *text, size_t length);
     void (*receive_apart)(struct session *session, const char *scene, char *text, size_t length);
-    /* Whether that is done, and what it took of a processor. */
+    /* Whether `receive_apart` is done, and its processor time. */
     bool (*is_done)(const struct session *session, int64_t *out_worked_us);
-    void (*tell_rest)(struct session *session, int wait_ms); /* it is not read for so long */
+    void (*tell_rest)(struct session *session, int wait_ms); /* nothing is read for so long */
     bool (*said_hello)(const struct session *session);
-    /* The next piece to write. False: there is none, and the connection is to be closed with
-     * `*out_code`, if that is not 0. */
+    /* The next piece to write. False: there is none. Then a `*out_code` other than 0 closes the
+     * connection with that code. */
     bool (*next)(struct session *session, uint8_t *out, struct send_queue_piece *piece,
                  int *out_code);
     void (*close)(struct session *session, int code, const char *reason, int retry_ms);
@@ -56,9 +57,9 @@ struct ws_app {
 struct ws *ws_create(const struct ws_app *app, struct error *err);
 /* Any thread; takes `fd`, from which the head has been read. */
 void ws_adopt(struct ws *ws, int fd, const struct http_head *head, const char *scene);
-/* Connections adopted and not yet gone; any thread. */
+/* The number of open connections; any thread. */
 int ws_count(const struct ws *ws);
-/* Says goodbye to everybody and waits at most `wait_ms` for them to go. */
+/* Says bye to all clients and waits at most `wait_ms` until they have left. */
 void ws_drain(struct ws *ws, int wait_ms);
 void ws_destroy(struct ws *ws);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The table of what HTTP offers: method, path, handler. */
+/* The table of routes: method, path, handler. */
 #ifndef SERVER_ROUTES_H
 #define SERVER_ROUTES_H
 
@@ -7,7 +7,7 @@
 
 extern const struct route_table routes;
 
-/* Handlers; each file knows one subject. */
+/* The handlers. The word before the underscore names their file. */
 void scenes_list(struct request *request);
 void scenes_create(struct request *request);
 void scenes_import(struct request *request);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes on disk: for each a snapshot of its document, the log of edits since with what undoes
- * them, and who has edits in it; and the files that scenes name. Writes are
- * queued and committed in order by one thread, as many as wait in one transaction; what was told
- * durable survives kill -9 and loss of power. A failed commit ends the program with
- * STORE_EXIT_STATUS: after a failed fsync nothing on disk can be trusted to become durable by
- * trying again. Only store_sqlite.c knows the database. */
+/* The store: scenes and uploaded files on disk. A scene has a snapshot of its document, the log of
+ * later edits with their inverses, and the authors of these edits. One thread commits the queued
+ * writes in order; all waiting writes share a transaction. A write that was told durable survives
+ * kill -9 and loss of power. A failed commit ends the program with STORE_EXIT_STATUS, because a
+ * repeated fsync after a failed one proves nothing. Only store_sqlite.c knows the database. */
 #ifndef SERVER_STORE_H
 #define SERVER_STORE_H
 
@@ -17,8 +16,8 @@
 
 enum {
     STORE_EXIT_STATUS = 74, /* EX_IOERR */
-    STORE_LOG_KEPT = 10000, /* edits kept before the newest snapshot */
-    STORE_PAST = 4096,      /* edits that are read to know what can be undone */
+    STORE_LOG_KEPT = 10000, /* edits kept from before the newest snapshot */
+    STORE_PAST = 4096,      /* edits read at a load for undo and redo */
     STORE_PAST_BYTES = 16777216,
 };
 
@@ -29,11 +28,11 @@ enum store_kind {
     STORE_EDIT,     /* an entry of the log */
     STORE_REPLACE,  /* a new document at a new revision */
     STORE_SNAPSHOT, /* the document at a revision that the log has reached */
-    STORE_AUTHOR,   /* the key of an author that has none yet */
+    STORE_AUTHOR,   /* the key of an author who has none */
     STORE_DELETE,
-    STORE_ASSET,        /* a file, once */
-    STORE_ASSET_DELETE, /* it is named by its id in `asset`, without bytes */
-    STORE_POSTER,       /* the scene's last picture, in `asset`; what it was before is gone */
+    STORE_ASSET,        /* a new file */
+    STORE_ASSET_DELETE, /* `asset` has its id and no bytes */
+    STORE_POSTER,       /* the scene's last picture, in `asset`; replaces the old one */
 };
 
 /* A file that scenes name by its SHA-256. */
@@ -44,12 +43,12 @@ struct store_asset {
     void *bytes; /* NULL in a list */
 };
 
-/* What an edit means for undo, as in struct history_entry. Owned. */
+/* The data of an edit for undo, as in struct history_entry. All texts are owned. */
 struct store_step {
     int kind; /* enum history_kind */
     size_t undo, redo;
     char *group, *label;
-    char *inverse; /* NULL: it cannot be undone */
+    char *inverse; /* NULL: the edit cannot be undone */
 };
 void store_step_finish(struct store_step *step);
 
@@ -58,15 +57,15 @@ struct store_write {
     char scene[LIMIT_ID_BYTES + 1];
     uint64_t revision;
     char author[LIMIT_ID_BYTES + 1];
-    char key[ASSET_ID_CHARACTERS + 1]; /* digest of the author's; "": none */
+    char key[ASSET_ID_CHARACTERS + 1]; /* digest of the author's key; "": none */
     int64_t edit;                      /* the author's number; 0: none */
-    char *text;                        /* owned: operations of an edit, else the document */
-    struct store_step step;            /* of STORE_EDIT; owned */
-    char *name; /* owned: the scene's name now; NULL for STORE_SNAPSHOT and STORE_DELETE */
+    char *text;                        /* owned: the operations of an edit, or the document */
+    struct store_step step;            /* for STORE_EDIT; owned */
+    char *name; /* owned: the scene's new name; NULL for STORE_SNAPSHOT and STORE_DELETE */
     size_t nodes;
-    struct store_asset *asset; /* owned, with its bytes: of STORE_ASSET and STORE_POSTER */
+    struct store_asset *asset; /* owned, with its bytes: for STORE_ASSET and STORE_POSTER */
     int64_t time_ms;           /* since 1970 */
-    /* On the writer's thread after the commit; may be NULL. */
+    /* Called on the writer's thread after the commit; may be NULL. */
     void (*on_durable)(void *data);
     void *data;
     struct store_write *next; /* the store's */
@@ -87,15 +86,15 @@ struct store_edit {
     char *ops;
     struct store_step step;
 };
-/* Somebody with an edit in the log. */
+/* An author with an edit in the log. */
 struct store_author {
     char author[LIMIT_ID_BYTES + 1];
-    char key[ASSET_ID_CHARACTERS + 1]; /* digest; "": from before there were keys */
-    int64_t edit;                      /* the newest number */
-    uint64_t revision;                 /* that it made */
+    char key[ASSET_ID_CHARACTERS + 1]; /* digest of the key; "": older than keys */
+    int64_t edit;                      /* the newest edit number */
+    uint64_t revision;                 /* which that edit made */
 };
-/* What store_load found: a document, the edits that come after it in order, and the newest edits
- * with what undoes them, from before and after the document's revision. */
+/* The result of store_load: a document, the later edits in order (`edits`), and the newest edits of
+ * any revision with their inverses (`past`). */
 struct store_loaded {
     char *document;
     uint64_t revision; /* of `document` */
@@ -109,42 +108,42 @@ struct store_loaded {
 };
 void store_loaded_finish(struct store_loaded *loaded);
 
-/* Makes the directory when it is missing and takes hold of it against other processes. */
+/* Creates the directory if needed and locks it against other processes. */
 struct store *store_open(const char *directory, struct metrics *metrics, struct error *err);
-/* What is wrong with the database, as it was found at the start; "": nothing. */
+/* The damage of the database that was found at the start; "": none. */
 const char *store_damage(const struct store *store);
-/* Looks for damage in a directory that a store may have open. No database is no damage. */
+/* Checks a directory for damage. A store may have it open. A missing database is no damage. */
 bool store_check(const char *directory, struct error *err);
 /* Commits what is queued, then closes. */
 void store_close(struct store *store);
-/* Calls `each` for every scene, by id. */
+/* Calls `each` for every scene, in the order of ids. */
 bool store_list(struct store *store, void (*each)(void *data, const struct store_scene *scene),
                 void *data, struct error *err);
-/* Any thread; sees what is committed. */
+/* Loads the committed state of a scene. Any thread. */
 bool store_load(struct store *store, const char *scene, struct store_loaded *out,
                 struct error *err);
-/* The revision that an author's edit made, among what is committed; 0: it is not in the log. Any
- * thread; one row by its index, and no wait for other readers. */
+/* The revision that an author's edit made; 0: the edit is not in the committed log. Any thread.
+ * Reads one row by its index and does not wait for other readers. */
 bool store_find_edit(struct store *store, const char *scene, const char *author, int64_t edit,
                      uint64_t *out_revision, struct error *err);
 /* Calls `each` for every file, oldest first, without its bytes. */
 bool store_list_assets(struct store *store,
                        void (*each)(void *data, const struct store_asset *asset), void *data,
                        struct error *err);
-/* Calls `each` for all that scenes are made of: the newest document of each and, as JSON, the edits
- * behind it. */
+/* Calls `each` for the texts of all scenes: the newest document of each, and its later edits as
+ * JSON. */
 bool store_list_texts(struct store *store,
                       void (*each)(void *data, const char *scene, const char *text), void *data,
                       struct error *err);
-/* Any thread; the caller frees the bytes. */
+/* Loads a file. Any thread; the caller frees the bytes. */
 bool store_load_asset(struct store *store, const char *id, void **out_bytes, size_t *out_length,
                       struct error *err);
 /* The scene's last picture, a JPEG; as store_load_asset. */
 bool store_load_poster(struct store *store, const char *scene, void **out_bytes, size_t *out_length,
                        struct error *err);
-/* Any thread; takes a `write` from the heap, with its texts. Never waits. */
+/* Queues a write. Any thread; never waits. Takes `write`, which is on the heap, with its texts. */
 void store_push(struct store *store, struct store_write *write);
-/* Waits until everything pushed before is committed and told. */
+/* Waits until all earlier writes are committed and their on_durable has run. */
 void store_flush(struct store *store);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The database under the store. One writer thread and any number of readers, which share a lock of
- * their own. */
+/* The SQLite database of the store. There is one writer thread and any number of readers, which
+ * share a lock of their own. */
 #ifndef SERVER_STORE_SQLITE_H
 #define SERVER_STORE_SQLITE_H
 
@@ -9,11 +9,11 @@
 struct store_sqlite;
 
 struct store_sqlite *store_sqlite_open(const char *file, struct error *err);
-/* As store_damage and store_check. */
+/* See store_damage and store_check. */
 const char *store_sqlite_damage(const struct store_sqlite *db);
 bool store_sqlite_check(const char *file, struct error *err);
 void store_sqlite_close(struct store_sqlite *db);
-/* Writes the whole list in one transaction. False: nothing of it is in the database. */
+/* Commits the whole list in one transaction. False: the database has none of it. */
 bool store_sqlite_commit(struct store_sqlite *db, const struct store_write *writes,
                          struct error *err);
 bool store_sqlite_list(struct store_sqlite *db,
