@@ -9,20 +9,20 @@
 /* X(NAME, "name", channels, whole, picture, "what it is") */
 /* clang-format off */
 #define OUTPUTS(X) \
-    X(COLOR, "color", 4, false, true, "What is seen, with its coverage.") \
-    X(DEPTH, "depth", 1, false, true, "Distance along the ray; infinite where nothing is.") \
-    X(NORMAL, "normal", 3, false, true, "Unit normal in the world; 0 where nothing is.") \
-    X(POSITION, "position", 3, false, false, "Place in the world; 0 where nothing is.") \
-    X(ID, "id", 1, true, true, "1 + the leaf's place in the tree; 0 where nothing is.") \
+    X(COLOR, "color", 4, false, true, "The picture: colour and coverage.") \
+    X(DEPTH, "depth", 1, false, true, "Distance along the ray; infinite where nothing is hit.") \
+    X(NORMAL, "normal", 3, false, true, "Unit normal in world space; 0 where nothing is hit.") \
+    X(POSITION, "position", 3, false, false, "Position in world space; 0 where nothing is hit.") \
+    X(ID, "id", 1, true, true, "Index of the leaf in the tree, plus 1; 0 where nothing is hit.") \
     X(STEPS, "steps", 1, false, true, \
-      "Steps that the ray took; as a picture the lighter, the more.") \
-    X(ALBEDO, "albedo", 3, false, true, "Colour of the surface, without light.") \
-    X(SPECULAR, "specular", 3, false, true, "Colour of its mirror image, head-on.") \
+      "Number of steps of the ray; lighter in the picture means more steps.") \
+    X(ALBEDO, "albedo", 3, false, true, "Colour of the surface without lighting.") \
+    X(SPECULAR, "specular", 3, false, true, "Colour of the mirror reflection, seen head-on.") \
     X(OPTICAL, "optical", 4, false, true, \
       "Reflectivity, index of refraction, opacity, roughness.") \
     X(SHADOW, "shadow", 3, false, true, \
-      "Part of the light that arrives, of the lights that throw shadows; 1 where none does.") \
-    X(OCCLUSION, "occlusion", 1, false, true, "Part of the environment's that arrives.")
+      "Part of the light that arrives from lights with shadows; 1 where there is no such light.") \
+    X(OCCLUSION, "occlusion", 1, false, true, "Part of the environment's light that arrives.")
 /* clang-format on */
 
 static const struct aov_row aovs[AOV_COUNT] = {

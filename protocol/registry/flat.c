@@ -72,7 +72,7 @@ const struct node_type node_flat[] = {
      .number = 409, .group = GROUP_SHAPE, .kind = KIND_FLAT, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd2_arc", .words = "ring horseshoe rainbow hook curve",
      .source = QUILEZ_FLAT ", Arc; the inside from the circles that bound it"},
-    {.record = {"vesica", "What two equal discs have in common.", PARAMS(
+    {.record = {"vesica", "The intersection of two equal discs.", PARAMS(
         {"radius", PARAM_FLOAT, SIZE, .def = {0.6}, .main = true, .doc = "Radius of the discs."},
         {"distance", PARAM_FLOAT, REACH, .def = {0.6}, .main = true,
          .doc = "Between their centres, on X; at most twice the radius counts."})},
@@ -100,7 +100,7 @@ const struct node_type node_flat[] = {
          .doc = "Tip to the notch between its two half discs."})},
      .number = 413, .group = GROUP_SHAPE, .kind = KIND_FLAT, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd2_heart", .words = "love valentine card suit", .source = QUILEZ_FLAT ", Heart"},
-    {.record = {"ellipse", "A disc with two radii of its own.", PARAMS(
+    {.record = {"ellipse", "A disc with a radius for each axis.", PARAMS(
         {"radii", PARAM_VEC2, SIZE, .def = {0.5, 0.3}, .main = true,
          .doc = "Semi-axes along X and Y."})},
      .number = 414, .group = GROUP_SHAPE, .kind = KIND_FLAT, .exactness = BOUND, .lipschitz = 1,

@@ -22,13 +22,13 @@ const struct node_type node_fractals[] = {
     {.record = {"mandelbulb", "All points whose orbit under z -> z^power + point stays near the "
                 "origin.", PARAMS(
         {"power", COUNT, .min = 2, .max = 16, .def = {8},
-         .doc = "By how much a turn about the origin is multiplied."},
+         .doc = "Factor on angles about the origin."},
         {"iterations", COUNT, .min = 1, .max = 12, .def = {8}, .doc = "Steps of an orbit."})},
      .number = 71, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
      .creased = true, .glsl = "sd_mandelbulb", .words = "fractal mandelbrot broccoli",
      .source = "Daniel White and Paul Nylander, The unravelling of the real 3D Mandelbulb, "
                "skytopia.com/project/fractal/mandelbulb.html"},
-    {.record = {"menger", "A cube without its middle, and so on in each of the cubes left over.",
+    {.record = {"menger", "A cube without its middle, repeated in each of the remaining cubes.",
         PARAMS(
         {"size", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Edge of the cube."},
         {"iterations", COUNT, .min = 1, .max = 8, .def = {4},
@@ -40,7 +40,7 @@ const struct node_type node_fractals[] = {
     {.record = {"julia", "All points whose orbit under q -> q^2 + c in the quaternions stays near "
                 "the origin.", PARAMS(
         {"c", PARAM_VEC4, UNIT_NONE, .min = -2, .max = 2, .def = {-0.2, 0.6, 0.2, 0.2},
-         .step = 0.02, .main = true, .doc = "What is added in each step; its first is real."},
+         .step = 0.02, .main = true, .doc = "The constant c; its first component is real."},
         {"iterations", COUNT, .min = 1, .max = 20, .def = {10}, .doc = "Steps of an orbit."})},
      .number = 73, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
      .creased = true, .glsl = "sd_julia", .words = "fractal quaternion",

@@ -5,33 +5,34 @@
 /* clang-format off */
 const struct node_type node_modifiers[] = {
     {.record = {"round", "Grows its children outwards, so that edges become round.", PARAMS(
-        {"radius", PARAM_FLOAT, REACH, .def = {0.05}, .main = true, .doc = "How far it grows."})},
+        {"radius", PARAM_FLOAT, REACH, .def = {0.05}, .main = true, .doc = "Distance of growth."})},
      .number = 201, .group = GROUP_MODIFIER, .kind = KIND_DISTANCE, .exactness = EXACT,
      .lipschitz = 1, .glsl = "mod_round", .words = "grow offset inflate fillet soften",
      .source = QUILEZ_DISTANCE ", Rounding"},
-    {.record = {"shell", "Keeps only a wall on both sides of the surface.", PARAMS(
+    {.record = {"shell", "Keeps a wall on both sides of the surface.", PARAMS(
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.05}, .main = true,
-         .doc = "Half of the wall: the surface to either side."})},
+         .doc = "Half of the thickness of the wall."})},
      .number = 202, .group = GROUP_MODIFIER, .kind = KIND_DISTANCE, .exactness = EXACT,
      .lipschitz = 1, .glsl = "mod_shell", .words = "onion hollow wall skin",
      .source = QUILEZ_DISTANCE ", Onion"},
-    {.record = {"mirror", "Shows the positive side on both sides.", PARAMS(
+    {.record = {"mirror", "Mirrors the positive side to the negative side.", PARAMS(
         {"axes", PARAM_BVEC3, .def = {1, 0, 0}, .main = true, .doc = "Axes that are mirrored."})},
      .number = 203, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 1, .glsl = "dom_mirror", .words = "symmetry reflect flip",
      .source = QUILEZ_DISTANCE ", Symmetry"},
     {.record = {"repeat", "Copies its children along the axes.", PARAMS(
-        {"spacing", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .main = true, .doc = "Copy to copy."},
+        {"spacing", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .main = true,
+         .doc = "Distance between copies."},
         {"count", PARAM_IVEC3, UNIT_NONE, .min = -1, .max = 10000, .step = 1, .main = true,
-         .doc = "Copies along each axis, centred; 0: no repetition, -1: without end."})},
+         .doc = "Number of copies along each axis, centred; 0: no repetition, -1: endless."})},
      .number = 204, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 1, .glsl = "dom_repeat", .words = "array tile grid copies pattern infinite",
      .source = QUILEZ_REPEAT},
-    {.record = {"repeat_polar", "Copies its children around the Y axis, the first on +X.", PARAMS(
+    {.record = {"repeat_polar", "Copies its children around the Y axis, from +X.", PARAMS(
         {"count", PARAM_INT, .def = {6}, .min = 1, .max = 1000, .step = 1, .main = true,
-         .doc = "Copies, at equal angles."},
+         .doc = "Number of copies, at equal angles."},
         {"radius", PARAM_FLOAT, REACH, .def = {1}, .main = true,
-         .doc = "How far each is moved out."})},
+         .doc = "Distance of each copy from the axis."})},
      .number = 210, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 1, .glsl = "dom_repeat_polar", .words = "array circular radial ring around",
      .source = QUILEZ_REPEAT},
@@ -49,7 +50,7 @@ const struct node_type node_modifiers[] = {
      .source = QUILEZ_DISTANCE ", Bend; the bound is " HART ", section 3"},
     {.record = {"elongate", "Pulls its children apart in the middle.", PARAMS(
         {"size", PARAM_VEC3, REACH, .def = {0.2, 0, 0}, .main = true,
-         .doc = "How far to both sides of each axis."})},
+         .doc = "Distance to both sides along each axis."})},
      .number = 206, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 1, .glsl = "dom_elongate", .words = "stretch lengthen extend pull",
      .source = QUILEZ_DISTANCE ", Elongation"},
@@ -67,8 +68,9 @@ const struct node_type node_modifiers[] = {
         {"frequency", PARAM_FLOAT, .def = {2}, .max = 1000, .step = 0.1, .main = true,
          .doc = "Bumps for each unit of length, of the first octave."},
         {"octaves", PARAM_INT, .def = {4}, .min = 1, .max = 8, .step = 1,
-         .doc = "Each has twice the frequency and half of the height of the one before."},
-        {"seed", PARAM_INT, .min = 0, .max = 1000000, .step = 1, .doc = "Which noise."})},
+         .doc = "Layers of noise; each has twice the frequency and half the height of the last."},
+        {"seed", PARAM_INT, .min = 0, .max = 1000000, .step = 1,
+         .doc = "Each number gives another noise."})},
      .number = 209, .group = GROUP_MODIFIER, .kind = KIND_DOMAIN, .exactness = BOUND,
      .lipschitz = 0, .glsl = "dom_displace_noise",
      .words = "rough fbm fractal random rock bumps displacement",

@@ -48,9 +48,9 @@ const struct node_type node_operations[] = {
      .number = 107, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_exclusive", .words = "xor symmetric difference either odd",
      .source = QUILEZ_DISTANCE ", Xor"},
-    {.record = {"morph", "Something between its first two children.", PARAMS(
+    {.record = {"morph", "A mix of its first two children.", PARAMS(
         {"t", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
-         .doc = "At 0 it is the first child, at 1 the second."})},
+         .doc = "0 is the first child, 1 the second."})},
      .number = 108, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_morph", .words = "mix lerp interpolate between transition",
      .source = "Linear interpolation of both distances"},
@@ -77,9 +77,9 @@ const struct node_type node_structure[] = {
          .doc = "GLSL with a function float sdf(vec3 p): the distance, negative inside."},
         {"lipschitz", PARAM_FLOAT, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
          .above_min = true, .step = 0.1,
-         .doc = "How much the code's function changes at most for each unit of length."},
+         .doc = "Greatest change of the code's function per unit of length."},
         {"size", PARAM_VEC3, UNIT_LENGTH, .min = 0, .max = LIMIT_COORDINATE, .step = 0.1,
-         .doc = "Full lengths of a box that cuts the code's shape; 0: no end there."})},
+         .doc = "Full lengths of a box that cuts the code's shape; 0: unlimited."})},
      .number = 304, .group = GROUP_STRUCTURE, .kind = KIND_CODE, .exactness = BOUND,
      .lipschitz = 0, .glsl = "", .words = "code custom glsl function implicit own script shader",
      .source = HART},

@@ -11,7 +11,7 @@ const struct node_type node_shapes[] = {
         {"radius", PARAM_FLOAT, SIZE, .def = {0.5}, .main = true, .doc = "Centre to surface."})},
      .number = 1, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
      .glsl = "sd_sphere", .words = "ball round globe", .source = QUILEZ_DISTANCE ", Sphere"},
-    {.record = {"ellipsoid", "A ball with three radii of its own.", PARAMS(
+    {.record = {"ellipsoid", "A ball with a radius for each axis.", PARAMS(
         {"radii", PARAM_VEC3, SIZE, .def = {0.5, 0.3, 0.4}, .main = true,
          .doc = "Semi-axes along X, Y and Z."})},
      /* The unit ball's distance at p / radii times the least radius: its gradient is a direction
