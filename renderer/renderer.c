@@ -56,8 +56,11 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     renderer->programs =
         program_cache_create(&renderer->egl, &renderer->gl, &renderer->sink, params->code_ms);
     /* Before the process is confined, where it is going to compile. */
-    if (renderer->info.stage == RENDER_COMPUTE &&
-        (!draw_prepare(renderer->draw, err) || !program_cache_start(renderer->programs, err))) {
+    if (renderer->info.stage != RENDER_ENGINE &&
+        (!draw_prepare(renderer->draw,
+                       renderer->info.stage == RENDER_FRAGMENT ? ROAD_FRAGMENT : ROAD_COMPUTE,
+                       err) ||
+         !program_cache_start(renderer->programs, err))) {
         goto fail;
     }
     return renderer;

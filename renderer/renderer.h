@@ -25,9 +25,10 @@ struct job;      /* one picture being drawn, tile by tile */
 
 /* What computes pictures. */
 enum render_stage {
-    RENDER_AUTO,    /* the engine where the device is software */
-    RENDER_COMPUTE, /* compute shaders of the device */
-    RENDER_ENGINE,  /* vectors of the processors (renderer/engine) */
+    RENDER_AUTO,     /* the engine where the device is software */
+    RENDER_COMPUTE,  /* compute shaders of the device */
+    RENDER_FRAGMENT, /* fragment shaders of the device */
+    RENDER_ENGINE,   /* vectors of the processors (renderer/engine) */
 };
 
 struct renderer_params {
@@ -161,15 +162,13 @@ struct job_desc {
     const struct record *camera; /* camera_type; NULL: the scene's. Copied. */
     bool aovs[AOV_COUNT];        /* what it shows; none: color */
     int level;                   /* enum quality_level; -1: the scene's render settings say it */
-    int samples;      /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
-    int transparent;  /* 1: the background is left out, 0: not; -1: the scene's render settings */
-    bool careful;     /* it ended a process: in the smallest tiles from the start */
-    int patience;     /* times the usual bound on a tile; 0: once */
-    bool exact;       /* wait for the newest revision's shader; else draw the newest drawable */
-    bool in_rounds;   /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
-    bool as_floats;   /* give raw values (NPY), not 8/16-bit pixels */
-    bool from_camera; /* one program for one sample instead of passes: for comparison. Without
-                         volumes, and light through clear things keeps its colour */
+    int samples;     /* per axis, 1..4; 0: the level's, or the scene's. Only AOV_COLOR uses it */
+    int transparent; /* 1: the background is left out, 0: not; -1: the scene's render settings */
+    bool careful;    /* it ended a process: in the smallest tiles from the start */
+    int patience;    /* times the usual bound on a tile; 0: once */
+    bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
+    bool in_rounds;  /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
+    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
     /* Ids of nodes: only they and what is below them are seen, inside of what is around them. None,
      * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
     const char *const *isolated;

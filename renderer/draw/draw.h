@@ -8,6 +8,7 @@
 
 #include "environment.h"
 #include "plan.h"
+#include "renderer/gl/fragment_targets.h"
 #include "renderer/gl/numbers.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
@@ -18,6 +19,9 @@ enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
 /* Where the samples of a tile lie. Pictures of one sample have a set of their own, so that they may
  * come between two samples of another's tile. */
 enum draw_set { DRAW_SET_ONCE, DRAW_SET_SAMPLED, DRAW_SETS };
+
+/* The shaders that a device draws by. */
+enum draw_road { ROAD_COMPUTE, ROAD_FRAGMENT, DRAW_ROADS };
 
 struct draw; /* targets and passes of one context */
 
@@ -53,6 +57,7 @@ enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts wit
 /* A tile on its way. */
 struct draw_slot {
     GLuint buffers[AOV_COUNT];
+    GLuint rays; /* that followed in each column: 0, or drawn by fragment shaders */
     GLsync fence;
     struct tile tile;
     int samples;                /* drawn of each pixel, while there are more to come; else 0 */
@@ -69,6 +74,7 @@ struct draw_backend;
 /* One picture's own objects. */
 struct draw_picture {
     const struct draw_backend *backend;       /* what draws it */
+    enum draw_road road;                      /* of the device, if that does */
     const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
     struct draw_plan plan;
     int lights;
@@ -88,9 +94,9 @@ struct draw_picture {
 /* `tile_side`: how many pixels a tile is wide and high, a multiple of 8; 0: what is good for the
  * device. */
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side);
-/* Makes what the device draws with, where it is not there. The first picture that the device draws
- * does it too, and fails where this fails. */
-bool draw_prepare(struct draw *draw, struct error *err);
+/* Makes what the device draws with, where it is not there. The first picture that it draws so does
+ * it too, and fails where this fails. */
+bool draw_prepare(struct draw *draw, enum draw_road road, struct error *err);
 void draw_destroy(struct draw *draw);
 /* Largest side of the tiles that a picture is drawn in, in pixels: less for many samples. */
 int draw_tile_side(const struct draw *draw, const struct draw_plan *plan);

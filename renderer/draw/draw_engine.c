@@ -42,7 +42,7 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
         .clear_depth = block->has_clear ? plan->clear_depth : 0,
         .shadows = last >= STAGE_SHADOW,
         .lights = last == STAGE_COUNT,
-        .linear = picture->forms[AOV_COLOR] && picture->forms[AOV_COLOR]->floats,
+        .linear = draw_is_linear(picture),
     });
     return true;
 }
@@ -111,7 +111,7 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
             outputs[count++] = make_output(slot, picture->forms[i]);
         }
     }
-    draw->engine_rays +=
+    draw->more_rays +=
         engine_draw(picture->canvas, tile, picture->from, picture->until, outputs, count);
     memset(slot->stage_us, 0, sizeof slot->stage_us);
     slot->stage_us[FRAME_SHADE] = draw_now_us() - start;

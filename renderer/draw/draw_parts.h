@@ -9,13 +9,16 @@
 struct draw {
     const struct gl *gl;
     bool software;
-    int side;      /* of a tile with its margin */
-    bool prepared; /* targets and common passes are there */
+    int side;                  /* of a tile with its margin */
+    bool prepared[DRAW_ROADS]; /* targets and common passes are there: */
     struct targets targets[DRAW_SETS];
     struct common common;
-    struct pass resolve[OUTPUT_COUNT]; /* linked when first needed */
+    struct fragment_targets fragment[DRAW_SETS];
+    struct pass mask, count;                       /* glsl/mask_pass.glsl, glsl/rays_pass.glsl */
+    struct pass resolve[DRAW_ROADS][OUTPUT_COUNT]; /* linked when first needed */
     uint64_t compilations;
-    uint64_t rays[DRAW_SETS], engine_rays;
+    uint64_t rays[DRAW_SETS]; /* by compute shaders */
+    uint64_t more_rays;       /* by others */
 };
 
 /* What draws a picture's tiles. Each is called by the function of draw.h that is named alike. */
@@ -35,11 +38,21 @@ struct draw_backend {
                     uint8_t *to, size_t stride, struct error *err);
 };
 
-extern const struct draw_backend draw_device; /* by compute shaders */
-extern const struct draw_backend draw_engine; /* by renderer/engine */
+extern const struct draw_backend draw_compute;  /* by compute shaders */
+extern const struct draw_backend draw_fragment; /* by fragment shaders */
+extern const struct draw_backend draw_engine;   /* by renderer/engine */
+
+bool draw_compute_prepare(struct draw *draw, struct error *err);
+void draw_compute_finish(struct draw *draw);
+bool draw_fragment_prepare(struct draw *draw, struct error *err);
+void draw_fragment_finish(struct draw *draw);
 
 /* Pixels around a tile that the passes see. */
 int draw_margin(const struct draw_plan *plan);
+/* Where its samples lie. */
+enum draw_set draw_set_of(const struct draw_picture *picture);
+/* Its light is not tone-mapped. */
+bool draw_is_linear(const struct draw_picture *picture);
 /* The last stage that one of the picture's outputs needs. */
 enum program_stage draw_last_stage(const struct draw_picture *picture);
 uint64_t draw_now_us(void);

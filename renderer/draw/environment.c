@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "protocol/memory.h"
+#include "renderer/gl/texture.h"
 
 struct environments {
     const struct gl *gl;
@@ -57,7 +58,6 @@ static uint64_t key_of(const struct frame_block *block, const char *image)
 
 /* --- pictures on the device --- */
 
-/* Longitudes meet, latitudes end. */
 static GLuint upload(const struct gl *gl, const struct engine_sky *sky)
 {
     GLuint texture;
@@ -65,11 +65,7 @@ static GLuint upload(const struct gl *gl, const struct engine_sky *sky)
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
     gl->TexStorage2D(GL_TEXTURE_2D, sky->levels, GL_RGBA16F, sky->width, sky->height);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                      sky->levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    texture_set_sky(gl, sky->levels);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     for (int level = 0; level < sky->levels; level++) {
         gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_sky_side(sky->width, level),

@@ -101,7 +101,6 @@ static void set_desc(struct job *job, const struct job_desc *desc)
         .transparent = desc->transparent >= 0
                            ? desc->transparent
                            : record_number(&job->snapshot->render, "transparent") != 0,
-        .from_camera = desc->from_camera,
     };
 }
 

@@ -89,12 +89,11 @@ static void set_samples(struct draw_plan *plan, struct frame_block *block,
                         enum quality_level level, int wanted)
 {
     const int own = q->samples ? q->samples : (int)record_number(render, "samples");
-    const int n = plan->from_camera ? 1 : wanted ? wanted : own;
+    const int n = wanted ? wanted : own;
 
-    plan->antialiasing =
-        plan->from_camera ? ANTIALIASING_NONE : choose_antialiasing(render, q, level, n);
+    plan->antialiasing = choose_antialiasing(render, q, level, n);
     plan->samples = plan->antialiasing > ANTIALIASING_EDGES ? n * n : 1;
-    if (q->lens_samples == 0 || plan->from_camera) {
+    if (q->lens_samples == 0) {
         block->lens_radius = 0; /* no lens */
     } else if (block->lens_radius > 0) {
         plan->antialiasing = ANTIALIASING_FULL;
@@ -131,7 +130,7 @@ bool plan_make(struct draw_plan *out_plan, struct frame_block *block, const stru
     const int own = (int)record_number(render, "level");
     const enum quality_level level = (enum quality_level)(wish->level >= 0 ? wish->level : own);
     const struct quality *q = quality_row(level);
-    struct draw_plan plan = {.mirrors = extent->mirrors, .from_camera = wish->from_camera};
+    struct draw_plan plan = {.mirrors = extent->mirrors};
 
     set_samples(&plan, block, render, q, level, wish->samples);
     set_effects(&plan, block, render, q,

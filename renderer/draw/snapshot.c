@@ -41,7 +41,7 @@ static bool refuse(const struct field *field, const struct scene *scene,
 
 /* `map` and `surface`: texts of the field. */
 static struct program_source source_of(const struct field *field, const struct scene *scene,
-                                       const char *map, const char *surface)
+                                       bool fragment, const char *map, const char *surface)
 {
     return (struct program_source){
         .map_text = map,
@@ -50,6 +50,7 @@ static struct program_source source_of(const struct field *field, const struct s
         .user_shaders = field->shader_count > 0,
         .user_code = field->user_code != NULL,
         .volumes = scene->volumes.count > 0,
+        .fragment = fragment,
         .shape_count = field->shape_count,
         .code_size = field->code_size,
         .map_count = field->material_base,
@@ -58,7 +59,7 @@ static struct program_source source_of(const struct field *field, const struct s
 
 const char *renderer_stage_name(size_t stage)
 {
-    return stage < STAGE_COUNT ? program_stage_names[stage] : NULL;
+    return stage < PROGRAM_STAGES ? program_stage_names[stage] : NULL;
 }
 
 char *renderer_shader(const struct scene *scene, size_t stage, struct error *err)
@@ -69,7 +70,8 @@ char *renderer_shader(const struct scene *scene, size_t stage, struct error *err
         return NULL;
     }
     char *map = shader_map(field), *surface = shader_surface(field);
-    const struct program_source source = source_of(field, scene, map, surface);
+    const struct program_source source =
+        source_of(field, scene, stage >= STAGE_STARTS, map, surface);
     char *text = program_text(&source, (enum program_stage)stage, err);
     free(map);
     free(surface);
@@ -78,11 +80,11 @@ char *renderer_shader(const struct scene *scene, size_t stage, struct error *err
 }
 
 /* Of the program that the device has for it. */
-static uint64_t shape_of(const struct field *field, const struct scene *scene)
+static uint64_t shape_of(const struct field *field, const struct scene *scene, bool fragment)
 {
-    const bool volumes = scene->volumes.count > 0;
+    const size_t kind = (scene->volumes.count > 0 ? 1 : 0) + (fragment ? 2 : 0);
 
-    return field->shape_hash ^ ((number_capacity(field) + volumes) * UINT64_C(0x9e3779b97f4a7c15));
+    return field->shape_hash ^ ((number_capacity(field) + kind) * UINT64_C(0x9e3779b97f4a7c15));
 }
 
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
@@ -104,7 +106,8 @@ static struct program *get_program(struct renderer *renderer, const struct field
     }
     map = shader_map(field);
     surface = shader_surface(field);
-    struct program_source source = source_of(field, scene, map, surface);
+    struct program_source source =
+        source_of(field, scene, renderer->info.stage == RENDER_FRAGMENT, map, surface);
     source.shape_hash = key;
     source.patience = verdict ? verdict->times : 1;
     program = program_cache_add(renderer->programs, &source);
@@ -310,7 +313,7 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
     snapshot->revision = revision;
     snapshot->upload = upload;
     snapshot->field = field;
-    snapshot->shape = shape_of(field, scene);
+    snapshot->shape = shape_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
     if (!find_way(renderer, snapshot, scene, before, out_refused, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;

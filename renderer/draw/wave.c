@@ -1,56 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "wave.h"
 
-#include <time.h>
+#include "tile_clock.h"
 
-/* --- time --- */
-
-static uint64_t now_us(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
-}
-
-/* On a GPU in its queue, on the CPU after all work so far. */
 void wave_mark(struct wave *wave, enum frame_stage stage)
 {
-    const struct gl *gl = wave->gl;
-    struct draw_slot *slot = wave->slot;
-
-    if (wave->software) {
-        gl->Finish();
-        const uint64_t now = now_us();
-        slot->stage_us[stage] += now - slot->last_us;
-        slot->last_us = now;
-    } else if (slot->marks < DRAW_MARKS) {
-        if (slot->queries[slot->marks] == 0) {
-            gl->GenQueries(1, &slot->queries[slot->marks]);
-        }
-        gl->QueryCounter(slot->queries[slot->marks], GL_TIMESTAMP);
-        slot->stages[slot->marks++] = (uint8_t)stage;
-    }
-}
-
-void wave_start_clock(struct wave *wave)
-{
-    for (int i = 0; i < FRAME_STAGES; i++) {
-        wave->slot->stage_us[i] = 0;
-    }
-    wave->slot->marks = 0;
-    wave->slot->last_us = now_us();
-    if (!wave->software) {
-        wave_mark(wave, FRAME_MARCH);
-    }
-}
-
-void wave_resume_clock(struct wave *wave)
-{
-    wave->slot->last_us = now_us();
-    if (!wave->software) {
-        wave_mark(wave, FRAME_QUEUE);
-    }
+    tile_clock_mark(wave->gl, wave->software, wave->slot, stage);
 }
 
 /* --- the passes of one wave --- */
@@ -282,18 +237,4 @@ bool wave_sample_again(struct wave *w, int sample)
     find_shadow(w, &round);
     shade(w, &round);
     return true;
-}
-
-void wave_from_camera(struct wave *w, const struct pass *program)
-{
-    const struct gl *gl = w->gl;
-    const struct pass_place place = w->tile;
-
-    targets_bind_common(w->targets, gl, &w->targets->eye, &w->targets->eye);
-    gl->Viewport(0, 0, place.width, place.height);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, w->targets->out_buffers[OUT_BYTES]);
-    pass_draw(program, gl, &place, PASS_ARGS(struct forward_args, .rays = w->plan->rays));
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    wave_mark(w, FRAME_MARCH);
-    gather(w, &whole_tile);
 }

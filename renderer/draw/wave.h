@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The passes over the samples of one tile. Rays go in waves: all samples at once, one ray each,
- * then those samples that want another ray. Private to draw.c. */
+ * then those samples that want another ray. Private to draw_compute.c. */
 #ifndef RENDERER_WAVE_H
 #define RENDERER_WAVE_H
 
@@ -22,9 +22,6 @@ struct wave {
     struct draw_slot *slot; /* takes the time */
 };
 
-void wave_start_clock(struct wave *wave);
-/* The same tile later: what was between is no time of it. */
-void wave_resume_clock(struct wave *wave);
 /* Time spent since the last mark goes to `stage`. */
 void wave_mark(struct wave *wave, enum frame_stage stage);
 
@@ -41,7 +38,5 @@ void wave_find_edges(struct wave *wave);
 void wave_resume(struct wave *wave, int samples);
 /* All of it again for another sample of all pixels, or of those listed; false: there are none. */
 bool wave_sample_again(struct wave *wave, int sample);
-/* The light of the first sample of all pixels, by one program. */
-void wave_from_camera(struct wave *wave, const struct pass *program);
 
 #endif

@@ -2,21 +2,16 @@
 /* What the engine runs for a vector of samples: functions of the shaders, from camera to pixel. */
 
 #define USER_SHADERS 1
+#define VOLUMES 1
 
-#include "camera.glsl"
-#include "clear.glsl"
 #include "environment.glsl"
 #include "field_surface.glsl"
-#include "forward_store.glsl"
 #include "kernels.glsl"
-#include "march.glsl"
 #include "mixture.glsl"
 #include "outputs.glsl"
-#include "paths.glsl"
 #include "pixel.glsl"
-#include "shadow.glsl"
-#include "visibility_mean.glsl"
-#include "volume.glsl"
+#include "sample.glsl"
+#include "starts.glsl"
 
 /* Where the materials lie among the numbers. */
 layout(binding = BINDING_NUMBERS) uniform Scene {
@@ -58,105 +53,9 @@ void paint(Mixture m, Shading at, out Surface s)
     }
 }
 
-/* How far all rays of a block of pixels are free. */
-float block_start(ivec2 block)
-{
-    return march(block_ray(block), 0.0, BLOCK_CONE, frame.max_steps).free;
-}
-
-/* Where a ray ends: normal and distance as march_pass.glsl leaves them, and what is there. */
-void find(Ray ray, float start, out Hit found, out vec4 g, out Surface s)
-{
-    found = march(ray, start, 0.0, frame.max_steps);
-    float t = found.hit ? found.t : 0.0;
-    vec3 p = ray.origin + ray.direction * t;
-    g = vec4(found.hit ? found.normal : vec3(0.0), found.solid ? -max(found.t, 1e-30) : found.t);
-    through = found.solid ? FAR : ray.inside ? -FAR : 0.0;
-    Mixture nothing = mixture_far();
-    s = surface_begin(nothing);
-    s.id = 0u;
-    if (found.hit) {
-        surface(p, Shading(p, vec3(0.0), found.normal, ray.direction, t), s);
-    }
-}
-
-/* What comes to a light's ray through clear things, `depth` surfaces at most. */
-void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
-{
-    Beam beam;
-    bool goes = beam_begin(frame.lights[light], ray, g, painted, seen_lights[light], beam);
-    for (int i = 0; i < depth && goes; i++) {
-        Hit found;
-        vec4 there;
-        Surface s;
-        find(beam.ray, 0.0, found, there, s);
-        goes = beam_pass(beam, there, s);
-    }
-    seen_lights[light] *= beam.weight;
-}
-
-/* Sample `index` of a pixel, with all rays that follow, `rays` at most: its light and coverage, and
- * what its first ray met, which is free up to `start`, and where the last one ended. `depth`: of
- * surfaces between what is met and a light. `looks`, `lights`: whether shadows are wanted, and
- * light. How many rays followed. */
-int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, bool lights,
-           out vec4 total, out vec4 geometry_of, out Met met)
-{
-    Ray ray = camera_sample(pixel, index);
-    vec4 weight = vec4(1.0, 1.0, 1.0, 0.0);
-    vec3 medium = vec3(0.0);
-    float part = fract(pixel_noise(pixel) + 0.61803399 * float(index));
-
-    int count = 0;
-    total = vec4(0.0);
-    has_next = true;
-    for (int i = 0; i <= rays && has_next; i++) {
-        Hit found;
-        vec4 g, smoke = vec4(0.0, 0.0, 0.0, 1.0);
-        Surface s;
-        find(ray, i == 0 && frame.lens_radius == 0.0 ? start : 0.0, found, g, s);
-        vec3 p = ray.origin + ray.direction * (found.hit ? found.t : 0.0);
-        if (looks) {
-            look(p, found.normal, footprint(ray, found.hit ? found.t : 0.0), found.hit);
-            for (int light = 0; light < frame.light_count && depth > 0; light++) {
-                colour_light(light, ray, g, s.painted, depth);
-            }
-        }
-        geometry_of = g; /* of the last ray, so that edges in mirrors are edges */
-        if (i == 0) {
-            met = Met(found.hit, g.xyz, g.w, p, float(found.steps), s,
-                      looks ? visibility_mean(pixel) : vec3(1.0), looks ? seen_open : 1.0);
-        }
-        has_next = false;
-        if (lights) {
-            if (frame.volume_count > 0) {
-                smoke = haze(ray, found.t, part);
-            }
-            add_light(pixel, ray, g, found.curvature, s, seen_open, smoke, i == 0, i == rays,
-                      weight, medium, total);
-        }
-        ray = ray_of(next_ray.from, next_ray.along);
-        weight = next_ray.weight;
-        medium = next_ray.medium.rgb;
-        count += has_next ? 1 : 0;
-    }
-    return count;
-}
-
-/* A sample's light as it is added to its pixel. */
-vec3 shown(vec3 light, bool linear)
-{
-    return linear ? light : tone_map(light * frame.exposure);
-}
-
 float id_bits(Met m)
 {
     return uintBitsToFloat(m.surface.id);
-}
-
-bool is_edge(ivec2 here)
-{
-    return edge_at(here) >= 1.0 || contrast_at(here) > 0.06;
 }
 
 Mixture mixed(float d, float share, Mixture a, Mixture b)

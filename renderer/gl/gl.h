@@ -19,9 +19,11 @@
     X(BINDIMAGETEXTURE, BindImageTexture)                                                          \
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BINDVERTEXARRAY, BindVertexArray)                                                            \
+    X(BLENDFUNC, BlendFunc)                                                                        \
     X(BUFFERDATA, BufferData)                                                                      \
     X(BUFFERSUBDATA, BufferSubData)                                                                \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
+    X(CLEAR, Clear)                                                                                \
     X(CLIENTWAITSYNC, ClientWaitSync)                                                              \
     X(COMPILESHADER, CompileShader)                                                                \
     X(COPYIMAGESUBDATA, CopyImageSubData)                                                          \

@@ -69,10 +69,9 @@ bool program_cache_start(struct program_cache *cache, struct error *err)
 
 static void destroy_program(const struct gl *gl, struct program *program)
 {
-    for (int i = 0; i < STAGE_COUNT; i++) {
+    for (int i = 0; i < PROGRAM_STAGES; i++) {
         pass_finish(&program->passes[i], gl);
     }
-    pass_finish(&program->from_camera, gl);
     free(program->map_text);
     free(program->surface_text);
     free(program);
@@ -167,7 +166,12 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     program->patience = source->patience > 0 ? source->patience : 1;
     program->user_shaders = source->user_shaders;
     program->user_code = source->user_code;
-    program->stages = source->volumes ? STAGE_COUNT : STAGE_VOLUME;
+    program->volumes = source->volumes;
+    program->fragment = source->fragment;
+    program->first = source->fragment ? STAGE_STARTS : STAGE_MARCH;
+    program->stages = source->fragment  ? PROGRAM_STAGES - STAGE_STARTS
+                      : source->volumes ? STAGE_COUNT
+                                        : STAGE_VOLUME;
     program->refs = 1;
     program->added_ms = now_ms();
     if (!program_cache_start(cache, &program->error)) {
@@ -207,6 +211,11 @@ void program_unref(struct program_cache *cache, struct program *program)
 uint64_t program_shape(const struct program *program)
 {
     return program->shape_hash;
+}
+
+bool program_is_fragment(const struct program *program)
+{
+    return program->fragment;
 }
 
 bool program_has_user_code(const struct program *program)

@@ -15,11 +15,20 @@ enum { PROGRAMS_KEPT = 64 }; /* without a user, the least recently used go beyon
 
 enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 
-/* What is compiled for each shape: glsl/NAME_pass.glsl. The last only where there are volumes. */
-enum program_stage { STAGE_MARCH, STAGE_MATTER, STAGE_SHADOW, STAGE_VOLUME, STAGE_COUNT };
+/* What is compiled for each shape: glsl/NAME_pass.glsl. */
+enum program_stage {
+    STAGE_MARCH,
+    STAGE_MATTER,
+    STAGE_SHADOW,
+    STAGE_VOLUME, /* only where there are volumes */
+    STAGE_COUNT,  /* of compute shaders; those of fragment shaders: */
+    STAGE_STARTS = STAGE_COUNT,
+    STAGE_SAMPLE,
+    PROGRAM_STAGES
+};
 
 /* "march", of march_pass.glsl. */
-extern const char *const program_stage_names[STAGE_COUNT];
+extern const char *const program_stage_names[PROGRAM_STAGES];
 
 struct program; /* reference counted */
 struct program_cache;
@@ -30,7 +39,8 @@ struct program_source {
     size_t number_count;                 /* vec4s in the buffer; at least 1 */
     bool user_shaders;                   /* USER_SHADERS is defined */
     bool user_code;                      /* it waits for program_cache_allow */
-    bool volumes;                        /* STAGE_VOLUME is wanted */
+    bool volumes;                        /* there may be some */
+    bool fragment;                       /* fragment shaders are wanted, not compute shaders */
     size_t shape_count;
     size_t code_size; /* of users' code, as field.h has it */
     size_t map_count; /* the first so many are those that the map reads */
@@ -81,16 +91,13 @@ struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);
 
 uint64_t program_shape(const struct program *program);
+bool program_is_fragment(const struct program *program);
 bool program_has_user_code(const struct program *program);
 enum program_state program_state(const struct program *program);
 /* Valid when failed. */
 const struct error *program_error(const struct program *program);
 /* Valid when ready. */
 const struct pass *program_pass(const struct program *program, enum program_stage stage);
-
-/* Of one that is ready: everything in one fragment shader (glsl/forward.glsl), for comparison.
- * Compiled when first asked for, in the calling thread, which draws. NULL and `err` on failure. */
-const struct pass *program_from_camera(struct program *program, struct error *err);
 
 /* True when some program became ready or failed since the last call; waits at most that long for
  * it while there is something to wait for. */

@@ -5,17 +5,16 @@
 #include "numbers.h"
 #include "program_parts.h"
 #include "protocol/memory.h"
-#include "targets.h"
+#include "warm_targets.h"
 
 enum {
     PRELOAD_MAX = 4096, /* vec4s */
     SHARED_MAX = 2048,  /* vec4s in the 32 KiB that OpenGL 4.3 promises to each work group */
 };
 
-const char *const program_stage_names[STAGE_COUNT] = {[STAGE_MARCH] = "march",
-                                                      [STAGE_MATTER] = "matter",
-                                                      [STAGE_SHADOW] = "shadow",
-                                                      [STAGE_VOLUME] = "volume"};
+const char *const program_stage_names[PROGRAM_STAGES] = {
+    [STAGE_MARCH] = "march",   [STAGE_MATTER] = "matter", [STAGE_SHADOW] = "shadow",
+    [STAGE_VOLUME] = "volume", [STAGE_STARTS] = "starts", [STAGE_SAMPLE] = "sample"};
 
 enum { FILE_NAME_BYTES = 32 };
 
@@ -26,9 +25,18 @@ static void write_file_name(enum program_stage stage, char out[FILE_NAME_BYTES])
 
 /* --- one stage --- */
 
-/* What glsl/numbers.glsl wants to know. */
-static char *make_defines(const struct gl *gl, const struct program *program, bool software,
-                          bool compute)
+static const char *define_users(bool shaders)
+{
+    return shaders ? "#define USER_SHADERS\n" : "";
+}
+
+static const char *define_volumes(bool volumes)
+{
+    return volumes ? "#define VOLUMES\n" : "";
+}
+
+/* What glsl/numbers.glsl wants to know, and what there is. */
+static char *make_defines(const struct gl *gl, const struct program *program, bool software)
 {
     char *text = NULL;
     size_t length = 0;
@@ -37,11 +45,11 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
     if (!out) {
         abort();
     }
-    fprintf(out, "#define NUMBERS_COUNT %zu\n#define NUMBERS_ROW %d\n%s%s", program->number_count,
+    fprintf(out, "#define NUMBERS_COUNT %zu\n#define NUMBERS_ROW %d\n%s%s%s", program->number_count,
             NUMBERS_ROW,
             numbers_in_texture(gl, software, program->number_count) ? "#define NUMBERS_IN_TEXTURE\n"
                                                                     : "",
-            program->user_shaders ? "#define USER_SHADERS\n" : "");
+            define_users(program->user_shaders), define_volumes(program->volumes));
     if (software && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
         fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
                 program->map_count);
@@ -49,7 +57,7 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
             fprintf(out, " X(%zu)", i);
         }
         fputc('\n', out);
-        if (compute) {
+        if (!program->fragment) {
             fprintf(out, "#define NUMBERS_SHARED %zu\n",
                     program->map_count < SHARED_MAX ? program->map_count : SHARED_MAX);
         }
@@ -60,30 +68,18 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
     return text;
 }
 
-/* In the calling thread. */
 static bool link_source(const struct gl *gl, const struct program *program, bool software,
-                        bool compute, const char *file, struct pass *out_pass, struct error *err)
+                        const char *file, struct pass *out_pass, struct error *err)
 {
     const struct glsl_file own[] = {{"field_map.glsl", program->map_text},
                                     {"field_surface.glsl", program->surface_text},
                                     {NULL, NULL}};
-    char *defines = make_defines(gl, program, software, compute);
+    char *defines = make_defines(gl, program, software);
     const bool ok =
-        pass_init(out_pass, gl, &(struct pass_source){compute, defines, file, own}, err);
+        pass_init(out_pass, gl, &(struct pass_source){!program->fragment, defines, file, own}, err);
 
     free(defines);
     return ok;
-}
-
-const struct pass *program_from_camera(struct program *program, struct error *err)
-{
-    const struct program_cache *cache = program->cache;
-    struct pass *pass = &program->from_camera;
-
-    return pass->program || link_source(cache->gl, program, cache->egl->software, false,
-                                        "forward.glsl", pass, err)
-               ? pass
-               : NULL;
 }
 
 char *program_text(const struct program_source *source, enum program_stage stage, struct error *err)
@@ -95,14 +91,16 @@ char *program_text(const struct program_source *source, enum program_stage stage
     char file[FILE_NAME_BYTES], head[128];
 
     write_file_name(stage, file);
-    snprintf(head, sizeof head, "#version 430 core\n#define NUMBERS_COUNT %zu\n%s",
-             source->number_count, source->user_shaders ? "#define USER_SHADERS\n" : "");
+    snprintf(head, sizeof head, "#version 430 core\n#define NUMBERS_COUNT %zu\n%s%s",
+             source->number_count, define_users(source->user_shaders),
+             define_volumes(source->volumes));
     return include_resolve(&text, head, file, own, err) ? text.text : NULL;
 }
 
-/* One work group, with nothing in the buffers: the driver finishes its work. */
-static void warm_up(const struct program_cache *cache, const struct targets *targets,
-                    const struct program *program, const struct pass *pass)
+/* With nothing in the buffers: the driver finishes its work. */
+static void warm_up(const struct program_cache *cache, const struct warm_targets *targets,
+                    const struct program *program, enum program_stage stage,
+                    const struct pass *pass)
 {
     const struct gl *gl = cache->gl;
     const struct frame_block block = {
@@ -115,8 +113,7 @@ static void warm_up(const struct program_cache *cache, const struct targets *tar
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
     numbers_init(&numbers, gl, cache->egl->software, NULL, 0, program->number_count);
     numbers_bind(&numbers, gl);
-    pass_compute(pass, gl, &(struct pass_place){.width = targets->side, .height = targets->side},
-                 PASS_ARGS(struct sample_args, .sample_index = 0));
+    warm_targets_run(targets, gl, stage, pass);
     gl->Finish();
     numbers_finish(&numbers, gl);
     gl->DeleteBuffers(1, &frame);
@@ -144,7 +141,7 @@ static void begin(struct compiler *compiler, const struct program *program)
     program_limit_begin(compiler);
 }
 
-static void compile_stage(struct program_cache *cache, const struct targets *targets,
+static void compile_stage(struct program_cache *cache, struct warm_targets *targets,
                           struct program *program, enum program_stage stage)
 {
     const struct gl *gl = cache->gl;
@@ -153,8 +150,9 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
     char file[FILE_NAME_BYTES];
 
     write_file_name(stage, file);
-    if (link_source(gl, program, cache->egl->software, true, file, &pass, &err)) {
-        warm_up(cache, targets, program, &pass);
+    if (warm_targets_prepare(targets, gl, program->fragment, &err) &&
+        link_source(gl, program, cache->egl->software, file, &pass, &err)) {
+        warm_up(cache, targets, program, stage, &pass);
     }
     gl->Finish();
     pthread_mutex_lock(&cache->lock);
@@ -167,7 +165,7 @@ static void compile_stage(struct program_cache *cache, const struct targets *tar
 
 /* --- the threads --- */
 
-static void work(struct compiler *compiler, const struct targets *targets)
+static void work(struct compiler *compiler, struct warm_targets *targets)
 {
     struct program_cache *cache = compiler->cache;
 
@@ -194,14 +192,13 @@ void *program_compile_main(void *data)
     struct compiler *compiler = data;
     struct program_cache *cache = compiler->cache;
     const struct gl *gl = cache->gl;
-    struct targets targets = {0};
+    struct warm_targets targets = {0};
     struct error err = {0};
 
     pthread_mutex_lock(&cache->lock);
     EGLContext context = cache->egl->compile[cache->started++];
     pthread_mutex_unlock(&cache->lock);
-    const bool ok =
-        egl_bind(cache->egl, context, &err) && targets_init(&targets, gl, GROUP_SIDE, &err);
+    const bool ok = egl_bind(cache->egl, context, &err);
     pthread_mutex_lock(&cache->lock);
     cache->running += ok;
     cache->stop = cache->stop || !ok;
@@ -210,10 +207,8 @@ void *program_compile_main(void *data)
     pthread_mutex_unlock(&cache->lock);
     if (ok) {
         gl_debug(gl, cache->sink);
-        targets_bind(&targets, gl);
-        targets_bind_field(&targets, gl, &targets.eye);
         work(compiler, &targets);
-        targets_finish(&targets, gl);
+        warm_targets_finish(&targets, gl);
     }
     egl_bind(cache->egl, EGL_NO_CONTEXT, NULL);
     return NULL;

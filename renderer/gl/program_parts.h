@@ -17,18 +17,18 @@ struct program {
     uint64_t shape_hash;
     char *map_text, *surface_text;
     size_t number_count, map_count, shape_count, code_size;
-    bool user_shaders, user_code;
-    int stages;       /* how many there are */
-    bool allowed;     /* of those with user_code */
-    int patience;     /* times the usual bound on compiling */
-    int64_t spent_ms; /* of the processors, by finished stages */
+    bool user_shaders, user_code, volumes, fragment;
+    enum program_stage first; /* of its stages, */
+    int stages;               /* and how many there are */
+    bool allowed;             /* of those with user_code */
+    int patience;             /* times the usual bound on compiling */
+    int64_t spent_ms;         /* of the processors, by finished stages */
     int refs;
     uint64_t last_use;
     enum program_state state;
     int64_t added_ms; /* CLOCK_MONOTONIC */
     int taken, done;  /* stages that a thread took, and those finished or given up */
-    struct pass passes[STAGE_COUNT];
-    struct pass from_camera; /* belongs to the drawing thread */
+    struct pass passes[PROGRAM_STAGES];
     struct error error;
 };
 

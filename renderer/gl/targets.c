@@ -41,46 +41,6 @@ static GLuint *texture_at(struct targets *targets, int i)
     return (GLuint *)(void *)((char *)targets + textures[i].offset);
 }
 
-static void set_filter(const struct gl *gl, GLenum target)
-{
-    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-static GLuint make_texture(const struct gl *gl, GLenum format, int side)
-{
-    GLuint texture = 0;
-
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, side, side);
-    set_filter(gl, GL_TEXTURE_2D);
-    return texture;
-}
-
-static GLuint make_layers(const struct gl *gl, GLenum format, int side, int layers)
-{
-    GLuint texture = 0;
-
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D_ARRAY, texture);
-    gl->TexStorage3D(GL_TEXTURE_2D_ARRAY, 1, format, side, side, layers);
-    set_filter(gl, GL_TEXTURE_2D_ARRAY);
-    return texture;
-}
-
-static GLuint make_framebuffer(const struct gl *gl, GLuint texture)
-{
-    const GLenum attachment = GL_COLOR_ATTACHMENT0;
-    GLuint buffer = 0;
-
-    gl->GenFramebuffers(1, &buffer);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, buffer);
-    gl->FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
-    gl->DrawBuffers(1, &attachment);
-    return buffer;
-}
-
 static GLuint make_storage(const struct gl *gl, size_t bytes)
 {
     GLuint buffer = 0;
@@ -89,20 +49,6 @@ static GLuint make_storage(const struct gl *gl, size_t bytes)
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
     gl->BufferData(GL_SHADER_STORAGE_BUFFER, (GLsizeiptr)bytes, NULL, GL_DYNAMIC_COPY);
     return buffer;
-}
-
-static bool make_outputs(struct targets *targets, const struct gl *gl)
-{
-    static const GLenum formats[OUT_KINDS] = {GL_RGBA8, GL_RGBA32F, GL_R32UI};
-    bool complete = true;
-
-    for (int i = 0; i < OUT_KINDS; i++) {
-        targets->out[i] = make_texture(gl, formats[i], targets->side);
-        targets->out_buffers[i] = make_framebuffer(gl, targets->out[i]);
-        complete =
-            complete && gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    }
-    return complete;
 }
 
 static void make_buffers(struct targets *targets, const struct gl *gl)
@@ -118,9 +64,7 @@ static void make_buffers(struct targets *targets, const struct gl *gl)
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof head, head);
 }
 
-/* Blocks lie where they do in the picture, so a tile may touch one more; whole work groups. A power
- * of two as all sides are: llvmpipe compiles again for a texture whose side is none. */
-static int starts_side(int side)
+int targets_starts_side(int side)
 {
     int blocks = GROUP_SIDE;
 
@@ -132,15 +76,16 @@ static int starts_side(int side)
 
 bool targets_init(struct targets *out_targets, const struct gl *gl, int side, struct error *err)
 {
+    const int blocks = targets_starts_side(side);
     struct targets targets = {.side = side};
     bool complete;
 
     for (int i = 0; i < TEXTURE_COUNT; i++) {
-        *texture_at(&targets, i) = make_texture(gl, textures[i].format, side);
+        *texture_at(&targets, i) = texture_create(gl, textures[i].format, side, side);
     }
-    targets.starts = make_texture(gl, GL_R32F, starts_side(side));
-    targets.visibility = make_layers(gl, GL_RGBA16F, side, LIMIT_LIGHTS);
-    complete = make_outputs(&targets, gl);
+    targets.starts = texture_create(gl, GL_R32F, blocks, blocks);
+    targets.visibility = texture_create_layers(gl, GL_RGBA16F, side, LIMIT_LIGHTS);
+    complete = outputs_init(&targets.outputs, gl, side);
     make_buffers(&targets, gl);
     /* The same state in every context: drivers compile anew for another one. */
     gl->Disable(GL_DITHER);
@@ -162,23 +107,16 @@ fail:
 
 void targets_finish(struct targets *targets, const struct gl *gl)
 {
-    gl->DeleteFramebuffers(OUT_KINDS, targets->out_buffers);
     for (int i = 0; i < TEXTURE_COUNT; i++) {
         gl->DeleteTextures(1, texture_at(targets, i));
     }
     gl->DeleteTextures(1, &targets->starts);
     gl->DeleteTextures(1, &targets->visibility);
-    gl->DeleteTextures(OUT_KINDS, targets->out);
+    outputs_finish(&targets->outputs, gl);
     gl->DeleteBuffers(LIST_COUNT, targets->lists);
     gl->DeleteBuffers(1, &targets->stack);
     gl->DeleteVertexArrays(1, &targets->vertices);
     *targets = (struct targets){0};
-}
-
-static void bind_unit(const struct gl *gl, GLenum unit, GLuint texture)
-{
-    gl->ActiveTexture(GL_TEXTURE0 + unit);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
 }
 
 static void bind_image(const struct gl *gl, GLuint unit, GLuint texture, GLenum format)
@@ -189,10 +127,10 @@ static void bind_image(const struct gl *gl, GLuint unit, GLuint texture, GLenum 
 void targets_bind(const struct targets *targets, const struct gl *gl)
 {
     gl->BindVertexArray(targets->vertices);
-    bind_unit(gl, UNIT_TOTAL, targets->total);
-    bind_unit(gl, UNIT_HAZE, targets->haze);
-    bind_unit(gl, UNIT_PIXELS, targets->pixels);
-    bind_unit(gl, UNIT_COUNTED, targets->counted);
+    texture_bind(gl, UNIT_TOTAL, targets->total);
+    texture_bind(gl, UNIT_HAZE, targets->haze);
+    texture_bind(gl, UNIT_PIXELS, targets->pixels);
+    texture_bind(gl, UNIT_COUNTED, targets->counted);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_VISIBILITY);
     gl->BindTexture(GL_TEXTURE_2D_ARRAY, targets->visibility);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIST, targets->lists[LIST_EDGES]);
@@ -202,12 +140,12 @@ void targets_bind(const struct targets *targets, const struct gl *gl)
 
 static void bind_set(const struct gl *gl, const struct ray_set *set)
 {
-    bind_unit(gl, UNIT_RAY_FROM, set->from);
-    bind_unit(gl, UNIT_RAY_ALONG, set->along);
-    bind_unit(gl, UNIT_GEOMETRY, set->geometry);
-    bind_unit(gl, UNIT_MATTER, set->matter);
-    bind_unit(gl, UNIT_MORE, set->more);
-    bind_unit(gl, UNIT_STEPS, set->steps);
+    texture_bind(gl, UNIT_RAY_FROM, set->from);
+    texture_bind(gl, UNIT_RAY_ALONG, set->along);
+    texture_bind(gl, UNIT_GEOMETRY, set->geometry);
+    texture_bind(gl, UNIT_MATTER, set->matter);
+    texture_bind(gl, UNIT_MORE, set->more);
+    texture_bind(gl, UNIT_STEPS, set->steps);
 }
 
 void targets_bind_field(const struct targets *targets, const struct gl *gl,

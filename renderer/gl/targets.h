@@ -5,10 +5,7 @@
 #ifndef RENDERER_TARGETS_H
 #define RENDERER_TARGETS_H
 
-#include "gl.h"
-
-/* Kinds of finished pixels. */
-enum out_kind { OUT_BYTES /* rgba8 */, OUT_FLOATS /* rgba32f */, OUT_UINTS /* r32ui */, OUT_KINDS };
+#include "texture.h"
 
 /* Of each sample: its ray, and what that met. */
 struct ray_set {
@@ -37,12 +34,16 @@ struct targets {
     GLuint haze;          /* rgba16f */
     GLuint total, pixels; /* rgba32f: light of the sample, and summed up over the pixel's */
     GLuint counted;       /* r32f: samples of the pixel */
-    GLuint out[OUT_KINDS], out_buffers[OUT_KINDS]; /* textures and their framebuffers */
+    struct outputs outputs;
     GLuint lists[LIST_COUNT];
     GLuint stack;    /* glsl/stack.glsl */
     GLuint vertices; /* the empty vertex array that core profiles want */
 };
 
+/* Of a texture with a texel for each block of a tile. Blocks lie where they do in the picture, so a
+ * tile may touch one more; whole work groups. A power of two as all sides are: llvmpipe compiles
+ * again for a texture whose side is none. */
+int targets_starts_side(int side);
 /* For the current context: framebuffers are not shared. */
 bool targets_init(struct targets *out_targets, const struct gl *gl, int side, struct error *err);
 void targets_finish(struct targets *targets, const struct gl *gl);

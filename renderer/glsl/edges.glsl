@@ -41,3 +41,9 @@ float contrast_at(ivec2 here)
     }
     return max(most.r, max(most.g, most.b));
 }
+
+/* Whether the pixel is worth more samples. */
+bool is_edge(ivec2 here)
+{
+    return edge_at(here) >= 1.0 || contrast_at(here) > 0.06;
+}

@@ -13,7 +13,7 @@ void main()
     ivec2 last = ivec2(args.width, args.height) - 1; /* the tile has a margin of one pixel */
     bool inside = all(greaterThan(here, ivec2(0))) && all(lessThan(here, last));
     here = clamp(here, ivec2(1), last - 1);
-    if (inside && (edge_at(here) >= 1.0 || contrast_at(here) > 0.06)) {
+    if (inside && is_edge(here)) {
         list_add(here);
     }
 }

@@ -82,7 +82,14 @@
     X(UNIT_HAZE)                                                                                   \
     X(UNIT_STEPS)                                                                                  \
     X(UNIT_PIXELS)                                                                                 \
-    X(UNIT_COUNTED)
+    X(UNIT_COUNTED)                                                                                \
+    X(UNIT_STARTS)                                                                                 \
+    X(UNIT_MASK)                                                                                   \
+    X(UNIT_NORMAL)                                                                                 \
+    X(UNIT_DIFFUSE)                                                                                \
+    X(UNIT_SPECULAR)                                                                               \
+    X(UNIT_OPTICAL)                                                                                \
+    X(UNIT_LIGHTS)
 /* Images that are written. There may be but eight at once, so the passes with a field in them, the
  * others, and those that make environments have sets of their own. */
 #define FIELD_IMAGES(X)                                                                            \
@@ -102,6 +109,16 @@
     X(IMAGE_SEEN) /* visibility */                                                                 \
     X(IMAGE_PIXELS)                                                                                \
     X(IMAGE_COUNTED)
+/* What sample_pass.glsl writes, and the textures are read as afterwards. X(name, unit) */
+#define SAMPLE_TEXTURES(X)                                                                         \
+    X(SAMPLE_PIXELS, UNIT_PIXELS)                                                                  \
+    X(SAMPLE_COUNTED, UNIT_COUNTED)                                                                \
+    X(SAMPLE_GEOMETRY, UNIT_GEOMETRY)                                                              \
+    X(SAMPLE_NORMAL, UNIT_NORMAL)                                                                  \
+    X(SAMPLE_DIFFUSE, UNIT_DIFFUSE)                                                                \
+    X(SAMPLE_SPECULAR, UNIT_SPECULAR)                                                              \
+    X(SAMPLE_OPTICAL, UNIT_OPTICAL)                                                                \
+    X(SAMPLE_LIGHTS, UNIT_LIGHTS)
 
 /* --- the uniform block of a picture --- */
 
@@ -204,9 +221,14 @@
 #define RESOLVE_ARGS(X)                                                                            \
     X(margin)                                                                                      \
     X(blend_edges)
-#define FORWARD_ARGS(X)                                                                            \
+#define TRACE_ARGS(X)                                                                              \
     X(sample_index)                                                                                \
-    X(rays) /* after the first */
+    X(rays)   /* after the first */                                                                \
+    X(depth)  /* surfaces between what is met and a light */                                       \
+    X(looks)  /* shadows are wanted, */                                                            \
+    X(lights) /* light too, */                                                                     \
+    X(linear) /* as it is */                                                                       \
+    X(masked) /* for the pixels of a mask */
 
 /* --- the same in C --- */
 
@@ -217,6 +239,7 @@
 #define INTERFACE_ivec2(name) _Alignas(8) int32_t name[2];
 #define INTERFACE_MEMBER(type, name) INTERFACE_##type(name)
 #define INTERFACE_NAME(name) name,
+#define INTERFACE_FIRST(name, ...) name,
 #define INTERFACE_VALUE(name, value) name = (value),
 #define INTERFACE_ARG(name) int32_t name;
 
@@ -230,6 +253,7 @@ enum { STORAGE_BLOCKS(INTERFACE_NAME) };
 enum { TEXTURE_UNITS(INTERFACE_NAME) UNIT_COUNT };
 enum { FIELD_IMAGES(INTERFACE_NAME) };
 enum { COMMON_IMAGES(INTERFACE_NAME) };
+enum { SAMPLE_TEXTURES(INTERFACE_FIRST) SAMPLE_TEXTURE_COUNT };
 enum {
     GROUP_SIZE = 64, /* of a work group: GROUP_SIDE x GROUP_SIDE samples */
     GROUP_SIDE = 8,  /* samples that one work group covers: group.glsl */
@@ -270,8 +294,8 @@ struct listing_args {
 struct resolve_args {
     RESOLVE_ARGS(INTERFACE_ARG)
 };
-struct forward_args {
-    FORWARD_ARGS(INTERFACE_ARG)
+struct trace_args {
+    TRACE_ARGS(INTERFACE_ARG)
 };
 
 /* The text of "interface.glsl". */

@@ -5,7 +5,7 @@
 #include "shade.glsl"
 
 /* The rays of a sample that wait, and the one that it goes on with: stack.glsl or
- * forward_store.glsl. */
+ * sample_store.glsl. */
 int stack_count(ivec2 here);
 void stack_set_count(ivec2 here, int count);
 void stack_put(ivec2 here, int i, Waiting ray);

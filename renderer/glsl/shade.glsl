@@ -7,7 +7,7 @@
 #include "ray.glsl"
 #include "sky.glsl"
 
-/* Part of a light's colour that arrives: visibility_load.glsl or forward_store.glsl. */
+/* Part of a light's colour that arrives: visibility_load.glsl or sample_store.glsl. */
 vec3 visibility_of(ivec2 here, int light);
 
 /* How much of a mirror image rays bring: rough surfaces blur it, so the environment's will do. */

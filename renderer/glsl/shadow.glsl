@@ -5,7 +5,7 @@
 #include "field_map.glsl"
 #include "lights.glsl"
 
-/* Where answers go (shadow_store.glsl, forward_store.glsl): the part of the environment's light,
+/* Where answers go (shadow_store.glsl, sample_store.glsl): the part of the environment's light,
  * then that of each light, with the former beside it. */
 void store_openness(float open);
 void store_visibility(int light, float seen, float open);

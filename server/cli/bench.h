@@ -39,8 +39,8 @@ bool bench_draw(struct renderer *renderer, struct resident *resident, const stru
 bool bench_medians(struct renderer *renderer, struct resident *resident,
                    const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 
-/* Adds `engine_ratio`: the time of a picture by compute shaders, divided by its time by the
- * engine. */
+/* Adds `fragment_ratio` and `engine_ratio`: the time of a picture by compute shaders, divided by
+ * its time by fragment shaders and by the engine. */
 bool bench_stages(struct renderer *renderer, const struct embedded *example,
                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err);
 

@@ -108,10 +108,11 @@ static bool compare(struct renderer *renderer, struct resident *const both[2],
 
 /* --- what computes pictures --- */
 
-bool bench_stages(struct renderer *renderer, const struct embedded *example,
-                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+static bool compare_stages(struct renderer *renderer, const struct embedded *example,
+                           const struct job_desc *desc, int rounds, enum render_stage other,
+                           const char *name, cJSON *row, struct error *err)
 {
-    static const enum render_stage stages[] = {RENDER_COMPUTE, RENDER_ENGINE};
+    const enum render_stage stages[] = {RENDER_COMPUTE, other};
     const enum render_stage before = renderer_info(renderer)->stage;
     struct resident *both[2];
 
@@ -120,7 +121,15 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
         both[i] = bench_open(renderer, example, err);
     }
     renderer_use_stage(renderer, before);
-    return compare(renderer, both, desc, rounds, "engine_ratio", row, err);
+    return compare(renderer, both, desc, rounds, name, row, err);
+}
+
+bool bench_stages(struct renderer *renderer, const struct embedded *example,
+                  const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
+{
+    return compare_stages(renderer, example, desc, rounds, RENDER_FRAGMENT, "fragment_ratio", row,
+                          err) &&
+           compare_stages(renderer, example, desc, rounds, RENDER_ENGINE, "engine_ratio", row, err);
 }
 
 /* --- what effects cost where they are switched off --- */

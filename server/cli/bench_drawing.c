@@ -194,8 +194,7 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
     if (!bench_medians(renderer, resident, desc, task->rounds, row, err) ||
-        (renderer_info(renderer)->software &&
-         !bench_stages(renderer, task->example, desc, task->rounds, row, err))) {
+        !bench_stages(renderer, task->example, desc, task->rounds, row, err)) {
         cJSON_Delete(row);
         return NULL;
     }

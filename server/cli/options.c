@@ -50,8 +50,10 @@ static const char *confine_choice(size_t index)
 
 static const char *stage_choice(size_t index)
 {
-    static const char *const words[] = {
-        [RENDER_AUTO] = "auto", [RENDER_COMPUTE] = "compute", [RENDER_ENGINE] = "engine"};
+    static const char *const words[] = {[RENDER_AUTO] = "auto",
+                                        [RENDER_COMPUTE] = "compute",
+                                        [RENDER_FRAGMENT] = "fragment",
+                                        [RENDER_ENGINE] = "engine"};
     return word_of(words, sizeof words / sizeof words[0], index);
 }
 
@@ -143,9 +145,10 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Which device, counted as `fieldcast doctor` lists them; -1 takes the best."},
     [OPTION_STAGE] = {"stage", 0, "WORD", OPTION_CHOICE, .choice = stage_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
-        .doc = "What computes pictures: `compute`, shaders of the device; `engine`, vectors of the "
-               "processors; `auto` takes the engine where the device is no GPU. Scenes that are "
-               "too large for compilers of shaders are drawn by the engine in any case."},
+        .doc = "What computes pictures: `compute` or `fragment`, shaders of the device of that "
+               "kind; `engine`, vectors of the processors; `auto` takes compute shaders on a GPU, "
+               "else the engine. Scenes that are too large for compilers of shaders are drawn by "
+               "the engine in any case."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
         .doc = "Where compiled shaders are kept."},
@@ -222,7 +225,8 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Print the reference page, in Markdown, instead."},
     [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_stage_name,
         .fallback = "march", .commands = FOR(SHADER),
-        .doc = "Which pass: where rays meet the scene, its materials, its shadows, its volumes."},
+        .doc = "Which pass: where rays meet the scene, its materials, its shadows, its volumes; of "
+               "`--stage fragment`: where rays start, a whole sample."},
     [OPTION_CONFIG] = {"config", 0, "FILE", OPTION_PATH, .base = BASE_CONFIG,
         .fallback = "fieldcast/fieldcast.conf", .commands = DRAWING,
         .doc = "The config file; the default one may be absent."},

@@ -247,6 +247,7 @@ test('shader prints the GLSL of a pass, whole', () => {
     assert.doesNotMatch(text, /#include/);
     assert.doesNotMatch(text, /void surface\(/);
     assert.match(succeed(['shader', '--pass', 'matter', 'example:snowman']).out, /void surface\(/);
+    assert.match(succeed(['shader', '--pass', 'sample', 'example:snowman']).out, /int trace\(/);
     const sphere = succeed(['shader', write('sphere.json', SPHERE)]).out;
     assert.notEqual(sphere, text);
     assert.equal(run(['shader', '--pass', 'colour', 'example:snowman']).status, 2);
@@ -442,8 +443,8 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
             [1280, 720],
         ],
     );
-    for (const { ms, stages_ms: stages, engine_ratio: engine } of row.pictures) {
-        assert.ok(stages.shade > 0 && engine > 0);
+    for (const { ms, stages_ms: stages, engine_ratio: engine, fragment_ratio: fragment } of row.pictures) {
+        assert.ok(stages.shade > 0 && engine > 0 && fragment > 0);
         assert.ok(Object.values(stages).reduce((a, b) => a + b) < 1.05 * ms, 'stages are parts of the whole');
     }
     // The example has nothing that mirrors, so both are the same picture; ratios of noise are wide.

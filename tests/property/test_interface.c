@@ -146,7 +146,7 @@ static void every_type_of_volume_has_its_extent(void **state)
 /* A file with main() around it, and what it leaves to the pass that includes it. */
 static void write_alone(const char *name, char *out, size_t size)
 {
-    static const char store[] = "#include \"forward_store.glsl\"\n";
+    static const char store[] = "#include \"sample_store.glsl\"\n";
     const struct {
         const char *name, *rest;
     } rows[] = {{"paths.glsl", store},
@@ -172,9 +172,8 @@ static void each_file_is_whole_by_itself(void **state)
     for (const struct glsl_file *file = glsl_files; file->name; file++) {
         char text[256];
         const bool pass = strstr(file->name, "_pass.glsl") || strstr(file->name, "environment_");
-        const bool main = pass || strcmp(file->name, "forward.glsl") == 0 ||
-                          strcmp(file->name, "resolve.glsl") == 0 ||
-                          strcmp(file->name, "full.glsl") == 0;
+        const bool main =
+            pass || strcmp(file->name, "resolve.glsl") == 0 || strcmp(file->name, "full.glsl") == 0;
         write_alone(file->name, text, sizeof text);
         const struct glsl_file own[] = {{"field_map.glsl", map},
                                         {"field_surface.glsl", surface},

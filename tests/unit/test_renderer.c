@@ -436,29 +436,6 @@ static void test_outputs_together(void **state)
     resident_destroy(resident);
 }
 
-/* One program for everything gives what the passes give, but for how the compilers round. */
-static void test_both_ways(void **state)
-{
-    struct resident *resident = make_resident(document);
-    struct job_desc desc = usual;
-    struct image passes, at_once;
-    int different = 0;
-
-    (void)state;
-    desc.samples = 1;
-    passes = draw(resident, &desc);
-    desc.from_camera = true;
-    at_once = draw(resident, &desc);
-    assert_int_equal(passes.bytes, at_once.bytes);
-    for (size_t i = 0; i < passes.bytes; i++) {
-        different += abs(((uint8_t *)passes.pixels)[i] - ((uint8_t *)at_once.pixels)[i]) > 2;
-    }
-    assert_in_range(different, 0, passes.bytes / 500);
-    image_finish(&passes);
-    image_finish(&at_once);
-    resident_destroy(resident);
-}
-
 static void test_pictures_are_not_torn(void **state)
 {
     struct resident *resident = make_resident(document);
@@ -794,6 +771,11 @@ static int set_up_device(void **state)
     return set_up(state, RENDER_COMPUTE);
 }
 
+static int set_up_fragment(void **state)
+{
+    return set_up(state, RENDER_FRAGMENT);
+}
+
 static int set_up_engine(void **state)
 {
     return set_up(state, RENDER_ENGINE);
@@ -828,15 +810,22 @@ int main(void)
     };
     /* What only programs do. */
     const struct CMUnitTest programs[] = {
-        cmocka_unit_test(test_both_ways),
         cmocka_unit_test(test_old_picture_while_compiling),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_loop_budget),
+    };
+    /* With a program for a whole sample, which is compiled for long: what depends on targets. */
+    const struct CMUnitTest samples[] = {
+        cmocka_unit_test(test_tiles_do_not_show),
+        cmocka_unit_test(test_numbers_compile_nothing),
+        cmocka_unit_test(test_outputs_together),
+        cmocka_unit_test(test_pictures_are_not_torn),
     };
     const struct CMUnitTest engine[] = {cmocka_unit_test(test_compilers_wait_for_programs)};
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
            cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +
+           cmocka_run_group_tests_name("fragment", samples, set_up_fragment, tear_down) +
            cmocka_run_group_tests_name("engine", common, set_up_engine, tear_down) +
            cmocka_run_group_tests_name("engine alone", engine, set_up_engine, tear_down);
 }

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+#include "warm_targets.h"
+
+static const GLenum sky_units[WARM_SKIES] = {UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE};
+
+static void make_skies(struct warm_targets *targets, const struct gl *gl)
+{
+    for (int i = 0; i < WARM_SKIES; i++) {
+        const int levels = sky_units[i] == UNIT_IRRADIANCE ? 1 : 2;
+
+        gl->ActiveTexture(GL_TEXTURE0 + sky_units[i]);
+        gl->GenTextures(1, &targets->skies[i]);
+        gl->BindTexture(GL_TEXTURE_2D, targets->skies[i]);
+        gl->TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, 4, 2);
+        texture_set_sky(gl, levels);
+    }
+}
+
+bool warm_targets_prepare(struct warm_targets *targets, const struct gl *gl, bool fragment,
+                          struct error *err)
+{
+    if (fragment && !targets->has_fragment) {
+        targets->has_fragment = fragment_targets_init(&targets->fragment, gl, GROUP_SIDE, err);
+        make_skies(targets, gl);
+    } else if (!fragment && !targets->has_passes) {
+        targets->has_passes = targets_init(&targets->passes, gl, GROUP_SIDE, err);
+    }
+    return fragment ? targets->has_fragment : targets->has_passes;
+}
+
+void warm_targets_finish(struct warm_targets *targets, const struct gl *gl)
+{
+    targets_finish(&targets->passes, gl);
+    fragment_targets_finish(&targets->fragment, gl);
+    gl->DeleteTextures(WARM_SKIES, targets->skies);
+    *targets = (struct warm_targets){0};
+}
+
+void warm_targets_run(const struct warm_targets *targets, const struct gl *gl,
+                      enum program_stage stage, const struct pass *pass)
+{
+    const struct pass_place place = {.width = GROUP_SIDE, .height = GROUP_SIDE};
+
+    if (stage < STAGE_COUNT) {
+        targets_bind(&targets->passes, gl);
+        targets_bind_field(&targets->passes, gl, &targets->passes.eye);
+        pass_compute(pass, gl, &place, PASS_ARGS(struct sample_args, .sample_index = 0));
+        return;
+    }
+    fragment_targets_bind(&targets->fragment, gl);
+    for (int i = 0; i < WARM_SKIES; i++) {
+        texture_bind(gl, sky_units[i], targets->skies[i]);
+    }
+    if (stage == STAGE_STARTS) {
+        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_STARTS, pass, &place,
+                              (struct pass_args){0});
+    } else {
+        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_SAMPLES, pass, &place,
+                              PASS_ARGS(struct trace_args, .sample_index = 0));
+    }
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* What a thread that compiles runs programs with for the first time, because drivers do most of
+ * their work then. Made when a program of its kind is first compiled. */
+#ifndef RENDERER_WARM_TARGETS_H
+#define RENDERER_WARM_TARGETS_H
+
+#include "fragment_targets.h"
+#include "program.h"
+#include "targets.h"
+
+enum { WARM_SKIES = 3 };
+
+struct warm_targets {
+    bool has_passes, has_fragment; /* whether those are there: */
+    struct targets passes;
+    struct fragment_targets fragment;
+    GLuint skies[WARM_SKIES]; /* with the state of an environment's */
+};
+
+/* `fragment`: for fragment shaders. */
+bool warm_targets_prepare(struct warm_targets *targets, const struct gl *gl, bool fragment,
+                          struct error *err);
+void warm_targets_finish(struct warm_targets *targets, const struct gl *gl);
+/* One work group, or a few fragments. */
+void warm_targets_run(const struct warm_targets *targets, const struct gl *gl,
+                      enum program_stage stage, const struct pass *pass);
+
+#endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* What the first sample of a pixel met, as march, matter and shadow pass left it. */
+
+#include "camera.glsl"
+#include "gbuffer_load.glsl"
+#include "outputs.glsl"
+#include "visibility_load.glsl"
+#include "visibility_mean.glsl"
+
+layout(binding = UNIT_STEPS) uniform sampler2D steps;
+
+Met met_load(ivec2 here)
+{
+    vec4 g = texelFetch(geometry, here, 0);
+    Ray ray = camera_sample(dispatch.origin + here, 0);
+    vec3 place = ray.origin + ray.direction * g.w;
+    return Met(g.w < INFINITY, g.xyz, g.w, place, texelFetch(steps, here, 0).x, surface_load(here),
+               visibility_mean(here), openness(here));
+}
+
+uint met_id(ivec2 here)
+{
+    return surface_load(here).id;
+}
