@@ -229,7 +229,7 @@ test('a shader of the scene: its properties are a form, colours and sliders chan
     await when((d) => d.materials['shader-1'].properties?.amount === 0, 'the amount');
     await pictureChanged(page, striped, 'the picture without stripes');
     await page.locator('[data-param=color1] .colour-button').click();
-    const hex = page.getByLabel('color1 Hex');
+    const hex = page.getByLabel('colour 1 Hex');
     await hex.fill('#2060ff');
     await hex.press('Enter');
     await when((d) => d.materials['shader-1'].properties?.color1?.[2] === 1, 'the colour');
