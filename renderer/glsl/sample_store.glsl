@@ -27,7 +27,7 @@ vec3 visibility_of(ivec2 here, int light)
 }
 
 Waiting stacked[STACK_DEPTH];
-int stacked_count;
+int stacked_count = 0;
 Waiting next_ray;
 bool has_next;
 
