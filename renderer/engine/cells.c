@@ -61,7 +61,8 @@ static void cells_begin(struct lanes *c)
     *root = (struct cell){.half = c->frame->max_distance,
                           .count = (uint32_t)c->program->count,
                           .parent = -1,
-                          .made = true};
+                          .made = true,
+                          .splits = c->program->count > CELL_SHORT};
     for (int i = 0; i < 3; i++) {
         root->half = f_max(root->half, 2.0f * fabsf(c->frame->eye[i]));
     }
@@ -166,11 +167,11 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     cells->used += child->count;
 }
 
-/* Of the part of the field that the first of these lanes is to see; answers which see the same. */
-static vb choose_space(struct lanes *c, vb m)
+/* Of the part of the field that a lane is to see; answers which of these see the same. */
+static vb choose_space(struct lanes *c, vb m, int lane)
 {
     if (c->frame->has_clear) {
-        const float through = c->through_0[lanes_first(m)];
+        const float through = c->through_0[lane];
         c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
         m &= c->through_0 == through;
     }
@@ -220,12 +221,12 @@ static void cell_split(struct lanes *c, int32_t index, float through)
 }
 
 /* Whether smaller cubes would be worth it. */
-static bool cell_splits(const struct lanes *c, const struct cell *cell)
+static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
 {
-    if (cell->children || cell->count <= CELL_SHORT) {
-        return cell->children != 0;
-    }
     float square = 0;
+    if (cell->count <= CELL_SHORT) {
+        return false;
+    }
     for (int i = 0; i < 3; i++) {
         const float way = cell->centre[i] - c->frame->eye[i];
         square += way * way;
@@ -233,6 +234,18 @@ static bool cell_splits(const struct lanes *c, const struct cell *cell)
     const float way = f_max(sqrtf(square) - 1.7320508f * cell->half, 0.0f);
     const float print = c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
     return cell->half > f_max(2.0f * CELL_PIXELS * print, CELL_NEAR * fabsf(cell->distance));
+}
+
+/* With its tape. */
+static struct cell *cell_ready(struct lanes *c, int32_t at)
+{
+    struct cell *cell = &c->cells->at[at];
+    if (!cell->made) {
+        const struct cell *parent = &c->cells->at[cell->parent];
+        make_tape(c, parent, (int)(at - parent->children), cell);
+        cell->splits = is_worth_splitting(c, cell);
+    }
+    return cell;
 }
 
 static uint32_t lanes_count(vb m)
@@ -250,53 +263,47 @@ static float cell_cost(const struct cell *cell, vb held)
     return (float)(cell->count + CELL_RUN) / (float)lanes_count(held);
 }
 
-/* The cube's child that a lane is in. */
+/* The child, of a cube that splits, that a lane is in. */
 static int32_t child_at(struct lanes *c, int32_t at, const vf *p, int lane)
 {
-    struct cells *cells = c->cells;
-    if (!cells->at[at].children) {
+    if (!c->cells->at[at].children) {
         cell_split(c, at, c->through_0[lane]);
     }
-    const struct cell parent = cells->at[at];
+    const struct cell *cell = &c->cells->at[at];
     int number = 0;
     for (int i = 0; i < 3; i++) {
-        number += (p[i][lane] > parent.centre[i]) << i;
+        number += (p[i][lane] > cell->centre[i]) << i;
     }
-    struct cell *child = &cells->at[parent.children + number];
-    if (!child->made) {
-        make_tape(c, &parent, number, child);
-    }
-    return parent.children + number;
+    return cell->children + number;
 }
 
-/* A cube for the first of these lanes, and those that it holds: of the cubes around that lane, the
- * one whose tape takes the least for each lane in it. The root holds everything. */
-static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, vb *out_lanes)
+/* A cube for one of these lanes, and those that it holds: of the cubes around that lane, the one
+ * whose tape takes the least for each lane in it. The root holds everything. */
+static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, vb *out_lanes)
 {
-    m = choose_space(c, m);
+    m = choose_space(c, m, lane);
     struct cells *cells = c->cells;
     int32_t at = cells->last;
-    const int lane = lanes_first(m);
     vb held = cell_lanes(&cells->at[at], m, p);
-    const struct cell *last = &cells->at[at];
+    const struct cell *last = cell_ready(c, at);
     if (!lanes_any(m & ~held) &&
-        ((last->count <= BOUND_TAPE && !cell_has(last, p, lane)) || !cell_splits(c, last))) {
+        ((last->count <= BOUND_TAPE && !cell_has(last, p, lane)) || !last->splits)) {
         *out_lanes = held;
-        return &cells->at[at];
+        return last;
     }
-    /* The cube that the first lane is in without what is around it, so that it is in one of its
+    /* The cube that the lane is in without what is around it, so that it is in one of its
      * children as well. */
     while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
         at = cells->at[at].parent;
     }
     held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
     int32_t best = at;
-    float least = cell_cost(&cells->at[at], held);
+    float least = cell_cost(cell_ready(c, at), held);
     *out_lanes = held;
-    while (cell_splits(c, &cells->at[at])) {
+    while (cells->at[at].splits) {
         at = child_at(c, at, p, lane);
         held = cell_lanes(&cells->at[at], held, p);
-        const float cost = cell_cost(&cells->at[at], held);
+        const float cost = cell_cost(cell_ready(c, at), held);
         if (cost <= least) {
             best = at;
             least = cost;
@@ -313,11 +320,11 @@ static bool cell_is_far(const struct cell *cell)
     return fabsf(cell->distance) > BOUND_NEAR * cell->half;
 }
 
-/* Whether a lower bound of the distance is worth having: of the cubes on the way down to a point,
- * the first far one tells, whose tape is the longest. */
-static bool cell_bounds(const struct cell *cell)
+/* Whether a lower bound of the distance is worth having: its tape, which then is not made, would
+ * not be much shorter than its parent's. */
+static bool cell_bounds(const struct cells *cells, const struct cell *cell)
 {
-    return cell_is_far(cell) && cell->count > BOUND_TAPE;
+    return cell_is_far(cell) && cell->parent >= 0 && cells->at[cell->parent].count > BOUND_TAPE;
 }
 
 /* No point of the cube is nearer to a surface than the middle is, less its way there. */
@@ -344,8 +351,8 @@ static const struct cell *bound_at(struct lanes *c, const vf *p, int lane)
     while (at > 0 && cell_is_far(&cells->at[cells->at[at].parent])) {
         at = cells->at[at].parent;
     }
-    while ((at > 0 || cell_has(&cells->at[at], p, lane)) && !cell_bounds(&cells->at[at]) &&
-           cell_splits(c, &cells->at[at])) {
+    while ((at > 0 || cell_has(&cells->at[at], p, lane)) && !cell_bounds(cells, &cells->at[at]) &&
+           cell_ready(c, at)->splits) {
         at = child_at(c, at, p, lane);
     }
     cells->last = at;

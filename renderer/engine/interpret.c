@@ -257,7 +257,7 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
     vf d = vf_zero;
     while (lanes_any(m)) {
         vb held;
-        const struct cell *cell = cell_at(c, m, p, &held);
+        const struct cell *cell = cell_at(c, m, p, lanes_first(m), &held);
         run(machine_of(&v, c, held, p), c->cells->tapes + cell->tape, cell->count);
         d = vf_select(held, v.d[0], d);
         m &= ~held;
@@ -265,23 +265,54 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
     return d;
 }
 
-static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, bool exact)
+#define WAITING 3e38f /* the distance of a ray that got no answer */
+
+static int nearest_lane(vb m, vf way)
 {
-    vf d = vf_zero;
-    vb ask = exact || c->program->count <= BOUND_TAPE ? vb_zero : m;
+    int nearest = lanes_first(m);
+    for (int i = nearest + 1; i < LANES; i++) {
+        nearest = m[i] && way[i] < way[nearest] ? i : nearest;
+    }
+    return nearest;
+}
+
+/* One cube's: of the ray that is least far. Others wait until it is where they are, and share its
+ * tapes from there. */
+static vf turn(struct lanes *c, vb m, const vf *p, vf way, vf d)
+{
+    struct machine v;
+    vb held;
+    const struct cell *cell = cell_at(c, m, p, nearest_lane(m, way), &held);
+    run(machine_of(&v, c, held, p), c->cells->tapes + cell->tape, cell->count);
+    return vf_select(held, v.d[0], d);
+}
+
+static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf way, bool exact)
+{
+    vf d = vf_all(WAITING);
+    if (c->program->count <= BOUND_TAPE) {
+        return spmd_map(c, m, p);
+    }
+    vb ask = exact ? vb_zero : m;
     while (lanes_any(ask)) {
-        const vb same = choose_space(c, ask);
-        const int first = lanes_first(same);
+        const int first = lanes_first(ask);
+        const vb same = choose_space(c, ask, first);
         const struct cell *cell = bound_at(c, p, first);
         vb held = cell_holds(cell, same, p);
         held[first] = -1; /* also where its place is no number */
-        if (cell_bounds(cell)) {
+        if (cell_bounds(c->cells, cell)) {
             d = vf_select(held, cell_bound(cell, p), d);
             m &= ~held;
         }
         ask &= ~held;
     }
-    return lanes_any(m) ? vf_select(m, spmd_map(c, m, p), d) : d;
+    return lanes_any(m) ? turn(c, m, p, way, d) : d;
+}
+
+static vb spmd_field_waits(struct lanes *c, vb m, vf d)
+{
+    (void)c;
+    return m & (d == WAITING);
 }
 
 static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *out)
@@ -291,7 +322,7 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
     vb left = m;
     while (lanes_any(left)) {
         vb held;
-        const struct cell *cell = cell_at(c, left, p, &held);
+        const struct cell *cell = cell_at(c, left, p, lanes_first(left), &held);
         machine_of(&v, c, held, p);
         v.mixtures = mixtures;
         run(&v, c->cells->tapes + cell->tape, cell->count);

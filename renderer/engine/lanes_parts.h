@@ -37,6 +37,7 @@ struct cell {
     int32_t parent, children; /* the first of eight; 0: not made yet */
     size_t drops;             /* what its children's tapes leave out, for each word of its own */
     bool made;                /* its tape; else it is its parent's */
+    bool splits;              /* smaller ones are worth it; of one with a tape */
 };
 
 struct cells {

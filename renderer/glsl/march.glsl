@@ -93,7 +93,11 @@ Hit march(Ray ray, float start, float cone, int most)
             vec3 corner = vec3((((i + 3) >> 1) & 1), ((i >> 1) & 1), (i & 1)) * 2.0 - 1.0;
             corner = round == 3 ? east * around.x + north * around.y : corner;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
-            float d = field_bound(base + offset, round > 0);
+            float d = field_bound(base + offset, t + ahead, round > 0);
+            if (field_waits(d)) {
+                i--;
+                continue;
+            }
             d = clear ? -d : d;
             gradient += corner * d;
             rest += 0.25 * d;

@@ -2,7 +2,7 @@
 /* What of each light, and of the environment's, comes to a place of a surface. What light goes
  * through throws no shadow here: clear_pass.glsl colours its light. */
 
-#include "field_map.glsl"
+#include "field_bound.glsl"
 #include "lights.glsl"
 
 /* Where answers go (shadow_store.glsl, sample_store.glsl): the part of the environment's light,
@@ -129,7 +129,11 @@ void look(vec3 p, vec3 n, float print, bool hit)
 
         steps = hit ? steps : 0;
         for (int i = zero; i < steps; i++) {
-            float d = map(base + along * x);
+            float d = field_bound(base + along * x, x, true);
+            if (field_waits(d)) {
+                i--;
+                continue;
+            }
             if (outward) {
                 dark += clamp(1.0 - d / x, 0.0, 1.0);
                 x = occlusion_place(i + 1, near);
