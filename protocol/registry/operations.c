@@ -50,7 +50,7 @@ const struct node_type node_operations[] = {
      .source = QUILEZ_DISTANCE ", Xor"},
     {.record = {"morph", "A mix of its first two children.", PARAMS(
         {"t", PARAM_FLOAT, .def = {0.5}, .min = 0, .max = 1, .step = 0.05, .main = true,
-         .doc = "0 is the first child, 1 the second."})},
+         .doc = "Share of the second child: 0 is the first alone, 1 the second alone."})},
      .number = 108, .group = GROUP_OPERATION, .kind = KIND_COMBINE, .exactness = BOUND,
      .lipschitz = 1, .glsl = "op_morph", .words = "mix lerp interpolate between transition",
      .source = "Linear interpolation of both distances"},
