@@ -247,9 +247,9 @@ function show(suite, count, outcome, seconds) {
     }
 }
 
-/** The tests that failed first, because whoever reads may see a part of this only. */
+/** Why a daemon ended and the tests that failed first: whoever reads may see a part of this only. */
 function showLog(lines) {
-    const failed = lines.flatMap((line, at) => (/^ *not ok\b/.test(line) ? [at] : []));
+    const failed = lines.flatMap((line, at) => (/^ *not ok\b|^the daemon ended/.test(line) ? [at] : []));
     const print = (some) => console.log(some.map((line) => `     | ${line}`).join('\n'));
     for (const at of failed.slice(0, REPORTS)) {
         print(lines.slice(at, at + REPORT_LINES));

@@ -100,11 +100,14 @@ async function untilEnded(ended, errors, what) {
     }
 }
 
+const LAST_WORDS = 6000; // characters of its log, shown where it ended by itself
+
 /**
  * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
  * directory is a fresh one, removed by stop(), unless one is given. `driver: 'null'` draws nothing
  * that anybody could look at, at once or with `tileMs` for each tile; several are loaded in front of
- * each other.
+ * each other. stop(status) throws where the daemon ended with another status, unless the test
+ * killed it.
  */
 export async function startDaemon(options = {}) {
     const { data, args = [], ready = true, limits = '', driver = [], tileMs = 0, environment = {} } = options;
@@ -126,6 +129,7 @@ export async function startDaemon(options = {}) {
     child.stderr.on('data', (bytes) => heard() && (daemon.errors += bytes));
     child.stdout.on('data', (bytes) => heard() && (daemon.output += bytes));
     let gone = false;
+    let asked = null; // the signal by which the test ended it
     let closed = false; // nobody holds its pipes any more
     daemon.exited = new Promise((done) =>
         child.on('exit', (status, signal) => {
@@ -133,7 +137,12 @@ export async function startDaemon(options = {}) {
             done({ status, signal });
         }),
     );
-    child.on('close', () => (closed = true));
+    child.on('close', (status, signal) => {
+        closed = true;
+        if (!asked) {
+            console.log(`the daemon ended with ${status ?? signal}:\n${daemon.errors.slice(-LAST_WORDS)}`);
+        }
+    });
     child.on('error', (error) => {
         gone = closed = true;
         daemon.errors += error;
@@ -150,15 +159,19 @@ export async function startDaemon(options = {}) {
     const errors = errorsOf(daemon.pid);
     daemon.worker = () => childrenOf(daemon.pid)[0];
     daemon.kill = async (signal = 'SIGKILL') => {
+        asked = signal;
         child.kill(signal);
         await untilEnded(() => gone, errors, `the daemon to end after ${signal}`);
         return daemon.exited;
     };
-    daemon.stop = async () => {
+    daemon.stop = async (expected = 0) => {
         const result = gone ? await daemon.exited : await daemon.kill('SIGTERM');
         await untilEnded(() => closed, errors, 'what the daemon started to end');
         if (!data) {
             removeDirectory(directory);
+        }
+        if (asked !== 'SIGKILL' && result.status !== expected) {
+            throw new Error(`the daemon ended with ${result.status ?? result.signal}:\n${daemon.errors}`);
         }
         return result;
     };
