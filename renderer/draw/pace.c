@@ -19,7 +19,8 @@ struct pace *pace_create(void)
 
     pace->references = 1;
     for (int i = 0; i < QUALITY_COUNT; i++) {
-        pace->doublings[PACE_ALONE][i] = pace->doublings[PACE_SHARED][i] = PACE_FIRST;
+        pace->doublings[PACE_ALONE][i] = PACE_FIRST;
+        pace->doublings[PACE_SHARED][i] = PACE_FIRST_SHARED;
     }
     return pace;
 }

@@ -41,9 +41,9 @@ static void company_makes_tiles_shorter(void **state)
     struct pace *pace = pace_create();
 
     (void)state;
-    assert_int_equal(row_of(pace, PACE_SHARED, QUALITY_STILL, MIDDLING_US), PACE_FIRST - 1);
+    assert_int_equal(row_of(pace, PACE_SHARED, QUALITY_STILL, MIDDLING_US), PACE_FIRST_SHARED - 1);
     assert_int_equal(row_of(pace, PACE_ALONE, QUALITY_STILL, MIDDLING_US), PACE_FIRST + 1);
-    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, PACE_FIRST - 1);
+    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, PACE_FIRST_SHARED - 1);
     pace_unref(pace);
 }
 
@@ -107,7 +107,7 @@ static void a_careful_picture_has_the_smallest(void **state)
     pace_be_careful(pace, QUALITY_STILL);
     assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, 0);
     assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_STILL).doublings, 0);
-    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_FINAL).doublings, PACE_FIRST);
+    assert_int_equal(pace_begin(pace, PACE_SHARED, QUALITY_FINAL).doublings, PACE_FIRST_SHARED);
     pace_unref(pace);
 }
 
