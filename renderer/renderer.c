@@ -38,17 +38,52 @@ static void read_info(struct renderer *renderer)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture);
 }
 
+static void go_without(struct renderer *renderer)
+{
+    struct renderer_info *info = &renderer->info;
+
+    egl_finish(&renderer->egl);
+    snprintf(info->name, sizeof info->name, "no graphics device");
+    info->none = info->software = true;
+}
+
+/* The one that is asked for; or none, where none is, or where the engine may draw in any case. */
+static bool open_device(struct renderer *renderer, struct error *err)
+{
+    const struct renderer_params *params = &renderer->params;
+    const bool shades = params->stage == RENDER_COMPUTE || params->stage == RENDER_FRAGMENT;
+    struct error why = {0};
+
+    if (params->device.kind == DEVICE_NONE && shades) {
+        return error_set(err, ERROR_INVALID, "", "shaders need a device, and none is to be opened");
+    }
+    if (params->device.kind == DEVICE_NONE) {
+        go_without(renderer);
+        return true;
+    }
+    if (egl_init(&renderer->egl, &params->device, &why) && gl_load(&renderer->gl, &why)) {
+        gl_debug(&renderer->gl, &renderer->sink);
+        read_info(renderer);
+        return true;
+    }
+    if (shades || params->device.kind != DEVICE_AUTO || params->device.index >= 0) {
+        *err = why;
+        return false;
+    }
+    renderer_log(renderer, "no device, so the engine draws: %s", why.message);
+    go_without(renderer);
+    return true;
+}
+
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err)
 {
     struct renderer *renderer = memory_alloc(1, sizeof *renderer);
 
     renderer->params = *params;
     renderer->sink = (struct gl_sink){params->log, params->log_data};
-    if (!egl_init(&renderer->egl, &params->device, err) || !gl_load(&renderer->gl, err)) {
+    if (!open_device(renderer, err)) {
         goto fail;
     }
-    gl_debug(&renderer->gl, &renderer->sink);
-    read_info(renderer);
     renderer_use_stage(renderer, params->stage);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
     renderer->environments = environments_create(&renderer->gl);
@@ -91,7 +126,7 @@ void renderer_use_stage(struct renderer *renderer, enum render_stage stage)
 {
     const enum render_stage best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
 
-    renderer->info.stage = stage == RENDER_AUTO ? best : stage;
+    renderer->info.stage = stage == RENDER_AUTO || renderer->info.none ? best : stage;
 }
 
 const struct renderer_info *renderer_info(const struct renderer *renderer)

@@ -51,16 +51,18 @@ struct renderer_params {
 
 struct renderer_info {
     char name[128], version[128], device[192]; /* GL_RENDERER, GL_VERSION, path to the device */
-    bool software;
-    enum render_stage stage; /* never RENDER_AUTO */
+    bool none;                                 /* no device: the engine draws */
+    bool software;                             /* or there is none */
+    enum render_stage stage;                   /* never RENDER_AUTO */
     int max_texture;
 };
 
-/* Loads GL, makes the context; NULL and `err` below GL 4.3 core or without a device. */
+/* Loads GL, makes the context; NULL and `err` below GL 4.3 core, or without a device that `params`
+ * asks for. With DEVICE_AUTO the engine draws where no device can be opened; the log says why. */
 struct renderer *renderer_create(const struct renderer_params *params, struct error *err);
 void renderer_destroy(struct renderer *renderer);
 /* Scenes that are opened or edited from now on are drawn so; RENDER_AUTO as at first. A renderer
- * of a GPU that was made for RENDER_COMPUTE has no other. */
+ * of a GPU that was made for RENDER_COMPUTE has no other; one without a device has the engine. */
 void renderer_use_stage(struct renderer *renderer, enum render_stage stage);
 const struct renderer_info *renderer_info(const struct renderer *renderer);
 /* Tries every device as renderer_create would; writes at most `max` rows, returns how many. */

@@ -99,14 +99,6 @@ static void check_gone(void *data)
 
 /* --- start --- */
 
-static const char *device_name(enum device_kind device)
-{
-    static const char *const names[] = {
-        [DEVICE_AUTO] = "auto", [DEVICE_GPU] = "gpu", [DEVICE_SOFTWARE] = "software"};
-
-    return names[device];
-}
-
 static void build_worker_argv(const struct serve_params *params, const char **argv)
 {
     size_t count = 0;
@@ -114,7 +106,7 @@ static void build_worker_argv(const struct serve_params *params, const char **ar
     argv[count++] = "fieldcast";
     argv[count++] = "worker";
     argv[count++] = "--device";
-    argv[count++] = device_name(params->device);
+    argv[count++] = device_kind_names[params->device];
     for (const char *const *more = params->worker_args;
          more && *more && count + 1 < WORKER_ARGUMENTS; more++) {
         argv[count++] = *more;

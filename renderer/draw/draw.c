@@ -87,8 +87,12 @@ void draw_destroy(struct draw *draw)
     for (int i = 0; i < DRAW_ROADS * OUTPUT_COUNT; i++) {
         pass_finish(&draw->resolve[i / OUTPUT_COUNT][i % OUTPUT_COUNT], draw->gl);
     }
-    draw_compute_finish(draw);
-    draw_fragment_finish(draw);
+    if (draw->prepared[ROAD_COMPUTE]) {
+        draw_compute_finish(draw);
+    }
+    if (draw->prepared[ROAD_FRAGMENT]) {
+        draw_fragment_finish(draw);
+    }
     free(draw);
 }
 

@@ -92,7 +92,9 @@ void environment_bind(struct environment *environment, const struct gl *gl)
 
 static void destroy(const struct environments *environments, struct environment *environment)
 {
-    environments->gl->DeleteTextures(ENGINE_SKIES, environment->textures);
+    if (environment->textures[0]) {
+        environments->gl->DeleteTextures(ENGINE_SKIES, environment->textures);
+    }
     engine_skies_finish(environment->skies);
     free(environment);
 }

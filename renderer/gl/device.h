@@ -5,10 +5,12 @@
 
 #include <stdbool.h>
 
-enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_SOFTWARE };
+enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_SOFTWARE, DEVICE_NONE, DEVICE_KINDS };
+extern const char *const device_kind_names[DEVICE_KINDS];
 
 struct device_params {
-    enum device_kind kind; /* DEVICE_GPU: an error where there is only software */
+    enum device_kind kind; /* DEVICE_GPU: an error where there is only software; DEVICE_NONE: no
+                              device is opened */
     int index;             /* among those of egl_report; -1: the best */
     const char *cache_dir; /* for Mesa's shader cache; NULL: the driver's default */
     bool debug;            /* the driver is asked for its debug output */

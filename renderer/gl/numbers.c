@@ -95,8 +95,12 @@ void numbers_update(const struct numbers *numbers, const struct gl *gl, const fl
 
 void numbers_finish(struct numbers *numbers, const struct gl *gl)
 {
-    gl->DeleteBuffers(1, &numbers->buffer);
-    gl->DeleteTextures(1, &numbers->texture);
+    if (numbers->buffer) {
+        gl->DeleteBuffers(1, &numbers->buffer);
+    }
+    if (numbers->texture) {
+        gl->DeleteTextures(1, &numbers->texture);
+    }
     *numbers = (struct numbers){0};
 }
 

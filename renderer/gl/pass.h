@@ -2,9 +2,9 @@
 /* One pass over a tile: a program made of a file of glsl/ and what that includes. Drivers' messages
  * are turned back into file and line.
  *
- * March and light are compute shaders: some GPUs give the fragment stage a small part of the chip,
- * and llvmpipe, which may find lane 0 unused in a fragment shader, fetches even what is the same
- * for all lanes lane by lane there, which made programs four times as large. */
+ * A pass is a compute shader or a fragment shader. llvmpipe may find lane 0 unused in a fragment
+ * shader, and therefore fetches even what is the same for all lanes lane by lane there: programs
+ * are four times as large. */
 #ifndef RENDERER_PASS_H
 #define RENDERER_PASS_H
 

@@ -12,6 +12,11 @@ enum bench_part { BENCH_ALL, BENCH_DRAWING, BENCH_GROWTH, BENCH_DOCUMENTS, BENCH
 /* The name of a part; NULL behind the last one. */
 const char *bench_part_name(size_t part);
 
+struct bench_effort {
+    int rounds;     /* of each measurement; the median counts */
+    int scale_down; /* divides the sides of pictures */
+};
+
 /* Sorts `count` numbers and returns their quantile (0.5: the median). */
 double bench_quantile(double *numbers, size_t count, double quantile);
 /* Adds a number, rounded to three decimals. */
@@ -24,8 +29,8 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err);
 
 /* One row for each example, or for the example `only`: times of compilation, of drawing by pass and
  * size, and of encoding. NULL and `err` when one cannot be drawn. */
-cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
-                     struct error *err);
+cJSON *bench_drawing(const struct renderer_params *params, const char *only,
+                     const struct bench_effort *effort, struct error *err);
 
 /* Opens an example with the file that it names. NULL and `err` when it is no scene. */
 struct resident *bench_open(struct renderer *renderer, const struct embedded *example,
@@ -46,13 +51,14 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
 
 /* Adds `effects_off_ratio`: the time of the example with reflections and refractions off, divided
  * by its time with materials that need neither. */
-bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
-                   cJSON *row, struct error *err);
+bool bench_effects(struct renderer *renderer, const struct embedded *example,
+                   const struct bench_effort *effort, cJSON *row, struct error *err);
 
 /* One row for each family of scenes, drawn by the engine: `ms` of a picture by the number of
  * shapes, the `ratio` of the most to the fewest shapes, and the exponent of growth without these
  * two. */
-cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err);
+cJSON *bench_growth(const struct renderer_params *params, const struct bench_effort *effort,
+                    struct error *err);
 
 /* Adds `edit_us` and `edit_p95_us`: times of edits that move each node of the scene in turn. */
 bool bench_edits(struct resident *resident, cJSON *row, struct error *err);

@@ -127,6 +127,9 @@ static bool compare_stages(struct renderer *renderer, const struct embedded *exa
 bool bench_stages(struct renderer *renderer, const struct embedded *example,
                   const struct job_desc *desc, int rounds, cJSON *row, struct error *err)
 {
+    if (renderer_info(renderer)->none) {
+        return true;
+    }
     return compare_stages(renderer, example, desc, rounds, RENDER_FRAGMENT, "fragment_ratio", row,
                           err) &&
            compare_stages(renderer, example, desc, rounds, RENDER_ENGINE, "engine_ratio", row, err);
@@ -168,11 +171,14 @@ static void switch_off(cJSON *json)
     }
 }
 
-bool bench_effects(struct renderer *renderer, const struct embedded *example, int rounds,
-                   cJSON *row, struct error *err)
+bool bench_effects(struct renderer *renderer, const struct embedded *example,
+                   const struct bench_effort *effort, cJSON *row, struct error *err)
 {
-    const struct job_desc desc = {
-        .width = 640, .height = 360, .level = QUALITY_STILL, .samples = 1, .exact = true};
+    const struct job_desc desc = {.width = 640 / effort->scale_down,
+                                  .height = 360 / effort->scale_down,
+                                  .level = QUALITY_STILL,
+                                  .samples = 1,
+                                  .exact = true};
     cJSON *off = json_parse((const char *)example->bytes, example->length, err);
     cJSON *matt = cJSON_Duplicate(off, true);
 
@@ -181,5 +187,5 @@ bool bench_effects(struct renderer *renderer, const struct embedded *example, in
     struct resident *const both[] = {open_text(renderer, off, err), open_text(renderer, matt, err)};
     cJSON_Delete(off);
     cJSON_Delete(matt);
-    return compare(renderer, both, &desc, rounds, "effects_off_ratio", row, err);
+    return compare(renderer, both, &desc, effort->rounds, "effects_off_ratio", row, err);
 }

@@ -39,7 +39,7 @@ enum { SIZE_COUNT = sizeof sizes / sizeof *sizes };
 struct task {
     const struct renderer_params *params;
     const struct embedded *example;
-    int rounds;
+    struct bench_effort effort;
 };
 
 typedef cJSON *measurement(const struct task *task, struct error *err);
@@ -168,7 +168,7 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
         return NULL;
     }
     struct renderer_params fresh = *task->params;
-    struct task in_fresh = {&fresh, task->example, 1};
+    struct task in_fresh = {&fresh, task->example, {.rounds = 1}};
     fresh.device.cache_dir = cache;
     cJSON *cold = in_child(measure_first, &in_fresh, err);
     cJSON *warm = cold ? in_child(measure_first, &in_fresh, err) : NULL;
@@ -193,8 +193,9 @@ static cJSON *measure_size(struct renderer *renderer, struct resident *resident,
     cJSON *row = cJSON_CreateObject();
     cJSON_AddNumberToObject(row, "width", desc->width);
     cJSON_AddNumberToObject(row, "height", desc->height);
-    if (!bench_medians(renderer, resident, desc, task->rounds, row, err) ||
-        !bench_stages(renderer, task->example, desc, task->rounds, row, err)) {
+    const int rounds = task->effort.rounds;
+    if (!bench_medians(renderer, resident, desc, rounds, row, err) ||
+        !bench_stages(renderer, task->example, desc, rounds, row, err)) {
         cJSON_Delete(row);
         return NULL;
     }
@@ -237,8 +238,8 @@ static bool add_pictures(struct renderer *renderer, struct resident *resident,
     struct image image = {0};
     cJSON *pictures = cJSON_AddArrayToObject(row, "pictures"), *encoders = NULL;
     for (size_t i = 0; i < SIZE_COUNT; i++) {
-        desc.width = sizes[i].width;
-        desc.height = sizes[i].height;
+        desc.width = sizes[i].width / task->effort.scale_down;
+        desc.height = sizes[i].height / task->effort.scale_down;
         cJSON *item = measure_size(renderer, resident, &desc, task, err);
         if (!item) {
             return false;
@@ -246,7 +247,7 @@ static bool add_pictures(struct renderer *renderer, struct resident *resident,
         cJSON_AddItemToArray(pictures, item);
     }
     if (renderer_render(resident, &desc, &image, err)) {
-        encoders = measure_encoders(&image, task->rounds, err);
+        encoders = measure_encoders(&image, task->effort.rounds, err);
         cJSON_AddItemToObject(row, "encoders", encoders);
     }
     image_finish(&image);
@@ -263,7 +264,7 @@ static cJSON *measure_pictures(const struct task *task, struct error *err)
         cJSON_AddStringToObject(row, "example", task->example->path);
         cJSON_AddNumberToObject(row, "nodes", (double)resident_scene(resident)->node_count);
         ok = add_pictures(renderer, resident, task, row, err) &&
-             bench_effects(renderer, task->example, task->rounds, row, err) &&
+             bench_effects(renderer, task->example, &task->effort, row, err) &&
              bench_edits(resident, row, err);
     }
     resident_destroy(resident);
@@ -301,12 +302,12 @@ cJSON *bench_renderer(const struct renderer_params *params, struct error *err)
     return in_child(describe, &(struct task){.params = params}, err);
 }
 
-cJSON *bench_drawing(const struct renderer_params *params, const char *only, int rounds,
-                     struct error *err)
+cJSON *bench_drawing(const struct renderer_params *params, const char *only,
+                     const struct bench_effort *effort, struct error *err)
 {
     cJSON *rows = cJSON_CreateArray();
     for (size_t i = 0; i < examples_count; i++) {
-        struct task task = {params, &examples_table[i], rounds};
+        struct task task = {params, &examples_table[i], *effort};
         if (only && strcmp(only, task.example->path) != 0) {
             continue;
         }

@@ -9,8 +9,8 @@
 #include "protocol/memory.h"
 #include "server/clock.h"
 
-enum { SIZES = 3, OF_A_MODEL = 10 };
-static const int sizes[SIZES] = {10, 100, 1000};
+enum { SIZES = 4, OF_A_MODEL = 10 };
+static const int sizes[SIZES] = {10, 100, 1000, 10000};
 
 struct family {
     const char *name;
@@ -126,11 +126,15 @@ static double exponent(const double ms[SIZES])
 }
 
 /* One of each size in turns; `ms`: medians. */
-static bool time_sizes(struct renderer *renderer, struct resident *const scenes[SIZES], int rounds,
-                       double ms[SIZES], struct error *err)
+static bool time_sizes(struct renderer *renderer, struct resident *const scenes[SIZES],
+                       const struct bench_effort *effort, double ms[SIZES], struct error *err)
 {
-    const struct job_desc desc = {
-        .width = 320, .height = 180, .level = QUALITY_DRAFT, .samples = 1, .exact = true};
+    const struct job_desc desc = {.width = 640 / effort->scale_down,
+                                  .height = 360 / effort->scale_down,
+                                  .level = QUALITY_DRAFT,
+                                  .samples = 1,
+                                  .exact = true};
+    const int rounds = effort->rounds;
     double *times = memory_alloc((size_t)rounds * SIZES, sizeof *times);
     bool ok = true;
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
@@ -162,8 +166,8 @@ static cJSON *row_of(const struct family *family, const double ms[SIZES])
     return row;
 }
 
-static cJSON *grow(struct renderer *renderer, const struct family *family, int rounds,
-                   struct error *err)
+static cJSON *grow(struct renderer *renderer, const struct family *family,
+                   const struct bench_effort *effort, struct error *err)
 {
     struct resident *scenes[SIZES] = {NULL};
     double ms[SIZES];
@@ -173,14 +177,15 @@ static cJSON *grow(struct renderer *renderer, const struct family *family, int r
         scenes[i] = scene ? resident_create(renderer, scene, 1) : NULL;
         ok = scenes[i] != NULL;
     }
-    ok = ok && time_sizes(renderer, scenes, rounds, ms, err);
+    ok = ok && time_sizes(renderer, scenes, effort, ms, err);
     for (int i = 0; i < SIZES; i++) {
         resident_destroy(scenes[i]);
     }
     return ok ? row_of(family, ms) : NULL;
 }
 
-cJSON *bench_growth(const struct renderer_params *params, int rounds, struct error *err)
+cJSON *bench_growth(const struct renderer_params *params, const struct bench_effort *effort,
+                    struct error *err)
 {
     struct renderer_params own = *params;
     own.stage = RENDER_ENGINE;
@@ -188,7 +193,7 @@ cJSON *bench_growth(const struct renderer_params *params, int rounds, struct err
     cJSON *rows = cJSON_CreateArray();
     bool ok = renderer != NULL;
     for (int i = 0; ok && i < FAMILIES; i++) {
-        cJSON *row = grow(renderer, &families[i], rounds, err);
+        cJSON *row = grow(renderer, &families[i], effort, err);
         ok = row != NULL;
         cJSON_AddItemToArray(rows, row);
     }

@@ -53,14 +53,15 @@ static bool add(cJSON *result, const char *name, cJSON *item)
 
 static cJSON *measure(const struct options *options, enum bench_part part, struct error *err)
 {
-    const int rounds = option_int(options, OPTION_ROUNDS);
+    const struct bench_effort effort = {.rounds = option_int(options, OPTION_ROUNDS),
+                                        .scale_down = option_int(options, OPTION_SCALE_DOWN)};
     struct renderer_params params;
     local_render_params(options, &params);
     switch (part) {
     case BENCH_DRAWING:
-        return bench_drawing(&params, option_text(options, OPTION_ONLY), rounds, err);
+        return bench_drawing(&params, option_text(options, OPTION_ONLY), &effort, err);
     case BENCH_GROWTH:
-        return bench_growth(&params, rounds, err);
+        return bench_growth(&params, &effort, err);
     case BENCH_DOCUMENTS:
         return bench_documents(err);
     case BENCH_EDITS:

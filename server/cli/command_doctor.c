@@ -88,7 +88,11 @@ static int check_drawing(const struct options *options)
                    "libgl1-mesa-dri draw without a GPU");
     }
     const struct renderer_info *info = renderer_info(renderer);
-    say(GOOD, "drawing", "%s, OpenGL %s, %s", info->name, info->version, info->device);
+    if (info->none) {
+        say(GOOD, "drawing", "by the engine, without a graphics device");
+    } else {
+        say(GOOD, "drawing", "%s, OpenGL %s, %s", info->name, info->version, info->device);
+    }
     if (info->software) {
         explain_software();
     }

@@ -36,9 +36,7 @@ static const char *level_choice(size_t index)
 
 static const char *device_choice(size_t index)
 {
-    static const char *const words[] = {
-        [DEVICE_AUTO] = "auto", [DEVICE_GPU] = "gpu", [DEVICE_SOFTWARE] = "software"};
-    return word_of(words, 3, index);
+    return word_of(device_kind_names, DEVICE_KINDS, index);
 }
 
 static const char *confine_choice(size_t index)
@@ -139,7 +137,9 @@ static const struct option_row table[OPTION_COUNT] = {
                "a part of that; `strict` does not; `off` is for drivers that need more."},
     [OPTION_DEVICE] = {"device", 0, "KIND", OPTION_CHOICE, .choice = device_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
-        .doc = "What draws. `auto` prefers a GPU; `gpu` fails where there is none."},
+        .doc = "What draws. `auto` prefers a GPU, and does without a device where none can be "
+               "opened; `gpu` fails where there is none; `none` opens no device: the engine "
+               "draws."},
     [OPTION_DEVICE_INDEX] = {"device-index", 0, "N", OPTION_INT, .fallback = "-1",
         .min = -1, .max = 255, .commands = DRAWING, .stored = true,
         .doc = "Which device, counted as `fieldcast doctor` lists them; -1 takes the best."},
@@ -215,6 +215,9 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_ROUNDS] = {"rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,
         .commands = FOR(BENCH),
         .doc = "How often each thing is measured; the median counts."},
+    [OPTION_SCALE_DOWN] = {"scale-down", 0, "N", OPTION_INT, .fallback = "1", .min = 1, .max = 16,
+        .commands = FOR(BENCH),
+        .doc = "Divides the sides of pictures, 640x360 and 1280x720, where drawing is slow."},
     [OPTION_ONLY] = {"only", 0, "EXAMPLE", OPTION_TEXT, .commands = FOR(BENCH),
         .doc = "Measure this example scene alone."},
     [OPTION_PART] = {"part", 0, "WORD", OPTION_CHOICE, .choice = bench_part_name,

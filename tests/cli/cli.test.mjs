@@ -430,7 +430,7 @@ test('doctor says what fails', async () => {
 });
 
 test('bench prints JSON of drawing, compiling, encoding and storing', () => {
-    const args = ['bench', '--only', 'first-steps', '--rounds', '1', '--data', 'bench'];
+    const args = ['bench', '--only', 'first-steps', '--rounds', '1', '--scale-down', '8', '--data', 'bench'];
     const { renderer, drawing, documents, edits } = JSON.parse(succeed(args).out);
     assert.ok(renderer.name);
     assert.equal(drawing.length, 1);
@@ -439,8 +439,8 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
     assert.deepEqual(
         row.pictures.map(({ width, height }) => [width, height]),
         [
-            [640, 360],
-            [1280, 720],
+            [80, 45],
+            [160, 90],
         ],
     );
     for (const { ms, stages_ms: stages, engine_ratio: engine, fragment_ratio: fragment } of row.pictures) {
@@ -484,6 +484,23 @@ test('a signal from the terminal, which reaches the worker too, drains', async (
     assert.equal(await ended, 0, log);
     assert.match(log, /draining/);
     assert.doesNotMatch(log, /too long/);
+});
+
+test('without a graphics device the engine draws, unless one is asked for', () => {
+    const args = ['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL];
+    const drawn = succeed([...args, '--stage', 'engine'], { binary: true }).out;
+    assert.ok(succeed([...args, '--device', 'none'], { binary: true }).out.equals(drawn));
+    const env = { __EGL_VENDOR_LIBRARY_FILENAMES: '/dev/null' }; // no vendor's library of EGL
+    const missing = succeed(args, { binary: true, env });
+    assert.ok(missing.out.equals(drawn));
+    assert.match(missing.err, /no device, so the engine draws: /);
+    assert.match(succeed(['doctor'], { env }).out, /by the engine, without a graphics device/);
+    for (const asked of [['--device', 'gpu'], ['--device', 'software'], ['--device-index', '0'], ['--stage', 'compute']]) {
+        assert.equal(run([...args, ...asked], { env }).status, 1, asked.join(' '));
+    }
+    const shaders = run([...args, '--device', 'none', '--stage', 'fragment']);
+    assert.equal(shaders.status, 1);
+    assert.match(shaders.err, /shaders need a device, and none is to be opened/);
 });
 
 test('serve refuses a token file that is none', () => {

@@ -157,7 +157,7 @@ static void test_values_are_checked(void **state)
     assert_false(READ("serve", "--data", ""));
     ASSERT_REFUSED("--data", "is empty");
     assert_false(READ("serve", "--device", "cpu"));
-    ASSERT_REFUSED("--device", "'cpu' is none of auto, gpu, software");
+    ASSERT_REFUSED("--device", "'cpu' is none of auto, gpu, software, none");
     assert_false(READ("render", "--camera-position", "1,2", "a.json"));
     ASSERT_REFUSED("--camera-position", "needs three numbers, as 0,1.5,6");
     assert_false(READ("render", "--camera-position", "1,2,3,4", "a.json"));
