@@ -111,7 +111,7 @@ static const struct message_type server_messages[] = {
         {.param = {"key", PARAM_TEXT,
           .doc = "Secret of this client: who says its name has to show it."},
          .required = true},
-        {.param = {"renderer", .doc = "name, version, software, device."}, .required = true,
+        {.param = {"renderer", .doc = "name, version, software, stage, device."}, .required = true,
          .kind = MEMBER_OBJECT},
         {.param = {"last_edit", COUNT, .doc = "Newest edit of this client in the log; 0: none."},
          .required = true},

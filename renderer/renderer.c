@@ -38,6 +38,13 @@ static void read_info(struct renderer *renderer)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture);
 }
 
+const char *const render_stage_names[RENDER_STAGES] = {
+    [RENDER_AUTO] = "auto",
+    [RENDER_COMPUTE] = "compute",
+    [RENDER_FRAGMENT] = "fragment",
+    [RENDER_ENGINE] = "engine",
+};
+
 static void go_without(struct renderer *renderer)
 {
     struct renderer_info *info = &renderer->info;

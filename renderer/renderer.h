@@ -29,7 +29,9 @@ enum render_stage {
     RENDER_COMPUTE,  /* compute shaders of the device */
     RENDER_FRAGMENT, /* fragment shaders of the device */
     RENDER_ENGINE,   /* vectors of the processors (renderer/engine) */
+    RENDER_STAGES,
 };
+extern const char *const render_stage_names[RENDER_STAGES];
 
 struct renderer_params {
     struct device_params device;
@@ -112,7 +114,7 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
 /* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */
-const char *renderer_stage_name(size_t stage);
+const char *renderer_pass_name(size_t stage);
 /* The GLSL of one of them for a scene, as a GPU gets it. Any thread, no renderer. Caller frees;
  * NULL and `err` where the scene cannot be drawn. */
 char *renderer_shader(const struct scene *scene, size_t stage, struct error *err);

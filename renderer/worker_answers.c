@@ -107,6 +107,7 @@ void worker_send_ready(struct worker *w)
                                               .version = info->version,
                                               .device = info->device,
                                               .software = info->software,
+                                              .stage = info->stage,
                                               .files = w->confined.files,
                                               .calls = w->confined.calls,
                                               .why = w->confined.why}});

@@ -74,8 +74,8 @@ static const struct packet_row to_worker[TO_WORKER_COUNT] = {
 static const struct packet_row to_front[TO_FRONT_COUNT] = {
     [TO_FRONT_READY] = {false,
                         MEMBERS(M(TEXT, ready.name), M(TEXT, ready.version), M(TEXT, ready.device),
-                                M(BOOL, ready.software), M(BOOL, ready.files), M(BOOL, ready.calls),
-                                M(TEXT, ready.why))},
+                                M(BOOL, ready.software), M(U32, ready.stage), M(BOOL, ready.files),
+                                M(BOOL, ready.calls), M(TEXT, ready.why))},
     [TO_FRONT_SHOWN] = {false, MEMBERS(STATE)},
     [TO_FRONT_BROKEN] = {false, MEMBERS(STATE, M(ERROR, state.error), M(HASH, state.shape))},
     [TO_FRONT_WARNED] = {false, MEMBERS(STATE, M(INT, state.warning), M(ERROR, state.error))},

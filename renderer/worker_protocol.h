@@ -110,6 +110,7 @@ struct packet_job {
 struct packet_ready {
     const char *name, *version, *device; /* struct renderer_info */
     bool software;
+    uint32_t stage;    /* enum render_stage */
     bool files, calls; /* struct confinement */
     const char *why;
 };

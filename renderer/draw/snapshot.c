@@ -57,7 +57,7 @@ static struct program_source source_of(const struct field *field, const struct s
     };
 }
 
-const char *renderer_stage_name(size_t stage)
+const char *renderer_pass_name(size_t stage)
 {
     return stage < PROGRAM_STAGES ? program_stage_names[stage] : NULL;
 }

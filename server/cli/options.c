@@ -48,11 +48,7 @@ static const char *confine_choice(size_t index)
 
 static const char *stage_choice(size_t index)
 {
-    static const char *const words[] = {[RENDER_AUTO] = "auto",
-                                        [RENDER_COMPUTE] = "compute",
-                                        [RENDER_FRAGMENT] = "fragment",
-                                        [RENDER_ENGINE] = "engine"};
-    return word_of(words, sizeof words / sizeof words[0], index);
+    return word_of(render_stage_names, RENDER_STAGES, index);
 }
 
 static const char *switch_choice(size_t index)
@@ -226,7 +222,7 @@ static const struct option_row table[OPTION_COUNT] = {
                "documents, edits."},
     [OPTION_REFERENCE] = {"reference", 0, NULL, OPTION_FLAG, .commands = FOR(SCHEMA),
         .doc = "Print the reference page, in Markdown, instead."},
-    [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_stage_name,
+    [OPTION_PASS] = {"pass", 0, "NAME", OPTION_CHOICE, .choice = renderer_pass_name,
         .fallback = "march", .commands = FOR(SHADER),
         .doc = "Which pass: where rays meet the scene, its materials, its shadows, its volumes; of "
                "`--stage fragment`: where rays start, a whole sample."},

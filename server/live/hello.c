@@ -63,6 +63,7 @@ static void send_welcome(struct session *session, const char *key)
     cJSON_AddStringToObject(renderer, "name", info->name);
     cJSON_AddStringToObject(renderer, "version", info->version);
     cJSON_AddBoolToObject(renderer, "software", info->software);
+    cJSON_AddStringToObject(renderer, "stage", render_stage_names[info->stage]);
     cJSON_AddStringToObject(renderer, "device", info->device);
     cJSON_AddNumberToObject(welcome, "last_edit", (double)session->author->edit);
     cJSON_AddNumberToObject(welcome, "undo", (double)undo);

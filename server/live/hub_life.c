@@ -56,7 +56,9 @@ static void on_ready(void *data, const struct packet_ready *ready)
     snprintf(info->version, sizeof info->version, "%s", ready->version);
     snprintf(info->device, sizeof info->device, "%s", ready->device);
     info->software = ready->software;
-    log_info("worker", "ready: %s%s", info->name, info->software ? " (software)" : "");
+    info->stage = ready->stage < RENDER_STAGES ? (enum render_stage)ready->stage : RENDER_AUTO;
+    log_info("worker", "ready: %s%s, stage %s", info->name, info->software ? " (software)" : "",
+             render_stage_names[info->stage]);
     tell_confinement(hub, ready);
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->told_lost) {

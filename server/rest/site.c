@@ -330,6 +330,7 @@ void site_ready(struct request *request)
     cJSON_AddStringToObject(json, "status", "ready");
     cJSON_AddStringToObject(json, "renderer", info.name);
     cJSON_AddBoolToObject(json, "software", info.software);
+    cJSON_AddStringToObject(json, "stage", render_stage_names[info.stage]);
     request_reply_json(request, 200, json);
 }
 

@@ -429,6 +429,7 @@ describe('frames', () => {
     test('numbers change nothing that would have to be compiled', async (t) => {
         const compiling = await startDaemon({ driver: 'null', args: ['--stage', 'compute'] });
         t.after(() => compiling.stop());
+        assert.equal((await ask(compiling, 'GET', '/readyz')).stage, 'compute');
         await ask(compiling, 'POST', `/v1/scenes?id=${scene}`, DOCUMENT);
         const live = await Live.open(compiling, scene);
         live.look();

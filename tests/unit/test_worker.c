@@ -207,6 +207,7 @@ static void test_ready(void **state)
     expect(TO_FRONT_READY);
     assert_true(strlen(packet.ready.name) > 0);
     assert_true(strlen(packet.ready.device) > 0);
+    assert_int_equal(packet.ready.stage, packet.ready.software ? RENDER_ENGINE : RENDER_COMPUTE);
 }
 
 /* The same document, drawn in this process. */

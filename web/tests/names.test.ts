@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Names of the schema in the words of the page. */
 import { expect, test } from "vitest";
-import { outputTitle, typeTitle, words } from "../src/ui/names.ts";
+import { drawnBy, outputTitle, typeTitle, words } from "../src/ui/names.ts";
 
 test("names are words, spelled as the page's texts are", () => {
     expect(words("base_color")).toBe("base colour");
@@ -10,4 +10,11 @@ test("names are words, spelled as the page's texts are", () => {
     expect(typeTitle("floor_color")).toBe("Floor colour");
     expect(outputTitle("color")).toBe("Colour");
     expect(outputTitle("node_id")).toBe("Node id");
+});
+
+test("what draws is the device, but for the engine, which needs none", () => {
+    const name = "llvmpipe (LLVM 15)";
+    expect(drawnBy({ name, stage: "compute" })).toBe(name);
+    expect(drawnBy({ name, stage: "fragment" })).toBe(name);
+    expect(drawnBy({ name, stage: "engine" })).toBe("the processors of the server");
 });

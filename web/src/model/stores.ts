@@ -56,6 +56,8 @@ export interface RendererInfo {
     readonly name: string;
     readonly version: string;
     readonly software: boolean;
+    /* What computes pictures. */
+    readonly stage: "engine" | "compute" | "fragment";
     readonly device: string;
 }
 

@@ -3,6 +3,8 @@
 import { nodeLabel, type SceneDocument } from "../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import type { Param } from "../model/schema.ts";
+import type { RendererInfo } from "../model/stores.ts";
+import { t } from "./texts.ts";
 
 const spoken: Record<string, string> = {
     fov: "field of view",
@@ -69,3 +71,7 @@ export function typeTitle(type: string): string {
     const text = words(type);
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
+
+/* What draws: a device, or the processors where the engine uses none. */
+export const drawnBy = ({ name, stage }: Pick<RendererInfo, "name" | "stage">): string =>
+    stage === "engine" ? t("state.engine") : name;

@@ -293,7 +293,8 @@ const texts = {
     "state.broken.one": "code has an error",
     "state.where": "show where",
     "state.software": "software renderer",
-    "state.softwareDoc": "No GPU is in use: {name}. Pictures are right but slow.",
+    "state.softwareDoc": "No GPU is in use. Pictures are drawn by {name}.",
+    "state.engine": "the processors of the server",
 
     "output.menu": "Output shown: {name}",
     "output.back": "Back to the colours",

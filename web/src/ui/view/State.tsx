@@ -8,6 +8,7 @@ import { type Pill, pillOf } from "../../model/pill.ts";
 import { brokenCode, isGivenUp, TOO_SLOW } from "../../model/problems.ts";
 import type { Compiling } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
+import { drawnBy } from "../names.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
 import { Tip } from "../widgets/Tip.tsx";
@@ -118,7 +119,7 @@ export function SoftwareChip() {
         return null;
     }
     return (
-        <Tip text={t("state.softwareDoc", { name: renderer.name })} side="top">
+        <Tip text={t("state.softwareDoc", { name: drawnBy(renderer) })} side="top">
             <button type="button" className="glass pill pill-amber" data-testid="software">
                 <Cpu size={14} aria-hidden="true" />
                 {t("state.software")}

@@ -3,7 +3,7 @@
 import { Gauge } from "lucide-react";
 import type { Schema } from "../../model/schema.ts";
 import type { LinkState, Statistics as Numbers } from "../../model/stores.ts";
-import { words } from "../names.ts";
+import { drawnBy, words } from "../names.ts";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
@@ -152,7 +152,7 @@ function facts(link: LinkState, numbers: Numbers): (readonly [TextKey, string])[
         ["stats.size", `${frame.width} × ${frame.height}`],
         ["stats.revision", String(frame.revision)],
         ["stats.dropped", String(numbers.dropped)],
-        ["stats.renderer", renderer?.name ?? "–"],
+        ["stats.renderer", renderer === null ? "–" : drawnBy(renderer)],
     ];
 }
 
