@@ -653,13 +653,24 @@ LANES_INLINE unsigned unsigned_of_bits(float x)
 /* --- memory --- */
 
 /* Where the mask is off: 0. */
-LANES_INLINE vf lanes_gather(const float *from, vi at, vb m)
+LANES_INLINE vf lanes_gather(const void *from, vi at, vb m)
 {
+#if defined __AVX512F__ && LANES == 16
+    return (vf)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), _mm512_movepi32_mask((__m512i)m),
+                                        (__m512i)at, from, 4);
+#elif defined __AVX2__ && LANES == 8
+    return (vf)_mm256_mask_i32gather_ps(_mm256_setzero_ps(), from, (__m256i)at, (__m256)m, 4);
+#else
     vf out = vf_zero;
     for (int i = 0; i < LANES; i++) {
-        out[i] = m[i] ? from[at[i]] : 0.0f;
+        if (m[i]) {
+            float x;
+            memcpy(&x, (const char *)from + 4 * (ptrdiff_t)at[i], sizeof x);
+            out[i] = x;
+        }
     }
     return out;
+#endif
 }
 /* Each lane's own element of an array of vectors. */
 LANES_INLINE vf lanes_pick(const vf *from, vi at, vb m)

@@ -1,38 +1,56 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures of environments as shaders read them, and what a tile has of its pixels. */
 
-typedef float texel4 __attribute__((vector_size(16)));
-typedef uint32_t bits4 __attribute__((vector_size(16)));
-typedef uint16_t halves4 __attribute__((vector_size(8), aligned(2)));
-
-/* Of one level. It goes around, and ends at the poles. */
-static texel4 texel(const uint16_t *texels, int width, int height, int x, int y)
+static vi within(vi x, int n)
 {
-    x = x >= 0 && x < width ? x : ((x % width) + width) % width;
-    y = y < 0 ? 0 : y >= height ? height - 1 : y;
-    const halves4 halves = *(const halves4 *)(texels + 4 * ((size_t)y * (size_t)width + (size_t)x));
-    const bits4 bits = __builtin_convertvector(halves, bits4) << 13;
-    return (texel4)bits * 0x1p112f; /* as half_value() does */
+    x = vi_select(x < 0, vi_zero, x);
+    return vi_select(x >= n, vi_all(n - 1), x);
 }
 
-static texel4 mix4(texel4 a, texel4 b, float part)
+/* The remainder, 0 <= x < n. */
+static vi around(vi x, int n)
+{
+    if (!lanes_any((x < 0) | (x >= n))) {
+        return x;
+    }
+    x -= vi_of_f(vf_floor(vf_of_i(x) / (float)n)) * n;
+    x = vi_select(x < 0, x + n, x);
+    x = vi_select(x >= n, x - n, x);
+    return within(x, n); /* of what is no number, too */
+}
+
+/* Texels of one level, of four halves each. It goes around, and ends at the poles. */
+static void texels(const uint16_t *from, int width, int height, vb m, vi x, vi y, vf out[4])
+{
+    const vi at = 2 * (within(y, height) * width + around(x, width));
+    for (int k = 0; k < 4; k += 2) {
+        const vu two = (vu)lanes_gather(from + k, at, m);
+        out[k] = (vf)((two & 0xffffu) << 13) * 0x1p112f; /* as half_value() does */
+        out[k + 1] = (vf)((two >> 16) << 13) * 0x1p112f;
+    }
+}
+
+static vf mix(vf a, vf b, vf part)
 {
     return a * (1 - part) + b * part;
 }
 
-static texel4 sample_level(const struct engine_sky *sky, int level, float u, float v)
+static void sample_level(const struct engine_sky *sky, int level, vb m, vf u, vf v, vf out[4])
 {
-    const uint16_t *texels = sky->texels[level];
-    const int width = sky->width >> level > 1 ? sky->width >> level : 1;
-    const int height = sky->height >> level > 1 ? sky->height >> level : 1;
-    const float x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
-    const int left = (int)floorf(x), top = (int)floorf(y);
-    const float s = x - (float)left, t = y - (float)top;
-    return mix4(mix4(texel(texels, width, height, left, top),
-                     texel(texels, width, height, left + 1, top), s),
-                mix4(texel(texels, width, height, left, top + 1),
-                     texel(texels, width, height, left + 1, top + 1), s),
-                t);
+    const uint16_t *from = sky->texels[level];
+    const int width = engine_sky_side(sky->width, level);
+    const int height = engine_sky_side(sky->height, level);
+    const vf x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
+    const vf left = vf_floor(x), top = vf_floor(y), s = x - left, t = y - top;
+    const vi column = vi_of_f(left), row = vi_of_f(top);
+    vf above[2][4], below[2][4];
+    for (int i = 0; i < 2; i++) {
+        texels(from, width, height, m, column + i, row, above[i]);
+        texels(from, width, height, m, column + i, row + 1, below[i]);
+    }
+    for (int k = 0; k < 4; k++) {
+        out[k] = mix(mix(above[0][k], above[1][k], s), mix(below[0][k], below[1][k], s), t);
+    }
 }
 
 static const struct engine_sky *sky_of(const struct lanes *c, int unit)
@@ -45,22 +63,26 @@ static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level,
     const struct engine_sky *sky = sky_of(c, unit);
     /* What is no number is the first level. */
     const vf at = vf_min(vf_max(vf_zero, level), vf_all((float)(sky->levels - 1)));
+    const vi first = vi_of_f(at);
+    const vf part = at - vf_of_i(first);
     for (int k = 0; k < 4; k++) {
         out[k] = vf_zero;
     }
-    for (int i = 0; i < LANES; i++) {
-        if (!m[i]) {
-            continue;
-        }
-        const int first = (int)at[i];
-        const float part = at[i] - (float)first;
-        texel4 color = sample_level(sky, first, u[i], v[i]);
-        if (part > 0) {
-            color = mix4(color, sample_level(sky, first + 1, u[i], v[i]), part);
+    while (lanes_any(m)) {
+        const int level = first[lanes_first(m)];
+        const vb same = m & (first == level), between = same & (part > 0);
+        vf here[4], next[4];
+        sample_level(sky, level, same, u, v, here);
+        if (lanes_any(between)) {
+            sample_level(sky, level + 1, between, u, v, next);
+            for (int k = 0; k < 4; k++) {
+                here[k] = vf_select(between, mix(here[k], next[k], part), here[k]);
+            }
         }
         for (int k = 0; k < 4; k++) {
-            out[k][i] = color[k];
+            out[k] = vf_select(same, here[k], out[k]);
         }
+        m &= ~same;
     }
 }
 
