@@ -54,7 +54,7 @@ struct renderer_params {
 struct renderer_info {
     char name[128], version[128], device[192]; /* GL_RENDERER, GL_VERSION, path to the device */
     bool none;                                 /* no device: the engine draws */
-    bool software;                             /* or there is none */
+    bool software;                             /* also without a device */
     enum render_stage stage;                   /* never RENDER_AUTO */
     int max_texture;
 };
@@ -114,10 +114,10 @@ void renderer_asset(struct renderer *renderer, const char *id, const void *bytes
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err);
 
 /* Names of the passes whose GLSL depends on the scene, "march" first; NULL: there are no more. */
-const char *renderer_pass_name(size_t stage);
+const char *renderer_pass_name(size_t pass);
 /* The GLSL of one of them for a scene, as a GPU gets it. Any thread, no renderer. Caller frees;
  * NULL and `err` where the scene cannot be drawn. */
-char *renderer_shader(const struct scene *scene, size_t stage, struct error *err);
+char *renderer_shader(const struct scene *scene, size_t pass, struct error *err);
 
 /* --- scenes --- */
 

@@ -57,12 +57,12 @@ static struct program_source source_of(const struct field *field, const struct s
     };
 }
 
-const char *renderer_pass_name(size_t stage)
+const char *renderer_pass_name(size_t pass)
 {
-    return stage < PROGRAM_STAGES ? program_stage_names[stage] : NULL;
+    return pass < PROGRAM_STAGES ? program_stage_names[pass] : NULL;
 }
 
-char *renderer_shader(const struct scene *scene, size_t stage, struct error *err)
+char *renderer_shader(const struct scene *scene, size_t pass, struct error *err)
 {
     struct field *field = field_compile(scene, err);
 
@@ -71,8 +71,8 @@ char *renderer_shader(const struct scene *scene, size_t stage, struct error *err
     }
     char *map = shader_map(field), *surface = shader_surface(field);
     const struct program_source source =
-        source_of(field, scene, stage >= STAGE_STARTS, map, surface);
-    char *text = program_text(&source, (enum program_stage)stage, err);
+        source_of(field, scene, pass >= STAGE_STARTS, map, surface);
+    char *text = program_text(&source, (enum program_stage)pass, err);
     free(map);
     free(surface);
     field_unref(field);

@@ -55,8 +55,8 @@ bool bench_effects(struct renderer *renderer, const struct embedded *example,
                    const struct bench_effort *effort, cJSON *row, struct error *err);
 
 /* One row for each family of scenes, drawn by the engine: `ms` of a picture by the number of
- * shapes, the `ratio` of the most to the fewest shapes, and the exponent of growth without these
- * two. */
+ * shapes, the `ratio` of the most to the fewest shapes, and the exponent of growth from 100
+ * shapes on. */
 cJSON *bench_growth(const struct renderer_params *params, const struct bench_effort *effort,
                     struct error *err);
 

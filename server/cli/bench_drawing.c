@@ -168,7 +168,8 @@ static cJSON *measure_compiling(const struct task *task, struct error *err)
         return NULL;
     }
     struct renderer_params fresh = *task->params;
-    struct task in_fresh = {&fresh, task->example, {.rounds = 1}};
+    struct task in_fresh = *task;
+    in_fresh.params = &fresh;
     fresh.device.cache_dir = cache;
     cJSON *cold = in_child(measure_first, &in_fresh, err);
     cJSON *warm = cold ? in_child(measure_first, &in_fresh, err) : NULL;

@@ -524,6 +524,6 @@ test('without free descriptors there is still an answer', async () => {
             return answer?.status === 200;
         }, 'recovery');
     } finally {
-        assert.equal((await tight.stop()).status, 0);
+        await tight.stop();
     }
 });

@@ -57,7 +57,7 @@ test('SIGTERM in the middle of editing', async (t) => {
     idle.destroy();
     const again = await startDaemon({ data, ready: false, driver: 'null' });
     assert.equal((await ask(again, 'GET', '/v1/scenes')).scenes[0].revision, 1 + applied);
-    assert.equal((await again.stop()).status, 0);
+    await again.stop();
     t.diagnostic(`ended after ${took} ms, ${applied} edits applied and kept`);
 });
 

@@ -106,7 +106,7 @@ const LAST_WORDS = 6000; // characters of its log, shown where it ended by itsel
  * Resolves when the daemon listens. `ready: true` waits for the render process too. The data
  * directory is a fresh one, removed by stop(), unless one is given. `driver: 'null'` draws nothing
  * that anybody could look at, at once or with `tileMs` for each tile; several are loaded in front of
- * each other. stop(status) throws where the daemon ended with another status, unless the test
+ * each other. stop(status = 0) throws where the daemon ended with another status, unless the test
  * killed it.
  */
 export async function startDaemon(options = {}) {
