@@ -254,6 +254,21 @@ test('what is too slow is told as that, with its place by name', async () => {
     assert.equal(await panel().locator('.cm-lint-marker-error').count(), 0, 'no line is marked');
 });
 
+test('on a phone the message lies over neither grip nor tabs of the sheet with the code', async () => {
+    const document = structuredClone(SHADED);
+    document.primitives = { blob: { params: [], code: GOOD.replace('radius', '1.0') } };
+    document.root.children = [{ id: 'blob', type: 'field', params: { primitive: 'blob' } }];
+    page = await openScreen(stage, { scene: document, tampered: true }, { theme: 'dark', width: 390, height: 844, touch: true });
+    page.tell({ type: 'notice', level: 'error', code: 'too_slow', place: '/primitives/blob/code', measured: 4100, limit: 2000, message: 'This code took too long.' });
+    await page.getByTestId('broken').click();
+    await panel().waitFor();
+    const message = await page.locator('.notice').boundingBox();
+    for (const part of ['.sheet-grip', '.sheet .tabs']) {
+        const { y, height } = await page.locator(part).boundingBox();
+        assert.ok(message.y >= y + height || message.y + message.height <= y, `${part} at ${y} + ${height}, the message at ${message.y} + ${message.height}`);
+    }
+});
+
 test('a server that takes no code says so', async () => {
     const strict = await openStage({ args: ['--code', 'off'] });
     try {

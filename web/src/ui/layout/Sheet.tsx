@@ -79,6 +79,7 @@ export function Sheet({ picture }: { picture: ReactNode }) {
             </div>
             <div
                 className="sheet"
+                data-tall={height === 2 || undefined}
                 onPointerDownCapture={() => {
                     touched.current = "sheet";
                 }}
