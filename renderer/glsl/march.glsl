@@ -52,8 +52,9 @@ float curvature_of(float mean, vec2 wave, float e, float rounding)
  * touch is taken back (Ban and Valasek: Automatic Step Size Relaxation in Sphere Tracing,
  * Eurographics 2023 short papers). No step leads beyond where a line through the last two distances
  * meets the surface (secant method). Where a step ends inside, the line between its ends tells
- * where it crossed. A ray that runs out of steps has hit when it is within some footprints. A cone
- * instead goes as far as the sphere holds it, and ends where that is little.
+ * where it crossed. A ray that runs out of steps has hit when it is within some footprints, or when
+ * the field has fallen evenly, as along a plane: then it is where the line leads. A cone instead
+ * goes as far as the sphere holds it, and ends where that is little.
  *
  * Then: the normal, the gradient by four points of a tetrahedron (Quilez: normals for an SDF);
  * their sum is 4 e times as long as the gradient. Where the mean of the four is not the distance in
@@ -76,7 +77,7 @@ Hit march(Ray ray, float start, float cone, int most)
     float ahead = 0.0; /* length of the step being tried */
     float radius = 0.0, root = 0.0, slope = -1.0, grade = -1.0;
     int left = end >= t ? (ray.inside ? 2 * most : most) : 0, taken = 0;
-    bool hit = false, solid = false, early = false;
+    bool hit = false, solid = false, early = false, straight = false;
     vec3 base = ray.origin, gradient = vec3(0.0);
     float e = 0.0, rest = 0.0, free = t, out_there = FAR;
     float level = 0.0, steep = 1.0;
@@ -117,6 +118,7 @@ Hit march(Ray ray, float start, float cone, int most)
             d = min(d, out_there);
             float last = ahead, change = d - radius;
             bool even = single && abs(change - grade * last) < 0.1 * last;
+            straight = single && !fresh && abs(change - grade * last) < 0.01 * abs(change);
             bool back = last > radius + abs(d) + max(even ? GAP * print : 0.0, 2.0 * grain);
             bool inside = single && !back && d < 0.0 && !fresh, stay = back || inside;
             grade = back || fresh ? -1.0 : change / last;
@@ -142,6 +144,7 @@ Hit march(Ray ray, float start, float cone, int most)
         }
         if (round == 0) {
             free = t;
+            hit = hit || (straight && grade < 0.0);
             t += hit ? root : max(radius, 0.0);
             hit = (hit || root < 3.0 * footprint(ray, t)) && t <= end && left > 0;
             base = ray.origin + ray.direction * (hit ? t : 0.0);
