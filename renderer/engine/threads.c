@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A thread for each processor takes small tiles of the one that is asked for. */
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@ struct crew {
     int side, across, count; /* of small tiles; those in a row, and all of them */
     atomic_int next_tile, next_thread;
     atomic_uint_least64_t rays;
+    cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
 };
 
 static struct hand *hand_create(struct crew *crew)
@@ -72,7 +74,7 @@ static void *take_tiles(void *argument)
 }
 
 /* As large as leaves a part of the tile to each thread. */
-static void divide(struct crew *crew, long threads)
+static void divide(struct crew *crew, int threads)
 {
     const struct engine_rect tile = crew->work->tile;
     crew->side = 2 * TILE;
@@ -83,21 +85,57 @@ static void divide(struct crew *crew, long threads)
     } while (crew->side > TILE_LEAST && crew->count < 2 * threads);
 }
 
+static void *help(void *argument)
+{
+    struct crew *crew = argument;
+    sched_setaffinity(0, sizeof crew->anywhere, &crew->anywhere);
+    return take_tiles(crew);
+}
+
+/* How many threads may run at once. */
+static int find_processors(struct crew *crew)
+{
+    if (sched_getaffinity(0, sizeof crew->anywhere, &crew->anywhere) != 0) {
+        CPU_ZERO(&crew->anywhere); /* more than it has room for */
+        CPU_ZERO(&crew->elsewhere);
+        return (int)sysconf(_SC_NPROCESSORS_ONLN);
+    }
+    const int here = sched_getcpu();
+    crew->elsewhere = crew->anywhere;
+    if (here >= 0) {
+        CPU_CLR(here, &crew->elsewhere);
+    }
+    return CPU_COUNT(&crew->anywhere);
+}
+
+/* Threads begin elsewhere and then run anywhere: Linux may start a thread on its creator's
+ * processor, and let it wait there for 10 ms while another processor is idle. */
+static int start_helpers(struct crew *crew, pthread_t *threads, int most)
+{
+    pthread_attr_t attributes;
+    int started = 0;
+    pthread_attr_init(&attributes);
+    if (CPU_COUNT(&crew->elsewhere) > 0) {
+        pthread_attr_setaffinity_np(&attributes, sizeof crew->elsewhere, &crew->elsewhere);
+    }
+    while (started < most && pthread_create(&threads[started], &attributes, help, crew) == 0) {
+        started++;
+    }
+    pthread_attr_destroy(&attributes);
+    return started;
+}
+
 static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *work)
 {
     struct crew crew = {.canvas = canvas, .work = work};
     pthread_t threads[ENGINE_THREADS];
-    const int asked = canvas->picture.program->threads;
-    const long most = asked > 0 ? asked : sysconf(_SC_NPROCESSORS_ONLN);
-    int started = 0;
+    const int processors = find_processors(&crew), asked = canvas->picture.program->threads;
+    const int most = smaller(asked > 0 ? asked : processors, ENGINE_THREADS);
     divide(&crew, most);
     atomic_init(&crew.next_tile, 0);
     atomic_init(&crew.next_thread, 0);
     atomic_init(&crew.rays, 0);
-    while (started + 1 < most && started + 1 < crew.count && started < ENGINE_THREADS - 1 &&
-           pthread_create(&threads[started], NULL, take_tiles, &crew) == 0) {
-        started++;
-    }
+    int started = start_helpers(&crew, threads, smaller(most, crew.count) - 1);
     take_tiles(&crew);
     while (started > 0) {
         pthread_join(threads[--started], NULL);
