@@ -37,44 +37,63 @@ struct turn *turns_join(struct turns *turns, const char *account)
     if (!*at) {
         *at = memory_alloc(1, sizeof **at);
         (*at)->account = memory_text(account);
+        turns->accounts++;
     }
     (*at)->pictures++;
     return *at;
 }
 
-static bool anybody_waits(const struct turns *turns)
+/* The least that an account begins with. */
+static uint64_t first_us(const struct turns *turns)
 {
-    const struct turn *turn = turns->first;
-
-    while (turn && turn->pictures == 0) {
-        turn = turn->next;
-    }
-    return turn != NULL;
+    return turns->now_us > TURNS_CREDIT_US ? turns->now_us - TURNS_CREDIT_US : 0;
 }
 
-/* Whoever is ahead of others is remembered until they are there too. */
-static void remove_old(struct turns *turns)
+static void forget(struct turns *turns, struct turn **at)
 {
-    const bool waited_for = anybody_waits(turns);
+    struct turn *turn = *at;
+
+    *at = turn->next;
+    turns->accounts--;
+    turns->last = turns->last == turn ? NULL : turns->last;
+    free(turn->account);
+    free(turn);
+}
+
+/* Accounts without pictures are remembered while they have more than a new one; not too many. */
+static void forget_some(struct turns *turns)
+{
+    struct turn **least = NULL;
+    int busy = 0;
 
     for (struct turn **at = &turns->first; *at;) {
-        struct turn *turn = *at;
-
-        if (turn->pictures > 0 || (waited_for && turn->us > turns->now_us)) {
-            at = &turn->next;
+        if ((*at)->pictures == 0 && (*at)->us <= first_us(turns)) {
+            forget(turns, at);
             continue;
         }
-        *at = turn->next;
-        turns->last = turns->last == turn ? NULL : turns->last;
-        free(turn->account);
-        free(turn);
+        if ((*at)->pictures > 0) {
+            busy++;
+        } else if (!least || (*at)->us < (*least)->us) {
+            least = at;
+        }
+        at = &(*at)->next;
+    }
+    if (turns->accounts - busy > TURNS_REMEMBERED) {
+        forget(turns, least);
     }
 }
 
 void turns_leave(struct turns *turns, struct turn *turn)
 {
     turn->pictures--;
-    remove_old(turns);
+    forget_some(turns);
+}
+
+void turns_finish(struct turns *turns)
+{
+    while (turns->first) {
+        forget(turns, &turns->first);
+    }
 }
 
 /* --- choosing --- */
@@ -97,8 +116,8 @@ void turns_offer(struct turns *turns, struct turn *turn, const struct turns_offe
     const bool oldest = turn->steps % TURNS_OLDEST_EVERY == TURNS_OLDEST_EVERY - 1;
     const struct turns_offer wanted = {clamped(offer->priority), offer->pixels, offer->picture};
 
-    if (turn->round + 1 < turns->round && turn->us < turns->now_us) {
-        turn->us = turns->now_us;
+    if (turn->round + 1 < turns->round && turn->us < first_us(turns)) {
+        turn->us = first_us(turns);
     }
     turn->round = turns->round;
     if (!turn->offer.picture || (!oldest && is_better(&wanted, &turn->offer))) {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -53,6 +54,13 @@ static struct picture *step(struct picture *pictures, int count)
     return chosen;
 }
 
+static void finish(void)
+{
+    turns_finish(&turns);
+    assert_null(turns.first);
+    turns = (struct turns){0};
+}
+
 static void run(struct picture *pictures, int count, int steps)
 {
     for (int i = 0; i < count; i++) {
@@ -64,7 +72,7 @@ static void run(struct picture *pictures, int count, int steps)
     for (int i = 0; i < count; i++) {
         leave(&pictures[i]);
     }
-    assert_null(turns.first); /* nothing is left behind */
+    finish();
 }
 
 static void test_nothing(void **state)
@@ -128,6 +136,7 @@ static void test_urgent_first(void **state)
     }
     leave(&two[0]);
     leave(&two[1]);
+    finish();
 }
 
 /* However urgent one client's pictures are, another's go on. */
@@ -154,8 +163,8 @@ static void test_oldest_within_account(void **state)
     assert_int_equal(two[0].steps, 800 / TURNS_OLDEST_EVERY);
 }
 
-/* Who could not go on has no claim to what others got meanwhile. */
-static void test_no_credit(void **state)
+/* Who could not go on has little claim to what others got meanwhile: TURNS_CREDIT_US. */
+static void test_little_credit(void **state)
 {
     struct picture two[] = {
         {.account = "compiles", .priority = MOVING, .step_us = 10000, .waiting = true},
@@ -168,12 +177,13 @@ static void test_no_credit(void **state)
         assert_ptr_equal(step(two, 2), &two[1]);
     }
     two[0].waiting = false;
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < TURNS_CREDIT_US / 10000 + 20; i++) {
         step(two, 2);
     }
-    assert_int_equal(two[0].steps, 10);
+    assert_int_equal(two[0].steps, TURNS_CREDIT_US / 10000 + 10);
     leave(&two[0]);
     leave(&two[1]);
+    finish();
 }
 
 /* Small pictures, asked for again and again, each come between two tiles of a heavy one. */
@@ -195,7 +205,54 @@ static void test_small_between_heavy(void **state)
     }
     assert_true(pictures >= TILES);
     leave(&two[0]);
-    assert_null(turns.first);
+    finish();
+}
+
+/* Pictures of a client that asks for a third of the time are not cut up, whether or not others
+ * always have some. */
+static void test_small_at_once(void **state)
+{
+    enum { STEPS = 4, PICTURES = 100 };
+
+    (void)state;
+    for (int pauses = 0; pauses < 2; pauses++) {
+        struct picture two[] = {{.account = "heavy", .priority = MOVING, .step_us = 8000},
+                                {.account = "light", .priority = MOVING, .step_us = 2000}};
+        join(&two[0]);
+        for (int picture = 0; picture < PICTURES; picture++) {
+            step(two, 1);
+            step(two, 1);
+            join(&two[1]);
+            for (int i = 0; i < STEPS; i++) {
+                assert_ptr_equal(step(two, 2), &two[1]);
+            }
+            leave(&two[1]);
+            if (pauses) {
+                leave(&two[0]);
+                join(&two[0]);
+            }
+        }
+        leave(&two[0]);
+        finish();
+    }
+}
+
+/* Who comes once is not remembered for ever. */
+static void test_few_remembered(void **state)
+{
+    struct picture one = {.priority = MOVING, .step_us = 1000};
+    char account[16];
+
+    (void)state;
+    for (int i = 0; i < 10 * TURNS_REMEMBERED; i++) {
+        snprintf(account, sizeof account, "%d", i);
+        one.account = account;
+        join(&one);
+        step(&one, 1);
+        leave(&one);
+    }
+    assert_in_range(turns.accounts, 1, TURNS_REMEMBERED);
+    finish();
 }
 
 int main(void)
@@ -208,8 +265,10 @@ int main(void)
         cmocka_unit_test(test_small_first),
         cmocka_unit_test(test_nobody_starves),
         cmocka_unit_test(test_oldest_within_account),
-        cmocka_unit_test(test_no_credit),
+        cmocka_unit_test(test_little_credit),
         cmocka_unit_test(test_small_between_heavy),
+        cmocka_unit_test(test_small_at_once),
+        cmocka_unit_test(test_few_remembered),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
