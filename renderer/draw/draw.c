@@ -149,7 +149,8 @@ uint64_t draw_now_us(void)
     return (uint64_t)t.tv_sec * 1000000 + (uint64_t)t.tv_nsec / 1000;
 }
 
-int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
+/* What a tile and its margin fit into. */
+static int largest_side(const struct draw *draw, const struct draw_plan *plan)
 {
     const bool full = plan->antialiasing == ANTIALIASING_FULL;
     int side = draw->side;
@@ -157,15 +158,17 @@ int draw_tile_side(const struct draw *draw, const struct draw_plan *plan)
     for (int samples = full ? plan->samples : 1; samples > 4 && side > TILE_LEAST; samples /= 4) {
         side /= 2;
     }
-    return side - 2 * MARGIN;
+    return side;
 }
 
-int draw_tile_side_of(const struct draw *draw, const struct draw_plan *plan, int doublings)
+int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings)
 {
-    const int most = draw_tile_side(draw, plan);
-    const int side = (TILE_SMALLEST << doublings) - 2 * draw_margin(plan); /* whole work groups */
+    const int side = TILE_SMALLEST << doublings, most = largest_side(draw, &picture->plan);
 
-    return side < most ? side : most;
+    if (picture->backend == &draw_engine) {
+        return side < most ? side : most;
+    }
+    return side < most ? side - 2 * draw_margin(&picture->plan) : most - 2 * MARGIN;
 }
 
 static const struct draw_backend *backend_of(const struct draw_scene *scene)

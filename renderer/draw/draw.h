@@ -98,10 +98,9 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_side);
  * it too, and fails where this fails. */
 bool draw_prepare(struct draw *draw, enum draw_road road, struct error *err);
 void draw_destroy(struct draw *draw);
-/* Largest side of the tiles that a picture is drawn in, in pixels: less for many samples. */
-int draw_tile_side(const struct draw *draw, const struct draw_plan *plan);
-/* The same for sides from the smallest one on, which is doubled so many times. */
-int draw_tile_side_of(const struct draw *draw, const struct draw_plan *plan, int doublings);
+/* The side of a picture's tiles, in pixels: the smallest one, doubled so many times, as far as its
+ * samples leave room. In textures a tile shares this side with its margin. */
+int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings);
 uint64_t draw_compilations(const struct draw *draw);
 /* Mirrored and broken rays that were started. */
 uint64_t draw_rays(const struct draw *draw);

@@ -9,8 +9,14 @@
 
 enum {
     ROUNDS_PIXELS_MAX = 1 << 22,
+    WORK_GROUP = 8,
     PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
 };
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
 
 /* --- drawing --- */
 
@@ -35,26 +41,40 @@ static enum pace_company company_of(const struct job *job)
     return job->renderer->shared ? PACE_SHARED : PACE_ALONE;
 }
 
+/* Of a length that is cut into equal parts, at most `side` long: whole work groups where possible. */
+static int part_of(int length, int side)
+{
+    const int count = (length + side - 1) / side;
+    const int part = count > 0 ? (length + count - 1) / count : side;
+    const int whole = (part + WORK_GROUP - 1) / WORK_GROUP * WORK_GROUP;
+
+    return whole < side ? whole : side;
+}
+
 static void begin_row(struct job *job, int y)
 {
     const struct draw *draw = job->renderer->draw;
-    const struct draw_plan *plan = &job->picture.plan;
     struct pace_row pace = pace_begin(job->pace, company_of(job), job->level);
-    const int side = draw_tile_side_of(draw, plan, pace.doublings);
+    const int side = draw_tile_side(draw, &job->picture, pace.doublings);
 
-    while (pace.doublings > 0 && draw_tile_side_of(draw, plan, pace.doublings - 1) == side) {
+    while (pace.doublings > 0 && draw_tile_side(draw, &job->picture, pace.doublings - 1) == side) {
         pace.doublings--; /* the largest */
     }
-    job->row = (struct row){.y = y, .side = side, .width = side, .pace = pace};
+    job->row = (struct row){.y = y,
+                            .side = side,
+                            .height = part_of(job->region.height - y, side),
+                            .width = part_of(job->region.width, side),
+                            .pace = pace};
 }
 
 /* The next tiles of the row. */
 static void choose_width(struct job *job)
 {
     const struct pace_row shared = pace_begin(job->pace, PACE_SHARED, job->level);
-    const int side = draw_tile_side_of(job->renderer->draw, &job->picture.plan, shared.doublings);
+    const int side = draw_tile_side(job->renderer->draw, &job->picture, shared.doublings);
+    const int most = pace_width(&job->row.pace, company_of(job), job->row.side, side);
 
-    job->row.width = pace_width(&job->row.pace, company_of(job), job->row.side, side);
+    job->row.width = smaller(job->row.width, most);
 }
 
 /* Of a snapshot that is ready. */
@@ -109,18 +129,13 @@ static enum job_state begin(struct job *job)
     return job->state = JOB_RUNNING;
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 static struct tile next_tile(const struct job *job)
 {
     const struct row *row = &job->row;
 
     return (struct tile){job->region.x + row->x, job->region.y + row->y,
                          smaller(row->width, job->region.width - row->x),
-                         smaller(row->side, job->region.height - row->y)};
+                         smaller(row->height, job->region.height - row->y)};
 }
 
 static bool all_started(const struct job *job)
@@ -138,7 +153,7 @@ static void end_tile_start(struct job *job)
         return;
     }
     pace_end(job->pace, job->level, &row->pace);
-    begin_row(job, row->y + row->side);
+    begin_row(job, row->y + row->height);
 }
 
 /* The slot of the tile that was started last. */
@@ -181,12 +196,15 @@ static struct watch look_at_clocks(const struct job *job)
                               pictures_cpu_us(job->renderer->pictures)};
 }
 
-/* False: even the smallest tile takes too long. */
-static bool learn(struct job *job, int64_t took_us, int64_t cpu_us)
+/* False: even the smallest tile takes too long. At the ends of a picture tiles are cut off: what
+ * counts is how long a whole one would take. */
+static bool learn(struct job *job, const struct tile *tile, int64_t took_us, int64_t cpu_us)
 {
     struct row *row = &job->row;
+    const int64_t whole = (int64_t)row->side * row->side;
 
-    pace_learn(job->pace, job->level, &row->pace, took_us * row->side / row->width);
+    pace_learn(job->pace, job->level, &row->pace,
+               took_us * whole / ((int64_t)tile->width * tile->height));
     return row->pace.doublings > 0 || cpu_us <= job->limit_us ||
            error_set_slow(&job->error, "", "the smallest part of the picture took",
                           (int)(cpu_us / 1000), (int)(job->limit_us / 1000));
@@ -239,7 +257,7 @@ static bool draw_next(struct job *job)
     const int64_t wall_us = after.wall_us - before.wall_us, cpu_us = after.cpu_us - before.cpu_us;
     const int64_t took_us = wall_us < cpu_us ? wall_us : cpu_us;
 
-    if (job->renderer->info.software && !learn(job, took_us, cpu_us)) {
+    if (job->renderer->info.software && !learn(job, &last_slot(job)->tile, took_us, cpu_us)) {
         return false;
     }
     if (took_us > PACE_WRONG_US && job->row.pace.doublings > 0 && job->picture.from == 0) {
@@ -270,7 +288,7 @@ static bool learn_from_device(struct job *job, const struct draw_slot *slot, int
     for (int i = 0; i < FRAME_STAGES; i++) {
         together += i == FRAME_READ ? 0 : (int64_t)slot->stage_us[i];
     }
-    return learn(job, together / steps, together / steps);
+    return learn(job, &slot->tile, together / steps, together / steps);
 }
 
 static bool collect(struct job *job, bool *out_row_ends)

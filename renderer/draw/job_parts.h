@@ -7,10 +7,11 @@
 
 /* A row of tiles. */
 struct row {
-    int y;     /* from the top of the region */
-    int x;     /* of the tile that is started next */
-    int side;  /* of its tiles, as far as the region goes; */
-    int width; /* narrower where others have come since */
+    int y;      /* from the top of the region */
+    int x;      /* of the tile that is started next */
+    int side;   /* of its tiles, at most */
+    int height; /* of its tiles, */
+    int width;  /* and of the one that is started next */
     struct pace_row pace;
 };
 

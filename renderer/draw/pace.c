@@ -7,11 +7,11 @@
 
 enum { WIDTH_LEAST = 8 }; /* a work group */
 
-/* A tile takes four times as long as one of half its side: in company it takes some 10 ms. Who
+/* A tile takes four times as long as one of half its side: in company it takes some 5 ms. Who
  * comes to one that was alone waits for its tile once. */
 static const struct {
     int64_t long_us, short_us;
-} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {80000, 20000}, [PACE_SHARED] = {15000, 3500}};
+} bounds[PACE_COMPANIES] = {[PACE_ALONE] = {80000, 20000}, [PACE_SHARED] = {7500, 1800}};
 
 struct pace *pace_create(void)
 {
