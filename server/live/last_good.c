@@ -77,11 +77,11 @@ void last_good_before_edit(struct room *room, const cJSON *ops)
     good->revision = room->revision;
 }
 
-bool last_good_before_replace(struct room *room, const struct scene *next)
+bool last_good_before_replace(struct room *room, bool next_has_code)
 {
     struct last_good *good = &room->last_good;
 
-    if (!good->code && !code_text_in_scene(next)) {
+    if (!good->code && !next_has_code) {
         return false;
     }
     good->code = true;

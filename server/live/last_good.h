@@ -19,8 +19,8 @@ struct scene;
 void last_good_finish(struct room *room);
 /* Call it before the scene changes by `ops`. NULL: the operations bring no new code. */
 void last_good_before_edit(struct room *room, const cJSON *ops);
-/* Call it before `next` replaces the room's scene. True: the old scene is kept here. */
-bool last_good_before_replace(struct room *room, const struct scene *next);
+/* Call it before another scene replaces the room's. True: the old scene is kept here. */
+bool last_good_before_replace(struct room *room, bool next_has_code);
 /* Call it before the log drops this revision, its oldest one. */
 void last_good_forget(struct room *room, uint64_t revision);
 /* A worker can draw this revision. */

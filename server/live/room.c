@@ -302,12 +302,13 @@ static void tell_document(struct room *room, const char *text)
     shared_buffer_unref(message);
 }
 
-struct scene *room_replace(struct room *room, struct scene *scene, char *text,
+struct scene *room_replace(struct room *room, const struct room_document *document,
                            const struct room_change *change)
 {
-    struct scene *before = last_good_before_replace(room, scene) ? NULL : room->scene;
+    struct scene *before = last_good_before_replace(room, document->has_code) ? NULL : room->scene;
+    char *text = document->text;
 
-    room->scene = scene;
+    room->scene = document->scene;
     history_destroy(room->history);
     room->history = history_create();
     room->revision++;

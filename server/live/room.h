@@ -26,9 +26,15 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
                             uint64_t *out_revision, cJSON **out_skipped, struct error *err);
 /* Whether room_undo would release the lock. Then call it on threads of tasks alone. */
 bool room_undo_is_heavy(const struct room *room, const char *author, bool redo);
-/* Replaces the document. Takes `scene` and `text` (the printed scene). Returns the old scene, which
- * the caller destroys; NULL: the room still needs it. */
-struct scene *room_replace(struct room *room, struct scene *scene, char *text,
+/* A document that replaces the room's, with what takes long to find out: made without the lock. */
+struct room_document {
+    struct scene *scene;
+    char *text; /* the printed scene */
+    bool has_code;
+};
+/* Takes the document's scene and text. Returns the old scene, which the caller destroys; NULL: the
+ * room still needs it. */
+struct scene *room_replace(struct room *room, const struct room_document *document,
                            const struct room_change *change);
 
 /* The `document` message, made of room_text; caller unrefs. */

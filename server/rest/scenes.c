@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "protocol/code_text.h"
 #include "protocol/import/import.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -384,10 +385,11 @@ void scenes_replace(struct request *request)
         request_reply_error(request, &err);
         return;
     }
-    char *text = scene_print(scene, false);
+    const struct room_document document = {scene, scene_print(scene, false),
+                                           code_text_in_scene(scene)};
     struct room *room = hub_lock_room_to_change(hub, id, &err);
     if (!room && err.kind == ERROR_NOT_FOUND && !request_header(request, "If-Match")) {
-        free(text);
+        free(document.text);
         create(request, id, scene, NULL, NULL);
         return;
     }
@@ -396,7 +398,7 @@ void scenes_replace(struct request *request)
             hub_unlock(hub);
         }
         scene_destroy(scene);
-        free(text);
+        free(document.text);
         if (err.kind == ERROR_NOT_FOUND) {
             err.kind = ERROR_PRECONDITION; /* If-Match, and there is nothing that could match */
         }
@@ -406,7 +408,7 @@ void scenes_replace(struct request *request)
     struct waiting *waiting = wait_for(request, 200, id);
     waiting->revision = room->revision + 1;
     struct scene *before = room_replace(
-        room, scene, text,
+        room, &document,
         &(struct room_change){.author = "rest", .then = answer_change, .data = waiting});
     hub_unlock(hub);
     scene_destroy(before);
