@@ -149,9 +149,12 @@ struct warning {
     enum warning_kind kind;
     struct error error;
 };
-const struct warning *resident_warning(const struct resident *resident);
-/* Takes finished compilations over; true when some resident can show something newer. `wait_ms`
- * > 0 blocks at most that long for one. Call it between tiles. */
+struct warning resident_warning(const struct resident *resident);
+/* Whether users' code is tried out: then renderer_poll has more to do. */
+bool renderer_is_trying(const struct renderer *renderer);
+/* Takes finished compilations over, and tries users' code for a millisecond; true when some
+ * resident can show something newer. `wait_ms` > 0 blocks at most that long for one. Call it
+ * between tiles. */
 bool renderer_poll(struct renderer *renderer, int wait_ms);
 
 /* --- pictures --- */

@@ -40,6 +40,12 @@ static bool is_compiling(const struct worker *w)
     return renderer_is_reading(w->renderer);
 }
 
+/* Until the loop has something to do without a packet. */
+static int timeout_of(const struct worker *w, const struct worker_job *job)
+{
+    return job || renderer_is_trying(w->renderer) ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1;
+}
+
 static void on_asset(struct worker *w, const struct packet *packet)
 {
     if (packet->payload) {
@@ -137,7 +143,7 @@ static void run(struct worker *w)
         if (w->out_sent < w->out_length) {
             fds[0].events |= POLLOUT;
         }
-        if (!wait(w, fds, job ? 0 : is_compiling(w) ? COMPILE_POLL_MS : -1)) {
+        if (!wait(w, fds, timeout_of(w, job))) {
             w->status = 1;
             return;
         }

@@ -49,8 +49,8 @@ void worker_drop_scene(struct worker_scene **at)
 
 static void announce_warning(struct worker *w, struct worker_scene *entry)
 {
-    const struct warning *warning = resident_warning(entry->resident);
-    const struct error *err = &warning->error;
+    const struct warning warning = resident_warning(entry->resident);
+    const struct error *err = &warning.error;
     const bool known = strcmp(err->place, entry->told_warning.place) == 0 &&
                        strcmp(err->message, entry->told_warning.message) == 0;
 
@@ -58,7 +58,7 @@ static void announce_warning(struct worker *w, struct worker_scene *entry)
         worker_send(w, &(struct packet){.kind = TO_FRONT_WARNED,
                                         .state = {.scene = entry->name,
                                                   .revision = resident_revision(entry->resident),
-                                                  .warning = warning->kind,
+                                                  .warning = warning.kind,
                                                   .error = *err}});
     }
     entry->told_warning = *err;

@@ -88,11 +88,24 @@ struct code_surface {
 void code_surface(const struct code *code, const struct code_shading *at, const double *n,
                   struct code_surface *out, struct code_fault *fault);
 
-/* Runs the function at points all over the box, and along short ways there. False and `err`, with
- * line and column, where it divides by 0 or gives no number; or where it changes faster than
- * `lipschitz` allows (line and column 0 then; the message names the greatest slope seen). For
- * CODE_SHADE: only numbers. */
-bool code_probe(const struct code *code, const double *n, const double low[3], const double high[3],
-                double lipschitz, struct error *err);
+/* Asks the function about points all over a box, and along short ways there. Fields are read
+ * alone: `asked` of `points`. */
+struct code_probe {
+    const struct code *code;
+    const double *numbers;
+    double low[3], size[3];
+    double step;     /* of a short way */
+    double greatest; /* slope */
+    double lipschitz;
+    int asked, points;
+};
+/* `code` and `n` are borrowed as long as it asks. */
+void code_probe_begin(struct code_probe *out, const struct code *code, const double *n,
+                      const double low[3], const double high[3], double lipschitz);
+/* One more point; not after the last one. False and `err`, with line and column, where the function
+ * divides by 0 or gives no number; after the last point where it changes faster than `lipschitz`
+ * allows (line and column 0 then; the message names the greatest slope seen). For CODE_SHADE: only
+ * numbers. */
+bool code_probe_ask(struct code_probe *probe, struct error *err);
 
 #endif

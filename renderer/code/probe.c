@@ -14,19 +14,10 @@ enum { POINTS_MAX = 1000, POINTS_MIN = 60, RUNS_OF_POINT = 10 };
  * not quite unit vectors. */
 #define SLACK 1.01
 
-struct probe {
-    const struct code *code;
-    const double *numbers;
-    double low[3], size[3];
-    double step;     /* of a short way */
-    double greatest; /* slope */
-    struct error *err;
-};
-
 /* Points that fill a cube evenly, however many of them are taken: multiples of powers of the root
  * of x^4 = x + 1 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). None is
  * in the middle or on an axis, where honest code may divide by 0. */
-static void point_of(const struct probe *probe, int index, double out[3])
+static void point_of(const struct code_probe *probe, int index, double out[3])
 {
     const double root = 1.2207440846057596;
     double power = 1;
@@ -52,22 +43,22 @@ static void along(const double p[3], const double direction[3], double t, double
     }
 }
 
-static bool refuse(const struct probe *probe, const struct code_fault *fault, const double p[3])
+static bool refuse(const struct code_fault *fault, const double p[3], struct error *err)
 {
-    return error_set_at(probe->err, ERROR_COMPILE, "", fault->line, fault->column,
+    return error_set_at(err, ERROR_COMPILE, "", fault->line, fault->column,
                         "%s at the point (%.4g, %.4g, %.4g)", fault->message, p[0], p[1], p[2]);
 }
 
-static bool ask(const struct probe *probe, const double p[3], double *out)
+static bool ask(const struct code_probe *probe, const double p[3], double *out, struct error *err)
 {
     struct code_fault fault;
     *out = code_distance(probe->code, p, probe->numbers, &fault);
     bool fine = fault.line == 0 || (fault.infinite && *out < CODE_FAR);
-    return fine || refuse(probe, &fault, p);
+    return fine || refuse(&fault, p, err);
 }
 
 /* Between two points `between` apart. What is too far is no measure of anything. */
-static void take_slope(struct probe *probe, double a, double b, double between)
+static void take_slope(struct code_probe *probe, double a, double b, double between)
 {
     double slope = fabs(a - b) / between;
     if (fmax(fabs(a), fabs(b)) < CODE_FAR && slope > probe->greatest) {
@@ -76,19 +67,19 @@ static void take_slope(struct probe *probe, double a, double b, double between)
 }
 
 /* Along the steepest way through the point, and a longer one anywhere. */
-static bool ask_around(struct probe *probe, const double p[3], int index)
+static bool ask_around(struct code_probe *probe, const double p[3], int index, struct error *err)
 {
     enum { LONGER = 50 };
     double h = probe->step, here, q[3], a, b, gradient[3], direction[3];
-    if (!ask(probe, p, &here)) {
+    if (!ask(probe, p, &here, err)) {
         return false;
     }
     for (int i = 0; i < 3; i++) {
         const double axis[3] = {i == 0, i == 1, i == 2};
         along(p, axis, h, q);
-        bool ok = ask(probe, q, &a);
+        bool ok = ask(probe, q, &a, err);
         along(p, axis, -h, q);
-        if (!ok || !ask(probe, q, &b)) {
+        if (!ok || !ask(probe, q, &b, err)) {
             return false;
         }
         gradient[i] = a - b;
@@ -98,34 +89,19 @@ static bool ask_around(struct probe *probe, const double p[3], int index)
         direction[i] = length > 0 ? gradient[i] / length : 0;
     }
     along(p, direction, h, q);
-    bool ok = ask(probe, q, &a);
+    bool ok = ask(probe, q, &a, err);
     along(p, direction, -h, q);
-    if (!ok || !ask(probe, q, &b)) {
+    if (!ok || !ask(probe, q, &b, err)) {
         return false;
     }
     take_slope(probe, a, b, 2 * h);
     direction_of(index, direction);
     along(p, direction, LONGER * h, q);
-    if (!ask(probe, q, &a)) {
+    if (!ask(probe, q, &a, err)) {
         return false;
     }
     take_slope(probe, here, a, LONGER * h);
     return true;
-}
-
-static bool probe_distance(struct probe *probe, int points, double lipschitz)
-{
-    for (int i = 0; i < points; i++) {
-        double p[3];
-        point_of(probe, i, p);
-        if (!ask_around(probe, p, i)) {
-            return false;
-        }
-    }
-    return probe->greatest <= SLACK * lipschitz ||
-           error_set(probe->err, ERROR_COMPILE, "",
-                     "the distance changes by up to %.3g per unit of length, and declared are %.3g",
-                     probe->greatest, lipschitz);
 }
 
 /* Whether the colour is the one that stands for none. */
@@ -143,36 +119,45 @@ static bool shade_at(const struct code *code, const struct code_shading *at, con
     return memcmp(color, magenta, sizeof color) == 0;
 }
 
-static bool probe_shade(const struct probe *probe, int points)
+static bool ask_shade(const struct code_probe *probe, const double p[3], int index,
+                      struct error *err)
 {
-    for (int i = 0; i < points; i++) {
-        struct code_shading at = {.ray_distance = 1 + i};
-        struct code_fault fault;
-        point_of(probe, i, at.world_position);
-        memcpy(at.object_position, at.world_position, sizeof at.object_position);
-        direction_of(i, at.world_normal);
-        direction_of(i + points, at.ray_direction);
-        bool none = shade_at(probe->code, &at, probe->numbers, &fault);
-        if (fault.line > 0 && (none || !fault.infinite)) {
-            return refuse(probe, &fault, at.world_position);
-        }
-    }
-    return true;
+    struct code_shading at = {.ray_distance = 1 + index};
+    struct code_fault fault;
+    memcpy(at.world_position, p, sizeof at.world_position);
+    memcpy(at.object_position, p, sizeof at.object_position);
+    direction_of(index, at.world_normal);
+    direction_of(index + probe->points, at.ray_direction);
+    bool none = shade_at(probe->code, &at, probe->numbers, &fault);
+    return fault.line == 0 || (fault.infinite && !none) || refuse(&fault, p, err);
 }
 
-bool code_probe(const struct code *code, const double *n, const double low[3], const double high[3],
-                double lipschitz, struct error *err)
+void code_probe_begin(struct code_probe *out, const struct code *code, const double *n,
+                      const double low[3], const double high[3], double lipschitz)
 {
     const double steps = 1e4, work = (double)code->tree.entry->work + 1;
-    struct probe probe = {.code = code, .numbers = n, .err = err};
     double size = 0, count = WORK_MAX / (RUNS_OF_POINT * work);
+    *out = (struct code_probe){.code = code, .numbers = n, .lipschitz = lipschitz};
     for (int i = 0; i < 3; i++) {
-        probe.low[i] = low[i];
-        probe.size[i] = high[i] - low[i];
-        size = fmax(size, probe.size[i]);
+        out->low[i] = low[i];
+        out->size[i] = high[i] - low[i];
+        size = fmax(size, out->size[i]);
     }
-    probe.step = fmax(size, 1e-3) / steps;
-    int points = (int)fmin(fmax(count, POINTS_MIN), POINTS_MAX);
-    return code->use == CODE_SHADE ? probe_shade(&probe, points)
-                                   : probe_distance(&probe, points, lipschitz);
+    out->step = fmax(size, 1e-3) / steps;
+    out->points = (int)fmin(fmax(count, POINTS_MIN), POINTS_MAX);
+}
+
+bool code_probe_ask(struct code_probe *probe, struct error *err)
+{
+    const bool shades = probe->code->use == CODE_SHADE;
+    const int index = probe->asked++;
+    double p[3];
+    point_of(probe, index, p);
+    if (!(shades ? ask_shade(probe, p, index, err) : ask_around(probe, p, index, err))) {
+        return false;
+    }
+    return probe->asked < probe->points || shades || probe->greatest <= SLACK * probe->lipschitz ||
+           error_set(err, ERROR_COMPILE, "",
+                     "the distance changes by up to %.3g per unit of length, and declared are %.3g",
+                     probe->greatest, probe->lipschitz);
 }

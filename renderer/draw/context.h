@@ -22,6 +22,7 @@ struct renderer {
     struct asset *assets; /* a list */
     struct pictures *pictures;
     struct snapshot *waiting; /* for a picture; a list */
+    struct trials trials;
     struct program_cache *programs;
     struct resident *residents; /* a list */
     struct renderer_counters counters;

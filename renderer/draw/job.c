@@ -41,7 +41,7 @@ static enum pace_company company_of(const struct job *job)
     return job->renderer->shared ? PACE_SHARED : PACE_ALONE;
 }
 
-/* Of a length that is cut into equal parts, at most `side` long: whole work groups where possible. */
+/* Of a length that is cut into equal parts of at most `side`: whole work groups where possible. */
 static int part_of(int length, int side)
 {
     const int count = (length + side - 1) / side;

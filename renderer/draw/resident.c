@@ -8,7 +8,10 @@
 #include "protocol/edit.h"
 #include "protocol/memory.h"
 
-enum { READ_POLL_MS = 5 };
+enum {
+    READ_POLL_MS = 5,
+    TRIAL_US = 1000, /* between two steps of pictures */
+};
 
 /* Takes over what has become drawable; true when that is something newer. */
 static bool advance(struct resident *resident)
@@ -41,7 +44,9 @@ static const struct field *drawn_field(const struct resident *resident)
     if (resident->drawable) {
         return resident->drawable->field;
     }
-    return newest && snapshot_state(newest) != PROGRAM_FAILED ? newest->field : NULL;
+    return newest && snapshot_state(newest) != PROGRAM_FAILED && trial_is_over(newest->trial)
+               ? newest->field
+               : NULL;
 }
 
 /* Takes the newest snapshot; NULL: the scene cannot be drawn, for `err` or a refused shape. */
@@ -194,11 +199,9 @@ const struct error *resident_error(const struct resident *resident)
     return &resident->error;
 }
 
-const struct warning *resident_warning(const struct resident *resident)
+struct warning resident_warning(const struct resident *resident)
 {
-    static const struct warning none;
-
-    return resident->newest ? &resident->newest->warning : &none;
+    return resident->newest ? snapshot_warning(resident->newest) : (struct warning){0};
 }
 
 /* A picture that ended a process is tried again alone, so that it is known what ends this one. */
@@ -267,17 +270,24 @@ static bool advance_all(struct renderer *renderer)
     return news;
 }
 
+bool renderer_is_trying(const struct renderer *renderer)
+{
+    return renderer->trials.first;
+}
+
 bool renderer_poll(struct renderer *renderer, int wait_ms)
 {
-    const int turn_ms = renderer->waiting && wait_ms > READ_POLL_MS ? READ_POLL_MS : wait_ms;
-    bool news = false;
+    const int turn_ms = renderer_is_trying(renderer)                  ? 0
+                        : renderer->waiting && wait_ms > READ_POLL_MS ? READ_POLL_MS
+                                                                      : wait_ms;
+    bool news = trials_go_on(&renderer->trials, TRIAL_US) && advance_all(renderer);
 
     allow_next(renderer);
     read_next(renderer);
     if (pictures_collect(renderer->pictures, 0)) {
         snapshots_settle(renderer);
         read_next(renderer);
-        news = advance_all(renderer);
+        news = advance_all(renderer) || news;
     }
     if (program_cache_wait(renderer->programs, news ? 0 : turn_ms)) {
         news = advance_all(renderer) || news;

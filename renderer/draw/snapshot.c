@@ -89,7 +89,7 @@ static uint64_t shape_of(const struct field *field, const struct scene *scene, b
 
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
  * where that fails. */
-static struct program *get_program(struct renderer *renderer, const struct field *field,
+static struct program *get_program(struct renderer *renderer, struct field *field,
                                    const struct scene *scene, uint64_t key,
                                    struct error *out_warning, struct error *err)
 {
@@ -101,7 +101,7 @@ static struct program *get_program(struct renderer *renderer, const struct field
         renderer->counters.cache_hits++;
         return program;
     }
-    if (!field_probe(field, out_warning, err)) {
+    if (!field_try(field, out_warning, err)) {
         return NULL;
     }
     map = shader_map(field);
@@ -289,12 +289,14 @@ static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
     }
     if (before && before->engine) {
         snapshot->engine = engine_program_ref(before->engine);
+        snapshot->trial = trial_ref(before->trial);
     } else if (compiles) {
         snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
                                         &snapshot->warning.error, err);
-    } else if (field_probe(snapshot->field, &snapshot->warning.error, err)) {
+    } else {
         snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes,
                                                  renderer->params.threads);
+        snapshot->trial = trial_begin(&renderer->trials, snapshot->field);
     }
     return snapshot->engine || snapshot->program;
 }
@@ -350,21 +352,36 @@ uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
     return snapshot->field->user_code ? snapshot->shape : 0;
 }
 
+/* Besides its program. */
+static const struct error *own_error(const struct snapshot *snapshot)
+{
+    return snapshot->error.kind != ERROR_NONE ? &snapshot->error : trial_error(snapshot->trial);
+}
+
 enum program_state snapshot_state(const struct snapshot *snapshot)
 {
     const enum program_state state =
         snapshot->program ? program_state(snapshot->program) : PROGRAM_READY;
+    const bool waits = snapshot->picture || !trial_is_over(snapshot->trial);
 
-    return snapshot->error.kind != ERROR_NONE            ? PROGRAM_FAILED
-           : snapshot->picture && state == PROGRAM_READY ? PROGRAM_PENDING
-                                                         : state;
+    return own_error(snapshot)->kind != ERROR_NONE ? PROGRAM_FAILED
+           : waits && state == PROGRAM_READY       ? PROGRAM_PENDING
+                                                   : state;
 }
 
 const struct error *snapshot_error(const struct snapshot *snapshot)
 {
-    return snapshot->error.kind != ERROR_NONE || !snapshot->program
-               ? &snapshot->error
-               : program_error(snapshot->program);
+    const struct error *own = own_error(snapshot);
+
+    return own->kind != ERROR_NONE || !snapshot->program ? own : program_error(snapshot->program);
+}
+
+struct warning snapshot_warning(const struct snapshot *snapshot)
+{
+    const struct error *warning = trial_warning(snapshot->trial);
+
+    return warning->kind != ERROR_NONE ? (struct warning){WARNING_LIPSCHITZ, *warning}
+                                       : snapshot->warning;
 }
 
 struct snapshot *snapshot_ref(struct snapshot *snapshot)
@@ -379,6 +396,7 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
         return;
     }
     leave_waiting(renderer, snapshot);
+    trial_unref(&renderer->trials, snapshot->trial);
     engine_program_destroy(snapshot->engine);
     if (snapshot->program) {
         program_unref(renderer->programs, snapshot->program);

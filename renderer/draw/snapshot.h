@@ -6,6 +6,7 @@
 
 #include "draw.h"
 #include "renderer/field/field.h"
+#include "trial.h"
 #include "upload.h"
 
 struct snapshot {
@@ -24,6 +25,7 @@ struct snapshot {
     uint32_t environment_us;         /* time that it took */
     bool fewer_steps;                /* than the scene asks for: the driver's bound on loops */
     struct engine_program *engine;   /* NULL: the device draws it */
+    struct trial *trial;             /* of users' code that the engine draws; NULL: has none */
     struct warning warning; /* of users' code, when the program was new, or of the environment's
                              picture; ERROR_NONE: nothing */
     struct error error;    /* why it cannot be drawn although its program can; ERROR_NONE: it can */
@@ -44,9 +46,11 @@ struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct
                                          struct upload *upload, uint64_t *out_refused,
                                          struct error *err);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
-/* Of its program, and of the picture that its environment is made of. */
+/* Of its program, of users' code, and of the picture that its environment is made of. */
 enum program_state snapshot_state(const struct snapshot *snapshot);
 const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_FAILED: why */
+/* Of its code or its picture; ERROR_NONE: nothing, as far as is known. */
+struct warning snapshot_warning(const struct snapshot *snapshot);
 /* Makes the environments of those whose pictures were read. */
 void snapshots_settle(struct renderer *renderer);
 /* The shape of its program where there is code of users in it; else 0. */

@@ -212,10 +212,21 @@ const char *field_leaf_id(const struct field *field, uint32_t number);
  * The first `used` components are taken. Returns how many vec4s it has from there. */
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
 
-/* Tries out users' code at many points, with the numbers of its first shape or material. False and
- * `err`, with place and line, where something is no number. `*out_warning` tells of a function that
- * changes faster than it should; its kind is ERROR_NONE where there is none. */
-bool field_probe(const struct field *field, struct error *out_warning, struct error *err);
+/* Tries out users' code at many points, with the numbers of its first shape or material, a while at
+ * a time. Holds the field. */
+struct field_trial;
+#define FIELD_TRIAL_ALL INT64_MAX
+struct field_trial *field_trial_create(struct field *field);
+void field_trial_destroy(struct field_trial *trial); /* NULL: nothing */
+/* For about so many microseconds, at least at one point. */
+void field_trial_go_on(struct field_trial *trial, int64_t us);
+bool field_trial_is_over(const struct field_trial *trial);
+/* With place and line, where something is no number: it cannot be drawn. */
+const struct error *field_trial_error(const struct field_trial *trial);
+/* Of a function that changes faster than it should. ERROR_NONE: there is none. */
+const struct error *field_trial_warning(const struct field_trial *trial);
+/* All of it at once; false and `err`: field_trial_error. */
+bool field_try(struct field *field, struct error *out_warning, struct error *err);
 
 /* --- evaluation --- */
 

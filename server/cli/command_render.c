@@ -137,9 +137,10 @@ static bool draw(struct scene *scene, const struct options *options, struct rend
     }
     bool ok =
         job && write_picture(renderer, job, request, option_text(options, OPTION_OUTPUT), err);
-    if (ok && resident_warning(resident)->error.kind != ERROR_NONE) {
+    const struct warning warning = ok ? resident_warning(resident) : (struct warning){0};
+    if (warning.error.kind != ERROR_NONE) {
         fputs("fieldcast: warning: ", stderr);
-        error_print(&resident_warning(resident)->error, stderr);
+        error_print(&warning.error, stderr);
     }
     job_destroy(job);
     resident_destroy(resident);

@@ -262,7 +262,7 @@ static void code_is_tried_out(void **state)
         "'code':'float sdf(vec3 p) {\\n float r = length(p);\\n return r / by - 1.0;\\n}'}},",
         "{'type':'field','params':{'primitive':'hole'}}");
     struct field *field = compile_field(scene);
-    assert_false(field_probe(field, &warning, &err));
+    assert_false(field_try(field, &warning, &err));
     assert_int_equal(err.kind, ERROR_COMPILE);
     assert_string_equal(err.place, "/primitives/hole/code");
     assert_int_equal(err.line, 3);
@@ -272,7 +272,7 @@ static void code_is_tried_out(void **state)
     scene = scene_of("", "{'id':'n','type':'field','params':{"
                          "'code':'float sdf(vec3 p) { return 3.0 * (length(p) - 1.0); }'}}");
     field = compile_field(scene);
-    assert_true(field_probe(field, &warning, &err));
+    assert_true(field_try(field, &warning, &err));
     assert_int_not_equal(warning.kind, ERROR_NONE);
     assert_string_equal(warning.place, "/nodes/n/params/code");
     field_unref(field);

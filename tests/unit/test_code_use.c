@@ -284,7 +284,12 @@ static void probe(const char *text, enum code_use use, double lipschitz, const c
     const double low[3] = {-2, -1, -2}, high[3] = {2, 3, 2};
     struct error err = {0};
     struct code *code = compile(text, use, no_params);
-    bool fits = code_probe(code, NULL, low, high, lipschitz, &err);
+    struct code_probe probe;
+    bool fits = true;
+    code_probe_begin(&probe, code, NULL, low, high, lipschitz);
+    while (fits && probe.asked < probe.points) {
+        fits = code_probe_ask(&probe, &err);
+    }
     if (fits != (words == NULL) || (words && !strstr(err.message, words)) || err.line != line) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }

@@ -349,6 +349,12 @@ static void test_what_was_never_drawn(void **state)
 
     (void)state;
     edit(resident, broken);
+    show(resident, "bad", false); /* while it is tried out */
+    assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
+    show(resident, "bad", true);
+    while (renderer_is_trying(renderer)) {
+        renderer_poll(renderer, 0);
+    }
     assert_int_equal(resident_error(resident)->kind, ERROR_COMPILE);
     show(resident, "bad", false);
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+#include "trial.h"
+
+#include <stdlib.h>
+
+#include "protocol/memory.h"
+
+static const struct error none;
+
+struct trial *trial_begin(struct trials *trials, struct field *field)
+{
+    struct trial **last = &trials->first;
+
+    if (field->code_count + field->shader_count == 0) {
+        return NULL;
+    }
+    struct trial *trial = memory_alloc(1, sizeof *trial);
+    trial->references = 1;
+    trial->asks = field_trial_create(field);
+    while (*last) {
+        last = &(*last)->next;
+    }
+    *last = trial;
+    return trial;
+}
+
+struct trial *trial_ref(struct trial *trial)
+{
+    if (trial) {
+        trial->references++;
+    }
+    return trial;
+}
+
+static void leave(struct trials *trials, const struct trial *trial)
+{
+    struct trial **at = &trials->first;
+
+    while (*at && *at != trial) {
+        at = &(*at)->next;
+    }
+    if (*at) {
+        *at = trial->next;
+    }
+}
+
+void trial_unref(struct trials *trials, struct trial *trial)
+{
+    if (!trial || --trial->references > 0) {
+        return;
+    }
+    leave(trials, trial);
+    field_trial_destroy(trial->asks);
+    free(trial);
+}
+
+bool trial_is_over(const struct trial *trial)
+{
+    return !trial || field_trial_is_over(trial->asks);
+}
+
+const struct error *trial_error(const struct trial *trial)
+{
+    return trial ? field_trial_error(trial->asks) : &none;
+}
+
+const struct error *trial_warning(const struct trial *trial)
+{
+    return trial ? field_trial_warning(trial->asks) : &none;
+}
+
+bool trials_go_on(struct trials *trials, int64_t us)
+{
+    struct trial *trial = trials->first;
+
+    if (!trial) {
+        return false;
+    }
+    field_trial_go_on(trial->asks, us);
+    if (!field_trial_is_over(trial->asks)) {
+        return false;
+    }
+    trials->first = trial->next;
+    trial->next = NULL;
+    return true;
+}

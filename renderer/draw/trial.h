@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* Users' code is tried out before it is drawn, a while at a time, so that no other picture waits
+ * for it. Snapshots of one program share a trial. Belongs to the drawing thread. */
+#ifndef RENDERER_TRIAL_H
+#define RENDERER_TRIAL_H
+
+#include "renderer/field/field.h"
+
+struct trial {
+    int references;
+    struct field_trial *asks;
+    struct trial *next; /* among those that are under way */
+};
+/* Those under way, in order. */
+struct trials {
+    struct trial *first;
+};
+
+/* Under way; NULL: the field has no code. */
+struct trial *trial_begin(struct trials *trials, struct field *field);
+struct trial *trial_ref(struct trial *trial);                 /* NULL: NULL */
+void trial_unref(struct trials *trials, struct trial *trial); /* NULL: nothing */
+bool trial_is_over(const struct trial *trial);                /* NULL: it is */
+/* ERROR_NONE: it can be drawn, as far as is known. */
+const struct error *trial_error(const struct trial *trial); /* NULL: ERROR_NONE */
+const struct error *trial_warning(const struct trial *trial);
+/* For so many microseconds; true: one is over. */
+bool trials_go_on(struct trials *trials, int64_t us);
+
+#endif
