@@ -215,6 +215,9 @@ static struct resident *show(const struct seen_case *it, const struct view *view
         shown.owner = owner_of(it);
         shown.revision = 1;
         shown.resident = resident_create(renderer, scene_of(it, &near_view, true), 1);
+        while (renderer_is_trying(renderer)) {
+            renderer_poll(renderer, 0);
+        }
     }
     const uint64_t shape = resident_shape(shown.resident);
     resident_replace(shown.resident, scene_of(it, view, false), ++shown.revision);

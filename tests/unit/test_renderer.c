@@ -351,7 +351,7 @@ static void test_what_was_never_drawn(void **state)
     edit(resident, broken);
     show(resident, "bad", false); /* while it is tried out */
     assert_int_equal(resident_error(resident)->kind, ERROR_NONE);
-    show(resident, "bad", true);
+    edit(resident, "[{'op':'set','at':'/nodes/bad/visible','value':true}]");
     while (renderer_is_trying(renderer)) {
         renderer_poll(renderer, 0);
     }
