@@ -88,8 +88,8 @@ struct code_surface {
 void code_surface(const struct code *code, const struct code_shading *at, const double *n,
                   struct code_surface *out, struct code_fault *fault);
 
-/* Asks the function about points all over a box, and along short ways there. Fields are read
- * alone: `asked` of `points`. */
+/* Asks the function about points all over a box, and along short ways there, one at a time. Callers
+ * read `asked` and `points`, how many there are in all. */
 struct code_probe {
     const struct code *code;
     const double *numbers;

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "draw_parts.h"
+#include "pace.h"
 #include "protocol/memory.h"
 
 enum {
@@ -12,11 +13,10 @@ enum {
      * urgent picture waits for about a tenth of a second. A GPU wants more work at once. */
     TILE_SOFTWARE = 256,
     TILE_GPU = 512,
-    TILE_LEAST = 64,   /* for many samples of all pixels, where that is fast */
-    TILE_SMALLEST = 8, /* one work group */
-    FIRST_ROUND = 4,   /* samples, where a picture is drawn in rounds; */
-    ROUND_GROWTH = 4,  /* each next one has so many times as many */
-    MARGIN = 1,        /* pixels around a tile, which edges are found by */
+    TILE_LEAST = 64,  /* for many samples of all pixels, where that is fast */
+    FIRST_ROUND = 4,  /* samples, where a picture is drawn in rounds; */
+    ROUND_GROWTH = 4, /* each next one has so many times as many */
+    MARGIN = 1,       /* pixels around a tile, which edges are found by */
 };
 
 #define BYTES OUT_BYTES, GL_RGBA, GL_UNSIGNED_BYTE, 4
@@ -163,7 +163,7 @@ static int largest_side(const struct draw *draw, const struct draw_plan *plan)
 
 int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings)
 {
-    const int side = TILE_SMALLEST << doublings, most = largest_side(draw, &picture->plan);
+    const int side = PACE_LEAST << doublings, most = largest_side(draw, &picture->plan);
 
     if (picture->backend == &draw_engine) {
         return side < most ? side : most;

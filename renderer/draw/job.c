@@ -9,7 +9,6 @@
 
 enum {
     ROUNDS_PIXELS_MAX = 1 << 22,
-    WORK_GROUP = 8,
     PACE_WRONG_US = 1600000, /* so slow a tile is begun anew, with its row, in smaller ones */
 };
 
@@ -46,7 +45,7 @@ static int part_of(int length, int side)
 {
     const int count = (length + side - 1) / side;
     const int part = count > 0 ? (length + count - 1) / count : side;
-    const int whole = (part + WORK_GROUP - 1) / WORK_GROUP * WORK_GROUP;
+    const int whole = (part + PACE_LEAST - 1) / PACE_LEAST * PACE_LEAST;
 
     return whole < side ? whole : side;
 }

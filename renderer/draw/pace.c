@@ -5,8 +5,6 @@
 
 #include "protocol/memory.h"
 
-enum { WIDTH_LEAST = 8 }; /* a work group */
-
 /* A tile takes four times as long as one of half its side: in company it takes some 5 ms. Who
  * comes to one that was alone waits for its tile once. */
 static const struct {
@@ -47,11 +45,11 @@ struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
 int pace_width(const struct pace_row *row, enum pace_company company, int side, int shared_side)
 {
     const int width =
-        shared_side * shared_side / side / WIDTH_LEAST * WIDTH_LEAST; /* as many pixels */
+        shared_side * shared_side / side / PACE_LEAST * PACE_LEAST; /* as many pixels */
 
     return row->company == PACE_SHARED || company == PACE_ALONE || shared_side >= side ? side
-           : width > WIDTH_LEAST                                                       ? width
-                                 : WIDTH_LEAST;
+           : width > PACE_LEAST                                                        ? width
+                                                                                       : PACE_LEAST;
 }
 
 void pace_be_careful(struct pace *pace, enum quality_level level)
