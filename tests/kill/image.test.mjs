@@ -108,11 +108,15 @@ test('a small file of a large picture', async (t) => {
         return rounds === ROUNDS && i >= CALM_ROUNDS;
     });
     await posts;
+    const after = await framesWhile((i) => i === CALM_ROUNDS);
     t.diagnostic(
-        `${bytes} bytes; frames a second ${calm.toFixed(1)} before, ${busy.toFixed(1)} during; ` +
+        `${bytes} bytes; frames a second ${calm.toFixed(1)} before, ${busy.toFixed(1)} during, ` +
+            `${after.toFixed(1)} after; ` +
             `${((most - memory) / MIB).toFixed(0)} MiB more`,
     );
-    assert.ok(busy > calm / 2, `${busy} of ${calm} frames a second`);
+    // Other work on the machine may have begun, or ended, in between.
+    const alone = Math.min(calm, after);
+    assert.ok(busy > alone / 2, `${busy} of ${alone} frames a second`);
     assert.equal(await counter(daemon, 'worker_restarts_total'), restarts, 'no restart');
     // 64 MiB of halves, the sums of two rows, what the file itself takes, and as much again.
     assert.ok(most - memory < 160 * MIB, `${(most - memory) / MIB} MiB`);
