@@ -49,6 +49,13 @@
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
     X(CODE_ARRAY_BYTES, "code_array_bytes", 2048, "bytes",                                         \
       "all arrays in code, with every call written out")                                           \
+    X(EQUATION_BYTES, "equation_bytes", 4096, "bytes", "an equation")                              \
+    X(EQUATION_NODES, "equation_nodes", 256, "operations", "different ones of an equation")        \
+    X(EQUATION_WEIGHT, "equation_weight", 4096, "operations",                                      \
+      "an equation with all definitions written out")                                              \
+    X(EQUATION_DEPTH, "equation_depth", 64, "levels", "nesting of an equation")                    \
+    X(EQUATION_EXPONENT, "equation_exponent", 64, "", "a whole exponent")                          \
+    X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \
       "the same with code in it, at least")                                                        \

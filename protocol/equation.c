@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* The tables of the language, and the nodes of an equation. */
+#include "equation.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "equation_parts.h"
+
+const struct equation_function equation_functions[EQUATION_FUNCTIONS] = {
+    [EQUATION_SIN] = {"sin", 1},   [EQUATION_COS] = {"cos", 1},   [EQUATION_TAN] = {"tan", 1},
+    [EQUATION_ASIN] = {"asin", 1}, [EQUATION_ACOS] = {"acos", 1}, [EQUATION_ATAN] = {"atan", 1},
+    [EQUATION_SINH] = {"sinh", 1}, [EQUATION_COSH] = {"cosh", 1}, [EQUATION_TANH] = {"tanh", 1},
+    [EQUATION_EXP] = {"exp", 1},   [EQUATION_LOG] = {"log", 1},   [EQUATION_SQRT] = {"sqrt", 1},
+    [EQUATION_CBRT] = {"cbrt", 1}, [EQUATION_ABS] = {"abs", 1},   [EQUATION_MIN] = {"min", 2},
+    [EQUATION_MAX] = {"max", 2},
+};
+
+const struct equation_constant equation_constants[] = {
+    {"pi", M_PI},
+    {"tau", 2 * M_PI},
+    {"e", M_E},
+    {"phi", 1.6180339887498949},
+    {NULL, 0},
+};
+
+int equation_arguments(const struct equation_node *node)
+{
+    switch ((enum equation_op)node->op) {
+    case EQUATION_NUMBER:
+    case EQUATION_CONSTANT:
+    case EQUATION_AXIS:
+    case EQUATION_LETTER:
+        return 0;
+    case EQUATION_NEGATE:
+    case EQUATION_WHOLE:
+        return 1;
+    case EQUATION_CALL:
+        return equation_functions[node->which].arguments;
+    default:
+        return 2;
+    }
+}
+
+static bool is_same(const struct equation_node *a, const struct equation_node *b)
+{
+    return a->op == b->op && a->which == b->which && a->args[0] == b->args[0] &&
+           a->args[1] == b->args[1] && memcmp(&a->value, &b->value, sizeof a->value) == 0;
+}
+
+/* What the operators make of known numbers. */
+static bool compute(const struct equation_node *node, const double in[2], double *out)
+{
+    switch ((enum equation_op)node->op) {
+    case EQUATION_NUMBER:
+        *out = node->value;
+        return true;
+    case EQUATION_CONSTANT:
+        *out = equation_constants[node->which].value;
+        return true;
+    case EQUATION_ADD:
+        *out = in[0] + in[1];
+        return true;
+    case EQUATION_SUBTRACT:
+        *out = in[0] - in[1];
+        return true;
+    case EQUATION_MULTIPLY:
+        *out = in[0] * in[1];
+        return true;
+    case EQUATION_DIVIDE:
+        *out = in[0] / in[1];
+        return true;
+    case EQUATION_NEGATE:
+        *out = -in[0];
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void derive(const struct equation *equation, struct equation_node *node)
+{
+    double in[2] = {0, 0};
+    bool all_known = true;
+    node->varies = node->op == EQUATION_AXIS;
+    node->weight = 1;
+    for (int i = 0; i < equation_arguments(node); i++) {
+        const struct equation_node *arg = &equation->nodes[node->args[i]];
+        node->varies = node->varies || arg->varies;
+        node->weight += arg->weight;
+        all_known = all_known && arg->known;
+        in[i] = arg->constant;
+    }
+    node->known = all_known && compute(node, in, &node->constant);
+}
+
+bool equation_add(struct equation *equation, struct equation_node node, uint16_t *out)
+{
+    size_t i = 0;
+    while (i < equation->count && !is_same(&equation->nodes[i], &node)) {
+        i++;
+    }
+    *out = (uint16_t)i;
+    if (i < equation->count) {
+        return true;
+    }
+    derive(equation, &node);
+    if (i == LIMIT_EQUATION_NODES || node.weight > LIMIT_EQUATION_WEIGHT) {
+        *out = 0;
+        return false;
+    }
+    equation->nodes[equation->count++] = node;
+    return true;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* The language of implicit equations in x, y and z:
+ *
+ *     text       := { name ":=" expression ";" } expression [ relation expression ]
+ *     relation   := "=" | "<" | "<=" | ">" | ">="
+ *     expression := term { ("+" | "-") term }
+ *     term       := unary { ("*" | "/" | nothing) unary }      nothing: 2x, 3(x + 1), (x)(y), (x)y
+ *     unary      := { "-" | "+" } power
+ *     power      := atom [ ("^" | "**") unary ]                -x^2 is -(x^2), x^y^z is x^(y^z)
+ *     atom       := number | name | name "(" expression { "," expression } ")"
+ *                 | "(" expression ")" | "|" expression "|"
+ *
+ * The characters of typeset mathematics are read too: minus, times and middle dot, superscripts 2
+ * and 3, pi, the root sign, less-or-equal, greater-or-equal. A text without a relation equals 0.
+ * Constants: pi, tau, e, phi. Pure; an equation is immutable once it is read. */
+#ifndef PROTOCOL_EQUATION_H
+#define PROTOCOL_EQUATION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "limits.h"
+
+enum equation_op {
+    EQUATION_NUMBER,   /* value */
+    EQUATION_CONSTANT, /* equation_constants[which] */
+    EQUATION_AXIS,     /* x, y or z: which */
+    EQUATION_LETTER,   /* letters[which] of equation_read */
+    EQUATION_ADD,      /* args[0] and args[1] from here on */
+    EQUATION_SUBTRACT,
+    EQUATION_MULTIPLY,
+    EQUATION_DIVIDE,
+    EQUATION_POWER,  /* any exponent */
+    EQUATION_NEGATE, /* args[0] from here on */
+    EQUATION_WHOLE,  /* to the power of the whole number `value` */
+    EQUATION_CALL,   /* equation_functions[which] */
+};
+
+/* Functions, in the order of their rows. */
+enum equation_name {
+    EQUATION_SIN,
+    EQUATION_COS,
+    EQUATION_TAN,
+    EQUATION_ASIN,
+    EQUATION_ACOS,
+    EQUATION_ATAN,
+    EQUATION_SINH,
+    EQUATION_COSH,
+    EQUATION_TANH,
+    EQUATION_EXP,
+    EQUATION_LOG,
+    EQUATION_SQRT,
+    EQUATION_CBRT,
+    EQUATION_ABS,
+    EQUATION_MIN,
+    EQUATION_MAX,
+    EQUATION_FUNCTIONS,
+};
+
+struct equation_function {
+    const char *name;
+    int arguments;
+};
+extern const struct equation_function equation_functions[EQUATION_FUNCTIONS];
+
+struct equation_constant {
+    const char *name;
+    double value;
+};
+extern const struct equation_constant equation_constants[]; /* ends with a name of NULL */
+
+/* Equal nodes are one node. Arguments have lower indices. */
+struct equation_node {
+    uint8_t op, which;
+    uint16_t args[2];
+    double value;
+    /* What follows from these: */
+    bool varies;     /* x, y or z is in it */
+    bool known;      /* neither axes nor letters nor functions are in it; it is `constant` then */
+    uint32_t weight; /* nodes of it with all that are shared written out */
+    double constant;
+};
+
+enum equation_relation {
+    EQUATION_EQUALS, /* left = right, or left alone; right is then the number 0 */
+    EQUATION_LESS,
+    EQUATION_LESS_EQUAL,
+    EQUATION_GREATER,
+    EQUATION_GREATER_EQUAL,
+};
+
+struct equation {
+    struct equation_node nodes[LIMIT_EQUATION_NODES + 1]; /* room for left - right */
+    size_t count;
+    uint16_t left, right;
+    enum equation_relation relation;
+};
+
+/* A place in the text, in code points from 1. */
+struct equation_error {
+    int line, column;
+    char message[160];
+};
+enum { EQUATION_ERRORS = 8 };
+struct equation_errors {
+    struct equation_error list[EQUATION_ERRORS];
+    int count; /* of those told */
+};
+
+/* `letters` are further names that may be used, NULL at the end. The caller frees the result. NULL:
+ * at least one error, in the order in which they were found. */
+struct equation *equation_read(const char *text, const char *const *letters,
+                               struct equation_errors *out_errors);
+/* Canonical text; reading it gives the same text again. The caller frees it. */
+char *equation_print(const struct equation *equation, const char *const *letters);
+/* How many arguments a node has. */
+int equation_arguments(const struct equation_node *node);
+
+#endif

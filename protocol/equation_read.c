@@ -1,0 +1,631 @@
+/* SPDX-License-Identifier: MIT */
+/* Equations, read by recursive descent. What is only meant wrongly (an unknown name, arguments that
+ * are too few) is noted, and reading goes on; at what cannot be read it ends. */
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "equation_parts.h"
+#include "memory.h"
+#include "suggest.h"
+#include "utf8.h"
+
+enum { NAME_BYTES = 32 };
+
+struct definition {
+    char name[NAME_BYTES];
+    uint16_t node;
+};
+
+struct reader {
+    const char *text, *at;
+    const char *const *letters;
+    struct equation *equation;
+    struct equation_errors *errors;
+    struct definition definitions[LIMIT_EQUATION_DEFINITIONS];
+    int definition_count, depth;
+    bool ended;    /* what follows cannot be read */
+    bool in_bars;  /* between | and | */
+};
+
+static const char *const axes[] = {"x", "y", "z", NULL};
+
+/* --- errors --- */
+
+static void note(struct reader *r, const char *at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void note(struct reader *r, const char *at, const char *format, ...)
+{
+    struct equation_errors *errors = r->errors;
+    if (errors->count == EQUATION_ERRORS) {
+        return;
+    }
+    struct equation_error *error = &errors->list[errors->count++];
+    va_list arguments;
+    error->line = error->column = 1;
+    for (const char *c = r->text; c < at; c++) {
+        const bool begins = ((unsigned char)*c & 0xc0) != 0x80;
+        error->line += *c == '\n';
+        error->column = *c == '\n' ? 1 : error->column + begins;
+    }
+    va_start(arguments, format);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+}
+
+/* --- characters --- */
+
+/* What stands for the symbols of the grammar as well. */
+static const struct {
+    const char *symbol, *other;
+} spellings[] = {
+    {"-", "\u2212"}, {"*", "\u00b7"},  {"*", "\u00d7"},    {"<=", "\u2264"},
+    {">=", "\u2265"}, {"pi", "\u03c0"}, {"sqrt", "\u221a"}, {"^", "**"},
+};
+
+static bool begins_with(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+static void skip_space(struct reader *r)
+{
+    while (*r->at == ' ' || *r->at == '\t' || *r->at == '\n') {
+        r->at++;
+    }
+}
+
+/* The length of this symbol, in any spelling, if it is next. */
+static size_t next_is(struct reader *r, const char *symbol)
+{
+    skip_space(r);
+    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
+        if (strcmp(spellings[i].symbol, symbol) == 0 && begins_with(r->at, spellings[i].other)) {
+            return strlen(spellings[i].other);
+        }
+    }
+    const bool is_power = strcmp(symbol, "*") == 0 && begins_with(r->at, "**");
+    return !is_power && begins_with(r->at, symbol) ? strlen(symbol) : 0;
+}
+
+static bool take(struct reader *r, const char *symbol)
+{
+    const size_t length = next_is(r, symbol);
+    r->at += length;
+    return length > 0;
+}
+
+/* What is next, for messages; returns `out`. */
+static const char *next_character(struct reader *r, char out[8])
+{
+    skip_space(r);
+    const size_t left = strlen(r->at);
+    const size_t length = left > 0 ? utf8_sequence(r->at, left) : 0;
+    memcpy(out, r->at, length);
+    out[length] = '\0';
+    return length > 0 ? out : "the end";
+}
+
+/* --- nodes --- */
+
+static uint16_t add(struct reader *r, struct equation_node node)
+{
+    uint16_t index = 0;
+    if (!r->ended && !equation_add(r->equation, node, &index)) {
+        r->ended = true;
+        note(r, r->at, "more than %d different operations (equation_nodes), or %d with all "
+             "definitions written out (equation_weight)",
+             LIMIT_EQUATION_NODES, LIMIT_EQUATION_WEIGHT);
+    }
+    return index;
+}
+
+static uint16_t add_number(struct reader *r, double value)
+{
+    return add(r, (struct equation_node){.op = EQUATION_NUMBER, .value = value});
+}
+
+static uint16_t add_two(struct reader *r, enum equation_op op, uint16_t a, uint16_t b)
+{
+    return add(r, (struct equation_node){.op = (uint8_t)op, .args = {a, b}});
+}
+
+static uint16_t add_call(struct reader *r, enum equation_name name, uint16_t a, uint16_t b)
+{
+    return add(r, (struct equation_node){
+                      .op = EQUATION_CALL, .which = (uint8_t)name, .args = {a, b}});
+}
+
+static uint16_t add_whole(struct reader *r, uint16_t base, double exponent)
+{
+    return add(r, (struct equation_node){
+                      .op = EQUATION_WHOLE, .args = {base, 0}, .value = exponent});
+}
+
+static uint16_t add_power(struct reader *r, uint16_t base, uint16_t exponent, const char *at)
+{
+    const struct equation_node *node = &r->equation->nodes[exponent];
+    const double value = node->constant;
+    if (!node->known || value != floor(value)) {
+        return add_two(r, EQUATION_POWER, base, exponent);
+    }
+    if (fabs(value) > LIMIT_EQUATION_EXPONENT) {
+        note(r, at, "exponent %.17g; the limit is %d (equation_exponent)", value,
+             LIMIT_EQUATION_EXPONENT);
+    }
+    return add_whole(r, base, value);
+}
+
+/* --- names --- */
+
+static int find(const char *const *names, const char *name)
+{
+    for (int i = 0; names[i]; i++) {
+        if (strcmp(names[i], name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Functions that are written by others. */
+enum composite { HYPOT, CLAMP, MIX, LOG2, POW, COMPOSITES };
+static const struct equation_function composites[COMPOSITES] = {
+    {"hypot", 2}, {"clamp", 3}, {"mix", 3}, {"log2", 1}, {"pow", 2}};
+
+static int function_of(const char *name, int *out_arguments)
+{
+    for (int i = 0; i < EQUATION_FUNCTIONS + COMPOSITES; i++) {
+        const struct equation_function *row = i < EQUATION_FUNCTIONS
+                                                  ? &equation_functions[i]
+                                                  : &composites[i - EQUATION_FUNCTIONS];
+        if (strcmp(row->name, name) == 0) {
+            *out_arguments = row->arguments;
+            return i;
+        }
+    }
+    return -1;
+}
+
+static uint16_t compose(struct reader *r, enum composite which, const uint16_t *in, const char *at)
+{
+    switch (which) {
+    case HYPOT:
+        return add_call(r, EQUATION_SQRT,
+                        add_two(r, EQUATION_ADD, add_whole(r, in[0], 2), add_whole(r, in[1], 2)),
+                        0);
+    case CLAMP:
+        return add_call(r, EQUATION_MIN, add_call(r, EQUATION_MAX, in[0], in[1]), in[2]);
+    case MIX:
+        return add_two(
+            r, EQUATION_ADD, in[0],
+            add_two(r, EQUATION_MULTIPLY, add_two(r, EQUATION_SUBTRACT, in[1], in[0]), in[2]));
+    case LOG2:
+        return add_two(r, EQUATION_DIVIDE, add_call(r, EQUATION_LOG, in[0], 0),
+                       add_call(r, EQUATION_LOG, add_number(r, 2), 0));
+    default:
+        return add_power(r, in[0], in[1], at);
+    }
+}
+
+/* Reads a name; its length. Digits belong to it, so x2 is no product. */
+static size_t read_name(struct reader *r, char out[NAME_BYTES])
+{
+    size_t length = 0;
+    skip_space(r);
+    while (isalpha((unsigned char)r->at[length]) || r->at[length] == '_' ||
+           (length > 0 && isdigit((unsigned char)r->at[length]))) {
+        length++;
+    }
+    snprintf(out, NAME_BYTES, "%.*s", (int)length, r->at);
+    r->at += length;
+    return length;
+}
+
+/* "; write x*y" for xy. */
+static bool product_of(struct reader *r, const char *name, char out[2 * NAME_BYTES])
+{
+    size_t used = 0;
+    for (const char *c = name; *c && used + 3 < 2 * NAME_BYTES; c++) {
+        const char one[] = {*c, '\0'};
+        if (find(axes, one) < 0 && find(r->letters, one) < 0) {
+            return false;
+        }
+        used += (size_t)snprintf(out + used, 2 * NAME_BYTES - used, "%s%c", used ? "*" : "", *c);
+    }
+    return name[0] && name[1];
+}
+
+static void note_unknown(struct reader *r, const char *name, bool called, const char *at)
+{
+    char product[2 * NAME_BYTES], hint[96];
+    struct suggestion near = {.text = name};
+    if (!called && product_of(r, name, product)) {
+        note(r, at, "\"%s\" is no name; write %s", name, product);
+        return;
+    }
+    for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
+        suggest_consider(&near, equation_functions[i].name);
+    }
+    for (int i = 0; i < COMPOSITES; i++) {
+        suggest_consider(&near, composites[i].name);
+    }
+    for (int i = 0; !called && equation_constants[i].name; i++) {
+        suggest_consider(&near, equation_constants[i].name);
+    }
+    note(r, at, "\"%s\" is no %s%s", name, called ? "function" : "name",
+         suggest_hint(&near, hint, sizeof hint));
+}
+
+static uint16_t value_of(struct reader *r, const char *name, const char *at)
+{
+    int arguments;
+    for (int i = 0; i < r->definition_count; i++) {
+        if (strcmp(r->definitions[i].name, name) == 0) {
+            return r->definitions[i].node;
+        }
+    }
+    const int axis = find(axes, name), letter = find(r->letters, name);
+    if (axis >= 0 || letter >= 0) {
+        return add(r, (struct equation_node){.op = axis >= 0 ? EQUATION_AXIS : EQUATION_LETTER,
+                                             .which = (uint8_t)(axis >= 0 ? axis : letter)});
+    }
+    for (int i = 0; equation_constants[i].name; i++) {
+        if (strcmp(equation_constants[i].name, name) == 0) {
+            return add(r, (struct equation_node){.op = EQUATION_CONSTANT, .which = (uint8_t)i});
+        }
+    }
+    if (function_of(name, &arguments) >= 0) {
+        note(r, at, "\"%s\" is a function; write %s(%s)", name, name,
+             arguments == 1   ? "..."
+             : arguments == 2 ? "..., ..."
+                              : "..., ..., ...");
+    } else {
+        note_unknown(r, name, false, at);
+    }
+    return add_number(r, 0);
+}
+
+/* --- the grammar --- */
+
+static uint16_t read_expression(struct reader *r);
+static uint16_t read_unary(struct reader *r);
+
+static void expect(struct reader *r, const char *symbol, const char *opener)
+{
+    char next[8];
+    if (r->ended || take(r, symbol)) {
+        return;
+    }
+    r->ended = true;
+    next_character(r, next);
+    note(r, r->at, "expected \"%s\" for the \"%c\" in column %td, found %s%s%s", symbol, *opener,
+         opener - r->text + 1, *next ? "\"" : "", *next ? next : "the end", *next ? "\"" : "");
+}
+
+static uint16_t read_call(struct reader *r, const char *name, const char *at)
+{
+    uint16_t in[3] = {0};
+    int wanted = 0, given = 0;
+    const int function = function_of(name, &wanted);
+    const char *opener = r->at - 1;
+    const bool in_bars = r->in_bars;
+    r->in_bars = false;
+    if (function < 0) {
+        note_unknown(r, name, true, at);
+    }
+    do {
+        const uint16_t one = read_expression(r);
+        if (given < 3) {
+            in[given] = one;
+        }
+        given++;
+    } while (!r->ended && take(r, ","));
+    r->in_bars = in_bars;
+    expect(r, ")", opener);
+    if (function < 0) {
+        return in[0];
+    }
+    if (given != wanted) {
+        note(r, at, "%s() takes %d argument%s, not %d", name, wanted, wanted == 1 ? "" : "s",
+             given);
+        return in[0];
+    }
+    return function < EQUATION_FUNCTIONS
+               ? add_call(r, (enum equation_name)function, in[0], wanted > 1 ? in[1] : 0)
+               : compose(r, (enum composite)(function - EQUATION_FUNCTIONS), in, at);
+}
+
+static uint16_t read_number(struct reader *r)
+{
+    char *end;
+    const double value = strtod(r->at, &end);
+    if (!isfinite(value) || fabs(value) > LIMIT_COORDINATE) {
+        note(r, r->at, "%.*s is above the maximum %g", (int)(end - r->at < 24 ? end - r->at : 24),
+             r->at, (double)LIMIT_COORDINATE);
+    }
+    r->at = end;
+    return add_number(r, value);
+}
+
+static uint16_t read_named(struct reader *r)
+{
+    char name[NAME_BYTES];
+    const char *at = r->at;
+    if (read_name(r, name) >= NAME_BYTES) {
+        note(r, at, "names are at most %d letters long", NAME_BYTES - 1);
+        return 0;
+    }
+    int arguments;
+    const bool calls = *r->at == '(' || (function_of(name, &arguments) >= 0 && next_is(r, "("));
+    const bool is_value = find(axes, name) >= 0 || find(r->letters, name) >= 0;
+    if (calls && !is_value) {
+        for (int i = 0; i < r->definition_count; i++) {
+            if (strcmp(r->definitions[i].name, name) == 0) {
+                return r->definitions[i].node;
+            }
+        }
+        for (int i = 0; equation_constants[i].name; i++) {
+            if (strcmp(equation_constants[i].name, name) == 0) {
+                return value_of(r, name, at);
+            }
+        }
+        take(r, "(");
+        return read_call(r, name, at);
+    }
+    return value_of(r, name, at);
+}
+
+static uint16_t read_group(struct reader *r)
+{
+    const char *opener = r->at;
+    const bool bars = *opener == '|', outer = r->in_bars;
+    if (!bars) {
+        r->at++;
+        r->in_bars = false;
+        const uint16_t inner = read_expression(r);
+        r->in_bars = outer;
+        expect(r, ")", opener);
+        return inner;
+    }
+    r->at++;
+    r->in_bars = true;
+    const uint16_t inner = read_expression(r);
+    r->in_bars = outer;
+    expect(r, "|", opener);
+    return add_call(r, EQUATION_ABS, inner, 0);
+}
+
+static uint16_t read_atom(struct reader *r)
+{
+    char next[8];
+    skip_space(r);
+    const char c = *r->at;
+    if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)r->at[1]))) {
+        return read_number(r);
+    }
+    if (isalpha((unsigned char)c) || c == '_') {
+        return read_named(r);
+    }
+    if (c == '(' || (c == '|' && !r->in_bars)) {
+        return read_group(r);
+    }
+    const char *at = r->at;
+    if (take(r, "pi")) {
+        return value_of(r, "pi", at);
+    }
+    if (take(r, "sqrt")) {
+        return add_call(r, EQUATION_SQRT, read_atom(r), 0);
+    }
+    if (!r->ended) {
+        r->ended = true;
+        const char *found = next_character(r, next);
+        const bool is_end = strcmp(found, "the end") == 0;
+        note(r, r->at, "expected a number, a name or \"(\", found %s%s%s", is_end ? "" : "\"",
+             found, is_end ? "" : "\"");
+    }
+    return 0;
+}
+
+static uint16_t read_power(struct reader *r)
+{
+    uint16_t base = read_atom(r);
+    const char *at = r->at;
+    if (!r->ended && begins_with(r->at, "\u00b2")) {
+        r->at += strlen("\u00b2");
+        base = add_whole(r, base, 2);
+    } else if (!r->ended && begins_with(r->at, "\u00b3")) {
+        r->at += strlen("\u00b3");
+        base = add_whole(r, base, 3);
+    }
+    if (!r->ended && take(r, "^")) {
+        skip_space(r);
+        at = r->at;
+        const uint16_t exponent = read_unary(r);
+        return r->ended ? 0 : add_power(r, base, exponent, at);
+    }
+    return base;
+}
+
+static uint16_t read_unary(struct reader *r)
+{
+    uint16_t value = 0;
+    if (++r->depth > LIMIT_EQUATION_DEPTH && !r->ended) {
+        r->ended = true;
+        note(r, r->at, "nested deeper than %d levels (equation_depth)", LIMIT_EQUATION_DEPTH);
+    }
+    if (r->ended) {
+        value = 0;
+    } else if (take(r, "-")) {
+        value = add(r, (struct equation_node){.op = EQUATION_NEGATE, .args = {read_unary(r), 0}});
+    } else if (take(r, "+")) {
+        value = read_unary(r);
+    } else {
+        value = read_power(r);
+    }
+    r->depth--;
+    return value;
+}
+
+static bool ends_with(const char *begin, const char *end, const char *with)
+{
+    const size_t length = strlen(with);
+    return (size_t)(end - begin) >= length && memcmp(end - length, with, length) == 0;
+}
+
+/* Whether a factor follows without a sign: after a number or ")" a name or "(". */
+static bool is_beside(struct reader *r, const char *begin)
+{
+    const char *last = r->at;
+    while (last > begin && (last[-1] == ' ' || last[-1] == '\t' || last[-1] == '\n')) {
+        last--;
+    }
+    skip_space(r);
+    const bool opens = *r->at == '(';
+    const bool named = isalpha((unsigned char)*r->at) || *r->at == '_' || next_is(r, "pi") ||
+                       next_is(r, "sqrt");
+    const bool closed = last > begin && last[-1] == ')';
+    const bool digit = last > begin && (isdigit((unsigned char)last[-1]) || last[-1] == '.' ||
+                                        ends_with(begin, last, "\u03c0") ||
+                                        ends_with(begin, last, "\u00b2") ||
+                                        ends_with(begin, last, "\u00b3"));
+    const bool letter = last > begin && isalpha((unsigned char)last[-1]);
+    return ((closed || digit) && (named || opens)) || (letter && opens);
+}
+
+static uint16_t read_term(struct reader *r)
+{
+    const char *begin = r->at;
+    uint16_t value = read_unary(r);
+    while (!r->ended) {
+        if (take(r, "*")) {
+            value = add_two(r, EQUATION_MULTIPLY, value, read_unary(r));
+        } else if (take(r, "/")) {
+            value = add_two(r, EQUATION_DIVIDE, value, read_unary(r));
+        } else if (is_beside(r, begin)) {
+            value = add_two(r, EQUATION_MULTIPLY, value, read_power(r));
+        } else {
+            break;
+        }
+    }
+    return value;
+}
+
+static uint16_t read_expression(struct reader *r)
+{
+    uint16_t value = read_term(r);
+    while (!r->ended) {
+        if (take(r, "+")) {
+            value = add_two(r, EQUATION_ADD, value, read_term(r));
+        } else if (take(r, "-")) {
+            value = add_two(r, EQUATION_SUBTRACT, value, read_term(r));
+        } else {
+            break;
+        }
+    }
+    return value;
+}
+
+/* Reads "name := expression;" if that is next. */
+static bool read_definition(struct reader *r)
+{
+    struct definition next;
+    const char *begin = r->at, *at;
+    int arguments;
+    skip_space(r);
+    at = r->at;
+    if (!(isalpha((unsigned char)*at) || *at == '_') || read_name(r, next.name) >= NAME_BYTES ||
+        !take(r, ":=")) {
+        r->at = begin;
+        return false;
+    }
+    if (find(axes, next.name) >= 0 || function_of(next.name, &arguments) >= 0) {
+        note(r, at, "\"%s\" has a meaning already; choose another name", next.name);
+    }
+    for (int i = 0; i < r->definition_count; i++) {
+        if (strcmp(r->definitions[i].name, next.name) == 0) {
+            note(r, at, "\"%s\" is defined twice", next.name);
+        }
+    }
+    next.node = read_expression(r);
+    if (r->definition_count == LIMIT_EQUATION_DEFINITIONS && !r->ended) {
+        r->ended = true;
+        note(r, at, "more than %d definitions (equation_definitions)", LIMIT_EQUATION_DEFINITIONS);
+    }
+    if (!r->ended) {
+        r->definitions[r->definition_count++] = next;
+        if (!take(r, ";")) {
+            r->ended = true;
+            note(r, r->at, "expected \";\" after the definition of \"%s\"", next.name);
+        }
+    }
+    return true;
+}
+
+static void read_relation(struct reader *r)
+{
+    static const struct {
+        const char *symbol;
+        enum equation_relation relation;
+    } rows[] = {{"<=", EQUATION_LESS_EQUAL},
+                {">=", EQUATION_GREATER_EQUAL},
+                {"<", EQUATION_LESS},
+                {">", EQUATION_GREATER},
+                {"=", EQUATION_EQUALS}};
+    r->equation->relation = EQUATION_EQUALS;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (take(r, rows[i].symbol)) {
+            r->equation->relation = rows[i].relation;
+            r->equation->right = read_expression(r);
+            return;
+        }
+    }
+    r->equation->right = add_number(r, 0);
+}
+
+static void check_end(struct reader *r)
+{
+    char next[8];
+    skip_space(r);
+    if (r->ended || !*r->at) {
+        return;
+    }
+    if (strchr("<>=", *r->at)) {
+        note(r, r->at, "a second relation; an equation has one");
+    } else if (*r->at == ')') {
+        note(r, r->at, "nothing is open that \")\" could close");
+    } else {
+        note(r, r->at, "unexpected \"%s\"", next_character(r, next));
+    }
+}
+
+struct equation *equation_read(const char *text, const char *const *letters,
+                               struct equation_errors *out_errors)
+{
+    struct equation *equation = memory_alloc(1, sizeof *equation);
+    struct reader r = {.text = text, .at = text, .letters = letters, .equation = equation,
+                       .errors = out_errors};
+    out_errors->count = 0;
+    while (!r.ended && read_definition(&r)) {
+    }
+    if (!r.ended) {
+        equation->left = read_expression(&r);
+    }
+    if (!r.ended) {
+        read_relation(&r);
+    }
+    check_end(&r);
+    if (out_errors->count == 0 && !equation->nodes[equation->left].varies &&
+        !equation->nodes[equation->right].varies) {
+        note(&r, text, "no x, y or z: it holds everywhere or nowhere");
+    }
+    if (out_errors->count > 0) {
+        free(equation);
+        return NULL;
+    }
+    return equation;
+}

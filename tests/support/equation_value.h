@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* Equations in double precision, straight from their nodes: the oracle of the code that is made of
+ * them. */
+#ifndef TESTS_SUPPORT_EQUATION_VALUE_H
+#define TESTS_SUPPORT_EQUATION_VALUE_H
+
+#include "protocol/equation.h"
+
+/* left - right, or right - left where the relation is > or >=: negative inside. */
+double equation_value(const struct equation *equation, const double p[3], const double *letters);
+
+#endif

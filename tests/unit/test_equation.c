@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: MIT */
+/* The language of equations: what is read and printed, every error with its place, every limit from
+ * both sides, and texts by chance. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/equation.h"
+#include "tests/support/equation_value.h"
+#include "tests/support/random_scene.h"
+
+static const char *const letters[] = {"a", "b", "c", "d", NULL};
+
+static struct equation *read(const char *text)
+{
+    struct equation_errors errors;
+    struct equation *equation = equation_read(text, letters, &errors);
+    if (!equation) {
+        fail_msg("%s\n%d:%d: %s", text, errors.list[0].line, errors.list[0].column,
+                 errors.list[0].message);
+    }
+    return equation;
+}
+
+/* --- what is read --- */
+
+#define X 0.3
+#define Y -1.7
+#define Z 2.2
+#define A 0.5
+static const double point[3] = {X, Y, Z}, values[4] = {A, 2, 3, 4};
+
+/* `value`: of left - right at that point. */
+static const struct {
+    const char *text, *printed;
+    double value;
+} good[] = {
+    {"x", "x = 0", X},
+    {"x = y", "x = y", X - Y},
+    {"x < y", "x < y", X - Y},
+    {"x <= y", "x <= y", X - Y},
+    {"x > y", "x > y", Y - X},
+    {"x >= y", "x >= y", Y - X},
+    {"x \u2264 y", "x <= y", X - Y},
+    {"x \u2265 y", "x >= y", Y - X},
+    {"x + y - z", "x + y - z = 0", X + Y - Z},
+    {"x - (y - z)", "x - (y - z) = 0", X - (Y - Z)},
+    {"x - y + z", "x - y + z = 0", X - Y + Z},
+    {"x*y/z", "x*y/z = 0", X *Y / Z},
+    {"x/(y*z)", "x/(y*z) = 0", X / (Y * Z)},
+    {"x/y*z", "x/y*z = 0", X / Y *Z},
+    {"2x", "2*x = 0", 2 * X},
+    {"3(x + 1)", "3*(x + 1) = 0", 3 * (X + 1)},
+    {"(x + 1)(y - 2)", "(x + 1)*(y - 2) = 0", (X + 1) * (Y - 2)},
+    {"(x + 1)y", "(x + 1)*y = 0", (X + 1) * Y},
+    {"x(y + 1)", "x*(y + 1) = 0", X *(Y + 1)},
+    {"a(x + 1)", "a*(x + 1) = 0", A *(X + 1)},
+    {"pi(x + 1)", "pi*(x + 1) = 0", M_PI *(X + 1)},
+    {"2x^2y - 1", "2*x^2*y - 1 = 0", 2 * X *X *Y - 1},
+    {"-x^2", "-x^2 = 0", -X *X},
+    {"(-x)^2", "(-x)^2 = 0", X *X},
+    {"2^3^x", "2^3^x = 0", 0},
+    {"(2^x)^3", "(2^x)^3 = 0", 0},
+    {"x^-2", "x^-2 = 0", 1 / (X * X)},
+    {"x ** 3", "x^3 = 0", X *X *X},
+    {"x\u00b2 + y\u00b3", "x^2 + y^3 = 0", X *X + Y *Y *Y},
+    {"x\u00b7y \u00d7 z \u2212 1", "x*y*z - 1 = 0", X *Y *Z - 1},
+    {"\u03c0x", "pi*x = 0", 0},
+    {"\u03c0*x", "pi*x = 0", M_PI *X},
+    {"x\u00b2y", "x^2*y = 0", X *X *Y},
+    {"2\u03c0*x", "2*pi*x = 0", 2 * M_PI *X},
+    {"\u221a(z) + x", "sqrt(z) + x = 0", 0},
+    {"2\u221a(z)", "2*sqrt(z) = 0", 0},
+    {"|x - y|", "abs(x - y) = 0", X - Y},
+    {"|x| + |y|", "abs(x) + abs(y) = 0", X - Y},
+    {"|(x - |y|)|", "abs(x - abs(y)) = 0", -Y - X},
+    {"r := x^2 + y^2; r^2 = r*z", "(x^2 + y^2)^2 = (x^2 + y^2)*z", 0},
+    {"k := 2; m := k + 1; m*x", "(2 + 1)*x = 0", 3 * X},
+    {"x^(1 + 1)", "x^2 = 0", X *X},
+    {"x^(1/2)", "x^(1/2) = 0", 0},
+    {"z^a", "z^a = 0", 0},
+    {"1e-3x + .5y + 2.", "0.001*x + 0.5*y + 2 = 0", 1e-3 * X + .5 * Y + 2},
+    {"0.1 = x", "0.1 = x", 0.1 - X},
+    {"hypot(x, y) = 1", "sqrt(x^2 + y^2) = 1", 0},
+    {"clamp(x, 1, 2)", "min(max(x, 1), 2) = 0", 1},
+    {"mix(x, y, a)", "x + (y - x)*a = 0", (X + Y) / 2},
+    {"log2(z)", "log(z)/log(2) = 0", 0},
+    {"pow(x, 3) + pow(z, a)", "x^3 + z^a = 0", 0},
+    {"min(x, y) + max(x, y)", "min(x, y) + max(x, y) = 0", X + Y},
+    {"+x", "x = 0", X},
+    {"- -x", "--x = 0", X},
+    {"x\n  + y\n\t= 1", "x + y = 1", X + Y - 1},
+    {"e*x + tau*y + phi*z", "e*x + tau*y + phi*z = 0", 0},
+};
+
+static void texts_are_read_and_printed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        struct equation *equation = read(good[i].text);
+        char *printed = equation_print(equation, letters);
+        struct equation *again = read(printed);
+        char *twice = equation_print(again, letters);
+        const double value = equation_value(equation, point, values);
+        assert_string_equal(printed, good[i].printed);
+        assert_string_equal(twice, printed);
+        if (good[i].value != 0) {
+            assert_float_equal(value, good[i].value, 1e-12);
+        }
+        assert_float_equal(value, equation_value(again, point, values), 1e-12);
+        free(printed);
+        free(twice);
+        free(equation);
+        free(again);
+    }
+}
+
+/* --- what is refused --- */
+
+static const struct {
+    const char *text;
+    int line, column;
+    const char *words;
+} bad[] = {
+    {"", 1, 1, "expected a number, a name or \"(\", found the end"},
+    {"x +", 1, 4, "found the end"},
+    {"x + * y", 1, 5, "found \"*\""},
+    {"x = y = z", 1, 7, "a second relation"},
+    {"x = y < z", 1, 7, "a second relation"},
+    {"(x + y", 1, 7, "expected \")\" for the \"(\" in column 1"},
+    {"x + (y*(z + 1)", 1, 15, "for the \"(\" in column 5"},
+    {"x + y)", 1, 6, "nothing is open"},
+    {"|x + y", 1, 7, "expected \"|\""},
+    {"sin(x", 1, 6, "expected \")\" for the \"(\" in column 4"},
+    {"xy = 1", 1, 1, "write x*y"},
+    {"z + xyz", 1, 5, "write x*y*z"},
+    {"ax + 1", 1, 1, "write a*x"},
+    {"sine(x)", 1, 1, "did you mean \"sin\""},
+    {"coz(x)", 1, 1, "did you mean \"cos\""},
+    {"q + x", 1, 1, "\"q\" is no name"},
+    {"frob(x)", 1, 1, "\"frob\" is no function"},
+    {"sin + x", 1, 1, "write sin(...)"},
+    {"x + max", 1, 5, "write max(..., ...)"},
+    {"sin(x, y)", 1, 1, "sin() takes 1 argument, not 2"},
+    {"max(x)", 1, 1, "max() takes 2 arguments, not 1"},
+    {"clamp(x, 1)", 1, 1, "clamp() takes 3 arguments, not 2"},
+    {"1 + 2 = 3", 1, 1, "no x, y or z"},
+    {"a = b", 1, 1, "no x, y or z"},
+    {"x + 1e99", 1, 5, "above the maximum"},
+    {"x + 10000000", 1, 5, "above the maximum"},
+    {"x^65", 1, 3, "the limit is 64"},
+    {"x^-65", 1, 3, "the limit is 64"},
+    {"x # y", 1, 3, "unexpected \"#\""},
+    {"x y", 1, 3, "unexpected \"y\""},
+    {"x, y", 1, 2, "unexpected \",\""},
+    {"r := x + y", 1, 11, "expected \";\""},
+    {"x := 2; x", 1, 1, "has a meaning already"},
+    {"sin := 2; x", 1, 1, "has a meaning already"},
+    {"r := 2; r := 3; x", 1, 9, "defined twice"},
+    {"r := ; x", 1, 6, "found \";\""},
+    {"x\n+ y\n+ q", 3, 3, "\"q\" is no name"},
+    {"\u03c0*x + q", 1, 7, "\"q\" is no name"},
+    {"x\u00b2 + q", 1, 6, "\"q\" is no name"},
+    {"x + \u00fc", 1, 5, "found \"\u00fc\""},
+    {"x = ", 1, 5, "found the end"},
+    {"x + abcdefghijklmnopqrstuvwxyzabcdefghij", 1, 5, "at most 31 letters"},
+    {"()", 1, 2, "found \")\""},
+    {"sin()", 1, 5, "found \")\""},
+    {"x^", 1, 3, "found the end"},
+    {"x ** ** y", 1, 6, "found \"*\""},
+};
+
+static void errors_have_their_place(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        struct equation_errors errors;
+        struct equation *equation = equation_read(bad[i].text, letters, &errors);
+        const struct equation_error *first = &errors.list[0];
+        if (equation || first->line != bad[i].line || first->column != bad[i].column ||
+            !strstr(first->message, bad[i].words)) {
+            fail_msg("%s\n%d:%d: %s", bad[i].text, first->line, first->column,
+                     equation ? "is read" : first->message);
+        }
+    }
+}
+
+static void several_errors_are_told(void **state)
+{
+    struct equation_errors errors;
+    (void)state;
+    assert_null(equation_read("q + sine(x)\n + max(y) + (z", letters, &errors));
+    assert_int_equal(errors.count, 4);
+    assert_int_equal(errors.list[1].column, 5);
+    assert_int_equal(errors.list[2].line, 2);
+    assert_int_equal(errors.list[3].column, 15);
+    assert_null(equation_read("q+q+q+q+q+q+q+q+q+q", letters, &errors));
+    assert_int_equal(errors.count, EQUATION_ERRORS);
+}
+
+/* --- limits --- */
+
+static bool is_read(const char *text)
+{
+    struct equation_errors errors;
+    struct equation *equation = equation_read(text, letters, &errors);
+    free(equation);
+    return equation != NULL;
+}
+
+/* `part` again and again: # is the number of the time, from 1, @ the one before. */
+static char *repeated(const char *head, const char *part, int times, const char *tail)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    fputs(head, out);
+    for (int i = 0; i < times; i++) {
+        for (const char *c = part; *c; c++) {
+            if (*c == '#' || *c == '@') {
+                fprintf(out, "%d", i + (*c == '#'));
+            } else {
+                fputc(*c, out);
+            }
+        }
+    }
+    fputs(tail, out);
+    fclose(out);
+    return text;
+}
+
+static void limits_hold_on_both_sides(void **state)
+{
+    static const struct {
+        const char *head, *part, *tail;
+        int most;
+    } rows[] = {
+        {"", "(", "x", LIMIT_EQUATION_DEPTH - 1}, /* closed below */
+        {"", "-", "x", LIMIT_EQUATION_DEPTH - 1},
+        {"", "k# := x + #;", "x", LIMIT_EQUATION_DEFINITIONS},
+        {"x", "+ #.25", "", (LIMIT_EQUATION_NODES - 2) / 2}, /* besides x and 0 */
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (int over = 0; over < 2; over++) {
+            const bool opens = strcmp(rows[i].part, "(") == 0;
+            char *text = repeated(rows[i].head, rows[i].part, rows[i].most + over, rows[i].tail);
+            char *closed = repeated(text, ")", opens ? rows[i].most + over : 0, "");
+            if (is_read(closed) != !over) {
+                fail_msg("row %zu: %d", i, rows[i].most + over);
+            }
+            free(text);
+            free(closed);
+        }
+    }
+    assert_true(is_read("x^64 + y^-64"));
+    assert_true(is_read("k0 := x + y; k1 := k0*k0; k2 := k1*k1; k3 := k2*k2; k4 := k3*k3; k4"));
+    char *bomb = repeated("k0 := x;", "k# := k@ + k@;", 14, "k14");
+    assert_false(is_read(bomb));
+    free(bomb);
+}
+
+/* --- by chance --- */
+
+/* Whatever the text is, it is read or refused at a place in it; what is read is printed as it will
+ * be read. */
+static void random_texts_do_no_harm(void **state)
+{
+    static const char *const parts[] = {"x", "y", "z", "a",  "2",     "0.5", "(", ")", "+",  "-",
+                                        "*", "/", "^", "^2", "sin(",  "max(", ",", "=", "<",  " ",
+                                        "|", ";", "r", ":=", "\u00b2", "pi",  ".", "1e", "\n", "hypot("};
+    enum { ROUNDS = 20000, PARTS = sizeof parts / sizeof parts[0] };
+    struct random random = {.state = 99};
+    int valid = 0;
+    (void)state;
+    for (int round = 0; round < ROUNDS; round++) {
+        char text[256] = "";
+        struct equation_errors errors;
+        const size_t length = 1 + random_below(&random, 14);
+        for (size_t i = 0; i < length; i++) {
+            strcat(text, parts[random_below(&random, PARTS)]);
+        }
+        struct equation *equation = equation_read(text, letters, &errors);
+        if (!equation) {
+            assert_true(errors.count > 0 && errors.list[0].column > 0 &&
+                        errors.list[0].column <= (int)strlen(text) + 1);
+            continue;
+        }
+        char *printed = equation_print(equation, letters);
+        struct equation *again = read(printed);
+        char *twice = equation_print(again, letters);
+        assert_string_equal(printed, twice);
+        free(printed);
+        free(twice);
+        free(equation);
+        free(again);
+        valid++;
+    }
+    assert_true(valid > ROUNDS / 200);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(texts_are_read_and_printed), cmocka_unit_test(errors_have_their_place),
+        cmocka_unit_test(several_errors_are_told),    cmocka_unit_test(limits_hold_on_both_sides),
+        cmocka_unit_test(random_texts_do_no_harm),
+    };
+    return cmocka_run_group_tests_name("equations", tests, NULL, NULL);
+}
