@@ -24,6 +24,7 @@ static const struct {
     [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
     [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},   [PARAM_ASSET] = {"asset", 0},
     [PARAM_IVEC2] = {"ivec2", 2},       [PARAM_IVEC4] = {"ivec4", 4},
+    [PARAM_EQUATION] = {"equation", 0},
 };
 
 int param_components(enum param_type type)
@@ -50,6 +51,13 @@ const char *param_unit_name(enum param_unit unit)
 bool param_is_text(enum param_type type)
 {
     return param_components(type) == 0 && type != PARAM_POINTS;
+}
+
+size_t param_text_bytes(enum param_type type)
+{
+    return type == PARAM_CODE       ? LIMIT_CODE_BYTES
+           : type == PARAM_EQUATION ? LIMIT_EQUATION_BYTES
+                                    : LIMIT_NAME_BYTES;
 }
 
 bool param_is_whole(enum param_type type)
@@ -248,11 +256,11 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
     }
     const char *text = json->valuestring;
     size_t length = strlen(text);
-    if (param->type == PARAM_CODE) {
-        return length > LIMIT_CODE_BYTES
-                   ? error_set(err, ERROR_LIMIT, place, "%zu bytes are above the maximum %d",
-                               length, LIMIT_CODE_BYTES)
-                   : check_characters(text, "\t\n", place, err);
+    if (param->type == PARAM_CODE || param->type == PARAM_EQUATION) {
+        const size_t most = param_text_bytes(param->type);
+        return length > most ? error_set(err, ERROR_LIMIT, place,
+                                         "%zu bytes are above the maximum %zu", length, most)
+                             : check_characters(text, "\t\n", place, err);
     }
     if (param->type == PARAM_TEXT) {
         return length > LIMIT_NAME_BYTES

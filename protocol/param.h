@@ -30,6 +30,7 @@ enum param_type {
     PARAM_MODEL,    /* name of a model of the scene, or "" */
     PARAM_FUNCTION, /* name of a distance function among `primitives`, or "" */
     PARAM_ASSET,    /* an uploaded file: its SHA-256 in 64 small hex digits, or "" */
+    PARAM_EQUATION, /* an equation (equation.h) of several lines, at most LIMIT_EQUATION_BYTES */
     PARAM_ROWS, /* parameters that a document declares (declared_params.h); `text` is their JSON */
 };
 
@@ -71,6 +72,7 @@ int param_components(enum param_type type);        /* 1 to 4, or 0 for texts and
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
 bool param_is_text(enum param_type type);  /* a value's `text` is used */
+size_t param_text_bytes(enum param_type type); /* of PARAM_TEXT, _CODE, _EQUATION at most */
 bool param_is_whole(enum param_type type); /* its numbers have no fraction */
 /* The range that holds, also where the row names none. */
 void param_range(const struct param *param, double *out_min, double *out_max);

@@ -100,11 +100,12 @@ static cJSON *text_schema(const struct param *param)
     cJSON *schema = typed("string");
     if (param->type == PARAM_ASSET) {
         cJSON_AddStringToObject(schema, "pattern", "^([0-9a-f]{64})?$");
-    } else if (param->type == PARAM_TEXT || param->type == PARAM_CODE) {
-        bool code = param->type == PARAM_CODE;
-        cJSON_AddNumberToObject(schema, "maxLength", code ? LIMIT_CODE_BYTES : LIMIT_NAME_BYTES);
+    } else if (param->type == PARAM_TEXT || param->type == PARAM_CODE ||
+               param->type == PARAM_EQUATION) {
+        const bool lines = param->type != PARAM_TEXT;
+        cJSON_AddNumberToObject(schema, "maxLength", (double)param_text_bytes(param->type));
         cJSON_AddStringToObject(schema, "pattern",
-                                code ? "^[^\x01-\x08\x0b-\x1f\x7f]*$" : "^[^\x01-\x1f\x7f]*$");
+                                lines ? "^[^\x01-\x08\x0b-\x1f\x7f]*$" : "^[^\x01-\x1f\x7f]*$");
     } else {
         cJSON_AddStringToObject(schema, "pattern", "^[A-Za-z0-9_.-]{0,64}$");
     }
@@ -174,6 +175,7 @@ static cJSON *param_schema(const struct param *param)
     case PARAM_TEXT:
     case PARAM_MATERIAL:
     case PARAM_CODE:
+    case PARAM_EQUATION:
     case PARAM_MODEL:
     case PARAM_FUNCTION:
     case PARAM_ASSET:

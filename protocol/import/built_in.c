@@ -53,6 +53,7 @@ static const char *const *groups_of(const struct node_type *type)
         return modifiers;
     case KIND_MODEL:
     case KIND_CODE:
+    case KIND_EQUATION:
         break;
     }
     return NULL;

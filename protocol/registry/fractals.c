@@ -2,6 +2,7 @@
 /* Registry: fractals, minimal surfaces and landscapes. */
 #include "rows.h"
 
+#define LETTER PARAM_FLOAT, UNIT_NONE, .def = {1}, .step = 0.01
 #define COUNT PARAM_INT, UNIT_NONE, .step = 1, .main = true
 
 /* clang-format off */
@@ -56,6 +57,26 @@ const struct node_type node_fractals[] = {
      .number = 74, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
      .glsl = "sd_terrain", .words = "landscape mountains hills ground noise height field",
      .source = "Inigo Quilez, Value noise derivatives, iquilezles.org/articles/morenoise"},
+    {.record = {"implicit", "The zero set of an equation in x, y and z.", PARAMS(
+        {"equation", PARAM_EQUATION, .main = true,
+         .doc = "Such as x^2 + y^2 - z^2 = a. With < or > the solid is where that holds."},
+        {"mode", PARAM_ENUM, .choices = (const char *const[]){"solid", "sheet", NULL},
+         .doc = "What is behind the surface too, or the surface alone."},
+        {"clip", PARAM_ENUM, .choices = (const char *const[]){"box", "ball", NULL},
+         .doc = "What cuts it."},
+        {"size", PARAM_VEC3, SIZE, .def = {3, 3, 3}, .when = "clip=box",
+         .doc = "Full lengths of the box."},
+        {"radius", PARAM_FLOAT, SIZE, .def = {1.5}, .when = "clip=ball", .doc = "Of the ball."},
+        {"thickness", PARAM_FLOAT, SIZE, .def = {0.03}, .when = "mode=sheet",
+         .doc = "Of the sheet."},
+        {"a", LETTER, .main = true, .doc = "The letter a in the equation."},
+        {"b", LETTER, .doc = "The letter b."}, {"c", LETTER, .doc = "The letter c."},
+        {"d", LETTER, .doc = "The letter d."})},
+     .number = 75, .group = GROUP_PRIMITIVE, .kind = KIND_EQUATION, .exactness = BOUND,
+     .lipschitz = 0, .glsl = "", .words = "equation function algebraic surface polynomial "
+     "isosurface maths formula quadric",
+     .source = "Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface "
+               "(1990)"},
     {.record = {.name = NULL}},
 };
 /* clang-format on */

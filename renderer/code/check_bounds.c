@@ -27,7 +27,7 @@ static long most(long a, long b)
 static bool spend_work(struct bounds_walk *walk, struct cost *cost, long work, struct at at)
 {
     cost->work += work;
-    return cost->work <= LIMIT_CODE_WORK ||
+    return walk->tree->ours || cost->work <= LIMIT_CODE_WORK ||
            tree_fail_limit(walk->tree, at, "operations of one call, with its loops run through,",
                            LIMIT_CODE_WORK, "code_work");
 }
@@ -36,7 +36,7 @@ static bool spend_work(struct bounds_walk *walk, struct cost *cost, long work, s
 static bool spend_size(struct bounds_walk *walk, struct cost *cost, long size, struct at at)
 {
     cost->size += size;
-    return cost->size <= LIMIT_CODE_SIZE ||
+    return walk->tree->ours || cost->size <= LIMIT_CODE_SIZE ||
            tree_fail_limit(walk->tree, at, "operations, with every call written out,",
                            LIMIT_CODE_SIZE, "code_size");
 }

@@ -25,12 +25,13 @@ static bool check_length_of(const char *text, struct error *err)
 
 struct code *code_compile(const struct code_source *source, struct error *err)
 {
-    if (!check_length_of(source->text, err)) {
+    if (!source->ours && !check_length_of(source->text, err)) {
         return NULL;
     }
     struct code *code = memory_alloc(1, sizeof *code);
     code->use = source->use;
     tree_init(&code->tree, err);
+    code->tree.ours = source->ours;
     if (!parser_read(&code->tree, source->text) || !check_tree(&code->tree, source) ||
         !lower_tree(&code->tree, &code->machine)) {
         code_destroy(code);

@@ -27,6 +27,7 @@ struct code_source {
     enum code_use use;
     const char *text;
     const struct param *params;
+    bool ours; /* not bounded by the code_* rows of limits.h: it has limits of its own */
 };
 
 struct code;

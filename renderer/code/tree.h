@@ -216,6 +216,7 @@ struct tree {
     /* GLSL as we write it ourselves, not users' code: with structs, blocks, while and variables
      * outside of functions. parser_whole.c reads what is more; check.h knows nothing of it. */
     bool whole;
+    bool ours; /* as in struct code_source */
     struct tree_struct structs[TREE_STRUCTS];
     int struct_count;
     struct function *entry;

@@ -112,6 +112,7 @@ static bool make(const struct engine_program *program, struct operation *out,
 /* What a slot holds at this place of the field, and which loops are open. */
 struct reading {
     bool mixed[FIELD_SLOTS_MAX];
+    bool steep[FIELD_SLOTS_MAX]; /* a shape in it has no bound on its slope */
     uint32_t loops[LIMIT_NODE_DEPTH];
     int depth, bent; /* open loops; open changes of space that lengthen */
 };
@@ -131,10 +132,12 @@ static bool read_one(struct engine_program *program, struct reading *r,
     program->count++;
     if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
         r->mixed[in->a] = false;
+        r->steep[in->a] = in->type && in->type->kind == KIND_EQUATION;
     } else if (in->op == FIELD_COMBINE) {
         to->mixes = in->sdf->soft || r->mixed[in->a] || r->mixed[in->b];
         r->mixed[in->a] = to->mixes;
-        to->prunes = in->sdf->reach && r->depth == 0 && r->bent == 0;
+        r->steep[in->a] = r->steep[in->a] || r->steep[in->b];
+        to->prunes = in->sdf->reach && r->depth == 0 && r->bent == 0 && !r->steep[in->a];
         to->rule = (uint8_t)in->sdf->rule;
         to->kernel = (uint8_t)(in->choices & 0xff);
         to->reach = in->sdf->reach;
@@ -145,6 +148,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
         program->operations[at - to->length].length = to->length;
         program->operations[at - to->length].b = in->b;
         r->mixed[in->a] = r->mixed[in->b];
+        r->steep[in->a] = r->steep[in->b];
     }
     r->bent += bends && in->op == FIELD_MAP;
     r->bent -= bends && in->op == FIELD_AFTER && r->bent > 0;

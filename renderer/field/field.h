@@ -139,7 +139,7 @@ struct field_place {
 /* Code that a field calls: user_I or shade_I in GLSL. */
 struct field_code {
     const char *text; /* only to tell codes apart while compiling */
-    bool own;         /* ours (renderer/code/shades.h), not a user's */
+    bool own;         /* ours (shades.h and equation_code.h in renderer/code), not a user's */
     struct code *code;
     char place[ERROR_PLACE_BYTES];             /* of the text in the document */
     uint64_t hash;                             /* of the text and of what it declares */

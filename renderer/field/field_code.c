@@ -34,36 +34,48 @@ static struct field_code *append(struct field_code **list, size_t *count)
     return last;
 }
 
-int field_code_add(struct builder *b, enum code_use use, const char *text,
-                   const struct param *params, const char *place)
+static struct field_code **list_of(struct field *field, enum code_use use, size_t **out_count)
 {
-    struct field *field = b->field;
-    bool distance = use == CODE_DISTANCE;
-    struct field_code **list = distance ? &field->codes : &field->shaders;
-    size_t *count = distance ? &field->code_count : &field->shader_count;
+    const bool distance = use == CODE_DISTANCE;
+    *out_count = distance ? &field->code_count : &field->shader_count;
+    return distance ? &field->codes : &field->shaders;
+}
+
+/* Where it is in the list; -1: nowhere, and the builder has failed if it makes no new ones. */
+static int find(struct builder *b, enum code_use use, const char *text)
+{
+    size_t *count;
+    struct field_code *const *list = list_of(b->field, use, &count);
     for (size_t i = 0; i < *count; i++) {
         if ((*list)[i].text == text) {
             return (int)i;
         }
     }
+    b->failed = b->failed || b->again;
+    return -1;
+}
+
+/* `text` is what it is found by; `source`, what is compiled. */
+static int add(struct builder *b, const char *text, const struct code_source *source,
+               const char *place)
+{
+    size_t *count;
+    struct field_code **list = list_of(b->field, source->use, &count);
     struct error err = {0};
-    if (b->again) {
-        b->failed = true;
-        return -1;
-    }
-    struct code *code = code_compile(&(struct code_source){use, text, params}, &err);
+    struct code *code = code_compile(source, &err);
     if (!code) {
         builder_fail(b, &err, place);
         return -1;
     }
     struct field_code *added = append(list, count);
     added->text = text;
+    added->own = source->ours;
     added->code = code;
-    added->hash = hash_code(text, params);
+    added->hash = hash_code(source->text, source->params);
     snprintf(added->place, sizeof added->place, "%s", place);
     struct field_place places[SDF_PARAMS_MAX];
-    added->vec4s = field_layout(params, 0, places);
-    while (params[added->place_count].name) {
+    added->vec4s = field_layout(source->params, 0, places);
+    while (source->params[added->place_count].name) {
         assert(added->place_count < LIMIT_DECLARED);
         added->places[added->place_count] = places[added->place_count];
         added->place_count++;
@@ -71,7 +83,80 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
     return (int)*count - 1;
 }
 
-bool field_call_of(const struct scene *scene, const struct node *node, struct field_call *out)
+int field_code_add(struct builder *b, enum code_use use, const char *text,
+                   const struct param *params, const char *place)
+{
+    const int found = find(b, use, text);
+    return found >= 0 || b->failed
+               ? found
+               : add(b, text, &(struct code_source){use, text, params, false}, place);
+}
+
+/* The first error is the builder's; how many there are stands behind it. */
+static void fail_equation(struct builder *b, const struct equation_errors *errors,
+                          const char *place)
+{
+    const struct equation_error *first = &errors->list[0];
+    struct error err = {0};
+    char more[40] = "";
+    if (errors->count > 1) {
+        snprintf(more, sizeof more, " (and %d more)", errors->count - 1);
+    }
+    error_set_at(&err, ERROR_COMPILE, "", first->line, first->column, "%s%s", first->message, more);
+    builder_fail(b, &err, place);
+}
+
+static int add_equation(struct builder *b, const struct field_call *call)
+{
+    static const char *const letters[] = {"a", "b", "c", "d", NULL};
+    struct equation_errors errors;
+    struct equation *equation = equation_read(call->text, letters, &errors);
+    if (!equation) {
+        fail_equation(b, &errors, call->place);
+        return -1;
+    }
+    char *text = equation_code(equation, letters, call->form);
+    const struct code_source source = {CODE_DISTANCE, text, call->params, true};
+    const int index = add(b, call->text, &source, call->place);
+    free(text);
+    free(equation);
+    return index;
+}
+
+int field_call_add(struct builder *b, const struct field_call *call)
+{
+    if (!call->is_equation) {
+        return field_code_add(b, CODE_DISTANCE, call->text, call->params, call->place);
+    }
+    const int found = find(b, CODE_DISTANCE, call->text);
+    return found >= 0 || b->failed ? found : add_equation(b, call);
+}
+
+/* Its numbers begin with `size`. */
+static void call_equation(const struct node *node, struct field_call *out)
+{
+    const struct record *params = &node->params;
+    const struct param *first = params->type->params;
+    while (strcmp(first->name, "size") != 0) {
+        first++;
+    }
+    const double across = 2 * record_number(params, "radius");
+    *out = (struct field_call){.text = record_text(params, "equation"),
+                               .is_equation = true,
+                               .form = {.sheet = record_is(params, "mode", "sheet"),
+                                        .ball = record_is(params, "clip", "ball")},
+                               .ball = {across, across, across},
+                               .params = first,
+                               .values = params->values + (first - params->type->params),
+                               .lipschitz = 1,
+                               .size = record_vector(params, "size")};
+    if (out->form.ball) {
+        out->size = out->ball;
+    }
+    snprintf(out->place, sizeof out->place, "/nodes/%s/params/equation", node->id);
+}
+
+static void call_code(const struct scene *scene, const struct node *node, struct field_call *out)
 {
     const struct resource *primitive = node_primitive(scene, node);
     const struct record *source = primitive ? &primitive->record : &node->params;
@@ -89,6 +174,17 @@ bool field_call_of(const struct scene *scene, const struct node *node, struct fi
         snprintf(out->place, sizeof out->place, "/primitives/%s/code", primitive->name);
     } else {
         snprintf(out->place, sizeof out->place, "/nodes/%s/params/code", node->id);
+    }
+}
+
+bool field_call_of(const struct scene *scene, const struct node *node, struct field_call *out)
+{
+    if (node->type->kind == KIND_CODE) {
+        call_code(scene, node, out);
+    } else if (node->type->kind == KIND_EQUATION) {
+        call_equation(node, out);
+    } else {
+        return false;
     }
     return *out->text != '\0';
 }

@@ -4,25 +4,32 @@
 #define RENDERER_FIELD_CODE_H
 
 #include "builder.h"
+#include "renderer/code/equation_code.h"
 
 /* The index of the code in the field's list for this use, where it is added unless it is there
  * already; -1 and the builder's error, which names `place`, where it does not compile. */
 int field_code_add(struct builder *b, enum code_use use, const char *text,
                    const struct param *params, const char *place);
+/* The same for what a shape calls. */
+struct field_call;
+int field_call_add(struct builder *b, const struct field_call *call);
 
 /* BUILDER_HASH_START, or what was hashed before, with a text behind it. */
 uint64_t field_text_hash(uint64_t state, const char *text);
 
-/* What a node of type `field` runs. */
+/* What a node runs that has code or an equation. */
 struct field_call {
     const char *text;
+    bool is_equation;
+    struct equation_form form; /* of an equation */
+    double ball[3];            /* full lengths of the box around it, where it is cut by a ball */
     const struct param *params; /* what it declares, */
     const struct value *values; /* and what the node gives; both borrowed */
     double lipschitz;
     const double *size;
     char place[ERROR_PLACE_BYTES]; /* of the text */
 };
-/* False: it names no code, so it is empty space. */
+/* False: it has none, so it is empty space or another shape. `out` stays where it is. */
 bool field_call_of(const struct scene *scene, const struct node *node, struct field_call *out);
 
 /* The shader of the material in a slot, -1: none, and what it reads. */

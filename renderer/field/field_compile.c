@@ -43,8 +43,10 @@ static uint64_t shape_hash(const struct field *field)
 
 static const struct field_code *find_user_code(const struct field *field)
 {
-    if (field->code_count > 0) {
-        return field->codes;
+    for (size_t i = 0; i < field->code_count; i++) {
+        if (!field->codes[i].own) {
+            return &field->codes[i];
+        }
     }
     for (size_t i = 0; i < field->shader_count; i++) {
         if (!field->shaders[i].own) {

@@ -287,6 +287,7 @@ static bool continues(const struct builder *b, const struct node *node)
     case KIND_SHAPE:
     case KIND_FLAT:
     case KIND_CODE:
+    case KIND_EQUATION:
     case KIND_MODEL:
     case KIND_GROUP:
         return true;
@@ -322,6 +323,7 @@ static struct result emit_joining(struct builder *b, const struct node *node,
     case KIND_SHAPE:
     case KIND_FLAT:
     case KIND_CODE:
+    case KIND_EQUATION:
         own = emit_own_shape(b, node, frame, slot + joined, number);
         if (own.solid && joined) {
             builder_add_instruction(b, field_union_at(b, slot));
@@ -410,7 +412,7 @@ static uint64_t member_hash(const struct builder *b, const struct node *node)
     hash = builder_hash(builder_hash(hash, (uint32_t)node->type->number),
                         field_choices(&node->params));
     struct field_call call;
-    if (node->type->kind == KIND_CODE && field_call_of(b->scene, node, &call)) {
+    if (field_call_of(b->scene, node, &call)) {
         hash = field_text_hash(hash, call.text);
     }
     return hash;

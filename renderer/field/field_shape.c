@@ -96,7 +96,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
     if (!field_call_of(b->scene, node, &call)) {
         return (struct result){0};
     }
-    int index = field_code_add(b, CODE_DISTANCE, call.text, call.params, call.place);
+    int index = field_call_add(b, &call);
     if (index < 0) {
         return (struct result){0};
     }
@@ -136,7 +136,7 @@ struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
     struct result result = {.solid = true, .shown = true};
-    if (node->type->kind == KIND_CODE) {
+    if (node->type->kind == KIND_CODE || node->type->kind == KIND_EQUATION) {
         result = emit_code(b, node, frame, slot, number);
     } else {
         const struct sdf *sdf = sdf_find(node->type);

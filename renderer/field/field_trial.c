@@ -52,7 +52,11 @@ static void add_shapes(struct field_trial *trial)
             continue;
         }
         const double *n = field->arguments + in->arguments + 12, *cut = n + FIELD_HEAD_NUMBERS;
-        struct tried *tried = add(trial, &field->codes[next++]);
+        const struct field_code *code = &field->codes[next++];
+        if (code->own) {
+            continue;
+        }
+        struct tried *tried = add(trial, code);
         memcpy(tried->numbers, cut + 4, numbers_of(tried->code) * sizeof *n);
         memcpy(tried->half, cut, sizeof tried->half);
         tried->lipschitz = cut[3] / n[0];

@@ -44,7 +44,7 @@ static int size_of(enum code_use use, const char *text)
 {
     static const struct param nothing[] = {{.name = NULL}};
     struct error err = {0};
-    struct code *code = code_compile(&(struct code_source){use, text, nothing}, &err);
+    struct code *code = code_compile(&(struct code_source){use, text, nothing, false}, &err);
 
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);

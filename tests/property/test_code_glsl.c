@@ -504,7 +504,7 @@ static void changed_code_compiles(void **state)
         char text[TEXT_MAX];
         snprintf(text, sizeof text, "%s", before);
         random_code_swap(&random, text, sizeof text);
-        struct code_source source = {CODE_DISTANCE, text, no_params};
+        struct code_source source = {CODE_DISTANCE, text, no_params, false};
         struct code *code = code_compile(&source, NULL);
         if (code && strcmp(text, before) != 0) {
             code_batch_add(&batch, text, CODE_DISTANCE, no_params);

@@ -312,7 +312,7 @@ static bool is_accepted(const struct maker *maker, enum code_use use, size_t sta
 {
     static const struct param nothing[] = {{.name = NULL}};
     char *text = make_text(*maker, use, statements);
-    struct code *code = code_compile(&(struct code_source){use, text, nothing}, NULL);
+    struct code *code = code_compile(&(struct code_source){use, text, nothing, false}, NULL);
     const bool accepted = code != NULL;
 
     code_destroy(code);

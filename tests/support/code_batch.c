@@ -28,7 +28,7 @@ void code_batch_add(struct code_batch *batch, const char *text, enum code_use us
                     const struct param *params)
 {
     struct error err = {0};
-    struct code *code = code_compile(&(struct code_source){use, text, params}, &err);
+    struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }

@@ -162,6 +162,8 @@ cJSON *random_value(struct random *random, const struct param *param, const stru
         return random_text(random);
     case PARAM_CODE:
         return random_code(random);
+    case PARAM_EQUATION:
+        return cJSON_CreateString(random_chance(random, 0.5) ? "x^2 + y^2 = z + a" : "");
     case PARAM_ROWS:
         return random_rows(random);
     case PARAM_POINTS:

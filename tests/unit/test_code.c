@@ -17,7 +17,7 @@ static const struct param no_params[] = {{.name = NULL}};
 static struct code *compile(const char *text, enum code_use use, const struct param *params)
 {
     struct error err = {0};
-    struct code *code = code_compile(&(struct code_source){use, text, params}, &err);
+    struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }

@@ -29,7 +29,7 @@ static bool refuses(const struct code_block *block)
     char *words;
     head += shade || limit ? 6 : 0;
     int line = (int)strtol(head, &words, 10), column = (int)strtol(words + 1, &words, 10);
-    struct code_source source = {shade ? CODE_SHADE : CODE_DISTANCE, block->text, no_params};
+    struct code_source source = {shade ? CODE_SHADE : CODE_DISTANCE, block->text, no_params, false};
     struct code *code = code_compile(&source, &err);
     bool right = !code && err.line == line && err.column == column &&
                  strstr(err.message, words + 1) &&
@@ -76,7 +76,7 @@ static char *repeated(const char *before, const char *part, size_t count, const 
 static void assert_limit(const char *text, bool passes, const char *words)
 {
     struct error err = {0};
-    struct code_source source = {CODE_DISTANCE, text, no_params};
+    struct code_source source = {CODE_DISTANCE, text, no_params, false};
     struct code *code = code_compile(&source, &err);
     if (passes && !code) {
         fail_msg("%d:%d: %s\n%.200s", err.line, err.column, err.message, text);
@@ -322,7 +322,7 @@ static void try_text(const char *text)
 {
     static const double at_point[3] = {0.5, -1.5, 2.5};
     struct error err = {0};
-    struct code_source source = {CODE_DISTANCE, text, no_params};
+    struct code_source source = {CODE_DISTANCE, text, no_params, false};
     struct code *code = code_compile(&source, &err);
     if (!code) {
         assert_true(err.line >= 1 && err.column >= 1 && err.message[0] != '\0');
@@ -459,7 +459,7 @@ static void many_names_are_read_quickly(void **state)
     fprintf(out, "return a599; }");
     fclose(out);
     assert_true(length <= LIMIT_CODE_BYTES);
-    struct code_source source = {CODE_DISTANCE, text, no_params};
+    struct code_source source = {CODE_DISTANCE, text, no_params, false};
     struct code *code = code_compile(&source, NULL);
     assert_non_null(code);
     assert_float_equal(code_distance(code, (double[3]){1, 0, 0}, NULL, NULL), pow(1.001, 10), 1e-9);

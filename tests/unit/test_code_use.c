@@ -21,7 +21,7 @@ static const struct param no_params[] = {{.name = NULL}};
 static struct code *compile(const char *text, enum code_use use, const struct param *params)
 {
     struct error err = {0};
-    struct code *code = code_compile(&(struct code_source){use, text, params}, &err);
+    struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }
@@ -101,7 +101,7 @@ static void parameters_are_not_assigned(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct error err = {0};
-        struct code_source source = {CODE_DISTANCE, rows[i].text, every_type};
+        struct code_source source = {CODE_DISTANCE, rows[i].text, every_type, false};
         assert_null(code_compile(&source, &err));
         if (err.line != rows[i].line || err.column != rows[i].column ||
             !strstr(err.message, rows[i].words)) {

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+/* Derivatives and interval rules of the functions of equations, in the language of users' code.
+ * Rules of intervals: Moore, Interval Analysis (1966). Outside of a function's domain its value is
+ * that at the domain's nearest end. */
+#include "equation_rules.h"
+
+#define HUGE EQUATION_HUGE
+
+const char equation_jets[] =
+    /* The least and the greatest size in an interval. */
+    "vec2 sizes(vec2 x)\n"
+    "{\n"
+    "    vec2 s = abs(x);\n"
+    "    return vec2(x.x * x.y <= 0.0 ? 0.0 : min(s.x, s.y), max(s.x, s.y));\n"
+    "}\n"
+    "vec2 bounded(vec2 x) { return clamp(x, -" HUGE ", " HUGE "); }\n"
+    "vec2 sorted(vec2 x) { return vec2(min(x.x, x.y), max(x.x, x.y)); }\n"
+    /* Three intervals times one. */
+    "mat3 times(vec3 low, vec3 high, vec2 by)\n"
+    "{\n"
+    "    vec3 p = low * by.x, q = low * by.y, r = high * by.x, s = high * by.y;\n"
+    "    return mat3(max(min(min(p, q), min(r, s)), -" HUGE "),\n"
+    "                min(max(max(p, q), max(r, s)), " HUGE "), vec3(0.0));\n"
+    "}\n"
+    "mat3 jet_times(mat3 a, mat3 b)\n"
+    "{\n"
+    "    vec2 u = a[2].xy, v = b[2].xy;\n"
+    "    vec4 all = vec4(u.x * v.x, u.x * v.y, u.y * v.x, u.y * v.y);\n"
+    "    mat3 sum = times(a[0], a[1], v) + times(b[0], b[1], u);\n"
+    "    vec2 value = vec2(min(min(all.x, all.y), min(all.z, all.w)),\n"
+    "                      max(max(all.x, all.y), max(all.z, all.w)));\n"
+    "    return mat3(sum[0], sum[1], vec3(bounded(value), 0.0));\n"
+    "}\n"
+    "mat3 jet_scaled(mat3 a, float s)\n"
+    "{\n"
+    "    mat3 b = a * s;\n"
+    "    vec3 low = b[0], high = b[1], value = b[2];\n"
+    "    if (s < 0.0) {\n"
+    "        low = b[1];\n"
+    "        high = b[0];\n"
+    "        value = b[2].yxz;\n"
+    "    }\n"
+    "    return mat3(max(low, -" HUGE "), min(high, " HUGE "), vec3(bounded(value.xy), 0.0));\n"
+    "}\n"
+    "mat3 jet_moved(mat3 a, float s) { return mat3(a[0], a[1], a[2] + vec3(s, s, 0.0)); }\n"
+    /* The chain rule. */
+    "mat3 jet_of(mat3 a, vec4 range)\n"
+    "{\n"
+    "    mat3 d = times(a[0], a[1], bounded(range.zw));\n"
+    "    return mat3(d[0], d[1], vec3(bounded(range.xy), 0.0));\n"
+    "}\n"
+    "vec2 range_cosine(vec2 x)\n"
+    "{\n"
+    "    vec2 ends = sorted(cos(x));\n"
+    "    vec2 turns = floor(x / 6.283185307), half_turns = floor((x - 3.141592654) / 6.283185307);\n"
+    "    return vec2(half_turns.y > half_turns.x ? -1.0 : ends.x, turns.y > turns.x ? 1.0 : ends.y);\n"
+    "}\n";
+
+const struct equation_rule equation_reciprocal = {
+    "($ == 0.0 ? " HUGE " : 1.0 / $)",
+    "($ == 0.0 ? 0.0 : -1.0 / ($ * $))",
+    "vec4 range_reciprocal(vec2 x)\n"
+    "{\n"
+    "    vec2 s = max(sizes(x), 1e-18);\n"
+    "    vec2 slope = vec2(-1.0 / (s.x * s.x), -1.0 / (s.y * s.y));\n"
+    "    if (x.x * x.y <= 0.0) {\n"
+    "        return vec4(-" HUGE ", " HUGE ", slope);\n"
+    "    }\n"
+    "    return vec4(1.0 / x.y, 1.0 / x.x, slope);\n"
+    "}\n"};
+
+const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
+    [EQUATION_SIN] = {"sin($)", "cos($)",
+                      "vec4 range_sin(vec2 x)\n"
+                      "{\n"
+                      "    return vec4(range_cosine(x - 1.570796327), range_cosine(x));\n"
+                      "}\n"},
+    [EQUATION_COS] = {"cos($)", "(-sin($))",
+                      "vec4 range_cos(vec2 x)\n"
+                      "{\n"
+                      "    return vec4(range_cosine(x), range_cosine(x + 1.570796327));\n"
+                      "}\n"},
+    [EQUATION_TAN] = {"tan($)", "(1.0 + tan($) * tan($))",
+                      "vec4 range_tan(vec2 x)\n"
+                      "{\n"
+                      "    vec2 turns = floor((x - 1.570796327) / 3.141592654);\n"
+                      "    vec2 value = tan(x), s = sizes(value);\n"
+                      "    if (turns.y > turns.x || x.y - x.x >= 3.141592654) {\n"
+                      "        return vec4(-" HUGE ", " HUGE ", 1.0, " HUGE ");\n"
+                      "    }\n"
+                      "    return vec4(value, 1.0 + s * s);\n"
+                      "}\n"},
+    [EQUATION_ASIN] = {"asin($)", "inversesqrt(max(1.0 - $ * $, 1e-18))",
+                       "vec4 range_asin(vec2 x)\n"
+                       "{\n"
+                       "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
+                       "    return vec4(asin(y), inversesqrt(max(1.0 - s * s, 1e-18)));\n"
+                       "}\n"},
+    [EQUATION_ACOS] = {"acos($)", "(-inversesqrt(max(1.0 - $ * $, 1e-18)))",
+                       "vec4 range_acos(vec2 x)\n"
+                       "{\n"
+                       "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
+                       "    vec2 slope = inversesqrt(max(1.0 - s * s, 1e-18));\n"
+                       "    return vec4(acos(y).yx, -slope.yx);\n"
+                       "}\n"},
+    [EQUATION_ATAN] = {"atan($)", "(1.0 / (1.0 + $ * $))",
+                       "vec4 range_atan(vec2 x)\n"
+                       "{\n"
+                       "    vec2 s = sizes(x), slope = 1.0 / (1.0 + s * s);\n"
+                       "    return vec4(atan(x), slope.yx);\n"
+                       "}\n"},
+    [EQUATION_SINH] = {"sinh(clamp($, -40.0, 40.0))", "cosh(clamp($, -40.0, 40.0))",
+                       "vec4 range_sinh(vec2 x)\n"
+                       "{\n"
+                       "    vec2 y = clamp(x, -40.0, 40.0);\n"
+                       "    return vec4(sinh(y), cosh(sizes(y)));\n"
+                       "}\n"},
+    [EQUATION_COSH] = {"cosh(clamp($, -40.0, 40.0))", "sinh(clamp($, -40.0, 40.0))",
+                       "vec4 range_cosh(vec2 x)\n"
+                       "{\n"
+                       "    vec2 y = clamp(x, -40.0, 40.0);\n"
+                       "    return vec4(cosh(sizes(y)), sinh(y));\n"
+                       "}\n"},
+    [EQUATION_TANH] = {"tanh($)", "(1.0 - tanh($) * tanh($))",
+                       "vec4 range_tanh(vec2 x)\n"
+                       "{\n"
+                       "    vec2 value = tanh(x), s = sizes(value), slope = 1.0 - s * s;\n"
+                       "    return vec4(value, slope.yx);\n"
+                       "}\n"},
+    [EQUATION_EXP] = {"exp(min($, 40.0))", "exp(min($, 40.0))",
+                      "vec4 range_exp(vec2 x)\n"
+                      "{\n"
+                      "    vec2 y = exp(min(x, 40.0));\n"
+                      "    return vec4(y, y);\n"
+                      "}\n"},
+    [EQUATION_LOG] = {"log(max($, 1e-18))", "(1.0 / max($, 1e-18))",
+                      "vec4 range_log(vec2 x)\n"
+                      "{\n"
+                      "    vec2 y = max(x, 1e-18), slope = 1.0 / y;\n"
+                      "    return vec4(log(y), slope.yx);\n"
+                      "}\n"},
+    [EQUATION_SQRT] = {"sqrt(max($, 0.0))", "(0.5 * inversesqrt(max($, 1e-18)))",
+                       "vec4 range_sqrt(vec2 x)\n"
+                       "{\n"
+                       "    vec2 y = max(x, 1e-18), slope = 0.5 * inversesqrt(y);\n"
+                       "    return vec4(sqrt(max(x, 0.0)), slope.yx);\n"
+                       "}\n"},
+    [EQUATION_CBRT] = {"(sign($) * pow(abs($), 0.3333333333))",
+                       "(0.3333333333 * pow(max(abs($), 1e-18), -0.6666666667))",
+                       "vec4 range_cbrt(vec2 x)\n"
+                       "{\n"
+                       "    vec2 s = max(sizes(x), 1e-18);\n"
+                       "    vec2 slope = 0.3333333333 * pow(s, -0.6666666667);\n"
+                       "    return vec4(sign(x) * pow(abs(x), 0.3333333333), slope.yx);\n"
+                       "}\n"},
+    [EQUATION_ABS] = {"abs($)", "sign($)",
+                      "vec4 range_abs(vec2 x)\n"
+                      "{\n"
+                      "    return vec4(sizes(x), x.x < 0.0 ? -1.0 : 1.0, x.y > 0.0 ? 1.0 : -1.0);\n"
+                      "}\n"},
+    [EQUATION_MIN] = {"min", NULL,
+                      "mat3 jet_min(mat3 a, mat3 b)\n"
+                      "{\n"
+                      "    mat3 both = mat3(min(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]));\n"
+                      "    return a[2].y < b[2].x ? a : b[2].y < a[2].x ? b : both;\n"
+                      "}\n"},
+    [EQUATION_MAX] = {"max", NULL,
+                      "mat3 jet_max(mat3 a, mat3 b)\n"
+                      "{\n"
+                      "    mat3 both = mat3(min(a[0], b[0]), max(a[1], b[1]), max(a[2], b[2]));\n"
+                      "    return a[2].x > b[2].y ? a : b[2].x > a[2].y ? b : both;\n"
+                      "}\n"},
+};

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+/* The distances of implicit equations are lower bounds: within them the function does not change
+ * its sign. Their signs are the function's, the engine agrees with the evaluator in C, and where
+ * surfaces have a known distance the bound comes near it. Every function has a row here. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "protocol/equation.h"
+#include "tests/support/code_engine.h"
+#include "tests/support/equation_value.h"
+#include "tests/support/json_text.h"
+#include "tests/support/random_scene.h"
+
+enum { POINTS = 400, SAMPLES = 33 };
+static const char *const letters[] = {"a", "b", "c", "d", NULL};
+static const double letter_values[] = {0.7, 1, 1, 1};
+
+/* `function`: the row of equation_functions that it is for; EQUATION_FUNCTIONS: none. */
+static const struct {
+    enum equation_name function;
+    const char *text;
+} equations[] = {
+    {EQUATION_SIN, "sin(4x) + sin(5y) * sin(3z) = 0.2"},
+    {EQUATION_COS, "cos(3x)*z + cos(4y + z) = a"},
+    {EQUATION_TAN, "tan(x)*y = z + tan(0.3z)"},
+    {EQUATION_ASIN, "asin(x/2) + asin(y/3) = z"},
+    {EQUATION_ACOS, "acos(x*y/3) = z + 1"},
+    {EQUATION_ATAN, "atan(3x) + atan(2y*z) = 0.3"},
+    {EQUATION_SINH, "sinh(x)*z = sinh(y) - 0.2"},
+    {EQUATION_COSH, "cosh(x) + cosh(2y - z) = 3"},
+    {EQUATION_TANH, "tanh(3x)*y + tanh(z) = 0.1"},
+    {EQUATION_EXP, "exp(-4*(x^2 + y^2)) + exp(-4*((x - 1)^2 + z^2)) > 0.4"},
+    {EQUATION_LOG, "log(x^2 + y^2 + 0.1) = z"},
+    {EQUATION_SQRT, "(sqrt(x^2 + z^2) - 1)^2 + y^2 = 0.16"},
+    {EQUATION_CBRT, "cbrt(x + 2) + cbrt(y*z) = 1.5"},
+    {EQUATION_ABS, "|x|^3 + |y - z| = 0.8"},
+    {EQUATION_MIN, "min(x^2 + y^2, y^2 + z^2) = 0.2"},
+    {EQUATION_MAX, "max(x^2 + y, z^2 - x*y) < 0.5"},
+    {EQUATION_FUNCTIONS, "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 0.4 = 0"},
+    {EQUATION_FUNCTIONS, "(x^2 + 9/4*z^2 + y^2 - 1)^3 - x^2*y^3 - 9/80*z^2*y^3 = 0"},
+    {EQUATION_FUNCTIONS, "x^2 = y^2*z"},
+    {EQUATION_FUNCTIONS, "y/(x^2 + 1) = z^3 - a*x"},
+    {EQUATION_FUNCTIONS, "(x^2 + 1)^-2 + y*z = (2 + x)^a"},
+    {EQUATION_FUNCTIONS, "2^x - y^5*z + (y^2 + 1)^x = 1.5"},
+    {EQUATION_FUNCTIONS, "1/(x^2 + 0.2) + 1/(y^2 + 0.3) > 3 - z/(2 + y)"},
+    {EQUATION_FUNCTIONS, "x^18 + y^17*z - z^16 + x = 0.3"},
+};
+enum { EQUATIONS = sizeof equations / sizeof equations[0] };
+
+static struct field *field_of(const char *text, const char *more)
+{
+    struct error err = {0};
+    char json[512];
+    snprintf(json, sizeof json,
+             "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
+             "'equation':'%s','a':0.7%s}}}",
+             text, more);
+    struct scene *scene = json_text_valid_scene(json);
+    struct field *field = field_compile(scene, &err);
+    if (!field) {
+        fail_msg("%s: %d: %s", text, err.column, err.message);
+    }
+    scene_destroy(scene);
+    return field;
+}
+
+static struct equation *read(const char *text)
+{
+    struct equation_errors errors;
+    struct equation *equation = equation_read(text, letters, &errors);
+    assert_non_null(equation);
+    return equation;
+}
+
+static void random_point(struct random *random, double half, double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = (float)random_between(random, -half, half);
+    }
+}
+
+/* Points of the ball of this radius that are not of f's sign. */
+static int count_other_side(struct random *random, const struct equation *equation,
+                            const double p[3], double radius, double f)
+{
+    int count = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        double way[3], q[3];
+        random_direction(random, way);
+        for (int k = 0; k < 3; k++) {
+            q[k] = p[k] + 0.9999 * radius * way[k];
+        }
+        const double there = equation_value(equation, q, letter_values);
+        count += (f < 0) != (there < 0) && fabs(there) > 1e-6;
+    }
+    return count;
+}
+
+static void the_sign_holds_within_the_distance(void **state)
+{
+    struct random random = {.state = 15};
+    (void)state;
+    for (size_t e = 0; e < EQUATIONS; e++) {
+        struct field *field = field_of(equations[e].text, ",'size':[6,6,6]");
+        struct equation *equation = read(equations[e].text);
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            random_point(&random, 1.4, p); /* farther from the box than from the surface, mostly */
+            const double f = equation_value(equation, p, letter_values);
+            const double d = field_distance(field, p);
+            if (fabs(f) < 1e-6) {
+                continue;
+            }
+            if ((d < 0) != (f < 0) || count_other_side(&random, equation, p, fabs(d), f) > 0) {
+                fail_msg("%s at (%.9g, %.9g, %.9g): distance %g, value %g", equations[e].text, p[0],
+                         p[1], p[2], d, f);
+            }
+        }
+        free(equation);
+        field_unref(field);
+    }
+}
+
+static void every_function_has_a_row(void **state)
+{
+    (void)state;
+    for (int name = 0; name < EQUATION_FUNCTIONS; name++) {
+        char call[24];
+        bool found = false;
+        snprintf(call, sizeof call, "%s(", equation_functions[name].name);
+        for (size_t e = 0; e < EQUATIONS; e++) {
+            found = found || ((int)equations[e].function == name &&
+                              (strstr(equations[e].text, call) || name == EQUATION_ABS));
+        }
+        assert_true(found);
+    }
+}
+
+static void the_engine_agrees(void **state)
+{
+    struct random random = {.state = 16};
+    (void)state;
+    for (size_t e = 0; e < EQUATIONS; e++) {
+        static const char *const forms[] = {"", ",'mode':'sheet','thickness':0.1",
+                                            ",'clip':'ball','radius':1.2"};
+        struct field *field = field_of(equations[e].text, forms[e % 3]);
+        float points[POINTS][3], got[POINTS];
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            random_point(&random, 2, p);
+            for (int k = 0; k < 3; k++) {
+                points[i][k] = (float)p[k];
+            }
+        }
+        engine_agree(field, (const float(*)[3])points, POINTS, got);
+        int apart = 0;
+        for (int i = 0; i < POINTS; i++) {
+            const double p[3] = {points[i][0], points[i][1], points[i][2]};
+            const double d = field_distance(field, p);
+            apart += fabs(got[i] - d) > 1e-3 * fmax(fabs(d), 0.01);
+        }
+        /* How often a box shrinks may differ where a comparison is close. */
+        if (apart > POINTS / 50) {
+            fail_msg("%s: %d of %d points differ", equations[e].text, apart, POINTS);
+        }
+        field_unref(field);
+    }
+}
+
+static double to_ball(const double p[3])
+{
+    return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1;
+}
+
+static double to_plane(const double p[3])
+{
+    return (p[0] + 2 * p[1] - 2 * p[2]) / 3;
+}
+
+static double to_torus(const double p[3])
+{
+    return hypot(hypot(p[0], p[2]) - 1, p[1]) - 0.4;
+}
+
+static void the_bound_comes_near(void **state)
+{
+    static const struct {
+        const char *text;
+        double (*distance)(const double p[3]);
+        double least; /* part of the distance that is kept on the average */
+    } rows[] = {{"x^2 + y^2 + z^2 = 1", to_ball, 0.4},
+                {"x + 2y - 2z = 0", to_plane, 0.99},
+                {"(sqrt(x^2 + z^2) - 1)^2 + y^2 = 0.16", to_torus, 0.3}};
+    struct random random = {.state = 17};
+    (void)state;
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        struct field *field = field_of(rows[r].text, ",'size':[20,20,20]");
+        double kept = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3];
+            random_point(&random, 2, p);
+            const double d = field_distance(field, p), exact = rows[r].distance(p);
+            assert_true(fabs(d) <= fabs(exact) * (1 + 1e-9));
+            kept += fabs(exact) > 0 ? fabs(d / exact) / POINTS : 0;
+        }
+        if (kept < rows[r].least) {
+            fail_msg("%s: %g of the distance is kept", rows[r].text, kept);
+        }
+        field_unref(field);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_function_has_a_row),
+        cmocka_unit_test(the_sign_holds_within_the_distance),
+        cmocka_unit_test(the_engine_agrees),
+        cmocka_unit_test(the_bound_comes_near),
+    };
+    return cmocka_run_group_tests_name("implicit equations", tests, NULL, NULL);
+}
