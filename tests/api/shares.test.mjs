@@ -168,7 +168,8 @@ test('one who sends large edits without end leaves half of the time to others', 
     }
     t.diagnostic(`${small} small edits beside ${EDITS} of ${children.length} operations`);
     assert.ok(small >= 4 * EDITS, `${small} small edits`);
-    assert.ok((await counter(daemon, 'connection_rests_total')) >= EDITS - 1);
+    // Edits that arrive together are followed by one rest.
+    assert.ok((await counter(daemon, 'connection_rests_total')) > 0, 'it rests');
     await Promise.all([guest.close(), other.close()]);
 });
 
