@@ -65,6 +65,21 @@ export const SCENE = {
     },
 };
 
+/** Tells what its pages show, for whoever reads why a wait was in vain, and closes them. */
+async function closeTold(context) {
+    for (const page of context.pages()) {
+        const shown = page.evaluate(() => ({
+            address: location.pathname,
+            state: document.querySelector('[data-testid=state]')?.dataset.state,
+            strip: document.querySelector('[data-testid=strip]')?.innerText,
+            focus: document.activeElement?.outerHTML.slice(0, 120),
+        }));
+        const silence = new Promise((done) => setTimeout(() => done('no answer'), 5000));
+        console.log(`# page: ${JSON.stringify(await Promise.race([shown, silence]).catch(String))}`);
+    }
+    await context.close();
+}
+
 /** Closes all pages when they, the daemon and the test itself have nothing more to say. */
 function watch(browser) {
     const patience = new Patience(() => descendantsOf(process.pid), PATIENCE);
@@ -73,7 +88,7 @@ function watch(browser) {
         if (reason) {
             console.log(`# waited in vain: ${reason}\n${String(patience).replace(/^/gm, '# ')}`);
             patience.heard();
-            browser.contexts().forEach((context) => context.close());
+            browser.contexts().forEach(closeTold);
         }
     }, patience.periodMs);
     return { heard: () => patience.heard(), end: () => clearInterval(timer) };
