@@ -195,7 +195,7 @@ class SceneLink implements Link {
             this.#session = sessions.disconnect(this.#session);
             this.#picks.fail();
         }
-        if (state === "offline" && attempts === ATTEMPTS_BEFORE_PROBE) {
+        if (state === "offline" && attempts >= ATTEMPTS_BEFORE_PROBE) {
             void this.#probe();
         }
     }
