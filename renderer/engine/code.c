@@ -234,10 +234,19 @@ static vi index_of(const struct step *s, vf a)
     return at * s->n;
 }
 
+/* The same for all lanes needs no choice between them. */
+#define PUT_EACH(value)                                                                            \
+    if (w->apart) {                                                                                \
+        for (int i = 0; i < s->n; i++) {                                                           \
+            out[i] = vf_select(w->m, value, out[i]);                                               \
+        }                                                                                          \
+    } else {                                                                                       \
+        for (int i = 0; i < s->n; i++) {                                                           \
+            out[i] = value;                                                                        \
+        }                                                                                          \
+    }
 #define EACH(value)                                                                                \
-    for (int i = 0; i < s->n; i++) {                                                               \
-        put(w, out + i, value);                                                                    \
-    }                                                                                              \
+    PUT_EACH(value)                                                                                \
     break
 #define A a[i * step_a]
 #define B b[i * step_b]
@@ -250,8 +259,21 @@ static void compute_call(const struct walk *w, const struct step *s)
     const vf *c = s->kind == STEP_THREE ? w->frame + s->c : a;
     const int step_a = !(s->flags & SPREAD_A), step_b = !(s->flags & SPREAD_B);
     const int step_c = s->kind == STEP_THREE ? !(s->flags & SPREAD_C) : step_a;
-    for (int i = 0; i < s->n; i++) {
-        put(w, out + i, CALL(each_function, call->function)(w->c, w->m, A, B, c[i * step_c]));
+    switch (call->direct) {
+    case CALL_MIN:
+        PUT_EACH(vf_min(A, B))
+        break;
+    case CALL_MAX:
+        PUT_EACH(vf_max(A, B))
+        break;
+    case CALL_ABS:
+        PUT_EACH(vf_abs(A))
+        break;
+    case CALL_CLAMP:
+        PUT_EACH(vf_min(vf_max(A, B), c[i * step_c]))
+        break;
+    case CALL_FUNCTION:
+        PUT_EACH(CALL(each_function, call->function)(w->c, w->m, A, B, c[i * step_c]))
     }
 }
 
@@ -333,6 +355,7 @@ static void compute(const struct walk *w, const struct step *s)
 #undef A
 #undef B
 #undef EACH
+#undef PUT_EACH
 
 static void take_step(struct walk *w)
 {
@@ -375,6 +398,12 @@ static void walk(struct lanes *c, vb m, const struct engine_code *code, vf *fram
                      .waiting = vi_all(NOT_WAITING),
                      .nearest = NOT_WAITING};
     for (;;) {
+        const struct step *s = &code->machine->steps[w.at];
+        if (!w.apart && s->kind < STEP_JUMP) { /* nobody waits, and nobody leaves */
+            compute(&w, s);
+            w.at++;
+            continue;
+        }
         take_step(&w);
         if (!lanes_any(w.m)) {
             if (w.nearest == NOT_WAITING) {

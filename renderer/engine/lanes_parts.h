@@ -51,9 +51,13 @@ struct cells {
 };
 
 /* A kernel for a function that a step calls. */
+/* What users' code calls: by a function, or, where a call takes longer than what it does, at
+ * once. */
+enum engine_direct { CALL_FUNCTION, CALL_MIN, CALL_MAX, CALL_ABS, CALL_CLAMP };
 struct engine_call {
     void (*function)(void);
     bool gives_one; /* of a vector or matrix, one number */
+    enum engine_direct direct;
 };
 
 /* A user's code. */

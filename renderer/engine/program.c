@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A field as operations with the functions that run them. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "lanes_parts.h"
 #include "protocol/memory.h"
@@ -169,6 +170,20 @@ static const struct call_row *find_call(const struct engine_width *width, const 
     return NULL;
 }
 
+static enum engine_direct direct_of(const struct step *s)
+{
+    static const struct {
+        const char *name;
+        enum engine_direct direct;
+    } rows[] = {{"min", CALL_MIN}, {"max", CALL_MAX}, {"abs", CALL_ABS}, {"clamp", CALL_CLAMP}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (s->base == BASE_FLOAT && strcmp(builtin_table[s->extra].name, rows[i].name) == 0) {
+            return rows[i].direct;
+        }
+    }
+    return CALL_FUNCTION;
+}
+
 /* `block`: components before the numbers that it declares. */
 static bool make_code(const struct engine_width *width, struct engine_code *out,
                       const struct field_code *code, int block)
@@ -187,7 +202,7 @@ static bool make_code(const struct engine_width *width, struct engine_code *out,
         if (!row) {
             return false;
         }
-        out->calls[i] = (struct engine_call){row->function, row->gives_one};
+        out->calls[i] = (struct engine_call){row->function, row->gives_one, direct_of(s)};
     }
     for (int i = 0; i < code->place_count; i++) {
         const struct field_place *place = &code->places[i];
