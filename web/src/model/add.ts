@@ -5,7 +5,7 @@ import { type Edit, freshIds, freshNames, movable, wrap } from "./edits.ts";
 import type { JsonObject } from "./json.ts";
 import { isContainer, names, placing, SOLID_MAKERS, type Way } from "./placing.ts";
 import { type NodeType, nodeType, type Schema } from "./schema.ts";
-import { NEW_NODE_CODE } from "./templates.ts";
+import { NEW_EQUATION, NEW_NODE_CODE } from "./templates.ts";
 import type { Vector } from "./transform.ts";
 import { tidy } from "./units.ts";
 
@@ -31,6 +31,9 @@ function paramsOf(row: NodeType | null, named: string | undefined): JsonObject {
         }
         if (param.type === "code") {
             return { [param.name]: NEW_NODE_CODE };
+        }
+        if (param.type === "equation") {
+            return { [param.name]: NEW_EQUATION };
         }
     }
     return {};

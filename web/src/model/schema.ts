@@ -20,6 +20,7 @@ export type ParamType =
     | "material"
     | "points" /* of the plane: [[x, y], …]; min to max of them */
     | "code" /* GLSL, several lines */
+    | "equation" /* an equation in x, y and z, several lines */
     | "model" /* the name of a model of the document, or "" */
     | "function" /* the name of one of its primitives, or "" */
     | "asset" /* the id of an uploaded file, or "" */
@@ -163,6 +164,7 @@ const COMPONENTS: Record<ParamType, number> = {
     material: 0,
     points: 0,
     code: 0,
+    equation: 0,
     model: 0,
     function: 0,
     asset: 0,
@@ -191,6 +193,7 @@ const ZERO: Record<ParamType, Value> = {
     material: "",
     points: [],
     code: "",
+    equation: "",
     model: "",
     function: "",
     asset: "",

@@ -72,6 +72,7 @@ function checkForm(param: Param, value: Value): string | null {
         case "text":
         case "material":
         case "code":
+        case "equation":
         case "model":
         case "function":
         case "asset":

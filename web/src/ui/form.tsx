@@ -18,6 +18,7 @@ import {
 } from "../model/schema.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
+import { EquationField } from "./fields/Equation.tsx";
 import { FlagField, FlagsField } from "./fields/Flag.tsx";
 import { JsonField } from "./fields/Json.tsx";
 import { NumberField } from "./fields/Number.tsx";
@@ -67,6 +68,7 @@ const fields: Record<string, Make> = {
     function: reference,
     asset: (_param, props) => <AssetField {...as<string>(props)} />,
     code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
+    equation: (_param, props, place) => <EquationField place={place} {...as<string>(props)} />,
     points: (param, props) => (
         <PointsField param={param} {...as<readonly (readonly number[])[]>(props)} />
     ),
@@ -76,7 +78,7 @@ const fields: Record<string, Make> = {
 };
 
 /* Fields that take the whole width, below their name. */
-const WIDE = ["asset", "code", "points", "rows"];
+const WIDE = ["asset", "code", "equation", "points", "rows"];
 
 const unknown: Make = (_param, props) => <JsonField {...as<Value>(props)} />;
 

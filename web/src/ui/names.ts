@@ -23,6 +23,9 @@ const spoken: Record<string, string> = {
     shadow: "shadow kind",
 };
 
+/* Of equations; elsewhere they are points. */
+const letters: Record<string, string> = { a: "a", b: "b", c: "c", d: "d" };
+
 /* The texts of the page are British. */
 export function words(name: string): string {
     return name
@@ -31,7 +34,8 @@ export function words(name: string): string {
 }
 
 export function paramTitle(param: Param): string {
-    return spoken[param.name] ?? words(param.name);
+    const letter = param.name.length === 1 && param.type === "float" && param.unit === null;
+    return (letter ? letters[param.name] : undefined) ?? spoken[param.name] ?? words(param.name);
 }
 
 /* A place as people name it: "/nodes/ball/params/radius" -> "Ball · radius". */

@@ -89,6 +89,10 @@ const drawings: Record<string, Drawing> = {
     rhombus: { body: "M12 7l9 4.5l-9 4.5l-9-4.5z", lines: "M3 11.5v2.5l9 4.5l9-4.5v-2.5" },
     triangle: { body: "M5 5l15 6L8 19z" },
     quad: { body: "M5 6l13-2l2 12L7 20z" },
+    implicit: {
+        body: "M3.5 8C8 3.5 11 12 20.5 6v10c-9 6-12.5-3-17 2z",
+        lines: "M8.5 9.5l6 5.5M14.500 9.5l-6 5.5",
+    },
     gyroid: { body: "M4 7c4-5 5 4 8 0s4-4 8-1v11c-4-3-5-2-8 1s-4-4-8 0z" },
     mandelbulb: {
         body: "M12 4a4 4 0 0 1 3.6 2.3a4 4 0 0 1 3 6.7a4 4 0 0 1-4 5.6a4 4 0 0 1-5.2 0a4 4 0 0 1-4-5.6a4 4 0 0 1 3-6.7A4 4 0 0 1 12 4z",

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Equations: the picture follows each text that can be read, the last good picture stays otherwise,
+// and the mark stands under the letter that is wrong.
+import assert from 'node:assert/strict';
+import { after, afterEach, before, test } from 'node:test';
+import { counter } from '../support/daemon.mjs';
+import {
+    closePage,
+    difference,
+    documentWhen,
+    field,
+    nodeIn,
+    openStage,
+    pictureChanged,
+    settled,
+    stillPixels,
+} from './stage.mjs';
+
+let stage;
+let page;
+let id;
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+afterEach(async () => {
+    const last = page;
+    page = null;
+    if (last) {
+        await closePage(last);
+    }
+});
+
+const EMPTY = {
+    format: 'fieldcast/1',
+    camera: { position: [0, 1, 4] },
+    lights: [{ id: 'sun', type: 'directional', intensity: 3 }],
+    render: { samples: 1 },
+    root: { id: 'root', type: 'union', children: [{ id: 'it', type: 'implicit' }] },
+};
+
+const text = () => page.getByRole('textbox', { name: 'equation' });
+const equationIs = (wanted) =>
+    documentWhen(stage, id, (d) => nodeIn(d, 'it').params?.equation === wanted, wanted);
+
+async function open() {
+    id = await stage.scene(EMPTY);
+    page = await stage.page({ scene: id });
+    await settled(page);
+    await page.locator('[data-node="it"]').click();
+    await text().waitFor();
+}
+
+test('is typed letter by letter; what cannot be read is marked and leaves the picture', async () => {
+    await open();
+    const nothing = await stillPixels(page);
+    await text().click();
+    await page.keyboard.type('x^2 + y^2 + z^2 = 1', { delay: 20 });
+    await equationIs('x^2 + y^2 + z^2 = 1');
+    await pictureChanged(page, nothing, 'the ball');
+    await settled(page);
+    const ball = await stillPixels(page);
+
+    page.expected = /compile/;
+    await page.keyboard.type(' + q');
+    const mark = page.locator('.equation-mark mark');
+    await mark.waitFor();
+    assert.equal(await mark.textContent(), 'q');
+    await page.getByText('"q" is no name').first().waitFor();
+    assert.ok(difference(await stillPixels(page), ball) <= 1, 'the last good picture stays');
+
+    await page.keyboard.press('Backspace');
+    await page.keyboard.type('x');
+    await mark.waitFor({ state: 'detached' });
+    await page.keyboard.press('Enter');
+    await equationIs('x^2 + y^2 + z^2 = 1 + x');
+    await pictureChanged(page, ball, 'the moved ball');
+});
+
+test('a letter is a number: dragging it compiles nothing', async () => {
+    await open();
+    const nothing = await stillPixels(page);
+    await text().fill('x^2 + y^2 + z^2 = a');
+    await page.keyboard.press('Enter');
+    await pictureChanged(page, nothing, 'the ball');
+    await settled(page);
+    const ball = await stillPixels(page);
+    const compiled = await counter(stage.daemon, 'shader_compilations_total');
+    await field(page, 'a').fill('0.4');
+    await page.keyboard.press('Enter');
+    await pictureChanged(page, ball, 'the smaller ball');
+    assert.equal(await counter(stage.daemon, 'shader_compilations_total'), compiled);
+});
