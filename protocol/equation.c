@@ -17,11 +17,7 @@ const struct equation_function equation_functions[EQUATION_FUNCTIONS] = {
 };
 
 const struct equation_constant equation_constants[] = {
-    {"pi", M_PI},
-    {"tau", 2 * M_PI},
-    {"e", M_E},
-    {"phi", 1.6180339887498949},
-    {NULL, 0},
+    {"pi", M_PI}, {"tau", 2 * M_PI}, {"e", M_E}, {"phi", 1.6180339887498949}, {NULL, 0},
 };
 
 int equation_arguments(const struct equation_node *node)

@@ -2,8 +2,10 @@
 /* Equations as text, with as few parentheses as the grammar allows. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "equation.h"
+#include "memory.h"
 
 /* How tightly a node holds together. */
 enum level { SUM, PRODUCT, SIGN, POWER, ATOM };
@@ -11,7 +13,8 @@ enum level { SUM, PRODUCT, SIGN, POWER, ATOM };
 struct printer {
     const struct equation *equation;
     const char *const *letters;
-    FILE *out;
+    char *text;
+    size_t length, room;
 };
 
 static enum level level_of(const struct equation_node *node)
@@ -33,41 +36,52 @@ static enum level level_of(const struct equation_node *node)
     }
 }
 
-static void print_node(const struct printer *p, uint16_t index, enum level least);
+static void put(struct printer *p, const char *text)
+{
+    const size_t length = strlen(text);
+    if (p->room < p->length + length + 1) {
+        p->room = 2 * (p->length + length + 1);
+        p->text = memory_resize(p->text, p->room, 1);
+    }
+    memcpy(p->text + p->length, text, length + 1);
+    p->length += length;
+}
 
-static void print_number(FILE *out, double value)
+static void print_node(struct printer *p, uint16_t index, enum level least);
+
+static void print_number(struct printer *p, double value)
 {
     char text[32];
     snprintf(text, sizeof text, "%.15g", value);
     if (strtod(text, NULL) != value) {
         snprintf(text, sizeof text, "%.17g", value);
     }
-    fputs(text, out);
+    put(p, text);
 }
 
-static void print_two(const struct printer *p, const struct equation_node *node, enum level level,
+static void print_two(struct printer *p, const struct equation_node *node, enum level level,
                       const char *sign)
 {
     print_node(p, node->args[0], level);
-    fputs(sign, p->out);
+    put(p, sign);
     print_node(p, node->args[1], level + 1);
 }
 
-static void print_bare(const struct printer *p, const struct equation_node *node)
+static void print_bare(struct printer *p, const struct equation_node *node)
 {
     static const char *const axes[] = {"x", "y", "z"};
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
-        print_number(p->out, node->value);
+        print_number(p, node->value);
         break;
     case EQUATION_CONSTANT:
-        fputs(equation_constants[node->which].name, p->out);
+        put(p, equation_constants[node->which].name);
         break;
     case EQUATION_AXIS:
-        fputs(axes[node->which], p->out);
+        put(p, axes[node->which]);
         break;
     case EQUATION_LETTER:
-        fputs(p->letters[node->which], p->out);
+        put(p, p->letters[node->which]);
         break;
     case EQUATION_ADD:
         print_two(p, node, SUM, " + ");
@@ -82,37 +96,38 @@ static void print_bare(const struct printer *p, const struct equation_node *node
         print_two(p, node, PRODUCT, "/");
         break;
     case EQUATION_NEGATE:
-        fputs("-", p->out);
+        put(p, "-");
         print_node(p, node->args[0], SIGN);
         break;
     case EQUATION_POWER:
         print_node(p, node->args[0], ATOM);
-        fputs("^", p->out);
+        put(p, "^");
         print_node(p, node->args[1], SIGN);
         break;
     case EQUATION_WHOLE:
         print_node(p, node->args[0], ATOM);
-        fputs("^", p->out);
-        print_number(p->out, node->value);
+        put(p, "^");
+        print_number(p, node->value);
         break;
     case EQUATION_CALL:
-        fprintf(p->out, "%s(", equation_functions[node->which].name);
+        put(p, equation_functions[node->which].name);
+        put(p, "(");
         for (int i = 0; i < equation_arguments(node); i++) {
-            fputs(i > 0 ? ", " : "", p->out);
+            put(p, i > 0 ? ", " : "");
             print_node(p, node->args[i], SUM);
         }
-        fputs(")", p->out);
+        put(p, ")");
         break;
     }
 }
 
-static void print_node(const struct printer *p, uint16_t index, enum level least)
+static void print_node(struct printer *p, uint16_t index, enum level least)
 {
     const struct equation_node *node = &p->equation->nodes[index];
     const bool bare = level_of(node) >= least;
-    fputs(bare ? "" : "(", p->out);
+    put(p, bare ? "" : "(");
     print_bare(p, node);
-    fputs(bare ? "" : ")", p->out);
+    put(p, bare ? "" : ")");
 }
 
 char *equation_print(const struct equation *equation, const char *const *letters)
@@ -122,12 +137,9 @@ char *equation_print(const struct equation *equation, const char *const *letters
                                             [EQUATION_LESS_EQUAL] = " <= ",
                                             [EQUATION_GREATER] = " > ",
                                             [EQUATION_GREATER_EQUAL] = " >= "};
-    char *text = NULL;
-    size_t length = 0;
-    struct printer p = {equation, letters, open_memstream(&text, &length)};
+    struct printer p = {.equation = equation, .letters = letters};
     print_node(&p, equation->left, SUM);
-    fputs(relations[equation->relation], p.out);
+    put(&p, relations[equation->relation]);
     print_node(&p, equation->right, SUM);
-    fclose(p.out);
-    return text;
+    return p.text;
 }

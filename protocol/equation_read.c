@@ -15,7 +15,7 @@
 
 enum { NAME_BYTES = 32 };
 
-struct definition {
+struct equation_part {
     char name[NAME_BYTES];
     uint16_t node;
 };
@@ -25,10 +25,10 @@ struct reader {
     const char *const *letters;
     struct equation *equation;
     struct equation_errors *errors;
-    struct definition definitions[LIMIT_EQUATION_DEFINITIONS];
+    struct equation_part definitions[LIMIT_EQUATION_DEFINITIONS];
     int definition_count, depth;
-    bool ended;    /* what follows cannot be read */
-    bool in_bars;  /* between | and | */
+    bool ended;   /* what follows cannot be read */
+    bool in_bars; /* between | and | */
 };
 
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -63,7 +63,7 @@ static void note(struct reader *r, const char *at, const char *format, ...)
 static const struct {
     const char *symbol, *other;
 } spellings[] = {
-    {"-", "\u2212"}, {"*", "\u00b7"},  {"*", "\u00d7"},    {"<=", "\u2264"},
+    {"-", "\u2212"},  {"*", "\u00b7"},  {"*", "\u00d7"},    {"<=", "\u2264"},
     {">=", "\u2265"}, {"pi", "\u03c0"}, {"sqrt", "\u221a"}, {"^", "**"},
 };
 
@@ -117,7 +117,8 @@ static uint16_t add(struct reader *r, struct equation_node node)
     uint16_t index = 0;
     if (!r->ended && !equation_add(r->equation, node, &index)) {
         r->ended = true;
-        note(r, r->at, "more than %d different operations (equation_nodes), or %d with all "
+        note(r, r->at,
+             "more than %d different operations (equation_nodes), or %d with all "
              "definitions written out (equation_weight)",
              LIMIT_EQUATION_NODES, LIMIT_EQUATION_WEIGHT);
     }
@@ -136,14 +137,14 @@ static uint16_t add_two(struct reader *r, enum equation_op op, uint16_t a, uint1
 
 static uint16_t add_call(struct reader *r, enum equation_name name, uint16_t a, uint16_t b)
 {
-    return add(r, (struct equation_node){
-                      .op = EQUATION_CALL, .which = (uint8_t)name, .args = {a, b}});
+    return add(r,
+               (struct equation_node){.op = EQUATION_CALL, .which = (uint8_t)name, .args = {a, b}});
 }
 
 static uint16_t add_whole(struct reader *r, uint16_t base, double exponent)
 {
-    return add(r, (struct equation_node){
-                      .op = EQUATION_WHOLE, .args = {base, 0}, .value = exponent});
+    return add(r,
+               (struct equation_node){.op = EQUATION_WHOLE, .args = {base, 0}, .value = exponent});
 }
 
 static uint16_t add_power(struct reader *r, uint16_t base, uint16_t exponent, const char *at)
@@ -180,9 +181,8 @@ static const struct equation_function composites[COMPOSITES] = {
 static int function_of(const char *name, int *out_arguments)
 {
     for (int i = 0; i < EQUATION_FUNCTIONS + COMPOSITES; i++) {
-        const struct equation_function *row = i < EQUATION_FUNCTIONS
-                                                  ? &equation_functions[i]
-                                                  : &composites[i - EQUATION_FUNCTIONS];
+        const struct equation_function *row =
+            i < EQUATION_FUNCTIONS ? &equation_functions[i] : &composites[i - EQUATION_FUNCTIONS];
         if (strcmp(row->name, name) == 0) {
             *out_arguments = row->arguments;
             return i;
@@ -486,13 +486,13 @@ static bool is_beside(struct reader *r, const char *begin)
     }
     skip_space(r);
     const bool opens = *r->at == '(';
-    const bool named = isalpha((unsigned char)*r->at) || *r->at == '_' || next_is(r, "pi") ||
-                       next_is(r, "sqrt");
+    const bool named =
+        isalpha((unsigned char)*r->at) || *r->at == '_' || next_is(r, "pi") || next_is(r, "sqrt");
     const bool closed = last > begin && last[-1] == ')';
-    const bool digit = last > begin && (isdigit((unsigned char)last[-1]) || last[-1] == '.' ||
-                                        ends_with(begin, last, "\u03c0") ||
-                                        ends_with(begin, last, "\u00b2") ||
-                                        ends_with(begin, last, "\u00b3"));
+    const bool digit =
+        last > begin &&
+        (isdigit((unsigned char)last[-1]) || last[-1] == '.' || ends_with(begin, last, "\u03c0") ||
+         ends_with(begin, last, "\u00b2") || ends_with(begin, last, "\u00b3"));
     const bool letter = last > begin && isalpha((unsigned char)last[-1]);
     return ((closed || digit) && (named || opens)) || (letter && opens);
 }
@@ -533,7 +533,7 @@ static uint16_t read_expression(struct reader *r)
 /* Reads "name := expression;" if that is next. */
 static bool read_definition(struct reader *r)
 {
-    struct definition next;
+    struct equation_part next;
     const char *begin = r->at, *at;
     int arguments;
     skip_space(r);
@@ -607,8 +607,8 @@ struct equation *equation_read(const char *text, const char *const *letters,
                                struct equation_errors *out_errors)
 {
     struct equation *equation = memory_alloc(1, sizeof *equation);
-    struct reader r = {.text = text, .at = text, .letters = letters, .equation = equation,
-                       .errors = out_errors};
+    struct reader r = {
+        .text = text, .at = text, .letters = letters, .equation = equation, .errors = out_errors};
     out_errors->count = 0;
     while (!r.ended && read_definition(&r)) {
     }

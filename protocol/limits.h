@@ -54,7 +54,7 @@
     X(EQUATION_WEIGHT, "equation_weight", 4096, "operations",                                      \
       "an equation with all definitions written out")                                              \
     X(EQUATION_DEPTH, "equation_depth", 64, "levels", "nesting of an equation")                    \
-    X(EQUATION_EXPONENT, "equation_exponent", 64, "", "a whole exponent")                          \
+    X(EQUATION_EXPONENT, "equation_exponent", 64, "factors", "a whole exponent")                   \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

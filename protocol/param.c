@@ -17,12 +17,15 @@ static const struct {
     const char *name;
     int components;
 } types[] = {
-    [PARAM_FLOAT] = {"float", 1},       [PARAM_INT] = {"int", 1},     [PARAM_BOOL] = {"bool", 1},
-    [PARAM_VEC3] = {"vec3", 3},         [PARAM_BVEC3] = {"bvec3", 3}, [PARAM_IVEC3] = {"ivec3", 3},
-    [PARAM_COLOR] = {"color", 3},       [PARAM_ENUM] = {"enum", 1},   [PARAM_TEXT] = {"text", 0},
-    [PARAM_MATERIAL] = {"material", 0}, [PARAM_VEC2] = {"vec2", 2},   [PARAM_VEC4] = {"vec4", 4},
-    [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},   [PARAM_MODEL] = {"model", 0},
-    [PARAM_FUNCTION] = {"function", 0}, [PARAM_ROWS] = {"rows", 0},   [PARAM_ASSET] = {"asset", 0},
+    [PARAM_FLOAT] = {"float", 1},       [PARAM_INT] = {"int", 1},
+    [PARAM_BOOL] = {"bool", 1},         [PARAM_VEC3] = {"vec3", 3},
+    [PARAM_BVEC3] = {"bvec3", 3},       [PARAM_IVEC3] = {"ivec3", 3},
+    [PARAM_COLOR] = {"color", 3},       [PARAM_ENUM] = {"enum", 1},
+    [PARAM_TEXT] = {"text", 0},         [PARAM_MATERIAL] = {"material", 0},
+    [PARAM_VEC2] = {"vec2", 2},         [PARAM_VEC4] = {"vec4", 4},
+    [PARAM_POINTS] = {"points", 0},     [PARAM_CODE] = {"code", 0},
+    [PARAM_MODEL] = {"model", 0},       [PARAM_FUNCTION] = {"function", 0},
+    [PARAM_ROWS] = {"rows", 0},         [PARAM_ASSET] = {"asset", 0},
     [PARAM_IVEC2] = {"ivec2", 2},       [PARAM_IVEC4] = {"ivec4", 4},
     [PARAM_EQUATION] = {"equation", 0},
 };

@@ -71,9 +71,9 @@ struct value {
 int param_components(enum param_type type);        /* 1 to 4, or 0 for texts and points */
 const char *param_type_name(enum param_type type); /* "float", "vec3", "color", ... */
 const char *param_unit_name(enum param_unit unit);
-bool param_is_text(enum param_type type);  /* a value's `text` is used */
+bool param_is_text(enum param_type type);      /* a value's `text` is used */
 size_t param_text_bytes(enum param_type type); /* of PARAM_TEXT, _CODE, _EQUATION at most */
-bool param_is_whole(enum param_type type); /* its numbers have no fraction */
+bool param_is_whole(enum param_type type);     /* its numbers have no fraction */
 /* The range that holds, also where the row names none. */
 void param_range(const struct param *param, double *out_min, double *out_max);
 /* Checks JSON against the row; numbers go to `out` (a text and points stay in the JSON). */

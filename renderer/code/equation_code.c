@@ -90,8 +90,9 @@ static void write_power(FILE *out, const char *type, int n)
 /* vec2 whole_N(vec2 x): the range of x^N. */
 static void write_whole(FILE *out, int n)
 {
-    fprintf(out, n % 2 ? "vec2 whole_%d(vec2 x) { return bounded(power_%d(x)); }\n"
-                       : "vec2 whole_%d(vec2 x) { return bounded(power_%d(sizes(x))); }\n",
+    fprintf(out,
+            n % 2 ? "vec2 whole_%d(vec2 x) { return bounded(power_%d(x)); }\n"
+                  : "vec2 whole_%d(vec2 x) { return bounded(power_%d(sizes(x))); }\n",
             n, n);
 }
 
@@ -111,8 +112,8 @@ static void write_functions(const struct writer *w)
     fputs(equation_jets, w->out);
     write_powers(w);
     for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
-        const bool by_power = is_called(w, EQUATION_POWER, -1) && (i == EQUATION_EXP ||
-                                                                   i == EQUATION_LOG);
+        const bool by_power =
+            is_called(w, EQUATION_POWER, -1) && (i == EQUATION_EXP || i == EQUATION_LOG);
         if (by_power || is_called(w, EQUATION_CALL, i)) {
             fputs(equation_rules[i].range, w->out);
         }
@@ -151,8 +152,8 @@ static void write_known_power(const struct writer *w, const struct equation_node
 
 static void write_scalar(const struct writer *w, size_t index)
 {
-    static const char signs[] = {[EQUATION_ADD] = '+', [EQUATION_SUBTRACT] = '-',
-                                 [EQUATION_MULTIPLY] = '*'};
+    static const char signs[] = {
+        [EQUATION_ADD] = '+', [EQUATION_SUBTRACT] = '-', [EQUATION_MULTIPLY] = '*'};
     const struct equation_node *node = &w->equation->nodes[index];
     const int a = node->args[0], b = node->args[1];
     char argument[16];
@@ -206,8 +207,7 @@ static void write_dual(const struct writer *w, uint16_t index)
 static void write_dual_times(const struct writer *w, uint16_t a, uint16_t b)
 {
     if (varies(w, a) && varies(w, b)) {
-        fprintf(w->out, "vec4(g%d.xyz * g%d.w + g%d.xyz * g%d.w, g%d.w * g%d.w)", a, b, b, a, a,
-                b);
+        fprintf(w->out, "vec4(g%d.xyz * g%d.w + g%d.xyz * g%d.w, g%d.w * g%d.w)", a, b, b, a, a, b);
     } else {
         fprintf(w->out, varies(w, a) ? "g%d * s%d" : "s%d * g%d", a, b);
     }
@@ -232,14 +232,13 @@ static void write_dual_whole(const struct writer *w, const struct equation_node 
     } else if (n == 1) {
         fprintf(w->out, "g%d", a);
     } else {
-        fprintf(w->out, "vec4(g%d.xyz * (%d.0 * power_%d(g%d.w)), power_%d(g%d.w))", a, n, n - 1,
-                a, n, a);
+        fprintf(w->out, "vec4(g%d.xyz * (%d.0 * power_%d(g%d.w)), power_%d(g%d.w))", a, n, n - 1, a,
+                n, a);
     }
 }
 
 /* What is divided by, or taken to a negative power: first itself, then 1 / it. */
-static void write_dual_below(const struct writer *w, size_t index,
-                             const struct equation_node *node)
+static void write_dual_below(const struct writer *w, size_t index, const struct equation_node *node)
 {
     char argument[16];
     snprintf(argument, sizeof argument, "h%zu.w", index);
@@ -441,9 +440,8 @@ static void write_jet_power(const struct writer *w, const struct equation_node *
 
 static void write_jet_operand(const struct writer *w, uint16_t index)
 {
-    fprintf(w->out,
-            varies(w, index) ? "j%d" : "mat3(vec3(0.0), vec3(0.0), vec3(s%d, s%d, 0.0))", index,
-            index);
+    fprintf(w->out, varies(w, index) ? "j%d" : "mat3(vec3(0.0), vec3(0.0), vec3(s%d, s%d, 0.0))",
+            index, index);
 }
 
 static void write_jet_call(const struct writer *w, const struct equation_node *node)
@@ -546,15 +544,15 @@ static void write_sdf(const struct writer *w, uint16_t root, struct equation_for
 static uint16_t add_root(struct equation *equation)
 {
     const struct equation_node *right = &equation->nodes[equation->right];
-    const bool turned = equation->relation == EQUATION_GREATER ||
-                        equation->relation == EQUATION_GREATER_EQUAL;
+    const bool turned =
+        equation->relation == EQUATION_GREATER || equation->relation == EQUATION_GREATER_EQUAL;
     const uint16_t first = turned ? equation->right : equation->left;
     const uint16_t second = turned ? equation->left : equation->right;
     if (!turned && right->op == EQUATION_NUMBER && right->value == 0) {
         return equation->left;
     }
-    equation->nodes[equation->count] = (struct equation_node){
-        .op = EQUATION_SUBTRACT, .args = {first, second}, .varies = true};
+    equation->nodes[equation->count] =
+        (struct equation_node){.op = EQUATION_SUBTRACT, .args = {first, second}, .varies = true};
     return (uint16_t)equation->count++;
 }
 
@@ -565,8 +563,8 @@ char *equation_code(const struct equation *equation, const char *const *letters,
     char *text = NULL;
     size_t length = 0;
     const uint16_t root = add_root(&whole);
-    struct writer w = {.equation = &whole, .letters = letters,
-                       .out = open_memstream(&text, &length)};
+    struct writer w = {
+        .equation = &whole, .letters = letters, .out = open_memstream(&text, &length)};
     mark_used(&w);
     w.used[root] = true;
     write_functions(&w);

@@ -52,13 +52,14 @@ const char equation_jets[] =
     "vec2 range_cosine(vec2 x)\n"
     "{\n"
     "    vec2 ends = sorted(cos(x));\n"
-    "    vec2 turns = floor(x / 6.283185307), half_turns = floor((x - 3.141592654) / 6.283185307);\n"
-    "    return vec2(half_turns.y > half_turns.x ? -1.0 : ends.x, turns.y > turns.x ? 1.0 : ends.y);\n"
+    "    vec2 turns = floor(x / 6.283185307), half_turns = floor((x - 3.141592654) / "
+    "6.283185307);\n"
+    "    return vec2(half_turns.y > half_turns.x ? -1.0 : ends.x, turns.y > turns.x ? 1.0 : "
+    "ends.y);\n"
     "}\n";
 
 const struct equation_rule equation_reciprocal = {
-    "($ == 0.0 ? " HUGE " : 1.0 / $)",
-    "($ == 0.0 ? 0.0 : -1.0 / ($ * $))",
+    "($ == 0.0 ? " HUGE " : 1.0 / $)", "($ == 0.0 ? 0.0 : -1.0 / ($ * $))",
     "vec4 range_reciprocal(vec2 x)\n"
     "{\n"
     "    vec2 s = max(sizes(x), 1e-18);\n"

@@ -21,8 +21,8 @@ uint64_t field_text_hash(uint64_t state, const char *text);
 struct field_call {
     const char *text;
     bool is_equation;
-    struct equation_form form; /* of an equation */
-    double ball[3];            /* full lengths of the box around it, where it is cut by a ball */
+    struct equation_form form;  /* of an equation */
+    double ball[3];             /* full lengths of the box around it, where it is cut by a ball */
     const struct param *params; /* what it declares, */
     const struct value *values; /* and what the node gives; both borrowed */
     double lipschitz;

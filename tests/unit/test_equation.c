@@ -273,9 +273,10 @@ static void limits_hold_on_both_sides(void **state)
  * be read. */
 static void random_texts_do_no_harm(void **state)
 {
-    static const char *const parts[] = {"x", "y", "z", "a",  "2",     "0.5", "(", ")", "+",  "-",
-                                        "*", "/", "^", "^2", "sin(",  "max(", ",", "=", "<",  " ",
-                                        "|", ";", "r", ":=", "\u00b2", "pi",  ".", "1e", "\n", "hypot("};
+    static const char *const parts[] = {
+        "x", "y", "z", "a",  "2",      "0.5",  "(", ")",  "+",  "-",
+        "*", "/", "^", "^2", "sin(",   "max(", ",", "=",  "<",  " ",
+        "|", ";", "r", ":=", "\u00b2", "pi",   ".", "1e", "\n", "hypot("};
     enum { ROUNDS = 20000, PARTS = sizeof parts / sizeof parts[0] };
     struct random random = {.state = 99};
     int valid = 0;

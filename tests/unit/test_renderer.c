@@ -700,7 +700,8 @@ static void test_code_beyond_compilers(void **state)
 {
     static const struct param nothing[] = {{.name = NULL}};
     const char *code = "float sdf(vec3 p) { return length(p) - 0.5 + 0.01 * sin(cos(p.x)); }";
-    struct code *alone = code_compile(&(struct code_source){CODE_DISTANCE, code, nothing, false}, NULL);
+    struct code *alone =
+        code_compile(&(struct code_source){CODE_DISTANCE, code, nothing, false}, NULL);
     const int most = LIMIT_COMPILED_CODE / code_size(alone);
     for (int more = 0; more < 2; more++) {
         struct scene *scene = shapes_with_code(code, most + more);
