@@ -55,7 +55,10 @@ static const struct view views[] = {
     {"wide x1/10", .scale = 0.1, .from = {-1.05, 0.6, -0.95}, .fov = 72},
     {"parallel x10", .scale = 10, .from = {0.7, -1.4, 1.9}, .height = 2.2},
 };
-enum { VIEWS = sizeof views / sizeof views[0] };
+enum {
+    VIEWS = sizeof views / sizeof views[0],
+    FIRST_VIEW = 2, /* of the compositions: seen so, no eye is inside of something solid */
+};
 
 static struct renderer *renderer;
 static bool wordy;
@@ -356,7 +359,8 @@ static void list_cases(void)
     }
     for (size_t i = 0; i < case_count; i++) {
         const struct composition *composition = cases[i].composition;
-        cases[i].second = composition && composition->inside ? NULL : &views[i % VIEWS];
+        const size_t view = composition ? FIRST_VIEW + (size_t)(composition - compositions) : i;
+        cases[i].second = composition && composition->inside ? NULL : &views[view % VIEWS];
     }
 }
 
