@@ -126,13 +126,16 @@ static void eat(void)
     }
 }
 
-/* How many processes have been here before this one. */
+/* How many processes have been here before this one. Threads that compile at the same time are one
+ * process. */
 static int processes_before(void)
 {
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
     const char *path = getenv("HOSTILE_COUNT");
-    FILE *file = path ? fopen(path, "a+") : NULL;
     int count = 0, pid = 0;
 
+    pthread_mutex_lock(&one_at_a_time);
+    FILE *file = path ? fopen(path, "a+") : NULL;
     if (!file) {
         abort();
     }
@@ -144,6 +147,7 @@ static int processes_before(void)
         fprintf(file, "%d\n", (int)getpid());
     }
     fclose(file);
+    pthread_mutex_unlock(&one_at_a_time);
     return count;
 }
 
