@@ -35,6 +35,17 @@ static const char *const axes[] = {"x", "y", "z", NULL};
 
 /* --- errors --- */
 
+/* In code points, from 1. */
+static void find_place(const char *text, const char *at, int *out_line, int *out_column)
+{
+    *out_line = *out_column = 1;
+    for (const char *c = text; c < at; c++) {
+        const bool begins = ((unsigned char)*c & 0xc0) != 0x80;
+        *out_line += *c == '\n';
+        *out_column = *c == '\n' ? 1 : *out_column + begins;
+    }
+}
+
 static void note(struct reader *r, const char *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -46,12 +57,7 @@ static void note(struct reader *r, const char *at, const char *format, ...)
     }
     struct equation_error *error = &errors->list[errors->count++];
     va_list arguments;
-    error->line = error->column = 1;
-    for (const char *c = r->text; c < at; c++) {
-        const bool begins = ((unsigned char)*c & 0xc0) != 0x80;
-        error->line += *c == '\n';
-        error->column = *c == '\n' ? 1 : error->column + begins;
-    }
+    find_place(r->text, at, &error->line, &error->column);
     va_start(arguments, format);
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
@@ -298,13 +304,15 @@ static uint16_t read_unary(struct reader *r);
 static void expect(struct reader *r, const char *symbol, const char *opener)
 {
     char next[8];
+    int line, column;
     if (r->ended || take(r, symbol)) {
         return;
     }
     r->ended = true;
     next_character(r, next);
-    note(r, r->at, "expected \"%s\" for the \"%c\" in column %td, found %s%s%s", symbol, *opener,
-         opener - r->text + 1, *next ? "\"" : "", *next ? next : "the end", *next ? "\"" : "");
+    find_place(r->text, opener, &line, &column);
+    note(r, r->at, "expected \"%s\" for the \"%c\" in line %d, column %d, found %s%s%s", symbol,
+         *opener, line, column, *next ? "\"" : "", *next ? next : "the end", *next ? "\"" : "");
 }
 
 static uint16_t read_call(struct reader *r, const char *name, const char *at)
@@ -418,8 +426,8 @@ static uint16_t read_atom(struct reader *r)
     if (take(r, "pi")) {
         return value_of(r, "pi", at);
     }
-    if (take(r, "sqrt")) {
-        return add_call(r, EQUATION_SQRT, read_atom(r), 0);
+    if (take(r, "sqrt")) { /* the sign: the name was read above */
+        return add_call(r, EQUATION_SQRT, read_unary(r), 0);
     }
     if (!r->ended) {
         r->ended = true;

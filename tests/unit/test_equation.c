@@ -134,11 +134,12 @@ static const struct {
     {"x + * y", 1, 5, "found \"*\""},
     {"x = y = z", 1, 7, "a second relation"},
     {"x = y < z", 1, 7, "a second relation"},
-    {"(x + y", 1, 7, "expected \")\" for the \"(\" in column 1"},
-    {"x + (y*(z + 1)", 1, 15, "for the \"(\" in column 5"},
+    {"(x + y", 1, 7, "expected \")\" for the \"(\" in line 1, column 1"},
+    {"x + (y*(z + 1)", 1, 15, "for the \"(\" in line 1, column 5"},
     {"x + y)", 1, 6, "nothing is open"},
     {"|x + y", 1, 7, "expected \"|\""},
-    {"sin(x", 1, 6, "expected \")\" for the \"(\" in column 4"},
+    {"sin(x", 1, 6, "expected \")\" for the \"(\" in line 1, column 4"},
+    {"\u03c0*x +\n\u03c0*(y", 2, 5, "for the \"(\" in line 2, column 3"},
     {"xy = 1", 1, 1, "write x*y"},
     {"z + xyz", 1, 5, "write x*y*z"},
     {"ax + 1", 1, 1, "write a*x"},
@@ -244,6 +245,7 @@ static void limits_hold_on_both_sides(void **state)
     } rows[] = {
         {"", "(", "x", LIMIT_EQUATION_DEPTH - 1}, /* closed below */
         {"", "-", "x", LIMIT_EQUATION_DEPTH - 1},
+        {"", "\u221a", "x", LIMIT_EQUATION_DEPTH - 1},
         {"", "k# := x + #;", "x", LIMIT_EQUATION_DEFINITIONS},
         {"x", "+ #.25", "", (LIMIT_EQUATION_NODES - 2) / 2}, /* besides x and 0 */
     };
