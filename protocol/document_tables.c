@@ -169,6 +169,18 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
      .above_min = true, .step = 10, .group = "limits",
      .doc = "Greatest distance from the eye at which surfaces are drawn."})};
 
+/* The spot's handle: on the rim of its cone at distance 1. With the unit axis (x, y, z), a unit
+ * vector across it is (1 - x^2 / (1 - y), x, -x z / (1 - y)), but where the spot shines straight up.
+ * After Frisvad, Building an orthonormal basis from a 3D unit vector, Journal of Graphics Tools 16
+ * (2012). */
+#define LENGTH "sqrt(direction.x^2 + direction.y^2 + direction.z^2)"
+#define SIDE "sin(angle)*direction.x/" LENGTH
+#define SLOPE "/(" LENGTH " - direction.y)"
+#define RIM \
+    "cos(angle)*direction.x/" LENGTH " + sin(angle) - " SIDE "*direction.x" SLOPE ", " \
+    "cos(angle)*direction.y/" LENGTH " + " SIDE ", " \
+    "cos(angle)*direction.z/" LENGTH " - " SIDE "*direction.z" SLOPE
+
 const struct record_type light_types[] = {
     [LIGHT_DIRECTIONAL] = {"directional", "Parallel light from far away, like sunlight.", PARAMS(
         {"direction", PARAM_VEC3, .def = {-0.5, -0.8, -0.4}, .direction = true, .step = 0.05,
@@ -184,7 +196,7 @@ const struct record_type light_types[] = {
         {"direction", PARAM_VEC3, .def = {-0.4, -0.8, -0.6}, .direction = true, .step = 0.05,
          .doc = "Axis of the cone, away from the light; any length but 0."},
         {"angle", PARAM_FLOAT, UNIT_ANGLE, .def = {0.5}, .min = 0.01, .max = 1.5707,
-         .step = 0.0872664625997165, .doc = "Half the angle of the cone."},
+         .step = 0.0872664625997165, .handle = RIM, .doc = "Half the angle of the cone."},
         {"softness", PARAM_FLOAT, .def = {0.2}, .min = 0, .max = 1, .step = 0.05,
          .doc = "Part of the angle over which the light fades towards the rim."},
         LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
@@ -305,18 +317,20 @@ const struct record_type volume_types[] = {
     [VOLUME_BOX] = {"box", "Smoke or cloud in a box.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Centre of the volume."},
         {"size", PARAM_VEC3, UNIT_LENGTH, .def = {2, 2, 2}, .min = 0, .max = LIMIT_COORDINATE,
-         .above_min = true, .step = 0.05, .doc = "Full lengths."},
+         .above_min = true, .step = 0.05,
+         .handle = "size.x/2, 0, 0; 0, size.y/2, 0; 0, 0, size.z/2", .doc = "Full lengths."},
         DENSITY)},
     [VOLUME_SPHERE] = {"sphere", "Smoke or cloud in a ball.", PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Centre of the volume."},
         {"radius", PARAM_FLOAT, UNIT_LENGTH, .def = {1}, .min = 0, .max = LIMIT_COORDINATE,
-         .above_min = true, .step = 0.05, .doc = "Radius of the ball."},
+         .above_min = true, .step = 0.05, .handle = "radius, 0, 0", .doc = "Radius of the ball."},
         DENSITY)},
     [VOLUME_ELLIPSOID] = {"ellipsoid", "Smoke or cloud in an ellipsoid.",
      PARAMS(
         {"position", PARAM_VEC3, UNIT_LENGTH, .step = 0.05, .doc = "Centre of the volume."},
         {"radii", PARAM_VEC3, UNIT_LENGTH, .def = {1.5, 0.75, 1}, .min = 0,
          .max = LIMIT_COORDINATE, .above_min = true, .step = 0.05,
+         .handle = "radii.x, 0, 0; 0, radii.y, 0; 0, 0, radii.z",
          .doc = "Semi-axes along X, Y and Z."},
         DENSITY)},
     [VOLUME_KIND_COUNT] = {.name = NULL},

@@ -463,7 +463,8 @@ cJSON *param_describe(const struct param *param)
     } texts[] = {{"group", param->group},
                  {"when", param->when},
                  {"zero", param->zero},
-                 {"means", param->means}};
+                 {"means", param->means},
+                 {"handle", param->handle}};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         if (texts[i].text) {
             cJSON_AddStringToObject(row, texts[i].name, texts[i].text);

@@ -57,6 +57,13 @@ struct param {
     const char *when;           /* it matters only then: "type=sky", "opacity!=1"; NULL: always */
     const char *zero;           /* what forms show for 0: "auto"; NULL: 0 is a number like others */
     const char *means;          /* what it shares with rows of other shaders; NULL: nothing */
+    /* Where an editor lets a hand change the value, in the node's own space; NULL: nowhere. One
+     * point "X, Y, Z" for all of the value, or one for each component, with ";" between them. X, Y
+     * and Z are expressions of numbers, + - * / ^ ( ), sqrt, sin, cos, pi and numbers of the same
+     * record: `radius`, `size.x`. The point of a length or an angle of a shape lies on its surface,
+     * that of a place at the place. Where it is not finite, there is none. Of lights and volumes it
+     * is relative to their position. */
+    const char *handle;
     const char *doc;
 };
 

@@ -10,10 +10,11 @@ const struct node_type node_fractals[] = {
     {.record = {"gyroid", "A sponge of two equal mazes with one wall between them, cut by a box.",
         PARAMS(
         {"period", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
-         .doc = "Length after which it repeats."},
+         .handle = "period/2, 0, 0", .doc = "Length after which it repeats."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
          .doc = "Of the wall where it is thinnest; elsewhere up to twice as much."},
-        {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1}, .doc = "Full lengths of the box."})},
+        {"size", PARAM_VEC3, SIZE, .def = {1, 1, 1},
+         .handle = BOX_HANDLES, .doc = "Full lengths of the box."})},
      /* With g = sin x cos y + sin y cos z + sin z cos x, dg/dx = (cos x, sin x) (cos y, -sin z) has
       * a square of at most cos^2 y + sin^2 z. The three of these add up to 3, so g divided by the
       * square root of 3 and by 2 pi / period is as slow as the distance. */
@@ -31,7 +32,8 @@ const struct node_type node_fractals[] = {
                "skytopia.com/project/fractal/mandelbulb.html"},
     {.record = {"menger", "A cube without its middle, repeated in each of the remaining cubes.",
         PARAMS(
-        {"size", PARAM_FLOAT, SIZE, .def = {1}, .main = true, .doc = "Edge of the cube."},
+        {"size", PARAM_FLOAT, SIZE, .def = {1}, .main = true,
+         .handle = "size/2, size/2, size/2", .doc = "Edge of the cube."},
         {"iterations", COUNT, .min = 1, .max = 8, .def = {4},
          .doc = "How often the middle is taken out."})},
      .number = 72, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = BOUND, .lipschitz = 1,
@@ -50,6 +52,7 @@ const struct node_type node_fractals[] = {
                 "greater horizontal size; each octave adds some half as wide and half as high.",
         PARAMS(
         {"size", PARAM_VEC3, SIZE, .def = {8, 1, 8}, .main = true,
+         .handle = "size.x/2, -size.y/2, 0; 0, size.y/2, 0; 0, -size.y/2, size.z/2",
          .doc = "Full lengths of the box around it; the middle one is from bottom to peaks."},
         {"octaves", COUNT, .min = 1, .max = 12, .def = {5}, .doc = "Layers of detail."},
         {"seed", PARAM_INT, UNIT_NONE, .min = 0, .max = 65535, .step = 1,
@@ -65,8 +68,9 @@ const struct node_type node_fractals[] = {
         {"clip", PARAM_ENUM, .choices = (const char *const[]){"box", "ball", NULL},
          .doc = "What cuts it."},
         {"size", PARAM_VEC3, SIZE, .def = {3, 3, 3}, .when = "clip=box",
-         .doc = "Full lengths of the box."},
-        {"radius", PARAM_FLOAT, SIZE, .def = {1.5}, .when = "clip=ball", .doc = "Of the ball."},
+         .handle = BOX_HANDLES, .doc = "Full lengths of the box."},
+        {"radius", PARAM_FLOAT, SIZE, .def = {1.5}, .when = "clip=ball",
+         .handle = "radius, 0, 0", .doc = "Of the ball."},
         {"thickness", PARAM_FLOAT, SIZE, .def = {0.03}, .when = "mode=sheet",
          .doc = "Of the sheet."},
         {"a", LETTER, .main = true, .doc = "The letter a in the equation."},

@@ -8,7 +8,7 @@ static const char *const kernels[] = {"quadratic", "cubic", "quartic",    "circu
 
 /* clang-format off */
 static const struct param blend_params[] = {
-    {"k", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true,
+    {"k", PARAM_FLOAT, SIZE, .def = {0.1}, .main = true, .handle = "k, 0, 0",
      .doc = "Reach of the blend: nothing changes where distances differ by more. Of the kernels "
             "without end: exponential, 1 by a length (greater is harder); root, the square of a "
             "length; power, an exponent of 1 or more."},

@@ -21,6 +21,12 @@
 /* A place. */
 #define PLACE UNIT_LENGTH, .step = 0.05
 
+/* Handles that many rows share. */
+#define POINT(P) P ".x, " P ".y, " P ".z"
+#define BOX_HANDLES "size.x/2, 0, 0; 0, size.y/2, 0; 0, 0, size.z/2"
+/* How far the middle of an edge of this radius lies behind both sides. */
+#define ROUNDED(RADIUS) RADIUS "*(1 - sqrt(1/2))"
+
 /* Each ends with a row whose name is NULL. */
 extern const struct node_type node_shapes[];     /* numbers 1 to 39 */
 extern const struct node_type node_solids[];     /* 40 to 69 */
