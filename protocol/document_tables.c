@@ -169,17 +169,17 @@ const struct record_type render_type = {"render", "How the scene becomes a pictu
      .above_min = true, .step = 10, .group = "limits",
      .doc = "Greatest distance from the eye at which surfaces are drawn."})};
 
-/* The spot's handle: on the rim of its cone at distance 1. With the unit axis (x, y, z), a unit
- * vector across it is (1 - x^2 / (1 - y), x, -x z / (1 - y)), but where the spot shines straight up.
- * After Frisvad, Building an orthonormal basis from a 3D unit vector, Journal of Graphics Tools 16
- * (2012). */
-#define LENGTH "sqrt(direction.x^2 + direction.y^2 + direction.z^2)"
-#define SIDE "sin(angle)*direction.x/" LENGTH
-#define SLOPE "/(" LENGTH " - direction.y)"
-#define RIM \
-    "cos(angle)*direction.x/" LENGTH " + sin(angle) - " SIDE "*direction.x" SLOPE ", " \
-    "cos(angle)*direction.y/" LENGTH " + " SIDE ", " \
-    "cos(angle)*direction.z/" LENGTH " - " SIDE "*direction.z" SLOPE
+/* The spot's handle: on the rim of its cone at distance 1. A unit vector across the unit axis
+ * (x, y, z) is (1 - x^2 / (1 - y), x, -x z / (1 - y)), but where the spot shines straight up: after
+ * Frisvad, Building an orthonormal basis from a 3D unit vector without normalization, Journal of
+ * Graphics Tools 16 (2012). */
+#define AXIS_LENGTH "sqrt(direction.x^2 + direction.y^2 + direction.z^2)"
+#define ACROSS "sin(angle)*direction.x/" AXIS_LENGTH
+#define PER_REST "/(" AXIS_LENGTH " - direction.y)"
+#define ON_CONE \
+    "cos(angle)*direction.x/" AXIS_LENGTH " + sin(angle) - " ACROSS "*direction.x" PER_REST ", " \
+    "cos(angle)*direction.y/" AXIS_LENGTH " + " ACROSS ", " \
+    "cos(angle)*direction.z/" AXIS_LENGTH " - " ACROSS "*direction.z" PER_REST
 
 const struct record_type light_types[] = {
     [LIGHT_DIRECTIONAL] = {"directional", "Parallel light from far away, like sunlight.", PARAMS(
@@ -196,7 +196,7 @@ const struct record_type light_types[] = {
         {"direction", PARAM_VEC3, .def = {-0.4, -0.8, -0.6}, .direction = true, .step = 0.05,
          .doc = "Axis of the cone, away from the light; any length but 0."},
         {"angle", PARAM_FLOAT, UNIT_ANGLE, .def = {0.5}, .min = 0.01, .max = 1.5707,
-         .step = 0.0872664625997165, .handle = RIM, .doc = "Half the angle of the cone."},
+         .step = 0.0872664625997165, .handle = ON_CONE, .doc = "Half the angle of the cone."},
         {"softness", PARAM_FLOAT, .def = {0.2}, .min = 0, .max = 1, .step = 0.05,
          .doc = "Part of the angle over which the light fades towards the rim."},
         LIGHT_COLOR, LIGHT_REACH, LIGHT_SHADOW)},
