@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "jets.h"
 #include "patterns.h"
 
 /* --- component by component --- */
@@ -448,18 +449,43 @@ const struct builtin builtin_table[] = {
     /* How much of each of three patterns along X, Y and Z a surface shows; 1 in all. */
     {"triplanar", FAMILY_CROSS, 1, .weight = 4, .load = 10, .glsl = "code_triplanar",
      .whole = pattern_triplanar},
+    {"jet_dual_times", FAMILY_JET, 2, .weight = 3,
+     .whole = jet_dual_times, .sizes = {4, 4, 4}},
+    {"jet_dual_of", FAMILY_JET, 3,
+     .whole = jet_dual_of, .sizes = {4, 4, 1, 1}},
+    {"jet_times", FAMILY_JET, 2, .weight = 12,
+     .whole = jet_times, .sizes = {BUILTIN_JET, BUILTIN_JET, BUILTIN_JET}},
+    {"jet_minus", FAMILY_JET, 2,
+     .whole = jet_minus, .sizes = {BUILTIN_JET, BUILTIN_JET, BUILTIN_JET}},
+    {"jet_scaled", FAMILY_JET, 2, .weight = 3,
+     .whole = jet_scaled, .sizes = {BUILTIN_JET, BUILTIN_JET, 1}},
+    {"jet_moved", FAMILY_JET, 2,
+     .whole = jet_moved, .sizes = {BUILTIN_JET, BUILTIN_JET, 1}},
+    {"jet_of", FAMILY_JET, 2, .weight = 6,
+     .whole = jet_of, .sizes = {BUILTIN_JET, BUILTIN_JET, 4}},
+    {"jet_even", FAMILY_JET, 3, .weight = 8,
+     .whole = jet_even, .sizes = {BUILTIN_JET, BUILTIN_JET, 2, 1}},
+    {"jet_odd", FAMILY_JET, 3, .weight = 8,
+     .whole = jet_odd, .sizes = {BUILTIN_JET, BUILTIN_JET, 2, 1}},
+    {"jet_range_cos", FAMILY_JET, 1, .weight = 6, .load = 60,
+     .whole = jet_range_cos, .sizes = {4, 2}},
     {.name = NULL},
     /* clang-format on */
 };
 
-const struct builtin *builtin_find(const char *name)
+const struct builtin *builtin_find(const char *name, bool ours)
 {
     for (const struct builtin *row = builtin_table; row->name; row++) {
-        if (strcmp(row->name, name) == 0) {
+        if (strcmp(row->name, name) == 0 && (ours || row->family != FAMILY_JET)) {
             return row;
         }
     }
     return NULL;
+}
+
+struct type builtin_jet_type(uint8_t size)
+{
+    return size == BUILTIN_JET ? type_matrix(3) : type_vector(BASE_FLOAT, size);
 }
 
 const char *builtin_advice(const char *name)

@@ -34,9 +34,10 @@ enum family {
     FAMILY_DETERMINANT, /* a matrix; the result is a float */
     FAMILY_OUTER,       /* two vectors of one size; the result is a matrix */
     FAMILY_PRODUCT,     /* mul() of HLSL, whose M[i] are rows: b * a */
+    FAMILY_JET,         /* floats as `sizes` says; only our own code calls these (jets.h) */
 };
 
-enum { BUILTIN_ARGUMENTS = 3 };
+enum { BUILTIN_ARGUMENTS = 3, BUILTIN_JET = 9 };
 
 /* As in glsl/code.glsl. */
 #define BUILTIN_TINY 1e-30
@@ -62,12 +63,17 @@ struct builtin {
     double (*three)(double, double, double);
     /* `n` is the size of vectors and matrices. */
     void (*whole)(double *out, const double *const in[BUILTIN_ARGUMENTS], int n);
+    /* Of FAMILY_JET: components of the result and of the arguments; BUILTIN_JET: a mat3. */
+    uint8_t sizes[1 + BUILTIN_ARGUMENTS];
 };
 
 /* Ends with a row whose name is NULL. Of rows of one name the first that fits is called. */
 extern const struct builtin builtin_table[];
 
-const struct builtin *builtin_find(const char *name); /* the first of this name; NULL: none */
+/* The first of this name; NULL: none. `ours`: also of FAMILY_JET. */
+const struct builtin *builtin_find(const char *name, bool ours);
+/* The type of so many components as `sizes` has. */
+struct type builtin_jet_type(uint8_t size);
 /* What to do instead of calling a function that GLSL or HLSL has, and users' code has not; NULL:
  * nothing is known of it. */
 const char *builtin_advice(const char *name);

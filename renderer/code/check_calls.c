@@ -304,8 +304,22 @@ static bool match_vectors(const struct builtin *row, const struct expr *args, st
     }
 }
 
+static bool match_sizes(const struct builtin *row, const struct expr *args, struct match *match)
+{
+    bool fits = true;
+    match->result = builtin_jet_type(row->sizes[0]);
+    for (int i = 0; args; args = args->next, i++) {
+        match->wanted[i] = builtin_jet_type(row->sizes[1 + i]);
+        fits = fits && type_equal(args->type, match->wanted[i]);
+    }
+    return fits;
+}
+
 static bool match_row(const struct builtin *row, const struct expr *args, struct match *match)
 {
+    if (row->family == FAMILY_JET) {
+        return match_sizes(row, args, match);
+    }
     if (row->family == FAMILY_MATRIX || row->family == FAMILY_DETERMINANT) {
         want_all(match, args->type);
         if (row->family == FAMILY_DETERMINANT) {
@@ -365,7 +379,7 @@ static bool check_builtin(struct checker *checker, struct expr *expr)
 {
     const char *name = expr->name->text;
     char given[LIST_BYTES];
-    const struct builtin *first = builtin_find(name), *row = first;
+    const struct builtin *first = builtin_find(name, checker->tree->ours), *row = first;
     bool counted = false;
     int least = first->arguments, most = least;
     for (; row->name && strcmp(row->name, name) == 0; row++) {
@@ -485,8 +499,8 @@ static bool check_function(struct checker *checker, struct expr *expr)
         }
     }
     if (!best) {
-        return builtin_find(expr->name->text) ? check_builtin(checker, expr)
-                                              : refuse_call(checker, expr);
+        return builtin_find(expr->name->text, checker->tree->ours) ? check_builtin(checker, expr)
+                                                                   : refuse_call(checker, expr);
     }
     if (same > 0) {
         char given[LIST_BYTES];
@@ -529,7 +543,9 @@ static bool unknown_function(struct checker *checker, const struct expr *expr)
         suggest_consider(&suggestion, f->name->text);
     }
     for (const struct builtin *row = builtin_table; row->name; row++) {
-        suggest_consider(&suggestion, row->name);
+        if (row->family != FAMILY_JET) {
+            suggest_consider(&suggestion, row->name);
+        }
     }
     for (size_t i = 0; type_name_at(i); i++) {
         suggest_consider(&suggestion, type_name_at(i));
@@ -546,7 +562,7 @@ bool check_call(struct checker *checker, struct expr *expr)
     if (expr->name->functions) {
         return check_function(checker, expr);
     }
-    if (builtin_find(expr->name->text)) {
+    if (builtin_find(expr->name->text, checker->tree->ours)) {
         return check_builtin(checker, expr);
     }
     return unknown_function(checker, expr);

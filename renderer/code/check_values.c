@@ -81,7 +81,7 @@ static bool unknown_variable(struct checker *checker, const struct expr *expr)
             suggest_consider(&suggestion, v->name->text);
         }
     }
-    if (expr->name->functions || builtin_find(expr->name->text)) {
+    if (expr->name->functions || builtin_find(expr->name->text, checker->tree->ours)) {
         return CHECK_FAIL(checker, expr->at, "%.40s is a function; call it with ( )",
                           expr->name->text);
     }

@@ -58,59 +58,11 @@ static int size_of_power(const struct equation_node *node)
     return (int)(node->value < 0 ? -node->value : node->value);
 }
 
-static bool needs_power(const struct writer *w, int n)
-{
-    for (size_t i = 0; i < w->equation->count; i++) {
-        const struct equation_node *node = &w->equation->nodes[i];
-        const int size = node->op == EQUATION_WHOLE && w->used[i] ? size_of_power(node) : 0;
-        if (size == n || size == n + 1) { /* x^n and its derivative */
-            return true;
-        }
-    }
-    return false;
-}
-
 /* --- functions --- */
-
-/* TYPE power_N(TYPE x), by squaring; n > 0. */
-static void write_power(FILE *out, const char *type, int n)
-{
-    fprintf(out, "%s power_%d(%s x)\n{\n%s y = x", type, n, type, type);
-    int highest = 1;
-    while (2 * highest <= n) {
-        highest *= 2;
-    }
-    fprintf(out, ";\n");
-    for (int bit = highest / 2; bit > 0; bit /= 2) {
-        fprintf(out, "y = y * y%s;\n", n & bit ? " * x" : "");
-    }
-    fprintf(out, "return y;\n}\n");
-}
-
-/* vec2 whole_N(vec2 x): the range of x^N. */
-static void write_whole(FILE *out, int n)
-{
-    fprintf(out,
-            n % 2 ? "vec2 whole_%d(vec2 x) { return bounded(power_%d(x)); }\n"
-                  : "vec2 whole_%d(vec2 x) { return bounded(power_%d(sizes(x))); }\n",
-            n, n);
-}
-
-static void write_powers(const struct writer *w)
-{
-    for (int n = 1; n <= LIMIT_EQUATION_EXPONENT; n++) {
-        if (needs_power(w, n)) {
-            write_power(w->out, "float", n);
-            write_power(w->out, "vec2", n);
-            write_whole(w->out, n);
-        }
-    }
-}
 
 static void write_functions(const struct writer *w)
 {
-    fputs(equation_jets, w->out);
-    write_powers(w);
+    fputs(equation_sizes, w->out);
     for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
         const bool by_power =
             is_called(w, EQUATION_POWER, -1) && (i == EQUATION_EXP || i == EQUATION_LOG);
@@ -142,11 +94,40 @@ static void write_number(FILE *out, double value)
     fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
 }
 
-static void write_known_power(const struct writer *w, const struct equation_node *node)
+/* TYPE to = from^n;, by squaring; n > 0, and `from` is one name. */
+static void write_power(FILE *out, const char *type, const char *to, const char *from, int n)
 {
-    const int n = size_of_power(node), a = node->args[0];
-    char power[40];
-    snprintf(power, sizeof power, n > 0 ? "power_%d(s%d)" : "1.0", n, a);
+    fprintf(out, "%s %s = %s", type, to, from);
+    int highest = 1;
+    while (2 * highest <= n) {
+        highest *= 2;
+    }
+    for (int bit = highest / 2; bit > 0; bit /= 2) {
+        fprintf(out, ";\n%s = %s * %s", to, to, to);
+        if (n & bit) {
+            fprintf(out, " * %s", from);
+        }
+    }
+    fputs(";\n", out);
+}
+
+/* Into the number qI, where a power is to be taken. */
+static void write_known_power(const struct writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, (uint16_t)index);
+    char to[16], from[16];
+    snprintf(to, sizeof to, "q%zu", index);
+    snprintf(from, sizeof from, "s%d", node->args[0]);
+    if (node->op == EQUATION_WHOLE && size_of_power(node) > 0) {
+        write_power(w->out, "float", to, from, size_of_power(node));
+    }
+}
+
+static void write_known_whole(const struct writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, (uint16_t)index);
+    char power[16];
+    snprintf(power, sizeof power, size_of_power(node) > 0 ? "q%zu" : "1.0", index);
     write_rule(w, node->value < 0 ? equation_reciprocal.value : "$", power);
 }
 
@@ -157,6 +138,7 @@ static void write_scalar(const struct writer *w, size_t index)
     const struct equation_node *node = &w->equation->nodes[index];
     const int a = node->args[0], b = node->args[1];
     char argument[16];
+    write_known_power(w, index);
     fprintf(w->out, "float s%zu = ", index);
     switch ((enum equation_op)node->op) {
     case EQUATION_NUMBER:
@@ -180,7 +162,7 @@ static void write_scalar(const struct writer *w, size_t index)
         fprintf(w->out, "-s%d", a);
         break;
     case EQUATION_WHOLE:
-        write_known_power(w, node);
+        write_known_whole(w, index);
         break;
     case EQUATION_CALL:
         snprintf(argument, sizeof argument, "s%d", a);
@@ -207,7 +189,7 @@ static void write_dual(const struct writer *w, uint16_t index)
 static void write_dual_times(const struct writer *w, uint16_t a, uint16_t b)
 {
     if (varies(w, a) && varies(w, b)) {
-        fprintf(w->out, "vec4(g%d.xyz * g%d.w + g%d.xyz * g%d.w, g%d.w * g%d.w)", a, b, b, a, a, b);
+        fprintf(w->out, "jet_dual_times(g%d, g%d)", a, b);
     } else {
         fprintf(w->out, varies(w, a) ? "g%d * s%d" : "s%d * g%d", a, b);
     }
@@ -217,23 +199,35 @@ static void write_dual_rule(const struct writer *w, const struct equation_rule *
 {
     char argument[16];
     snprintf(argument, sizeof argument, "g%d.w", a);
-    fprintf(w->out, "vec4(g%d.xyz * ", a);
-    write_rule(w, rule->slope, argument);
-    fputs(", ", w->out);
+    fprintf(w->out, "jet_dual_of(g%d, ", a);
     write_rule(w, rule->value, argument);
+    fputs(", ", w->out);
+    write_rule(w, rule->slope, argument);
     fputs(")", w->out);
 }
 
-static void write_dual_whole(const struct writer *w, const struct equation_node *node)
+/* qI is the next lower power. */
+static void write_dual_power_below(const struct writer *w, size_t index)
 {
+    const struct equation_node *node = node_of(w, (uint16_t)index);
+    char to[16], from[16];
+    snprintf(to, sizeof to, "q%zu", index);
+    snprintf(from, sizeof from, "g%d.w", node->args[0]);
+    if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
+        write_power(w->out, "float", to, from, size_of_power(node) - 1);
+    }
+}
+
+static void write_dual_whole(const struct writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, (uint16_t)index);
     const int n = size_of_power(node), a = node->args[0];
     if (n == 0) {
         fputs("vec4(0.0, 0.0, 0.0, 1.0)", w->out);
     } else if (n == 1) {
         fprintf(w->out, "g%d", a);
     } else {
-        fprintf(w->out, "vec4(g%d.xyz * (%d.0 * power_%d(g%d.w)), power_%d(g%d.w))", a, n, n - 1, a,
-                n, a);
+        fprintf(w->out, "jet_dual_of(g%d, q%zu * g%d.w, %d.0 * q%zu)", a, index, a, n, index);
     }
 }
 
@@ -246,12 +240,12 @@ static void write_dual_below(const struct writer *w, size_t index, const struct 
     if (node->op == EQUATION_DIVIDE) {
         fprintf(w->out, "g%d", node->args[1]);
     } else {
-        write_dual_whole(w, node);
+        write_dual_whole(w, index);
     }
-    fprintf(w->out, ";\nh%zu = vec4(h%zu.xyz * ", index, index);
-    write_rule(w, equation_reciprocal.slope, argument);
-    fputs(", ", w->out);
+    fprintf(w->out, ";\nh%zu = jet_dual_of(h%zu, ", index, index);
     write_rule(w, equation_reciprocal.value, argument);
+    fputs(", ", w->out);
+    write_rule(w, equation_reciprocal.slope, argument);
     fputs(");\n", w->out);
 }
 
@@ -275,8 +269,7 @@ static void write_dual_quotient(const struct writer *w, size_t index,
     } else if (!varies(w, a)) {
         fprintf(w->out, "s%d * h%zu", a, index);
     } else {
-        fprintf(w->out, "vec4(g%d.xyz * h%zu.w + h%zu.xyz * g%d.w, g%d.w * h%zu.w)", a, index,
-                index, a, a, index);
+        fprintf(w->out, "jet_dual_times(g%d, h%zu)", a, index);
     }
 }
 
@@ -322,6 +315,7 @@ static void write_gradient(const struct writer *w, size_t index)
     static const char *const axes[] = {"1.0, 0.0, 0.0, p.x", "0.0, 1.0, 0.0, p.y",
                                        "0.0, 0.0, 1.0, p.z"};
     const struct equation_node *node = &w->equation->nodes[index];
+    write_dual_power_below(w, index);
     if (divides(w, node)) {
         write_dual_below(w, index, node);
     }
@@ -343,7 +337,7 @@ static void write_gradient(const struct writer *w, size_t index)
         if (node->value < 0) {
             write_dual_quotient(w, index, node);
         } else {
-            write_dual_whole(w, node);
+            write_dual_whole(w, index);
         }
         break;
     case EQUATION_POWER:
@@ -372,7 +366,7 @@ static void write_jet_sum(const struct writer *w, const struct equation_node *no
         fprintf(w->out, minus ? "jet_moved(jet_scaled(j%d, -1.0), s%d)" : "jet_moved(j%d, s%d)", b,
                 a);
     } else {
-        fprintf(w->out, minus ? "j%d + jet_scaled(j%d, -1.0)" : "j%d + j%d", a, b);
+        fprintf(w->out, minus ? "jet_minus(j%d, j%d)" : "j%d + j%d", a, b);
     }
 }
 
@@ -402,6 +396,19 @@ static void write_jet_quotient(const struct writer *w, const struct equation_nod
     }
 }
 
+/* qI is the next lower power of the sizes of both ends, which are eI. */
+static void write_jet_power_below(const struct writer *w, size_t index)
+{
+    const struct equation_node *node = node_of(w, (uint16_t)index);
+    char to[16], from[16];
+    snprintf(to, sizeof to, "q%zu", index);
+    snprintf(from, sizeof from, "e%zu", index);
+    if (node->op == EQUATION_WHOLE && size_of_power(node) > 1) {
+        fprintf(w->out, "vec2 %s = abs(j%d[2].xy);\n", from, node->args[0]);
+        write_power(w->out, "vec2", to, from, size_of_power(node) - 1);
+    }
+}
+
 static void write_jet_whole(const struct writer *w, size_t index, const struct equation_node *node)
 {
     const int n = size_of_power(node), a = node->args[0];
@@ -410,8 +417,7 @@ static void write_jet_whole(const struct writer *w, size_t index, const struct e
     } else if (n == 1) {
         fprintf(w->out, "j%d", a);
     } else {
-        fprintf(w->out, "jet_of(j%d, vec4(whole_%d(j%d[2].xy), %d.0 * whole_%d(j%d[2].xy)))", a, n,
-                a, n, n - 1, a);
+        fprintf(w->out, "jet_%s(j%d, q%zu, %d.0)", n % 2 ? "odd" : "even", a, index, n);
     }
     if (node->value < 0) {
         fprintf(w->out, ";\nj%zu = jet_of(j%zu, range_reciprocal(j%zu[2].xy))", index, index,
@@ -462,13 +468,13 @@ static void write_jet_call(const struct writer *w, const struct equation_node *n
 static void write_jet(const struct writer *w, size_t index)
 {
     const struct equation_node *node = &w->equation->nodes[index];
-    const char axis = (char)('x' + node->which);
+    if (node->op == EQUATION_AXIS) {
+        fprintf(w->out, "j%zu[2].xy = p.%c + sides;\n", index, "xyz"[node->which]);
+        return;
+    }
+    write_jet_power_below(w, index);
     fprintf(w->out, "mat3 j%zu = ", index);
     switch ((enum equation_op)node->op) {
-    case EQUATION_AXIS:
-        fprintf(w->out, "mat3(g%zu.xyz, g%zu.xyz, vec3(p.%c - reach, p.%c + reach, 0.0))", index,
-                index, axis, axis);
-        break;
     case EQUATION_NEGATE:
         fprintf(w->out, "jet_scaled(j%d, -1.0)", node->args[0]);
         break;
@@ -505,14 +511,23 @@ static void write_nodes(const struct writer *w, bool varying,
     }
 }
 
+/* The slopes of the axes, which are the same in each box. */
+static void write_axis(const struct writer *w, size_t index)
+{
+    if (w->equation->nodes[index].op == EQUATION_AXIS) {
+        fprintf(w->out, "mat3 j%zu = mat3(g%zu.xyz, g%zu.xyz, vec3(0.0));\n", index, index, index);
+    }
+}
+
 /* Where the slope in a box tells less than that in a smaller one would, the box shrinks. */
 static void write_bound(const struct writer *w, uint16_t root, struct equation_form form)
 {
     fprintf(w->out,
             "float value = abs(g%d.w), d = 0.0, first = -1.0;\n"
-            "float reach = min(value / max(length(g%d.xyz), 1e-18), 0.25 * %s);\n"
-            "for (int i = 0; i < %d; i++) {\n",
-            root, root, form.ball ? "radius" : "length(size)", TRIES);
+            "float reach = min(value / max(length(g%d.xyz), 1e-18), 0.25 * %s);\n",
+            root, root, form.ball ? "radius" : "length(size)");
+    write_nodes(w, true, write_axis);
+    fprintf(w->out, "for (int i = 0; i < %d; i++) {\nvec2 sides = vec2(-reach, reach);\n", TRIES);
     write_nodes(w, true, write_jet);
     fprintf(w->out,
             "float most = length(max(abs(j%d[0]), abs(j%d[1])));\n"

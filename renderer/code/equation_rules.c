@@ -4,58 +4,17 @@
  * that at the domain's nearest end. */
 #include "equation_rules.h"
 
-#define HUGE EQUATION_HUGE
+#include "jets.h"
 
-const char equation_jets[] =
-    /* The least and the greatest size in an interval. */
+#define TEXT(x) #x
+#define TEXT_OF(x) TEXT(x)
+#define HUGE TEXT_OF(JET_MOST)
+
+const char equation_sizes[] =
     "vec2 sizes(vec2 x)\n"
     "{\n"
     "    vec2 s = abs(x);\n"
     "    return vec2(x.x * x.y <= 0.0 ? 0.0 : min(s.x, s.y), max(s.x, s.y));\n"
-    "}\n"
-    "vec2 bounded(vec2 x) { return clamp(x, -" HUGE ", " HUGE "); }\n"
-    "vec2 sorted(vec2 x) { return vec2(min(x.x, x.y), max(x.x, x.y)); }\n"
-    /* Three intervals times one. */
-    "mat3 times(vec3 low, vec3 high, vec2 by)\n"
-    "{\n"
-    "    vec3 p = low * by.x, q = low * by.y, r = high * by.x, s = high * by.y;\n"
-    "    return mat3(max(min(min(p, q), min(r, s)), -" HUGE "),\n"
-    "                min(max(max(p, q), max(r, s)), " HUGE "), vec3(0.0));\n"
-    "}\n"
-    "mat3 jet_times(mat3 a, mat3 b)\n"
-    "{\n"
-    "    vec2 u = a[2].xy, v = b[2].xy;\n"
-    "    vec4 all = vec4(u.x * v.x, u.x * v.y, u.y * v.x, u.y * v.y);\n"
-    "    mat3 sum = times(a[0], a[1], v) + times(b[0], b[1], u);\n"
-    "    vec2 value = vec2(min(min(all.x, all.y), min(all.z, all.w)),\n"
-    "                      max(max(all.x, all.y), max(all.z, all.w)));\n"
-    "    return mat3(sum[0], sum[1], vec3(bounded(value), 0.0));\n"
-    "}\n"
-    "mat3 jet_scaled(mat3 a, float s)\n"
-    "{\n"
-    "    mat3 b = a * s;\n"
-    "    vec3 low = b[0], high = b[1], value = b[2];\n"
-    "    if (s < 0.0) {\n"
-    "        low = b[1];\n"
-    "        high = b[0];\n"
-    "        value = b[2].yxz;\n"
-    "    }\n"
-    "    return mat3(max(low, -" HUGE "), min(high, " HUGE "), vec3(bounded(value.xy), 0.0));\n"
-    "}\n"
-    "mat3 jet_moved(mat3 a, float s) { return mat3(a[0], a[1], a[2] + vec3(s, s, 0.0)); }\n"
-    /* The chain rule. */
-    "mat3 jet_of(mat3 a, vec4 range)\n"
-    "{\n"
-    "    mat3 d = times(a[0], a[1], bounded(range.zw));\n"
-    "    return mat3(d[0], d[1], vec3(bounded(range.xy), 0.0));\n"
-    "}\n"
-    "vec2 range_cosine(vec2 x)\n"
-    "{\n"
-    "    vec2 ends = sorted(cos(x));\n"
-    "    vec2 turns = floor(x / 6.283185307), half_turns = floor((x - 3.141592654) / "
-    "6.283185307);\n"
-    "    return vec2(half_turns.y > half_turns.x ? -1.0 : ends.x, turns.y > turns.x ? 1.0 : "
-    "ends.y);\n"
     "}\n";
 
 const struct equation_rule equation_reciprocal = {
@@ -72,15 +31,9 @@ const struct equation_rule equation_reciprocal = {
 
 const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
     [EQUATION_SIN] = {"sin($)", "cos($)",
-                      "vec4 range_sin(vec2 x)\n"
-                      "{\n"
-                      "    return vec4(range_cosine(x - 1.570796327), range_cosine(x));\n"
-                      "}\n"},
+                      "vec4 range_sin(vec2 x) { return jet_range_cos(x - 1.570796327); }\n"},
     [EQUATION_COS] = {"cos($)", "(-sin($))",
-                      "vec4 range_cos(vec2 x)\n"
-                      "{\n"
-                      "    return vec4(range_cosine(x), range_cosine(x + 1.570796327));\n"
-                      "}\n"},
+                      "vec4 range_cos(vec2 x) { return jet_range_cos(x); }\n"},
     [EQUATION_TAN] = {"tan($)", "(1.0 + tan($) * tan($))",
                       "vec4 range_tan(vec2 x)\n"
                       "{\n"

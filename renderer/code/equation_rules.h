@@ -17,9 +17,7 @@ extern const struct equation_rule equation_rules[EQUATION_FUNCTIONS];
 /* Of 1 / x, which is no function of the language. */
 extern const struct equation_rule equation_reciprocal;
 
-/* What they all call. Jets are what value and slopes are in a box: the least slopes along x, y and
- * z, the greatest, and (least value, greatest value, 0). Nothing exceeds EQUATION_HUGE. */
-extern const char equation_jets[];
-#define EQUATION_HUGE "1e18"
+/* What they call: the least and the greatest size in an interval. */
+extern const char equation_sizes[];
 
 #endif

@@ -119,9 +119,12 @@ static bool may_go_to(const struct step *s, uint16_t to)
     const uint16_t operands[] = {s->a, s->b, s->c};
     bool each = s->kind != STEP_GATHER && s->kind != STEP_PRODUCT && s->kind != STEP_TOGETHER &&
                 s->kind != STEP_EQUAL;
+    const bool jets = s->kind == STEP_TOGETHER && builtin_table[s->extra].family == FAMILY_JET;
     int used = s->kind == STEP_PRODUCT ? 2 : 3; /* c is no operand there */
     for (int i = 0; i < used && !(each && s->n == 1); i++) {
-        int from = operands[i], reach = each ? s->n : REACH_MAX;
+        int from = operands[i], reach = each   ? s->n
+                                        : jets ? builtin_table[s->extra].sizes[1 + i]
+                                               : REACH_MAX;
         bool same_place = each && from == to && !(s->flags & (SPREAD_A << i));
         bool apart = from >= to + results(s) || from + reach <= to;
         if (from != MACHINE_NOWHERE && !same_place && !apart) {

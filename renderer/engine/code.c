@@ -146,6 +146,10 @@ static void put_together(const struct walk *w, const struct step *s)
         put(w, w->frame + s->out, CALL(one_function, call->function)(w->c, w->m, x, y, z));
         return;
     }
+    if (!w->apart) { /* kernels write nothing before they have read all */
+        CALL(all_function, call->function)(w->c, w->m, x, y, z, w->frame + s->out);
+        return;
+    }
     CALL(all_function, call->function)(w->c, w->m, x, y, z, out);
     put_all(w, w->frame + s->out, out, s->parts, 1);
 }

@@ -2,6 +2,7 @@
 /* What users' code calls (renderer/code/builtins.h): as GLSL's own, but with a meaning for every
  * argument. */
 
+#include "jets.glsl"
 #include "noise.glsl"
 
 #define CODE_TINY 1e-30

@@ -25,6 +25,24 @@ static bool takes_matrix(const struct call *call)
            (call->row->family == FAMILY_MATRIX || call->row->family == FAMILY_DETERMINANT);
 }
 
+/* Rows of the first argument, which name the kernel. */
+static int jet_rows(const struct builtin *row)
+{
+    return builtin_jet_type(row->sizes[1]).rows;
+}
+
+/* Kernels of jets take matrices, of which these begin with their numbers. */
+static void write_jet_argument(FILE *out, char name, uint8_t size)
+{
+    if (size == BUILTIN_JET) {
+        fprintf(out, "%c", name);
+    } else if (size == 4) {
+        fprintf(out, "vec4(%c[0], %c[1].x)", name, name);
+    } else {
+        fprintf(out, "%c[0].%.*s", name, size, "xy");
+    }
+}
+
 static enum base argument_base(const struct call *call, int i)
 {
     return call->row->family == FAMILY_SELECT && i == 2    ? BASE_BOOL
@@ -48,7 +66,9 @@ static void write_argument(FILE *out, const struct call *call, int i)
     const char name = (char)('a' + i);
     const bool one =
         call->n == 1 || base != call->base || (call->row->family == FAMILY_REFRACT && i == 2);
-    if (!is_whole(call->row)) {
+    if (call->row->family == FAMILY_JET) {
+        write_jet_argument(out, name, call->row->sizes[1 + i]);
+    } else if (!is_whole(call->row)) {
         write_number(out, base, name, "");
     } else if (one) {
         write_number(out, base, name, ".x");
@@ -129,13 +149,17 @@ static void write_function(FILE *out, const struct call *call)
                                         [BASE_UINT] = "uintBitsToFloat((",
                                         [BASE_BOOL] = "uintBitsToFloat(bits_of_bool("};
     const enum base back = result_base(call);
-    char type[8] = "float";
-    if (is_whole(call->row)) {
+    char type[8] = "float", result[TYPE_NAME_BYTES];
+    if (call->row->family == FAMILY_JET) {
+        snprintf(type, sizeof type, "mat3");
+    } else if (is_whole(call->row)) {
         snprintf(type, sizeof type, takes_matrix(call) ? "mat%d" : "vec%d",
                  call->n > 1 ? call->n : 2);
     }
     if (gives_one(call)) {
         fprintf(out, "float ");
+    } else if (call->row->family == FAMILY_JET) {
+        fprintf(out, "%s ", type_name(builtin_jet_type(call->row->sizes[0]), result));
     } else if (call->row->family == FAMILY_OUTER) {
         fprintf(out, "mat%d ", call->n);
     } else {
@@ -189,6 +213,9 @@ static void sizes_of(const struct builtin *row, int *out_first, int *out_last)
                         row->family == FAMILY_REFRACT;
     *out_first = !is_whole(row) || of_one ? 1 : of_three ? 3 : 2;
     *out_last = !is_whole(row) ? 1 : of_three ? 3 : 4;
+    if (row->family == FAMILY_JET) {
+        *out_first = *out_last = jet_rows(row);
+    }
 }
 
 void spmd_write_calls(FILE *out, bool table)

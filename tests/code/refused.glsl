@@ -9,6 +9,10 @@ float sdf(vec3 p) { float radius = 1.0;
     return raduis; }
 //! 1:28 there is no function lenght; did you mean "length"?
 float sdf(vec3 p) { return lenght(p); }
+//! 1:28 there is no function jet_times
+float sdf(vec3 p) { return jet_times(mat3(1.0), mat3(1.0))[0].x; }
+//! 1:28 there is no variable jet_of
+float sdf(vec3 p) { return jet_of; }
 //! 1:28 map is defined below, in line 2; move it up
 float sdf(vec3 p) { return map(p); }
 float map(vec3 p) { return 1.0; }

@@ -254,6 +254,36 @@ static void add_three(struct code_batch *batch, const struct builtin *row)
     }
 }
 
+/* A jet whose least numbers are below its greatest ones; a dual; ends of powers; a number. */
+static void write_jet_argument(FILE *out, int size, int place)
+{
+    if (size == BUILTIN_JET) {
+        fprintf(out, "mat3(p%s - abs(p.yzx), p%s + abs(p.yxx), vec3(p.%c - 0.3, p.%c + 0.4, 0.0))",
+                place == 0 ? "" : ".zxy", place == 0 ? "" : ".zxy", "xy"[place], "xy"[place]);
+    } else {
+        write_argument(out, vectors[size], size, place);
+    }
+}
+
+static void add_jet(struct code_batch *batch, const struct builtin *row)
+{
+    const bool jet = row->sizes[0] == BUILTIN_JET;
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    fprintf(out, "float sdf(vec3 p) { %s v = %s(", jet ? "mat3" : "vec4", row->name);
+    for (int i = 0; i < row->arguments; i++) {
+        fprintf(out, "%s", i > 0 ? ", " : "");
+        write_jet_argument(out, row->sizes[1 + i], i);
+    }
+    fprintf(out, ");\n");
+    write_sum(out, jet ? 3 : row->sizes[0], jet ? 3 : 1);
+    fclose(out);
+    code_batch_add(batch, text, CODE_DISTANCE, no_params);
+    free(text);
+    run_if_full(batch);
+}
+
 /* All shapes and bases that the row takes. */
 static void add_row(struct code_batch *batch, const struct builtin *row, int rows)
 {
@@ -306,6 +336,20 @@ static void every_function_agrees(void **state)
             add_row(&batch, row, rows);
         }
     }
+    code_batch_run(&batch, 0);
+}
+
+/* The engine runs these in test_implicit. */
+static void functions_of_equations_agree(void **state)
+{
+    struct code_batch batch = {.gpu = &gpu, .numbers = numbers, .ours = true};
+    (void)state;
+    for (const struct builtin *row = builtin_table; row->name; row++) {
+        if (row->family == FAMILY_JET) {
+            add_jet(&batch, row);
+        }
+    }
+    assert_true(batch.count > 0);
     code_batch_run(&batch, 0);
 }
 
@@ -524,6 +568,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_agrees),
+        cmocka_unit_test(functions_of_equations_agree),
         cmocka_unit_test(the_ends_of_domains_agree),
         cmocka_unit_test(accepted_code_agrees),
         cmocka_unit_test(listings_of_the_thesis_agree),

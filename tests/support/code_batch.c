@@ -28,7 +28,8 @@ void code_batch_add(struct code_batch *batch, const char *text, enum code_use us
                     const struct param *params)
 {
     struct error err = {0};
-    struct code *code = code_compile(&(struct code_source){use, text, params, false}, &err);
+    const struct code_source source = {use, text, params, batch->ours};
+    struct code *code = code_compile(&source, &err);
     if (!code) {
         fail_msg("%d:%d: %s\n%s", err.line, err.column, err.message, text);
     }
@@ -122,7 +123,7 @@ static void make_points(void)
 static bool engine_is_wrong(const struct code_batch *batch, size_t job, size_t allowed)
 {
     static float places[CODE_GPU_POINTS][3], got[CODE_GPU_POINTS];
-    if (batch->jobs[job].use != CODE_DISTANCE || batch->jobs[job].params->name) {
+    if (batch->ours || batch->jobs[job].use != CODE_DISTANCE || batch->jobs[job].params->name) {
         return false;
     }
     for (size_t i = 0; i < CODE_GPU_POINTS; i++) {

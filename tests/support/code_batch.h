@@ -10,6 +10,7 @@ enum { CODE_BATCH_MAX = 40 };
 struct code_batch {
     struct code_gpu *gpu;
     const double *numbers; /* of all declared parameters, 4 * LIMIT_DECLARED of them */
+    bool ours; /* texts are as those of equations, which may call jets.h; not for the engine */
     struct code_gpu_job jobs[CODE_BATCH_MAX];
     char *texts[CODE_BATCH_MAX];
     size_t count;

@@ -48,7 +48,7 @@ static void refused_code_says_why_and_where(void **state)
 {
     (void)state;
     struct code_blocks blocks = code_blocks_read("tests/code/refused.glsl");
-    assert_int_equal(blocks.count, 194);
+    assert_int_equal(blocks.count, 196);
     size_t right = 0;
     for (size_t i = 0; i < blocks.count; i++) {
         right += refuses(&blocks.rows[i]);

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* What the code of equations calls and users' code cannot: products and chain rules of what an
+ * equation's parts are at a point and in a box. In C; in GLSL they are in glsl/jets.glsl.
+ *
+ * Duals are (gradient, value), four numbers. Jets are matrices of three columns: the least slopes
+ * along x, y and z in a box, the greatest, and (least value, greatest value, 0). No number of a jet
+ * that a function gives exceeds twice JET_MOST. Rules of intervals: Moore, Interval Analysis
+ * (1966). */
+#ifndef RENDERER_CODE_JETS_H
+#define RENDERER_CODE_JETS_H
+
+#define JET_MOST 1e18 /* as in glsl/jets.glsl */
+
+/* As `whole` of struct builtin; `in` are the arguments. */
+void jet_dual_times(double *out, const double *const in[], int n); /* dual, dual */
+void jet_dual_of(double *out, const double *const in[], int n);    /* dual, value, slope */
+void jet_times(double *out, const double *const in[], int n);      /* jet, jet */
+void jet_minus(double *out, const double *const in[], int n);      /* jet, jet */
+void jet_scaled(double *out, const double *const in[], int n);     /* jet, factor */
+void jet_moved(double *out, const double *const in[], int n);      /* jet, what is added */
+/* Of a function: jet, its least and greatest value, its least and greatest slope. */
+void jet_of(double *out, const double *const in[], int n);
+/* To the even or odd power k: jet, |end of its values|^(k - 1) of both ends, k. */
+void jet_even(double *out, const double *const in[], int n);
+void jet_odd(double *out, const double *const in[], int n);
+/* The cosine of an interval: least and greatest value, least and greatest slope. */
+void jet_range_cos(double *out, const double *const in[], int n);
+
+#endif
