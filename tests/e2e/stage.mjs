@@ -202,10 +202,11 @@ export async function rows(page) {
     return found;
 }
 
-/** Pixels of the picture alone, without what lies over it: pills, the ring of a click, the focus. */
+/** Pixels of the picture alone, without what lies over it: pills, hands, the ring of a click, the focus. */
 export async function pixels(page) {
     const style = await page.addStyleTag({
-        content: `.view > :not(.view-picture), .view-picture > :not(canvas), .view-picture::after,
+        content: `.view > :not(.view-picture), .view-picture > :not(canvas), .view-hands,
+            .view-picture::after,
             .notices { visibility: hidden !important; }`,
     });
     const box = await picture(page).boundingBox();

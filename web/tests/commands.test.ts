@@ -108,7 +108,8 @@ test.each<[KeyPress, Context, string | undefined]>([
     [press("ArrowLeft", "s"), "view", "camera.pan.left"],
     [press("f", "", "KeyF"), "view", "camera.frame"],
     [press("1", "", "Numpad1"), "anywhere", "camera.front"],
-    [press("1", "", "Digit1"), "anywhere", undefined],
+    [press("1", "", "Digit1"), "anywhere", "hands.tool.move"],
+    [press("9", "", "Digit9"), "anywhere", undefined],
     [press("+", "s", "Equal"), "view", "camera.nearer"],
     [press("?", "s", "Slash"), "anywhere", "help.keys"],
     [press("Escape"), "anywhere", "escape"],
@@ -408,7 +409,7 @@ test("commands are found by other words, and what there is not is told", () => {
         const found = searchCommands(word).length + searchAbsent(word).length;
         expect(found, word).toBeGreaterThan(0);
     }
-    expect(searchAbsent("mov")[0]?.answer).toContain("Place");
+    expect(searchAbsent("mesh")[0]?.answer).toContain("JSON");
     expect(searchAbsent("")).toEqual([]);
 });
 

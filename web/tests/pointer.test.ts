@@ -3,20 +3,29 @@
 import { beforeEach, expect, test } from "vitest";
 import { type Camera, DEFAULT_CAMERA, distance } from "../src/model/camera.ts";
 import type { Pointing } from "../src/model/view.ts";
-import { type PointerActions, PointerMachine, type Press } from "../src/overlay/pointer.ts";
+import {
+    type Holding,
+    type PointerActions,
+    PointerMachine,
+    type Press,
+} from "../src/overlay/pointer.ts";
 
 let camera: Camera;
 let log: string[];
 let pointing: Pointing;
 let machine: PointerMachine;
 let clock: number;
+/* What is under the pointer. */
+let held: Holding | "taken" | null;
 
 beforeEach(() => {
     camera = DEFAULT_CAMERA;
     log = [];
     pointing = "mouse";
     clock = 0;
+    held = null;
     const actions: PointerActions = {
+        grab: () => held,
         camera: () => camera,
         moveCamera: (next) => {
             camera = next;
@@ -181,4 +190,68 @@ test("the palm beside a pen does nothing", () => {
     machine.up(at(80, 10, { type: "pen", id: 9, at: 170 }));
     expect(log).toEqual(["orbit", "null"]);
     expect(machine.down(touch(2, 300, 300, { at: 2000 }))).toBe(true);
+});
+
+function holding(): Holding {
+    return {
+        start: () => void log.push("start"),
+        move: ({ x, y }) => void log.push(`hold ${x} ${y}`),
+        end: () => void log.push("end"),
+        cancel: () => void log.push("cancel"),
+    };
+}
+
+test("what a hand holds follows the drag, and the camera stays", () => {
+    held = holding();
+    machine.down(at(10, 10));
+    machine.move(at(12, 10));
+    machine.move(at(30, 40));
+    machine.move(at(31, 41));
+    machine.up(at(31, 41));
+    expect(log).toEqual(["start", "hold 30 40", "hold 31 41", "end"]);
+    expect(turned()).toBe(false);
+});
+
+test("a click on what can be held is a click", () => {
+    held = holding();
+    machine.down(at(10, 10));
+    machine.up(at(11, 10));
+    expect(log).toEqual(["click 10 10 replace"]);
+});
+
+test("Esc, and a right click, cancel what is held; a second finger changes nothing", () => {
+    held = holding();
+    machine.down(at(10, 10));
+    machine.move(at(30, 10));
+    expect(machine.cancel()).toBe(true);
+    machine.down(at(10, 10));
+    machine.move(at(30, 10));
+    machine.move(at(31, 10, { buttons: 3 }));
+    machine.down(at(10, 10, { type: "touch" }));
+    machine.move(at(40, 10, { type: "touch" }));
+    machine.down(at(90, 90, { type: "touch", id: 2 }));
+    machine.move(at(95, 95, { type: "touch", id: 2 }));
+    machine.up(at(40, 10, { type: "touch" }));
+    machine.up(at(95, 95, { type: "touch", id: 2 }));
+    expect(log).toEqual([
+        "start",
+        "hold 30 10",
+        "cancel",
+        "start",
+        "hold 30 10",
+        "cancel",
+        "start",
+        "hold 40 10",
+        "end",
+    ]);
+    expect(turned()).toBe(false);
+});
+
+test("a press that was taken starts nothing", () => {
+    held = "taken";
+    expect(machine.down(at(10, 10))).toBe(false);
+    machine.move(at(60, 10));
+    machine.up(at(60, 10));
+    expect(log).toEqual([]);
+    expect(turned()).toBe(false);
 });

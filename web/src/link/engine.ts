@@ -2,6 +2,7 @@
 /* The stream side of a live scene: socket, reconnecting, views, frames from bytes to the screen.
  * Runs in the worker, or in the page where a canvas cannot be handed over. Knows no document: it
  * passes messages on and is told where the page stands. */
+import { type Camera, readCamera } from "../model/camera.ts";
 import type { OutgoingEdit } from "../model/session.ts";
 import type { FrameInfo, FrameState, Statistics } from "../model/stores.ts";
 import { decode, type Frame, FrameAssembler } from "./decode.ts";
@@ -84,7 +85,11 @@ function soon(callback: () => void): void {
     }
 }
 
-export function frameInfo(header: FrameHeader, outdated = false): FrameInfo {
+export function frameInfo(
+    header: FrameHeader,
+    outdated = false,
+    camera: Camera | null = null,
+): FrameInfo {
     return {
         state: frameState(header),
         stale: header.stale,
@@ -96,6 +101,7 @@ export function frameInfo(header: FrameHeader, outdated = false): FrameInfo {
         scale: header.width / Math.max(1, header.viewWidth),
         round: header.round,
         rounds: header.rounds,
+        camera,
     };
 }
 
@@ -118,11 +124,21 @@ function looksOf({ quality: _quality, visible: _visible, ...looks }: ViewState):
     return JSON.stringify(looks);
 }
 
+function askedBy(view: ViewState): Asked {
+    return { looks: looksOf(view), camera: view.camera ? readCamera(view.camera) : null };
+}
+
 /* Wait before attempt `attempts` + 1: doubling, with jitter so that many pages do not come back
  * in one moment. `random` is in [0, 1). */
 export function retryDelay(attempts: number, random: number): number {
     const full = Math.min(LONGEST_RETRY_MS, FIRST_RETRY_MS * 2 ** Math.min(attempts, 16));
     return full * (0.5 + 0.5 * random);
+}
+
+/* A view that was asked for: what of it changes the picture, and its camera. */
+interface Asked {
+    readonly looks: string;
+    readonly camera: Camera | null;
 }
 
 type Open = Extract<Order, { kind: "open" }>;
@@ -144,7 +160,7 @@ export class Engine {
     #seq = 0;
     #sent = "";
     /* What was asked for, by `seq`, from the picture on screen on. */
-    #asked = new Map<number, string>();
+    #asked = new Map<number, Asked>();
     #told: FrameInfo | null = null;
     #shown: FrameHeader | null = null;
     #waiting: { frame: Frame; bitmap: ImageBitmap; decodedAt: number } | null = null;
@@ -332,13 +348,13 @@ export class Engine {
         this.#sent = text;
         this.#seq++;
         this.#send({ type: "view", seq: this.#seq, ...this.#view });
-        this.#ask(looksOf(this.#view));
+        this.#ask(askedBy(this.#view));
         this.#meter.viewSent(this.#seq, performance.now());
     }
 
     /* The picture on screen may be none of what is looked at now. */
-    #ask(looks: string): void {
-        this.#asked.set(this.#seq, looks);
+    #ask(asked: Asked): void {
+        this.#asked.set(this.#seq, asked);
         const outdated = this.#isOutdated();
         if (this.#shown !== null && this.#told !== null && outdated !== this.#told.outdated) {
             this.#tell({ ...this.#told, outdated });
@@ -352,7 +368,12 @@ export class Engine {
 
     #isOutdated(): boolean {
         const shown = this.#asked.get(this.#shown?.input ?? -1);
-        return shown !== undefined && shown !== this.#asked.get(this.#seq);
+        return shown !== undefined && shown.looks !== this.#asked.get(this.#seq)?.looks;
+    }
+
+    #infoOf(header: FrameHeader): FrameInfo {
+        const camera = this.#asked.get(header.input)?.camera ?? null;
+        return frameInfo(header, this.#isOutdated(), camera);
     }
 
     #forgetAsked(): void {
@@ -407,7 +428,7 @@ export class Engine {
         if (shown !== null && isWorse(frame.header, shown)) {
             bitmap.close();
             this.#acknowledge(number, socket);
-            this.#tell({ ...frameInfo(shown, this.#isOutdated()), stale: frame.header.stale });
+            this.#tell({ ...this.#infoOf(shown), stale: frame.header.stale });
             return;
         }
         const scheduled = this.#waiting !== null;
@@ -434,7 +455,7 @@ export class Engine {
         this.#acknowledge(frame.header.number, this.#socket);
         this.#meter.frameShown(frame, decodedAt, performance.now());
         this.#forgetAsked();
-        this.#tell(frameInfo(frame.header, this.#isOutdated()));
+        this.#tell(this.#infoOf(frame.header));
         this.#tick();
     }
 

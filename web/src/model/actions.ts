@@ -16,12 +16,15 @@ import {
 import { clip, paste } from "./clipboard.ts";
 import { everyNode, type SceneDocument, topmost } from "./document.ts";
 import { type Edit, movable, nameAll, removeNodes, reorder, setVisible } from "./edits.ts";
+import type { Motion } from "./grip.ts";
 import { modelNamed } from "./models.ts";
+import { movablesOf } from "./movables.ts";
 import type { Operation } from "./operation.ts";
 import { limitOf, type Schema } from "./schema.ts";
-import { addNotice, type Stores } from "./stores.ts";
+import { addNotice, type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
 import { dot, subtract, type Vector } from "./transform.ts";
+import type { HandSettings } from "./view.ts";
 
 /* What commands need from the page around the model. */
 export interface App {
@@ -100,6 +103,18 @@ export const canDissolve: Reason = (app) => {
     const reason = needsOne(app) ?? needsMovable(1)(app);
     return reason ?? (node && node.children.length > 0 ? null : text("why.noChildren"));
 };
+
+/* Is anything selected that a hand can move, turn or scale? */
+export function canMove(motion: Motion): Reason {
+    return (app) => {
+        const { document, schema } = app.stores.document.getState();
+        const { selection, subject } = app.stores.view.getState();
+        const movables = document ? movablesOf(document, schema, selection, subject) : [];
+        return movables.some(({ motions }) => motions.includes(motion))
+            ? null
+            : (needsScene(app) ?? text("why.notMovable"));
+    };
+}
 
 export const needsLens: Reason = (app) => {
     const aperture = documentOf(app)?.camera.aperture;
@@ -235,6 +250,17 @@ export function climb(app: App): void {
         app.stores.view.setState({ selection: [parent] });
     }
 }
+
+export const changeHands =
+    (change: (hands: HandSettings) => Partial<HandSettings>) =>
+    ({ stores }: App): void => {
+        const { hands } = stores.view.getState().preferences;
+        setPreferences(stores.view, { hands: { ...hands, ...change(hands) } });
+    };
+
+/* The gizmo of one motion; the same one again takes it away. */
+export const chooseTool = (motion: Motion) =>
+    changeHands(({ tool }) => ({ tool: tool === motion ? null : motion }));
 
 export function saved(app: App): void {
     const { saved: done, waiting, revision } = app.stores.document.getState();

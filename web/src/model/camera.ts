@@ -63,6 +63,12 @@ export function printCamera(camera: Camera): JsonObject {
     };
 }
 
+/* What printCamera printed. */
+export function readCamera(printed: JsonObject): Camera {
+    const type = printed.height === undefined ? "perspective" : "orthographic";
+    return cameraOf({ ...printed, type } as Values);
+}
+
 /* Unit vectors: right and up in the picture, forward into it. */
 export function axes(camera: Camera): { right: Vector; up: Vector; forward: Vector } {
     const forward = normalize(subtract(camera.target, camera.position), [0, 0, -1]);

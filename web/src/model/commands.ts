@@ -3,7 +3,10 @@
 import {
     type App,
     canDissolve,
+    canMove,
     canReorder,
+    changeHands,
+    chooseTool,
     climb,
     copyNodes,
     deleteNodes,
@@ -34,6 +37,7 @@ import {
     showAll,
 } from "./actions.ts";
 import { dissolve, duplicate, reorder, wrap } from "./edits.ts";
+import { PIVOTS, SPACES } from "./hands.ts";
 import { makeModel, unpackModel } from "./models.ts";
 import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
@@ -79,11 +83,6 @@ export const ABSENT: readonly Absent[] = [
         answer: "The address of this page is the link: whoever opens it edits along.",
     },
     {
-        words: "move translate rotate scale turn drag gizmo handle grab",
-        title: "Move, rotate, scale",
-        answer: "Select a node, then drag or type its numbers under Place.",
-    },
-    {
         words: "export mesh stl obj gltf glb 3mf print",
         title: "Export a mesh",
         answer: "There are no meshes: a scene is downloaded as JSON, a picture as PNG, JPEG or NPY.",
@@ -94,9 +93,9 @@ export const ABSENT: readonly Absent[] = [
         answer: "There is no ruler. The outputs depth and position give numbers for each pixel.",
     },
     {
-        words: "grid snap axes ground",
-        title: "Grid and snapping",
-        answer: "There is no grid. Ctrl with a drag of a number goes in steps.",
+        words: "grid ground",
+        title: "Grid",
+        answer: "There is no grid. Ctrl with a drag goes in steps.",
     },
     {
         words: "graph nodes wires",
@@ -186,6 +185,54 @@ export const COMMANDS: readonly Command[] = [
         inFields: "unchanged",
         whyNot: (app) => (app.stores.document.getState().canRedo ? null : text("why.nothingRedo")),
         run: (app) => app.redo(),
+    }),
+    ...(
+        [
+            ["move", "Move", "G", "1", "translate grab drag place"],
+            ["turn", "Rotate", "R", "2", "turn spin orient"],
+            ["scale", "Scale", "S", "3", "size grow shrink"],
+        ] as const
+    ).flatMap(([motion, title, key, digit, words]) => [
+        row({
+            id: `hands.${motion}`,
+            title: `${title} with the pointer`,
+            words: `${words} X Y Z digits`,
+            group: "edit",
+            keys: [key],
+            whyNot: canMove(motion),
+            run: show({ motion }),
+        }),
+        row({
+            id: `hands.tool.${motion}`,
+            title: `${title}: show the gizmo, or none`,
+            words: `${words} tool handle arrows rings`,
+            group: "view",
+            keys: [digit],
+            run: chooseTool(motion),
+        }),
+    ]),
+    row({
+        id: "hands.space",
+        title: "Axes of the gizmo: world, local, parent",
+        words: "orientation global",
+        group: "view",
+        keys: ["L"],
+        run: changeHands(({ space }) => ({ space: next(SPACES, space) })),
+    }),
+    row({
+        id: "hands.pivot",
+        title: "Pivot: middle, origin, each its own",
+        words: "center origin about turn scale",
+        group: "view",
+        run: changeHands(({ pivot }) => ({ pivot: next(PIVOTS, pivot) })),
+    }),
+    row({
+        id: "hands.snap",
+        title: "Move in steps, or freely",
+        words: "snap grid increment",
+        group: "view",
+        keys: ["Shift+M"],
+        run: changeHands(({ snap }) => ({ snap: !snap })),
     }),
     row({
         id: "node.delete",

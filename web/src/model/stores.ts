@@ -77,6 +77,8 @@ export interface FrameInfo {
     /* Which round of samples it is, from 1, and how many there are. */
     readonly round: number;
     readonly rounds: number;
+    /* That it was drawn with; null: the document's. */
+    readonly camera: Camera | null;
 }
 
 /* The server makes the newest state ready to be drawn. */
@@ -131,6 +133,7 @@ export const NO_FRAME: FrameInfo = {
     scale: 1,
     round: 0,
     rounds: 1,
+    camera: null,
 };
 
 export const IDLE_LINK: LinkState = {

@@ -13,6 +13,7 @@ const TEXTS = {
     "why.noSelection": "Nothing is selected.",
     "why.onlyRoot": "The root node stays.",
     "why.oneOnly": "Select one node.",
+    "why.notMovable": "Nothing is selected that can be moved so.",
     "why.noInstance": "It is no instance of a model.",
     "why.twoNeeded": "Select two or more nodes.",
     "why.noParentStep": "It is already the first or last.",

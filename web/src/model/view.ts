@@ -2,6 +2,8 @@
 /* What one user's page looks like: selection, panels, theme, hints. Pure state and its changes;
  * never part of a document, never sent to others. */
 
+import { MOTIONS, type Motion } from "./grip.ts";
+import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
 
@@ -38,7 +40,20 @@ export interface Preferences {
     readonly recent: readonly string[];
     /* How what is added combines with what is selected: as it was last. */
     readonly way: Way;
+    readonly hands: HandSettings;
 }
+
+/* How hands in the picture act. */
+export interface HandSettings {
+    /* What the gizmo does; null: there is none. */
+    readonly tool: Motion | null;
+    readonly space: Space;
+    readonly pivot: Pivot;
+    /* Moves go in steps; Ctrl turns that off for a while. */
+    readonly snap: boolean;
+}
+
+const HANDS: HandSettings = { tool: "move", space: "world", pivot: "center", snap: false };
 
 export const PREFERENCES: Preferences = {
     theme: "auto",
@@ -49,6 +64,7 @@ export const PREFERENCES: Preferences = {
     singleKeys: true,
     recent: [],
     way: "union",
+    hands: HANDS,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -78,6 +94,8 @@ export interface View {
     readonly aov: string;
     /* The next click says what the camera focuses on. */
     readonly aiming: boolean;
+    /* What the pointer does to the selection, with no button held; null: nothing. */
+    readonly motion: Motion | null;
     readonly preferences: Preferences;
 }
 
@@ -94,6 +112,7 @@ export const INITIAL_VIEW: View = {
     chromeHidden: false,
     aov: COLOR,
     aiming: false,
+    motion: null,
     preferences: PREFERENCES,
 };
 
@@ -123,6 +142,9 @@ export function peel(view: View): Partial<View> | null {
     }
     if (view.popup !== null) {
         return { popup: null };
+    }
+    if (view.motion !== null) {
+        return { motion: null };
     }
     if (view.aiming) {
         return { aiming: false };
@@ -164,5 +186,11 @@ export function readPreferences(text: string | null): Preferences {
         singleKeys: stored.singleKeys !== false,
         recent: texts(stored.recent).slice(0, 12),
         way: one(stored.way, WAY_NAMES, PREFERENCES.way),
+        hands: {
+            tool: one(stored.hands?.tool, [...MOTIONS, null], HANDS.tool),
+            space: one(stored.hands?.space, SPACES, HANDS.space),
+            pivot: one(stored.hands?.pivot, PIVOTS, HANDS.pivot),
+            snap: stored.hands?.snap === true,
+        },
     };
 }

@@ -7,8 +7,19 @@ import type { Pointing, SelectMode } from "../model/view.ts";
 
 export type Gesture = "orbit" | "pan" | "dolly";
 
+/* Something in a hand. A press that does not become a drag is a click and starts nothing. */
+export interface Holding {
+    start(): void;
+    move(press: Press): void;
+    end(): void;
+    cancel(): void;
+}
+
 /* What the machine asks of the page. Points are CSS pixels from the picture's left top. */
 export interface PointerActions {
+    /* A press on something that a hand can hold; "taken": it means something else, and nothing
+     * follows; null: it is for the camera. */
+    grab(press: Press): Holding | "taken" | null;
     camera(): Camera;
     moveCamera(camera: Camera): void;
     /* A click or tap. `list`: Alt was held, show all that is there. */
@@ -69,10 +80,16 @@ interface Spot {
     readonly y: number;
 }
 
-/* Nothing pressed, pressed and not yet moved, dragging. */
+/* Nothing pressed, pressed and not yet moved, holding something, moving the camera. */
 type State =
     | { readonly kind: "idle" }
-    | { readonly kind: "pressed"; readonly press: Press; readonly long: boolean }
+    | {
+          readonly kind: "pressed";
+          readonly press: Press;
+          readonly long: boolean;
+          readonly holding: Holding | null;
+      }
+    | { readonly kind: "holding"; readonly holding: Holding }
     | {
           readonly kind: "dragging";
           readonly gesture: Gesture;
@@ -111,17 +128,21 @@ export class PointerMachine {
 
     /* --- pressing --- */
 
-    /* False: the press is a palm and is not to be captured. */
+    /* False: the press is a palm, or was taken, and is not to be captured. */
     down(press: Press): boolean {
         if (press.type === "pen") {
             this.#penAt = press.at;
         } else if (press.type === "touch" && press.at - this.#penAt < PALM_MS) {
             return false;
         }
+        const grabbed = this.#fingers.size === 0 && !this.#space ? this.#actions.grab(press) : null;
+        if (grabbed === "taken") {
+            return false;
+        }
         this.#fingers.set(press.id, press);
         if (this.#fingers.size === 1) {
-            this.#state = { kind: "pressed", press, long: false };
-        } else {
+            this.#state = { kind: "pressed", press, long: false, holding: grabbed };
+        } else if (this.#state.kind !== "holding") {
             this.#startDrag("pan");
         }
         return true;
@@ -139,8 +160,12 @@ export class PointerMachine {
             const { press: first } = this.#state;
             const slop = press.type === "touch" ? SLOP_TOUCH : SLOP_MOUSE;
             if (Math.hypot(press.x - first.x, press.y - first.y) >= slop) {
-                this.#startDrag(this.#gestureOf(first), first);
+                this.#leaveSlop(first, this.#state.holding);
             }
+        }
+        if (this.#state.kind === "holding") {
+            this.#hold(press, this.#state.holding);
+            return;
         }
         if (this.#state.kind === "dragging") {
             if (press.type === "mouse" && this.#cancelledBy(press)) {
@@ -151,8 +176,29 @@ export class PointerMachine {
         }
     }
 
+    #leaveSlop(first: Press, holding: Holding | null): void {
+        if (holding === null) {
+            this.#startDrag(this.#gestureOf(first), first);
+            return;
+        }
+        this.#state = { kind: "holding", holding };
+        holding.start();
+    }
+
+    #hold(press: Press, holding: Holding): void {
+        if (press.type === "mouse" && this.#cancelledBy(press)) {
+            this.cancel();
+        } else if (press.id === this.#fingers.keys().next().value) {
+            holding.move(press);
+        }
+    }
+
     up(press: Press): void {
         if (!this.#fingers.delete(press.id)) {
+            return;
+        }
+        if (this.#state.kind === "holding") {
+            this.end();
             return;
         }
         if (this.#state.kind === "pressed" && !this.#state.long) {
@@ -173,7 +219,7 @@ export class PointerMachine {
     held(): void {
         if (this.#state.kind === "pressed" && this.#state.press.type === "touch") {
             const { press } = this.#state;
-            this.#state = { kind: "pressed", press, long: true };
+            this.#state = { kind: "pressed", press, long: true, holding: null };
             this.#actions.menu(press.x, press.y);
         }
     }
@@ -190,6 +236,9 @@ export class PointerMachine {
         const busy = state.kind !== "idle";
         if (state.kind === "dragging") {
             this.#actions.moveCamera(state.before);
+        } else if (state.kind === "holding") {
+            this.#state = { kind: "idle" };
+            state.holding.cancel();
         }
         this.end();
         return busy;
@@ -198,6 +247,8 @@ export class PointerMachine {
     #rest(): void {
         if (this.#state.kind === "dragging") {
             this.#actions.gesture(null);
+        } else if (this.#state.kind === "holding") {
+            this.#state.holding.end();
         }
         this.#state = { kind: "idle" };
     }

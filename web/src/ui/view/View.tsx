@@ -2,6 +2,7 @@
 /* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
  * picks; React draws only what lies over it. */
 import { useCallback, useEffect, useRef, useState } from "react";
+import { Hands } from "../../overlay/hands.ts";
 import { attachPointer } from "../../overlay/pointer.ts";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
@@ -11,11 +12,12 @@ import { TOUCH, useMedia } from "../theme.ts";
 import { Button } from "../widgets/Button.tsx";
 import type { MenuPlace } from "../widgets/Menu.tsx";
 import { Crumbs } from "./Crumbs.tsx";
+import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
-import { pointerActions } from "./pointer.ts";
+import { beginMotion, pointerActions } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
@@ -32,6 +34,7 @@ export function View() {
             <div className="view-top">
                 <Crumbs />
                 <span className="view-space" />
+                <HandTools />
                 <Outputs />
             </div>
             <div className="view-bottom">
@@ -62,11 +65,13 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
-        const stop = attachPointer(element, pointerActions(editor, element, open));
+        const hands = new Hands({ stores: editor.stores, begin: beginMotion(editor) }, element);
+        const stop = attachPointer(element, pointerActions(editor, element, hands, open));
         const rest = watchHover(editor, element);
         return () => {
             rest();
             stop();
+            hands.end();
             hide();
             editor.setPicture(null);
         };

@@ -3,9 +3,13 @@
 
 import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
-import { parentOf } from "../../model/document.ts";
+import { parentOf, topmost } from "../../model/document.ts";
+import { nameAll } from "../../model/edits.ts";
+import type { Motion } from "../../model/grip.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
+import type { Hands } from "../../overlay/hands.ts";
+import { STEP_NAMES, type Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
 import type { Editor } from "../editor.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
@@ -27,6 +31,7 @@ type OpenMenu = (at: MenuPlace) => (settle: () => Target) => void;
 export function pointerActions(
     editor: Editor,
     element: HTMLElement,
+    hands: Hands,
     onMenu: OpenMenu,
 ): PointerActions {
     const { stores } = editor;
@@ -78,6 +83,7 @@ export function pointerActions(
         });
     };
     return {
+        grab: (press) => hands.grab(press),
         camera: () => stores.camera.getState().camera,
         moveCamera: (camera) => moveCamera(editor, () => camera),
         click: (x, y, mode) => void click(x, y, mode),
@@ -94,5 +100,20 @@ export function pointerActions(
         gesture: (kind) => {
             element.dataset.gesture = kind ?? "";
         },
+    };
+}
+
+/* Begins the undo step of a motion of what is selected. */
+export function beginMotion({ stores, link }: Editor): (motion: Motion) => Step {
+    return (motion) => {
+        const { document } = stores.document.getState();
+        const { selection, subject } = stores.view.getState();
+        const name =
+            subject.kind === "resource"
+                ? subject.name
+                : document
+                  ? nameAll(document, topmost(document, selection))
+                  : "";
+        return link.gesture(`${STEP_NAMES[motion]} ${name}`);
     };
 }

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Hands in the picture: the gizmo and the keys, and what they make of the document on the server.
+import assert from 'node:assert/strict';
+import { after, afterEach, before, describe, test } from 'node:test';
+import { until } from '../support/daemon.mjs';
+import { closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+
+let stage;
+let page;
+let id;
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+afterEach(async () => {
+    const last = page;
+    page = null;
+    if (last) {
+        await closePage(last);
+    }
+});
+
+async function open(options) {
+    id = await stage.scene();
+    page = await stage.page({ scene: id, ...options });
+    await settled(page);
+}
+
+/** The parts of the gizmo as the page says that it drew them. */
+const parts = async () => JSON.parse((await page.getByTestId('hands').getAttribute('data-parts')) ?? '[]');
+const isPart = (motion, axis, plane = false) => (part) =>
+    part.motion === motion && part.axis === axis && part.plane === plane;
+
+/** Waits for a part and answers where it is in the window. */
+async function place(motion, axis, plane) {
+    await until(async () => (await parts()).some(isPart(motion, axis, plane)), `the part ${motion} ${axis}`);
+    const { at } = (await parts()).find(isPart(motion, axis, plane));
+    const box = await picture(page).boundingBox();
+    return { x: box.x + at.x, y: box.y + at.y };
+}
+
+/** Drags in steps, as a hand does; ends with the button up. */
+async function drag(from, dx, dy) {
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    for (let i = 1; i <= 5; i++) {
+        await page.mouse.move(from.x + (dx * i) / 5, from.y + (dy * i) / 5);
+    }
+    await page.mouse.up();
+}
+
+const select = (node) => row(page, node).click();
+const placeOf = (document, node) => nodeIn(document, node).transform?.translation ?? [0, 0, 0];
+const when = (holds, what) => documentWhen(stage, id, holds, what);
+
+describe('the gizmo', () => {
+    test('an arrow moves along its axis alone, as one step of undo', async () => {
+        await open();
+        const start = await stage.document(id);
+        await select('ball');
+        await drag(await place('move', 0), 120, 40);
+        const moved = await when((d) => placeOf(d, 'ball')[0] > -1.3, 'a ball further right');
+        const [, y, z] = placeOf(moved, 'ball');
+        assert.deepEqual([y, z], [0, 0]);
+        await page.keyboard.press('Control+z');
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+
+    test('it stands where its object is seen, also after an orbit', async () => {
+        await open();
+        await select('ball');
+        const before = await place('move', null);
+        const box = await picture(page).boundingBox();
+        await drag({ x: box.x + 40, y: box.y + box.height - 120 }, 150, -30);
+        await settled(page);
+        const now = await place('move', null);
+        assert.ok(Math.hypot(now.x - before.x, now.y - before.y) > 20, 'the gizmo followed the camera');
+        /* A click on the middle goes through to the picture, where the ball is. */
+        await select('ring');
+        await page.mouse.click(now.x, now.y);
+        await page.locator('[data-node="ball"][aria-selected="true"]').waitFor();
+    });
+
+    test('a ring turns about its axis; Ctrl goes in steps of 15 degrees', async () => {
+        await open();
+        await select('crate');
+        await page.keyboard.press('2');
+        const from = await place('turn', null);
+        await page.keyboard.down('Control');
+        await drag(from, -60, 80);
+        await page.keyboard.up('Control');
+        const document = await when(
+            (d) => nodeIn(d, 'crate').transform.rotation !== undefined,
+            'a turned crate',
+        );
+        const turned = nodeIn(document, 'crate').transform.rotation;
+        const steps = Math.hypot(...turned) / (Math.PI / 12);
+        assert.ok(steps > 0.9, `${turned}`);
+        assert.deepEqual(nodeIn(document, 'crate').transform.translation, [1.5, 0, 0]);
+    });
+
+    test('Esc in a drag brings back what was, and leaves no step', async () => {
+        await open();
+        const start = await stage.document(id);
+        await select('ball');
+        const from = await place('move', 1);
+        await page.mouse.move(from.x, from.y);
+        await page.mouse.down();
+        await page.mouse.move(from.x, from.y - 80, { steps: 5 });
+        await when((d) => placeOf(d, 'ball')[1] > 0.2, 'a raised ball');
+        await page.keyboard.press('Escape');
+        await page.mouse.up();
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+        assert.equal(await page.getByRole('button', { name: /^Undo/ }).first().isEnabled(), false);
+    });
+
+    test('a light that is chosen has one too', async () => {
+        id = await stage.scene({
+            format: 'fieldcast/1',
+            lights: [{ id: 'lamp', type: 'point', position: [1, 1, 1] }],
+            root: { id: 'root', type: 'union', children: [{ id: 'ball', type: 'sphere' }] },
+        });
+        page = await stage.page({ scene: id });
+        await settled(page);
+        await page.locator('[data-resource="lamp"] .resource-pick').click();
+        await drag(await place('move', 1), 0, -60);
+        await when((d) => d.lights[0].position[1] > 1.05, 'a raised lamp');
+    });
+});
+
+describe('keys', () => {
+    test('G X .5 Enter moves by exactly a half', async () => {
+        await open();
+        await select('ball');
+        await picture(page).hover({ position: { x: 300, y: 300 } });
+        for (const key of ['g', 'x', '.', '5', 'Enter']) {
+            await page.keyboard.press(key);
+        }
+        const document = await when((d) => placeOf(d, 'ball')[0] !== -1.5, 'a moved ball');
+        assert.deepEqual(placeOf(document, 'ball'), [-1, 0, 0]);
+    });
+
+    test('R Y 30 Enter turns by 30 degrees, S 2 Enter doubles', async () => {
+        await open();
+        await select('crate');
+        await picture(page).hover({ position: { x: 300, y: 300 } });
+        for (const key of ['r', 'y', '3', '0', 'Enter', 's', '2', 'Enter']) {
+            await page.keyboard.press(key);
+        }
+        const document = await when((d) => nodeIn(d, 'crate').transform.scale !== undefined, 'a doubled crate');
+        const { rotation, scale } = nodeIn(document, 'crate').transform;
+        assert.ok(Math.abs(rotation[1] - Math.PI / 6) < 1e-6, `${rotation}`);
+        assert.deepEqual([rotation[0], rotation[2]], [0, 0]);
+        assert.deepEqual(scale, [2, 2, 2]);
+    });
+
+    test('the pointer moves what G took; a right click gives it back', async () => {
+        await open();
+        const start = await stage.document(id);
+        await select('ball');
+        const box = await picture(page).boundingBox();
+        await page.mouse.move(box.x + 300, box.y + 300);
+        await page.keyboard.press('g');
+        await page.mouse.move(box.x + 380, box.y + 260, { steps: 4 });
+        await when((d) => placeOf(d, 'ball')[0] > -1.4, 'a ball at the pointer');
+        await page.mouse.click(box.x + 380, box.y + 260, { button: 'right' });
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+});

@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT */
+/* Hands in the picture: the gizmo, the drag or the keys that move what is selected. Drawn by the page
+ * with the camera of the picture shown, so that it stands where its object is. Acts on a drag only;
+ * a click goes through. */
+import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
+import { type Axis, axisOf, type Motion } from "../model/grip.ts";
+import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
+import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
+import type { Stores } from "../model/stores.ts";
+import { add, scale } from "../model/transform.ts";
+import { Hold, type HoldKeys, type Step } from "./hold.ts";
+import { colorOf, line, paintGizmo, paintLabel, stroke } from "./paint.ts";
+import type { Holding, Press } from "./pointer.ts";
+
+export interface HandsPage {
+    readonly stores: Stores;
+    /* Begins one undo step. */
+    begin(motion: Motion): Step;
+}
+
+/* A part is held from this far, in pixels. */
+const SLOP_MOUSE = 8;
+const SLOP_TOUCH = 24;
+
+export class Hands {
+    readonly #page: HandsPage;
+    readonly #element: HTMLElement;
+    readonly #canvas: HTMLCanvasElement;
+    readonly #stops: (() => void)[] = [];
+    #pointer: Spot | null = null;
+    #hot: Part | null = null;
+    #hold: Hold | null = null;
+    #drawing = 0;
+    #size = { width: 1, height: 1 };
+
+    constructor(page: HandsPage, element: HTMLElement) {
+        this.#page = page;
+        this.#element = element;
+        this.#canvas = document.createElement("canvas");
+        this.#canvas.className = "view-hands";
+        this.#canvas.setAttribute("aria-hidden", "true");
+        this.#canvas.dataset.testid = "hands";
+        element.append(this.#canvas);
+        this.#listen();
+        this.#draw();
+    }
+
+    end(): void {
+        this.#finish("cancel");
+        for (const stop of this.#stops) {
+            stop();
+        }
+        cancelAnimationFrame(this.#drawing);
+        this.#canvas.remove();
+    }
+
+    /* --- what the pointer does --- */
+
+    /* A press on the gizmo; null: it is for the camera. While keys move something, a press ends it. */
+    grab(press: Press): Holding | "taken" | null {
+        if (this.#hold !== null) {
+            this.#finish(press.button === 0 ? "end" : "cancel");
+            return "taken";
+        }
+        const slop = press.type === "touch" ? SLOP_TOUCH : SLOP_MOUSE;
+        const part = press.button === 0 ? partAt(this.#parts(), press, slop) : null;
+        if (part === null) {
+            return null;
+        }
+        return {
+            start: () => this.#begin(part.constraint, press),
+            move: (to) => this.#to(to, keysOf(to.shift, to.ctrl, this.#snaps)),
+            end: () => this.#finish("end"),
+            cancel: () => this.#finish("cancel"),
+        };
+    }
+
+    #begin(constraint: Part["constraint"], from: Spot): void {
+        const { space, pivot: mode } = this.#page.stores.view.getState().preferences.hands;
+        const movables = this.#movables();
+        const projection = this.#projection();
+        if (movables.length === 0 || projection === null) {
+            return;
+        }
+        const pivot = pivotOf(movables, mode);
+        const step = this.#page.begin(constraint.motion);
+        this.#hold = new Hold({ movables, pivot, mode, space, projection, from, constraint, step });
+        this.#redraw();
+    }
+
+    #to(spot: Spot, keys: HoldKeys): void {
+        this.#hold?.to(spot, keys);
+        this.#redraw();
+    }
+
+    #finish(how: "end" | "cancel"): void {
+        const hold = this.#hold;
+        this.#hold = null;
+        hold?.[how]();
+        if (this.#page.stores.view.getState().motion !== null) {
+            this.#page.stores.view.setState({ motion: null });
+        }
+        this.#redraw();
+    }
+
+    #hover(event: PointerEvent): void {
+        const box = this.#element.getBoundingClientRect();
+        this.#pointer = { x: event.clientX - box.left, y: event.clientY - box.top };
+        if (this.#page.stores.view.getState().motion !== null) {
+            const { shiftKey, ctrlKey, metaKey } = event;
+            this.#to(this.#pointer, keysOf(shiftKey, ctrlKey || metaKey, this.#snaps));
+            return;
+        }
+        if (event.buttons !== 0 || event.pointerType === "touch" || this.#hold !== null) {
+            return;
+        }
+        const over = this.#element.contains(event.target as Node);
+        const part = over ? partAt(this.#parts(), this.#pointer, SLOP_MOUSE) : null;
+        if (part !== this.#hot) {
+            this.#hot = part;
+            this.#element.dataset.grab = part === null ? "" : "can";
+            this.#redraw();
+        }
+    }
+
+    get #snaps(): boolean {
+        return this.#page.stores.view.getState().preferences.hands.snap;
+    }
+
+    /* --- keys: G, R, S begin, then axes and digits --- */
+
+    #motion(motion: Motion | null): void {
+        if (motion === null) {
+            if (this.#hold !== null) {
+                this.#finish("cancel");
+            }
+            return;
+        }
+        this.#hold?.cancel();
+        this.#hold = null;
+        const { width, height } = this.#size;
+        const from = this.#pointer ?? { x: width / 2, y: height / 2 };
+        this.#begin({ motion, axis: null, plane: false }, from);
+        if (this.#hold === null) {
+            this.#page.stores.view.setState({ motion: null });
+        }
+    }
+
+    #key(event: KeyboardEvent): void {
+        const hold = this.#hold;
+        if (hold === null || this.#page.stores.view.getState().motion === null) {
+            return;
+        }
+        if (this.#act(hold, event)) {
+            event.preventDefault();
+            event.stopImmediatePropagation();
+            this.#redraw();
+        }
+    }
+
+    #act(hold: Hold, event: KeyboardEvent): boolean {
+        if (event.ctrlKey || event.metaKey || event.altKey) {
+            return false;
+        }
+        const axis = "xyz".indexOf(event.key.toLowerCase());
+        if (axis >= 0) {
+            hold.constrain(axis as Axis, event.shiftKey);
+            return true;
+        }
+        if (event.key === "Enter" || event.key === "Escape") {
+            this.#finish(event.key === "Enter" ? "end" : "cancel");
+            return true;
+        }
+        return hold.type(event.key);
+    }
+
+    /* --- drawing --- */
+
+    #movables(): readonly Movable[] {
+        const { document, schema } = this.#page.stores.document.getState();
+        const { selection, subject } = this.#page.stores.view.getState();
+        return document ? movablesOf(document, schema, selection, subject) : [];
+    }
+
+    #projection(): Projection | null {
+        const { link, camera } = this.#page.stores;
+        const { frame } = link.getState();
+        return frame.state === "none"
+            ? null
+            : projectionOf(frame.camera ?? camera.getState().camera, this.#size);
+    }
+
+    #parts(): readonly Part[] {
+        const { tool, space, pivot } = this.#page.stores.view.getState().preferences.hands;
+        const movables = this.#movables();
+        const projection = this.#projection();
+        const able = movables.some(({ motions }) => tool !== null && motions.includes(tool));
+        if (tool === null || !able || projection === null) {
+            return [];
+        }
+        const frame = frameOf(movables, space, tool);
+        return gizmoParts({ pivot: pivotOf(movables, pivot), frame, projection }, tool);
+    }
+
+    readonly #redraw = (): void => {
+        if (this.#drawing === 0) {
+            this.#drawing = requestAnimationFrame(() => {
+                this.#drawing = 0;
+                this.#draw();
+            });
+        }
+    };
+
+    #draw(): void {
+        const brush = this.#canvas.getContext("2d");
+        const ratio = window.devicePixelRatio;
+        if (!brush) {
+            return;
+        }
+        const [width, height] = [this.#size.width * ratio, this.#size.height * ratio].map(
+            Math.round,
+        );
+        if (this.#canvas.width !== width || this.#canvas.height !== height) {
+            this.#canvas.width = width ?? 1;
+            this.#canvas.height = height ?? 1;
+        }
+        brush.setTransform(ratio, 0, 0, ratio, 0, 0);
+        brush.clearRect(0, 0, this.#size.width, this.#size.height);
+        const hold = this.#hold;
+        if (hold === null) {
+            const parts = this.#parts();
+            paintGizmo(brush, parts, this.#hot?.constraint ?? null);
+            this.#tell(parts);
+        } else {
+            this.#drawHold(brush, hold);
+        }
+    }
+
+    /* The axis through the pivot across the picture, what is held, and how far. */
+    #drawHold(brush: CanvasRenderingContext2D, hold: Hold): void {
+        const { constraint, frame, pivot } = hold;
+        const projection = this.#projection();
+        if (projection === null) {
+            return;
+        }
+        const guide = guideLine(projection, hold);
+        if (guide !== null) {
+            brush.globalAlpha = 0.8;
+            stroke(brush, colorOf(constraint.axis), 1, () => line(brush, guide));
+            brush.globalAlpha = 1;
+        }
+        const at = hold.delta?.motion === "move" ? add(pivot, hold.delta.by) : pivot;
+        const parts = gizmoParts({ pivot: at, frame, projection }, constraint.motion);
+        paintGizmo(brush, parts, constraint);
+        paintLabel(brush, hold.label, hold.pointer, this.#size.width);
+        this.#tell(parts);
+    }
+
+    /* Where its parts are, for those who cannot see the pixels. */
+    #tell(parts: readonly Part[]): void {
+        const places = parts.map((part) => ({ ...part.constraint, at: reachOf(part) }));
+        this.#canvas.dataset.parts = JSON.stringify(places);
+    }
+
+    #listen(): void {
+        const { document: scene, view, link, camera } = this.#page.stores;
+        const listening = new AbortController();
+        const options = { signal: listening.signal };
+        const observer = new ResizeObserver(() => {
+            const { clientWidth, clientHeight } = this.#element;
+            this.#size = { width: Math.max(1, clientWidth), height: Math.max(1, clientHeight) };
+            this.#redraw();
+        });
+        observer.observe(this.#element);
+        window.addEventListener("pointermove", (event) => this.#hover(event), options);
+        window.addEventListener("keydown", (event) => this.#key(event), {
+            ...options,
+            capture: true,
+        });
+        this.#stops.push(
+            () => listening.abort(),
+            () => observer.disconnect(),
+            scene.subscribe(this.#redraw),
+            link.subscribe((now, before) => now.frame !== before.frame && this.#redraw()),
+            camera.subscribe(this.#redraw),
+            view.subscribe((now, before) => {
+                if (now.motion !== before.motion) {
+                    this.#motion(now.motion);
+                }
+                this.#redraw();
+            }),
+        );
+    }
+}
+
+/* A point at which a part can be held. */
+function reachOf(part: Part): Spot | null {
+    switch (part.kind) {
+        case "arrow":
+        case "bar":
+            return part.tip;
+        case "square":
+            return part.corners[0] ?? null;
+        case "ring":
+            return part.spots[part.front.indexOf(true)] ?? null;
+        case "middle":
+            return part.at;
+    }
+}
+
+/* The part of the axis that lies in the picture, or null where there is none to show. */
+function guideLine(projection: Projection, hold: Hold): readonly Spot[] | null {
+    const { axis, plane } = hold.constraint;
+    if (axis === null || plane) {
+        return null;
+    }
+    const along = axisOf(hold.frame, axis);
+    const far = projection.unitsAt(hold.pivot) * projection.size.width;
+    const ends = [-far, -far / 4, far / 4, far].map((t) =>
+        projection.spotOf(add(hold.pivot, scale(along, t))),
+    );
+    const seen = ends.filter((spot) => spot !== null);
+    return seen.length > 1 ? seen : null;
+}
+
+/* Shift goes a tenth of the way; Ctrl turns snapping on, or off where it is on. */
+function keysOf(shift: boolean, ctrl: boolean, snaps: boolean): HoldKeys {
+    return { fine: shift, snap: ctrl !== snaps };
+}

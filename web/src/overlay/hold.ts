@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT */
+/* A hand that holds what is selected, from taking hold to letting go: one undo step. Driven by the
+ * pointer, or by digits. */
+import type { Constraint, Delta, Grip, Motion } from "../model/grip.ts";
+import { deltaOf, deltaTo, SNAP } from "../model/grip.ts";
+import type { Pivot, Space } from "../model/hands.ts";
+import { frameOf, type Movable, motionOps } from "../model/movables.ts";
+import type { Operation } from "../model/operation.ts";
+import type { Projection, Spot } from "../model/projection.ts";
+import { length, type Matrix, type Vector } from "../model/transform.ts";
+import { fromShown, parseNumber, printNumber, toShown } from "../model/units.ts";
+
+/* What the link offers for one undo step. */
+export interface Step {
+    edit(ops: readonly Operation[]): boolean;
+    end(): void;
+    cancel(): void;
+}
+
+export interface HoldKeys {
+    /* A tenth of the way. */
+    readonly fine: boolean;
+    readonly snap: boolean;
+}
+
+export interface HoldStart {
+    readonly movables: readonly Movable[];
+    readonly pivot: Vector;
+    readonly mode: Pivot;
+    readonly space: Space;
+    readonly projection: Projection;
+    readonly from: Spot;
+    readonly constraint: Constraint;
+    readonly step: Step;
+}
+
+const FINE = 0.1;
+/* What may be typed: a number or one line of arithmetic. */
+const TYPED = /^[0-9.,+\-*/() ]$/;
+
+export class Hold {
+    readonly #start: HoldStart;
+    #constraint: Constraint;
+    #space: Space;
+    /* Where the pointer is, and where a hand would be that goes a tenth of the way while fine. */
+    #pointer: Spot;
+    #hand: Spot;
+    #keys: HoldKeys = { fine: false, snap: false };
+    #turned = 0;
+    #typed = "";
+    #delta: Delta | null = null;
+
+    constructor(start: HoldStart) {
+        this.#start = start;
+        this.#constraint = start.constraint;
+        this.#space = start.space;
+        this.#pointer = start.from;
+        this.#hand = start.from;
+    }
+
+    get constraint(): Constraint {
+        return this.#constraint;
+    }
+
+    get pointer(): Spot {
+        return this.#pointer;
+    }
+
+    get frame(): Matrix {
+        return frameOf(this.#start.movables, this.#space, this.#constraint.motion);
+    }
+
+    get pivot(): Vector {
+        return this.#start.pivot;
+    }
+
+    get grip(): Grip {
+        const { pivot, projection, from } = this.#start;
+        return { constraint: this.#constraint, pivot, frame: this.frame, projection, from };
+    }
+
+    get delta(): Delta | null {
+        return this.#delta;
+    }
+
+    to(spot: Spot, keys: HoldKeys): void {
+        const rate = keys.fine ? FINE : 1;
+        this.#hand = {
+            x: this.#hand.x + (spot.x - this.#pointer.x) * rate,
+            y: this.#hand.y + (spot.y - this.#pointer.y) * rate,
+        };
+        this.#pointer = spot;
+        this.#keys = keys;
+        if (this.#typed === "") {
+            this.#apply();
+        }
+    }
+
+    /* An axis again: along its own axis, then free. `plane`: along both others. */
+    constrain(axis: 0 | 1 | 2, plane: boolean): void {
+        const now = this.#constraint;
+        const same = now.axis === axis && now.plane === plane;
+        const local = this.#space === "local" || now.motion === "scale";
+        this.#constraint =
+            same && local ? { ...now, axis: null, plane: false } : { ...now, axis, plane };
+        this.#space = same ? (local ? this.#start.space : "local") : this.#space;
+        this.#turned = 0;
+        this.#apply();
+    }
+
+    /* A character of a number, or "Backspace". False: it means nothing here. */
+    type(key: string): boolean {
+        if (key === "Backspace") {
+            this.#typed = this.#typed.slice(0, -1);
+        } else if (TYPED.test(key)) {
+            this.#typed += key;
+        } else {
+            return false;
+        }
+        this.#apply();
+        return true;
+    }
+
+    end(): void {
+        this.#start.step.end();
+    }
+
+    cancel(): void {
+        this.#start.step.cancel();
+    }
+
+    /* "X 0.5", "30°": what was done so far; what was typed with a mark behind. */
+    get label(): string {
+        const { axis, plane } = this.#constraint;
+        const letters =
+            axis === null ? "" : plane ? "XYZ".replace("XYZ"[axis] ?? "", "") : "XYZ"[axis];
+        const amount = this.#typed === "" ? amountOf(this.#delta, this.grip) : `${this.#typed}▏`;
+        return [letters, amount].filter(Boolean).join(" ");
+    }
+
+    #apply(): void {
+        const delta = this.#typed === "" ? this.#byHand() : this.#byNumber();
+        if (delta === null) {
+            return;
+        }
+        this.#delta = delta;
+        const { movables, pivot, mode, step } = this.#start;
+        const ops = motionOps(movables, delta, pivot, this.frame, mode);
+        if (ops.length > 0) {
+            step.edit(ops);
+        }
+    }
+
+    #byHand(): Delta {
+        const step = this.#keys.snap ? SNAP[this.#constraint.motion] : 0;
+        const delta = deltaTo(this.grip, this.#hand, step, this.#turned);
+        this.#turned = delta.motion === "turn" ? delta.angle : 0;
+        return delta;
+    }
+
+    /* Null while what was typed is no number yet. */
+    #byNumber(): Delta | null {
+        const shown = parseNumber(this.#typed, 0);
+        const unit = this.#constraint.motion === "turn" ? "angle" : null;
+        const isFactor = this.#constraint.motion === "scale" && shown !== null && shown <= 0;
+        return shown === null || isFactor ? null : deltaOf(this.grip, fromShown(shown, unit));
+    }
+}
+
+const SHOWN_DIGITS = 4;
+const short = (x: number): string => printNumber(Number(x.toPrecision(SHOWN_DIGITS)));
+
+function amountOf(delta: Delta | null, { constraint, frame }: Grip): string {
+    switch (delta?.motion) {
+        case "move": {
+            const { axis, plane } = constraint;
+            if (axis === null || plane) {
+                return short(length(delta.by));
+            }
+            return short(frame.reduce((sum, row, i) => sum + row[axis] * (delta.by[i] ?? 0), 0));
+        }
+        case "turn":
+            return `${short(toShown(delta.angle, "angle"))}°`;
+        case "scale":
+            return `× ${short(delta.factors.find((factor) => factor !== 1) ?? 1)}`;
+        default:
+            return "";
+    }
+}
+
+/* What a step of undo is called. */
+export const STEP_NAMES: Readonly<Record<Motion, string>> = {
+    move: "move",
+    turn: "rotate",
+    scale: "scale",
+};
