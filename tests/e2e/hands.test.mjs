@@ -128,6 +128,23 @@ describe('the gizmo', () => {
     });
 });
 
+describe('handles of parameters', () => {
+    test('a radius is dragged on the surface, as one step of undo', async () => {
+        await open();
+        const start = await stage.document(id);
+        await select('ball');
+        const spot = async () => (await parts()).find(({ handle }) => handle === 'radius')?.at;
+        await until(spot, 'the handle of the radius');
+        const box = await picture(page).boundingBox();
+        const at = await spot();
+        await drag({ x: box.x + at.x, y: box.y + at.y }, 60, 0);
+        const document = await when((d) => nodeIn(d, 'ball').params.radius > 1.2, 'a greater ball');
+        assert.deepEqual(placeOf(document, 'ball'), [-1.5, 0, 0]);
+        await page.keyboard.press('Control+z');
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+});
+
 describe('keys', () => {
     test('G X .5 Enter moves by exactly a half', async () => {
         await open();

@@ -83,6 +83,8 @@ export interface Param {
     readonly zero: string;
     /* What it shares with rows of other shaders; "": nothing. */
     readonly means: string;
+    /* Where its handles are in the node's space: expressions of its record; "": nowhere. */
+    readonly handle: string;
     readonly doc: string;
 }
 
@@ -225,6 +227,7 @@ export function numberParam(name: string, part: Partial<Param> = {}): Param {
         when: null,
         zero: "",
         means: "",
+        handle: "",
         doc: "",
         ...part,
     };
@@ -263,6 +266,7 @@ function readParam(json: JsonObject): Param {
         when: readCondition(textOf(json.when)),
         zero: textOf(json.zero),
         means: textOf(json.means),
+        handle: textOf(json.handle),
         doc: textOf(json.doc),
     };
 }

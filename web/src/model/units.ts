@@ -13,13 +13,18 @@ export function tidy(x: number): number {
     return Object.is(rounded, -0) ? 0 : rounded;
 }
 
+/* What names in an expression stand for; NaN: nothing. */
+type Names = (name: string) => number;
+
 /* Recursive descent over one line of arithmetic. */
 class Expression {
     readonly #text: string;
+    readonly #names: Names;
     #at = 0;
 
-    constructor(text: string) {
+    constructor(text: string, names: Names = () => Number.NaN) {
         this.#text = text;
+        this.#names = names;
     }
 
     #skip(): void {
@@ -53,7 +58,7 @@ class Expression {
         if (number !== null) {
             return Number(number);
         }
-        const word = this.#match(/^[a-zπ]+/i)?.toLowerCase();
+        const word = this.#match(/^[a-zπ][\w.]*/i)?.toLowerCase() ?? "";
         switch (word) {
             case "pi":
             case "π":
@@ -64,7 +69,7 @@ class Expression {
             case "tan":
                 return Math[word](this.#atom());
             default:
-                return Number.NaN;
+                return this.#names(word);
         }
     }
 
@@ -110,6 +115,11 @@ class Expression {
         this.#skip();
         return this.#at === this.#text.length ? value : Number.NaN;
     }
+}
+
+/* One line of arithmetic with names, such as a handle of the registry; NaN where it has no value. */
+export function evaluateNamed(text: string, names: Names): number {
+    return new Expression(text, names).value();
 }
 
 /* A comma between digits is a decimal point: people type what their keyboard has. */

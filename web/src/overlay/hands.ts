@@ -4,23 +4,26 @@
  * a click goes through. */
 import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
+import { dragHandle, type Handle, handleAt, handlesOf } from "../model/handles.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
 import type { Stores } from "../model/stores.ts";
 import { add, scale } from "../model/transform.ts";
-import { Hold, type HoldKeys, type Step } from "./hold.ts";
-import { colorOf, line, paintGizmo, paintLabel, stroke } from "./paint.ts";
+import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
+import { colorOf, line, paintGizmo, paintHandles, paintLabel, stroke } from "./paint.ts";
 import type { Holding, Press } from "./pointer.ts";
 
 export interface HandsPage {
     readonly stores: Stores;
-    /* Begins one undo step. */
-    begin(motion: Motion): Step;
+    /* Begins one undo step: "move", "change radius of". */
+    begin(what: string): Step;
 }
 
 /* A part is held from this far, in pixels. */
 const SLOP_MOUSE = 8;
 const SLOP_TOUCH = 24;
+/* A handle that is nearer to the middle of the gizmo is not shown. */
+const NEAR_MIDDLE = 14;
 
 export class Hands {
     readonly #page: HandsPage;
@@ -30,6 +33,9 @@ export class Hands {
     #pointer: Spot | null = null;
     #hot: Part | null = null;
     #hold: Hold | null = null;
+    /* A parameter that is being dragged. */
+    #handle: { readonly label: string; readonly at: Spot; readonly key: string } | null = null;
+    #hotHandle: string | null = null;
     #drawing = 0;
     #size = { width: 1, height: 1 };
 
@@ -63,6 +69,10 @@ export class Hands {
             return "taken";
         }
         const slop = press.type === "touch" ? SLOP_TOUCH : SLOP_MOUSE;
+        const handle = press.button === 0 ? handleAt(this.#handles(), press, slop) : null;
+        if (handle !== null) {
+            return this.#holdHandle(handle, press);
+        }
         const part = press.button === 0 ? partAt(this.#parts(), press, slop) : null;
         if (part === null) {
             return null;
@@ -75,6 +85,33 @@ export class Hands {
         };
     }
 
+    /* The parameter follows the pointer, from where the handle was. */
+    #holdHandle(handle: Handle, from: Spot): Holding {
+        let step: Step | null = null;
+        const finish = (how: "end" | "cancel"): void => {
+            step?.[how]();
+            this.#handle = null;
+            this.#redraw();
+        };
+        return {
+            start: () => {
+                step = this.#page.begin(`change ${handle.param.name} of`);
+            },
+            move: (to) => {
+                const projection = this.#projection();
+                const change =
+                    projection && dragHandle(handle, projection, from, to, to.ctrl !== this.#snaps);
+                if (change) {
+                    step?.edit([change.op]);
+                    this.#handle = { label: change.label, at: to, key: handle.key };
+                    this.#redraw();
+                }
+            },
+            end: () => finish("end"),
+            cancel: () => finish("cancel"),
+        };
+    }
+
     #begin(constraint: Part["constraint"], from: Spot): void {
         const { space, pivot: mode } = this.#page.stores.view.getState().preferences.hands;
         const movables = this.#movables();
@@ -83,7 +120,7 @@ export class Hands {
             return;
         }
         const pivot = pivotOf(movables, mode);
-        const step = this.#page.begin(constraint.motion);
+        const step = this.#page.begin(STEP_NAMES[constraint.motion]);
         this.#hold = new Hold({ movables, pivot, mode, space, projection, from, constraint, step });
         this.#redraw();
     }
@@ -115,12 +152,12 @@ export class Hands {
             return;
         }
         const over = this.#element.contains(event.target as Node);
-        const part = over ? partAt(this.#parts(), this.#pointer, SLOP_MOUSE) : null;
-        if (part !== this.#hot) {
-            this.#hot = part;
-            this.#element.dataset.grab = part === null ? "" : "can";
-            this.#redraw();
-        }
+        const handle = over ? handleAt(this.#handles(), this.#pointer, SLOP_MOUSE) : null;
+        const part = over && !handle ? partAt(this.#parts(), this.#pointer, SLOP_MOUSE) : null;
+        this.#hot = part;
+        this.#hotHandle = handle?.key ?? null;
+        this.#element.dataset.grab = part === null && handle === null ? "" : "can";
+        this.#redraw();
     }
 
     get #snaps(): boolean {
@@ -190,6 +227,24 @@ export class Hands {
             : projectionOf(frame.camera ?? camera.getState().camera, this.#size);
     }
 
+    /* Of the one that is selected; none on top of the middle of the gizmo. */
+    #handles(): readonly Handle[] {
+        const { document, schema } = this.#page.stores.document.getState();
+        const { selection, subject } = this.#page.stores.view.getState();
+        const projection = this.#projection();
+        const middle = this.#parts().find(({ kind }) => kind === "middle");
+        const all =
+            document && projection
+                ? handlesOf(document, schema, selection, subject, projection)
+                : [];
+        return middle?.kind === "middle"
+            ? all.filter(
+                  ({ spot }) =>
+                      Math.hypot(spot.x - middle.at.x, spot.y - middle.at.y) > NEAR_MIDDLE,
+              )
+            : all;
+    }
+
     #parts(): readonly Part[] {
         const { tool, space, pivot } = this.#page.stores.view.getState().preferences.hands;
         const movables = this.#movables();
@@ -228,12 +283,21 @@ export class Hands {
         brush.clearRect(0, 0, this.#size.width, this.#size.height);
         const hold = this.#hold;
         if (hold === null) {
-            const parts = this.#parts();
-            paintGizmo(brush, parts, this.#hot?.constraint ?? null);
-            this.#tell(parts);
+            this.#drawRest(brush);
         } else {
             this.#drawHold(brush, hold);
         }
+    }
+
+    #drawRest(brush: CanvasRenderingContext2D): void {
+        const parts = this.#handle === null ? this.#parts() : [];
+        const handles = this.#handles();
+        paintGizmo(brush, parts, this.#hot?.constraint ?? null);
+        paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
+        if (this.#handle !== null) {
+            paintLabel(brush, this.#handle.label, this.#handle.at, this.#size.width);
+        }
+        this.#tell(parts, handles);
     }
 
     /* The axis through the pivot across the picture, what is held, and how far. */
@@ -257,9 +321,10 @@ export class Hands {
     }
 
     /* Where its parts are, for those who cannot see the pixels. */
-    #tell(parts: readonly Part[]): void {
+    #tell(parts: readonly Part[], handles: readonly Handle[] = []): void {
         const places = parts.map((part) => ({ ...part.constraint, at: reachOf(part) }));
-        this.#canvas.dataset.parts = JSON.stringify(places);
+        const dots = handles.map(({ key, spot }) => ({ handle: key, at: spot }));
+        this.#canvas.dataset.parts = JSON.stringify([...places, ...dots]);
     }
 
     #listen(): void {

@@ -3,6 +3,7 @@
 
 import { MIDDLE, type Part, type Shaft, sameConstraint } from "../model/gizmo.ts";
 import type { Axis, Constraint } from "../model/grip.ts";
+import type { Handle } from "../model/handles.ts";
 import type { Spot } from "../model/projection.ts";
 
 export type Brush = CanvasRenderingContext2D;
@@ -120,6 +121,23 @@ export function paintGizmo(brush: Brush, parts: readonly Part[], hot: Constraint
     for (const part of parts) {
         brush.globalAlpha = 1;
         paintPart(brush, part, sameConstraint(part.constraint, hot));
+    }
+}
+
+/* --- handles of parameters --- */
+
+const HANDLE = "#7ad8d2";
+const HANDLE_RADIUS = 5;
+
+export function paintHandles(brush: Brush, handles: readonly Handle[], hot: string | null): void {
+    brush.globalAlpha = 1;
+    for (const { key, spot } of handles) {
+        dot(
+            brush,
+            spot,
+            key === hot ? HANDLE_RADIUS + 2 : HANDLE_RADIUS,
+            key === hot ? HOT : HANDLE,
+        );
     }
 }
 

@@ -17,7 +17,7 @@ import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
-import { beginMotion, pointerActions } from "./pointer.ts";
+import { beginStep, pointerActions } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import "./view.css";
@@ -65,7 +65,7 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
-        const hands = new Hands({ stores: editor.stores, begin: beginMotion(editor) }, element);
+        const hands = new Hands({ stores: editor.stores, begin: beginStep(editor) }, element);
         const stop = attachPointer(element, pointerActions(editor, element, hands, open));
         const rest = watchHover(editor, element);
         return () => {

@@ -5,11 +5,10 @@ import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf, topmost } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
-import type { Motion } from "../../model/grip.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import type { Hands } from "../../overlay/hands.ts";
-import { STEP_NAMES, type Step } from "../../overlay/hold.ts";
+import type { Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
 import type { Editor } from "../editor.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
@@ -103,9 +102,9 @@ export function pointerActions(
     };
 }
 
-/* Begins the undo step of a motion of what is selected. */
-export function beginMotion({ stores, link }: Editor): (motion: Motion) => Step {
-    return (motion) => {
+/* Begins the undo step of what a hand does to what is selected. */
+export function beginStep({ stores, link }: Editor): (what: string) => Step {
+    return (what) => {
         const { document } = stores.document.getState();
         const { selection, subject } = stores.view.getState();
         const name =
@@ -114,6 +113,6 @@ export function beginMotion({ stores, link }: Editor): (motion: Motion) => Step 
                 : document
                   ? nameAll(document, topmost(document, selection))
                   : "";
-        return link.gesture(`${STEP_NAMES[motion]} ${name}`);
+        return link.gesture(`${what} ${name}`);
     };
 }

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT */
+/* Handles of parameters: points of a node, light or volume at which a value is seen and dragged. Where
+ * they are is a fact of the registry (`handle` of its rows). */
+import {
+    findResource,
+    nodeParams,
+    pathTo,
+    resourceParams,
+    type SceneDocument,
+} from "./document.ts";
+import type { Operation } from "./operation.ts";
+import { valuesPlace } from "./places.ts";
+import { alongLine, onPlane, type Projection, type Spot } from "./projection.ts";
+import { components, matters, type Param, type Schema, type Values, valueIn } from "./schema.ts";
+import {
+    add,
+    fromWorld,
+    length,
+    scale,
+    subtract,
+    toWorld,
+    type Vector,
+    vectorOf,
+} from "./transform.ts";
+import { evaluateNamed, isAngle, printInUnit, snap, tidy, tidyAngle } from "./units.ts";
+import { clampNumber, numbersOf } from "./values.ts";
+import type { Subject } from "./view.ts";
+
+/* What has handles: its rows and values, and its space. */
+interface Owner {
+    readonly at: string;
+    readonly params: readonly Param[];
+    readonly values: Values;
+    readonly toWorld: (point: Vector) => Vector;
+    readonly fromWorld: (point: Vector) => Vector;
+}
+
+export interface Handle {
+    /* "radius", "size.x". */
+    readonly key: string;
+    readonly param: Param;
+    /* Which number of the value it changes; null: all, as a place. */
+    readonly component: number | null;
+    readonly owner: Owner;
+    /* The texts of its three coordinates. */
+    readonly texts: readonly string[];
+    readonly spot: Spot;
+}
+
+const LETTERS = "xyzw";
+
+/* The numbers of a record by name, with one number of one value replaced. */
+function namesOf({ params, values }: Owner, key = "", value = 0): (name: string) => number {
+    return (name) => {
+        if (name === key) {
+            return value;
+        }
+        const [first, letter] = name.split(".");
+        const param = params.find((row) => row.name === first);
+        const numbers = param ? numbersOf(valueIn(values, param), components(param.type)) : [];
+        return numbers[letter === undefined ? 0 : LETTERS.indexOf(letter)] ?? Number.NaN;
+    };
+}
+
+/* In the world; null where the expressions have no value. */
+function pointOf(
+    owner: Owner,
+    texts: readonly string[],
+    key?: string,
+    value?: number,
+): Vector | null {
+    const point = vectorOf(texts.map((text) => evaluateNamed(text, namesOf(owner, key, value))));
+    return point.every(Number.isFinite) ? owner.toWorld(point) : null;
+}
+
+function handlesOfParam(owner: Owner, param: Param, projection: Projection): Handle[] {
+    const points = param.handle
+        .split(";")
+        .map((point) => point.split(",").map((text) => text.trim()));
+    const count = components(param.type);
+    return points.flatMap((texts, i) => {
+        const component = points.length === 1 && count > 1 ? null : i;
+        const key = count > 1 && component !== null ? `${param.name}.${LETTERS[i]}` : param.name;
+        const point = pointOf(owner, texts);
+        const spot = point && projection.spotOf(point);
+        return spot ? [{ key, param, component, owner, texts, spot }] : [];
+    });
+}
+
+function nodeOwner(document: SceneDocument, schema: Schema, id: string): Owner | null {
+    const node = document.nodes.get(id);
+    if (!node || pathTo(document, id)[0]?.id !== document.root) {
+        return null;
+    }
+    return {
+        at: `/nodes/${id}/params`,
+        params: nodeParams(schema, document, node),
+        values: node.params,
+        toWorld: (point) => toWorld(document, id, point),
+        fromWorld: (point) => fromWorld(document, id, point),
+    };
+}
+
+function resourceOwner(
+    document: SceneDocument,
+    schema: Schema,
+    { list, name }: Extract<Subject, { kind: "resource" }>,
+): Owner | null {
+    const resource = findResource(document, list, name);
+    const params = resource ? resourceParams(schema, document, list, resource.type) : [];
+    const row = params.find((param) => param.name === "position");
+    if (!resource || !row) {
+        return null;
+    }
+    const position = vectorOf(numbersOf(valueIn(resource.values, row)));
+    return {
+        at: valuesPlace(list, name),
+        params,
+        values: resource.values,
+        toWorld: (point) => add(point, position),
+        fromWorld: (point) => subtract(point, position),
+    };
+}
+
+/* Of the one node that is selected, or of the light or volume that the inspector shows. */
+export function handlesOf(
+    document: SceneDocument,
+    schema: Schema,
+    selection: readonly string[],
+    subject: Subject,
+    projection: Projection,
+): readonly Handle[] {
+    const owner =
+        subject.kind === "resource"
+            ? resourceOwner(document, schema, subject)
+            : selection.length === 1 && subject.kind === "nodes"
+              ? nodeOwner(document, schema, selection[0] ?? "")
+              : null;
+    return (owner?.params ?? [])
+        .filter(
+            (param) => owner && param.handle !== "" && matters(owner.params, owner.values, param),
+        )
+        .flatMap((param) => (owner ? handlesOfParam(owner, param, projection) : []));
+}
+
+/* The nearest within `slop` pixels. */
+export function handleAt(handles: readonly Handle[], { x, y }: Spot, slop: number): Handle | null {
+    const far = ({ spot }: Handle): number => Math.hypot(spot.x - x, spot.y - y);
+    const near = handles.filter((handle) => far(handle) <= slop);
+    return near.reduce<Handle | null>((a, b) => (a && far(a) <= far(b) ? a : b), null);
+}
+
+/* --- dragging --- */
+
+const STEPS = 12;
+const NUDGE = 1e-4;
+const SNAP_LENGTH = 0.1;
+const SNAP_ANGLE = Math.PI / 12;
+
+/* The value whose point is nearest to a ray: Newton's steps along the tangent of its curve. */
+function valueNear(handle: Handle, projection: Projection, spot: Spot): number | null {
+    const { owner, texts, key, param } = handle;
+    const ray = projection.rayAt(spot);
+    let value = namesOf(owner)(key);
+    for (let i = 0; i < STEPS; i++) {
+        const here = pointOf(owner, texts, key, value);
+        const there = pointOf(owner, texts, key, value + NUDGE);
+        if (!here || !there) {
+            return null;
+        }
+        const way = subtract(there, here);
+        const speed = length(way) / NUDGE;
+        const far = speed > 0 ? alongLine(ray, here, scale(way, 1 / length(way))) : null;
+        if (far === null) {
+            return null;
+        }
+        value = clampNumber(param, value + far / speed);
+    }
+    return value;
+}
+
+/* The place under the pointer at the depth where the handle was. */
+function placeNear({ owner, texts }: Handle, projection: Projection, spot: Spot): Vector | null {
+    const start = pointOf(owner, texts);
+    const there = start && onPlane(projection.rayAt(spot), start, projection.forward);
+    return there && owner.fromWorld(there);
+}
+
+export interface HandleChange {
+    readonly op: Operation;
+    /* "radius 0.75". */
+    readonly label: string;
+}
+
+/* What a drag from one point of the picture to another makes of the value; null: nothing. */
+export function dragHandle(
+    handle: Handle,
+    projection: Projection,
+    from: Spot,
+    to: Spot,
+    snaps: boolean,
+): HandleChange | null {
+    const { param, owner, component, key } = handle;
+    const spot = { x: handle.spot.x + to.x - from.x, y: handle.spot.y + to.y - from.y };
+    const angle = isAngle(param.unit);
+    const rounded = (x: number): number => {
+        const stepped = snaps ? snap(x, angle ? SNAP_ANGLE : SNAP_LENGTH) : x;
+        return angle ? tidyAngle(clampNumber(param, stepped)) : tidy(clampNumber(param, stepped));
+    };
+    const place = component === null ? placeNear(handle, projection, spot) : null;
+    const number = component === null ? null : valueNear(handle, projection, spot);
+    if (place === null && number === null) {
+        return null;
+    }
+    const count = components(param.type);
+    const own = numbersOf(valueIn(owner.values, param), count);
+    const next = own.map((x, i) => {
+        const wanted = place ? place[i] : i === component ? number : x;
+        return wanted == null ? x : i === component || place ? rounded(wanted) : x;
+    });
+    const value = count === 1 ? (next[0] ?? 0) : next;
+    const shown = (place ? next : [next[component ?? 0] ?? 0]).map((x) =>
+        printInUnit(x, param.unit),
+    );
+    return {
+        op: { op: "set", at: `${owner.at}/${param.name}`, value },
+        label: `${key} ${shown.join(" ")}`,
+    };
+}
