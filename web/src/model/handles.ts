@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Handles of parameters: points of a node, light or volume at which a value is seen and dragged. Where
  * they are is a fact of the registry (`handle` of its rows). */
+import { ballOf } from "./bounds.ts";
 import {
     findResource,
     nodeParams,
@@ -11,7 +12,15 @@ import {
 import type { Operation } from "./operation.ts";
 import { valuesPlace } from "./places.ts";
 import { alongLine, onPlane, type Projection, type Spot } from "./projection.ts";
-import { components, matters, type Param, type Schema, type Values, valueIn } from "./schema.ts";
+import {
+    components,
+    matters,
+    nodeType,
+    type Param,
+    type Schema,
+    type Values,
+    valueIn,
+} from "./schema.ts";
 import {
     add,
     fromWorld,
@@ -48,6 +57,7 @@ export interface Handle {
 }
 
 const LETTERS = "xyzw";
+const ORIGIN: Vector = [0, 0, 0];
 
 /* The numbers of a record by name, with one number of one value replaced. */
 function namesOf({ params, values }: Owner, key = "", value = 0): (name: string) => number {
@@ -92,12 +102,17 @@ function nodeOwner(document: SceneDocument, schema: Schema, id: string): Owner |
     if (!node || pathTo(document, id)[0]?.id !== document.root) {
         return null;
     }
+    /* What an operation does has no place of its own: it is shown in the middle of its operands. */
+    const isOperation = nodeType(schema, node.type)?.group === "operation";
+    const middle = isOperation
+        ? fromWorld(document, id, ballOf(document, schema, [id]).center)
+        : ORIGIN;
     return {
         at: `/nodes/${id}/params`,
         params: nodeParams(schema, document, node),
         values: node.params,
-        toWorld: (point) => toWorld(document, id, point),
-        fromWorld: (point) => fromWorld(document, id, point),
+        toWorld: (point) => toWorld(document, id, add(point, middle)),
+        fromWorld: (point) => subtract(fromWorld(document, id, point), middle),
     };
 }
 
@@ -141,6 +156,18 @@ export function handlesOf(
             (param) => owner && param.handle !== "" && matters(owner.params, owner.values, param),
         )
         .flatMap((param) => (owner ? handlesOfParam(owner, param, projection) : []));
+}
+
+/* "radius 0.75", "b 0 0.5 0". */
+function labelOf({ key, param, component }: Handle, value: readonly number[]): string {
+    const shown = component === null ? value : [value[component] ?? 0];
+    return [key, ...shown.map((x) => printInUnit(x, param.unit))].join(" ");
+}
+
+/* What a handle is and the value that it has. */
+export function handleLabel(handle: Handle): string {
+    const { owner, param } = handle;
+    return labelOf(handle, numbersOf(valueIn(owner.values, param), components(param.type)));
 }
 
 /* The nearest within `slop` pixels. */
@@ -200,7 +227,7 @@ export function dragHandle(
     to: Spot,
     snaps: boolean,
 ): HandleChange | null {
-    const { param, owner, component, key } = handle;
+    const { param, owner, component } = handle;
     const spot = { x: handle.spot.x + to.x - from.x, y: handle.spot.y + to.y - from.y };
     const angle = isAngle(param.unit);
     const rounded = (x: number): number => {
@@ -219,11 +246,8 @@ export function dragHandle(
         return wanted == null ? x : i === component || place ? rounded(wanted) : x;
     });
     const value = count === 1 ? (next[0] ?? 0) : next;
-    const shown = (place ? next : [next[component ?? 0] ?? 0]).map((x) =>
-        printInUnit(x, param.unit),
-    );
     return {
         op: { op: "set", at: `${owner.at}/${param.name}`, value },
-        label: `${key} ${shown.join(" ")}`,
+        label: labelOf(handle, next),
     };
 }

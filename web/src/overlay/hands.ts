@@ -4,7 +4,7 @@
  * a click goes through. */
 import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
-import { dragHandle, type Handle, handleAt, handlesOf } from "../model/handles.ts";
+import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
 import type { Stores } from "../model/stores.ts";
@@ -24,6 +24,7 @@ const SLOP_MOUSE = 8;
 const SLOP_TOUCH = 24;
 /* A handle that is nearer to the middle of the gizmo is not shown. */
 const NEAR_MIDDLE = 14;
+const ORIGIN: Spot = { x: 0, y: 0 };
 
 export class Hands {
     readonly #page: HandsPage;
@@ -294,9 +295,9 @@ export class Hands {
         const handles = this.#handles();
         paintGizmo(brush, parts, this.#hot?.constraint ?? null);
         paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
-        if (this.#handle !== null) {
-            paintLabel(brush, this.#handle.label, this.#handle.at, this.#size.width);
-        }
+        const hot = handles.find(({ key }) => key === this.#hotHandle);
+        const label = this.#handle?.label ?? (hot ? handleLabel(hot) : "");
+        paintLabel(brush, label, this.#handle?.at ?? hot?.spot ?? ORIGIN, this.#size.width);
         this.#tell(parts, handles);
     }
 
