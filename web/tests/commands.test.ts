@@ -16,6 +16,7 @@ import { isApart } from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
 import type { KeyPress } from "../src/model/keys.ts";
+import { fits } from "../src/model/moves.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
 import { newResource } from "../src/model/resources.ts";
@@ -308,6 +309,54 @@ test("moving before a node that moves along goes before the next that stays", ()
     const edit = moveNodes(scene(), ["body", "head"], { into: "neck", before: "body" });
     expect(apply(scene(), edit.ops, SCHEMA).ok).toBe(true);
     expect(edit.ops.at(-1)).toMatchObject({ before: null });
+});
+
+test("a node fits into what holds others, but not into itself, nor a model into itself", () => {
+    const into = (id: string, target: string): boolean => fits(SCHEMA, scene(), [id], target);
+    expect(into("hat", "neck")).toBe(true);
+    expect(into("hat", "head")).toBe(false);
+    expect(into("neck", "neck")).toBe(false);
+    expect(into("root", "neck")).toBe(false);
+    expect(into("rook-pawn", "root")).toBe(true);
+    expect(into("rook-pawn", "pawn-root")).toBe(false);
+});
+
+test("the shelf is a hidden group at the root, made once, and gives back what it holds", () => {
+    const { run, stores, children, done } = page(["head"]);
+    expect(run("node.unpark")).toBe("It is not on the shelf.");
+    expect(run("node.park")).toBe(null);
+    expect(children("root")).toEqual(["neck", "hat", "stick", "shelf-1"]);
+    expect(children("shelf-1")).toEqual(["head"]);
+    const { document } = stores.document.getState();
+    expect(document?.nodes.get("shelf-1")?.common).toEqual({ name: "Shelf", visible: false });
+    expect(stores.view.getState().selection).toEqual(["head"]);
+    expect(run("node.park")).toBe("It is on the shelf already.");
+    stores.view.setState({ selection: ["stick"] });
+    run("node.park");
+    expect(children("shelf-1")).toEqual(["head", "stick"]);
+    expect(done).toEqual(["put head on the shelf", "put stick on the shelf"]);
+    stores.view.setState({ selection: ["head"] });
+    run("node.unpark");
+    expect(children("root")).toEqual(["neck", "hat", "head", "shelf-1"]);
+    stores.view.setState({ selection: ["shelf-1"] });
+    expect(run("node.park")).toBe("It is on the shelf already.");
+});
+
+test("what is put on a shelf stays where it is, in the tree that it is of", () => {
+    const { app, run, stores, children } = page(["hat"]);
+    run("node.park");
+    const at = "/nodes/shelf-1/transform/translation";
+    app.edit([{ op: "set", at, value: [0, 2, 0] }]);
+    stores.view.setState({ selection: ["head", "foot"] });
+    run("node.park");
+    expect(children("shelf-1")).toEqual(["hat", "head"]);
+    expect(children("pawn-root")).toEqual(["foot"]);
+    const head = stores.document.getState().document?.nodes.get("head");
+    expect(head?.transform.translation).toEqual([0, -0.7, 0]);
+    stores.view.setState({ selection: ["foot"] });
+    run("node.park");
+    expect(children("pawn-root")).toEqual(["shelf-2"]);
+    expect(children("shelf-2")).toEqual(["foot"]);
 });
 
 test("hide and show all", () => {

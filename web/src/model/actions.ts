@@ -19,6 +19,7 @@ import { type Edit, movable, nameAll, removeNodes, reorder, setVisible } from ".
 import type { Motion } from "./grip.ts";
 import { modelNamed } from "./models.ts";
 import { movablesOf } from "./movables.ts";
+import { isParked, parkable } from "./moves.ts";
 import type { Operation } from "./operation.ts";
 import { limitOf, type Schema } from "./schema.ts";
 import { addNotice, type Stores, setPreferences } from "./stores.ts";
@@ -115,6 +116,18 @@ export function canMove(motion: Motion): Reason {
             : (needsScene(app) ?? text("why.notMovable"));
     };
 }
+
+export const canPark: Reason = (app) => {
+    const document = documentOf(app);
+    const some = document !== null && parkable(document, selectionOf(app)).length > 0;
+    return needsMovable(1)(app) ?? (some ? null : text("why.parked"));
+};
+
+export const canUnpark: Reason = (app) => {
+    const document = documentOf(app);
+    const some = document !== null && selectionOf(app).some((id) => isParked(document, id));
+    return needsSelection(app) ?? (some ? null : text("why.notParked"));
+};
 
 export const needsLens: Reason = (app) => {
     const aperture = documentOf(app)?.camera.aperture;

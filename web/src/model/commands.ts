@@ -4,7 +4,9 @@ import {
     type App,
     canDissolve,
     canMove,
+    canPark,
     canReorder,
+    canUnpark,
     changeHands,
     chooseTool,
     climb,
@@ -39,6 +41,7 @@ import {
 import { dissolve, duplicate, reorder, wrap } from "./edits.ts";
 import { PIVOTS, SPACES } from "./hands.ts";
 import { makeModel, unpackModel } from "./models.ts";
+import { park, unpark } from "./moves.ts";
 import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
@@ -372,6 +375,22 @@ export const COMMANDS: readonly Command[] = [
         keys: ["Alt+Down"],
         whyNot: canReorder(1),
         run: onDocument((document, ids) => reorder(document, ids[0] ?? "", 1)),
+    }),
+    row({
+        id: "node.park",
+        words: "shelf aside disconnect unplug wire store",
+        title: "Put on the shelf",
+        group: "edit",
+        whyNot: canPark,
+        run: onDocument(park),
+    }),
+    row({
+        id: "node.unpark",
+        words: "shelf back connect",
+        title: "Take off the shelf",
+        group: "edit",
+        whyNot: canUnpark,
+        run: onDocument(unpark),
     }),
     row({
         id: "node.hide",

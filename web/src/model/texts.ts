@@ -18,6 +18,8 @@ const TEXTS = {
     "why.twoNeeded": "Select two or more nodes.",
     "why.noParentStep": "It is already the first or last.",
     "why.noChildren": "The node has no children to keep.",
+    "why.parked": "It is on the shelf already.",
+    "why.notParked": "It is not on the shelf.",
     "why.nothingUndo": "There is nothing of yours to undo.",
     "why.nothingRedo": "There is nothing to redo.",
     "why.allVisible": "Nothing is hidden.",

@@ -28,7 +28,8 @@ const parts: readonly (readonly string[])[] = [
         "node.dissolve",
     ],
     ["model.edit", "model.make", "model.unpack"],
-    ["node.up", "node.down", "node.hide", "node.isolate", "node.showAll", "camera.frame"],
+    ["node.up", "node.down", "node.park", "node.unpark"],
+    ["node.hide", "node.isolate", "node.showAll", "camera.frame"],
     ["node.delete"],
 ];
 

@@ -16,9 +16,9 @@ import { useEffect, useMemo, useRef, useState } from "react";
 import { perform } from "../../model/actions.ts";
 import { isInside, nodeLabel, pathTo, type SceneDocument } from "../../model/document.ts";
 import { moveNodes } from "../../model/edits.ts";
+import { fits } from "../../model/moves.ts";
 import { isContainer } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
-import { modelsHeldBy } from "../../model/usage.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
@@ -237,15 +237,9 @@ function canDrop(
     items: Item[],
     target: DragTarget<TreeItem>,
 ): boolean {
-    const into = target.item.getId();
     const { schema } = editor.stores.document.getState();
-    const row = nodeType(schema, document.nodes.get(into)?.type ?? "");
-    return (
-        row !== null &&
-        isContainer(row) &&
-        !items.some((item) => isInside(document, into, item.getId())) &&
-        !items.some((item) => modelsHeldBy(schema, document, item.getId(), into))
-    );
+    const ids = items.map((item) => item.getId());
+    return fits(schema, document, ids, target.item.getId());
 }
 
 function drop(
