@@ -142,8 +142,9 @@ void site_asset(struct request *request)
 /* --- examples --- */
 
 /* What an example is there for. Those of no row show one technique. */
-enum { SHOWPIECE, LESSON, TECHNIQUE, EXAMPLE_GROUPS };
-static const char *const example_groups[EXAMPLE_GROUPS] = {"showpiece", "lesson", "technique"};
+enum { SHOWPIECE, LESSON, SURFACE, TECHNIQUE, EXAMPLE_GROUPS };
+static const char *const example_groups[EXAMPLE_GROUPS] = {"showpiece", "lesson", "surface",
+                                                           "technique"};
 
 /* In the order in which they are listed. */
 static const struct {
@@ -173,6 +174,11 @@ static const struct {
     {"lecture-4-transforms", LESSON},
     {"lecture-5-camera", LESSON},
     {"own-code", LESSON},
+    {"surface-barth", SURFACE},
+    {"surface-heart", SURFACE},
+    {"surface-clebsch", SURFACE},
+    {"surface-kummer", SURFACE},
+    {"surface-chmutov", SURFACE},
 };
 enum { EXAMPLE_ROWS = sizeof example_rows / sizeof example_rows[0] };
 

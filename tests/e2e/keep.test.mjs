@@ -495,8 +495,8 @@ describe('palettes', () => {
     test('what is not there is told', async () => {
         await open();
         await page.keyboard.press('Control+k');
-        await page.getByRole('combobox', { name: 'Search and commands' }).fill('gizmo');
-        await page.getByText('drag or type its numbers under Place').waitFor();
+        await page.getByRole('combobox', { name: 'Search and commands' }).fill('ruler');
+        await page.getByText('The outputs depth and position give numbers').waitFor();
         await page.keyboard.press('Escape');
     });
 

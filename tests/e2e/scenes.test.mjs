@@ -65,7 +65,7 @@ test('every example has a card; those in sight get a picture', async () => {
     const groups = await page
         .locator('[data-group]')
         .evaluateAll((all) => all.map((one) => one.dataset.group));
-    assert.deepEqual(groups, ['showpiece', 'lesson', 'technique']);
+    assert.deepEqual(groups, ['showpiece', 'lesson', 'surface', 'technique']);
     assert.equal(examples[0].group, 'showpiece');
     const search = page.getByLabel('Search the examples');
     await search.fill('lecture');

@@ -19,7 +19,7 @@ export interface ExampleEntry {
     readonly id: string;
     readonly name: string;
     readonly description: string;
-    /* "showpiece", "lesson" or "technique". */
+    /* "showpiece", "lesson", "surface" or "technique". */
     readonly group: string;
 }
 

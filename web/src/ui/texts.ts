@@ -476,6 +476,7 @@ const texts = {
     "scenes.search": "Search the examples",
     "examples.showpiece": "Showpieces",
     "examples.lesson": "Lessons",
+    "examples.surface": "Surfaces by an equation",
     "examples.technique": "One thing each",
     "scenes.examplesDoc": "A copy opens; the example stays as it is.",
     "scenes.new": "New scene",

@@ -174,7 +174,7 @@ export default function ScenesPage() {
     );
 }
 
-const groups = ["showpiece", "lesson", "technique"] as const;
+const groups = ["showpiece", "lesson", "surface", "technique"] as const;
 
 interface ExamplesProps {
     examples: readonly ExampleEntry[];
