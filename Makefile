@@ -295,4 +295,4 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 	@sed -n '4,9s/^#//p' $(firstword $(MAKEFILE_LIST))
 
--include $(patsubst %.o,%.d,$(main) $(objects) $(support) $(test_programs:=.o))
+-include $(patsubst %.o,%.d,$(main) $(objects) $(support) $(spmd_objects) $(test_programs:=.o))
