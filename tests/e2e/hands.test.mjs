@@ -171,6 +171,26 @@ describe('keys', () => {
         assert.deepEqual(scale, [2, 2, 2]);
     });
 
+    test('a press beside the picture ends what G took where it is', async () => {
+        await open();
+        await select('ball');
+        const box = await picture(page).boundingBox();
+        await page.mouse.move(box.x + 300, box.y + 300);
+        await page.keyboard.press('g');
+        await page.mouse.move(box.x + 380, box.y + 260, { steps: 4 });
+        await when((d) => placeOf(d, 'ball')[0] > -1.4, 'a ball at the pointer');
+        const filter = page.getByRole('textbox', { name: 'Filter nodes' });
+        await filter.click();
+        await filter.pressSequentially('12');
+        assert.equal(await filter.inputValue(), '12');
+        await settled(page);
+        const left = await stage.document(id);
+        await page.mouse.move(box.x + 200, box.y + 200, { steps: 4 });
+        await settled(page);
+        assert.equal(await stage.document(id), left);
+        await page.getByRole('button', { name: 'Undo move ball' }).waitFor();
+    });
+
     test('the pointer moves what G took; a right click gives it back', async () => {
         await open();
         const start = await stage.document(id);

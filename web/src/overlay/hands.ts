@@ -161,6 +161,14 @@ export class Hands {
         this.#redraw();
     }
 
+    /* What keys move ends where it is when something else is pressed. */
+    #pressOutside(event: PointerEvent): void {
+        const moving = this.#page.stores.view.getState().motion !== null;
+        if (moving && !this.#element.contains(event.target as Node)) {
+            this.#finish("end");
+        }
+    }
+
     get #snaps(): boolean {
         return this.#page.stores.view.getState().preferences.hands.snap;
     }
@@ -339,6 +347,10 @@ export class Hands {
         });
         observer.observe(this.#element);
         window.addEventListener("pointermove", (event) => this.#hover(event), options);
+        window.addEventListener("pointerdown", (event) => this.#pressOutside(event), {
+            ...options,
+            capture: true,
+        });
         window.addEventListener("keydown", (event) => this.#key(event), {
             ...options,
             capture: true,
