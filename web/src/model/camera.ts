@@ -12,6 +12,7 @@ import {
     normalize,
     scale,
     subtract,
+    turnAbout,
     type Vector,
     vectorOf,
 } from "./transform.ts";
@@ -87,13 +88,6 @@ const FARTHEST = 1e5;
 /* How near to the pole an orbit ends, radians. */
 const POLE = 0.01;
 
-/* Rotation of `v` about the unit vector `axis`: Rodrigues' formula. */
-function turn(v: Vector, axis: Vector, angle: number): Vector {
-    const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const along = scale(axis, dot(axis, v) * (1 - c));
-    return add(add(scale(v, c), scale(cross(axis, v), s)), along);
-}
-
 /* Turns about the target: `azimuth` about `up`, positive moves the camera to the right;
  * `elevation` towards `up`. Radians. Ends short of the poles. */
 export function orbit(camera: Camera, azimuth: number, elevation: number): Camera {
@@ -102,8 +96,8 @@ export function orbit(camera: Camera, azimuth: number, elevation: number): Camer
     const polar = Math.acos(Math.min(1, Math.max(-1, dot(normalize(arm), up))));
     const wanted = Math.min(Math.PI - POLE, Math.max(POLE, polar - elevation));
     const { right } = axes(camera);
-    const lifted = turn(arm, right, wanted - polar);
-    return { ...camera, position: add(camera.target, turn(lifted, up, azimuth)) };
+    const lifted = turnAbout(arm, right, wanted - polar);
+    return { ...camera, position: add(camera.target, turnAbout(lifted, up, azimuth)) };
 }
 
 /* World units per pixel at the target's distance. */

@@ -108,7 +108,7 @@ export const ABSENT: readonly Absent[] = [
     {
         words: "equation formula implicit function parametric expression math",
         title: "Equations",
-        answer: "Write a primitive: a distance function in GLSL, with parameters of its own.",
+        answer: "Add the shape Implicit and type an equation in x, y and z. Parametric surfaces are not there.",
     },
     {
         words: "history versions checkpoint timeline",

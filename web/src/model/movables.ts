@@ -12,8 +12,6 @@ import {
     add,
     anglesOf,
     apply,
-    cross,
-    dot,
     fromWorld,
     type Matrix,
     multiply,
@@ -24,6 +22,7 @@ import {
     toWorld,
     transformOf,
     transpose,
+    turnAbout,
     type Vector,
     vectorOf,
 } from "./transform.ts";
@@ -49,13 +48,9 @@ export const IDENTITY: Matrix = [
     [0, 0, 1],
 ];
 
-/* The matrix of a turn about a unit vector: Rodrigues' formula. */
+/* The matrix of a turn about a unit vector. */
 export function turnMatrix(axis: Vector, angle: number): Matrix {
-    const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const turned = (v: Vector): Vector => {
-        const along = scale(axis, dot(axis, v) * (1 - c));
-        return add(add(scale(v, c), scale(cross(axis, v), s)), along);
-    };
+    const turned = (v: Vector): Vector => turnAbout(v, axis, angle);
     return transpose([turned([1, 0, 0]), turned([0, 1, 0]), turned([0, 0, 1])]);
 }
 
@@ -66,7 +61,7 @@ export function moved(point: Vector, delta: Delta, pivot: Vector, frame: Matrix)
         case "move":
             return add(point, delta.by);
         case "turn":
-            return add(pivot, apply(turnMatrix(delta.axis, delta.angle), arm));
+            return add(pivot, turnAbout(arm, delta.axis, delta.angle));
         case "scale": {
             const along = multiply(apply(transpose(frame), arm), delta.factors);
             return add(pivot, apply(frame, along));
@@ -157,7 +152,7 @@ function resourceMovable(
             const to = moved(position, delta, pivot, frame);
             const ops = isSamePoint(to, position) ? [] : [set(at("position"), tidyVector(to))];
             if (delta.motion === "turn" && direction !== null) {
-                const turned = apply(turnMatrix(delta.axis, delta.angle), direction);
+                const turned = turnAbout(direction, delta.axis, delta.angle);
                 ops.push(set(at("direction"), tidyVector(turned)));
             }
             return ops;

@@ -46,6 +46,13 @@ export function product(a: Matrix, b: Matrix): Matrix {
     return [row(a[0]), row(a[1]), row(a[2])];
 }
 
+/* `v` turned about a unit vector, radians, right-handed: Rodrigues' formula. */
+export function turnAbout(v: Vector, axis: Vector, angle: number): Vector {
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const along = scale(axis, dot(axis, v) * (1 - c));
+    return add(add(scale(v, c), scale(cross(axis, v), s)), along);
+}
+
 /* R = Rz·Ry·Rx from angles about x, y, z in radians. */
 export function rotation(angles: Vector): Matrix {
     const [cx, cy, cz] = angles.map(Math.cos) as unknown as Vector;
