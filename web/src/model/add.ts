@@ -46,28 +46,19 @@ function needsSolid(document: SceneDocument, schema: Schema, row: NodeType | nul
     return row?.group === "shape" && !above ? (maker ?? null) : null;
 }
 
-/* A new node. What combines or changes others goes around the selection, if any; anything else is
- * combined with it in a `way`. A shape of the plane comes with what makes it a solid. `at` is a
- * point in the parent's space. */
-export function addNode(
+/* The JSON of a new node below `above`, with what makes it a solid around it, if that is needed. */
+function newNode(
     document: SceneDocument,
     schema: Schema,
     { type, named }: Addition,
-    selection: readonly string[],
-    way: Way = "union",
-    at?: Vector,
-): Edit {
+    above: string,
+    transform: JsonObject = {},
+): { id: string; value: JsonObject } {
     const row = nodeType(schema, type);
-    const around = movable(document, selection);
-    if (row && isContainer(row) && around.length > 0) {
-        return wrap(document, around, type);
-    }
-    const { ops, spot, above } = placing(document, schema, selection, row, way);
     const fresh = freshIds(document);
     const name = freshNames(document);
     const id = fresh(named ?? type);
     const params = paramsOf(row, named);
-    const transform = at ? { transform: { translation: at.map(tidy) } } : {};
     const node: JsonObject = {
         id,
         type,
@@ -78,6 +69,44 @@ export function addNode(
     const value = maker
         ? { id: fresh(maker), type: maker, name: name(maker), ...transform, children: [node] }
         : { ...node, ...transform };
+    return { id, value };
+}
+
+/* A new node as the last input of `into`, whatever its type. */
+export function addInput(
+    document: SceneDocument,
+    schema: Schema,
+    addition: Addition,
+    into: string,
+): Edit {
+    const { id, value } = newNode(document, schema, addition, into);
+    return {
+        ops: [{ op: "insert", into: `/nodes/${into}`, before: null, value }],
+        label: `add ${addition.named ?? wordsOf(addition.type)}`,
+        select: [id],
+    };
+}
+
+/* A new node. What combines or changes others goes around the selection, if any; anything else is
+ * combined with it in a `way`. A shape of the plane comes with what makes it a solid. `at` is a
+ * point in the parent's space. */
+export function addNode(
+    document: SceneDocument,
+    schema: Schema,
+    addition: Addition,
+    selection: readonly string[],
+    way: Way = "union",
+    at?: Vector,
+): Edit {
+    const { type, named } = addition;
+    const row = nodeType(schema, type);
+    const around = movable(document, selection);
+    if (row && isContainer(row) && around.length > 0) {
+        return wrap(document, around, type);
+    }
+    const { ops, spot, above } = placing(document, schema, selection, row, way);
+    const transform = at ? { transform: { translation: at.map(tidy) } } : {};
+    const { id, value } = newNode(document, schema, addition, above, transform);
     return {
         ops: [...ops, { op: "insert", into: `/nodes/${spot.into}`, before: spot.before, value }],
         label: `add ${named ?? wordsOf(type)}`,

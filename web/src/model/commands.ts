@@ -45,7 +45,7 @@ import { park, unpark } from "./moves.ts";
 import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
-import { COLOR, peel, type Theme, type View } from "./view.ts";
+import { COLOR, peel, type Theme, toggleGraph, type View } from "./view.ts";
 
 /* Where a key works: `anywhere` outside of text fields, or only with the focus in that region. */
 export type Context = "anywhere" | "view" | "tree";
@@ -99,11 +99,6 @@ export const ABSENT: readonly Absent[] = [
         words: "grid ground",
         title: "Grid",
         answer: "There is no grid. Ctrl with a drag goes in steps.",
-    },
-    {
-        words: "graph nodes wires",
-        title: "Node graph",
-        answer: "There is no graph: the tree of the scene is all there is.",
     },
     {
         words: "equation formula implicit function parametric expression math",
@@ -578,6 +573,15 @@ export const COMMANDS: readonly Command[] = [
         inFields: true,
         whyNot: never,
         run: show(({ chromeHidden }) => ({ chromeHidden: !chromeHidden })),
+    }),
+    row({
+        id: "view.graph",
+        words: "node graph wires network flow cards drawer",
+        title: "Graph of nodes",
+        group: "view",
+        keys: ["Alt+1"],
+        inFields: true,
+        run: show(toggleGraph),
     }),
     row({
         id: "view.statistics",

@@ -97,6 +97,21 @@ export function nodeParams(
     return join(own, declaredBy(schema, "primitives", functionOf(schema, document, node)));
 }
 
+/* Those that are of use: a node that names a distance function has its name and what that
+ * declares; its own code, and what belongs to it, has no effect then. */
+export function shownParams(
+    schema: Schema,
+    document: SceneDocument,
+    node: Pick<SceneNode, "type" | "params">,
+): readonly Param[] {
+    const all = nodeParams(schema, document, node);
+    if (functionOf(schema, document, node) === null) {
+        return all;
+    }
+    const own = nodeType(schema, node.type)?.params ?? NO_ROWS;
+    return all.filter((row) => row.type === "function" || !own.includes(row));
+}
+
 /* The built-in types of a list; none for lists without. */
 export function typesOf(schema: Schema, list: ListName): readonly TypeRow[] {
     const { types } = LISTS[list];

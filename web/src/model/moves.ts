@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Moves of nodes: which of them fit, and the shelf, a hidden group at the root for what is not in
+/* Moves of nodes between the inputs of others, which the tree and the graph share: which of them
+ * fit, the edits that they make, and the shelf, a hidden group at the root for what is not in
  * use. */
 import { isInside, nodeLabel, pathTo, type SceneDocument, type SceneNode } from "./document.ts";
 import { type Edit, freshIds, keepPlace, movable, moveNodes, moveTo, nameAll } from "./edits.ts";
 import type { Operation } from "./operation.ts";
+import { apply } from "./operations.ts";
 import { isContainer } from "./placing.ts";
 import { nodeType, type Schema } from "./schema.ts";
 import { modelsHeldBy } from "./usage.ts";
@@ -24,6 +26,63 @@ export function fits(
         !ids.some((id) => modelsHeldBy(schema, document, id, into))
     );
 }
+
+/* Makes nodes the inputs of `into` from the one numbered `index` on; null where they are that. */
+export function connect(
+    document: SceneDocument,
+    ids: readonly string[],
+    into: string,
+    index: number,
+): Edit | null {
+    const moved = movable(document, ids);
+    const old = document.nodes.get(into)?.children ?? [];
+    const others = old.filter((id) => !moved.includes(id));
+    const next = [...others.slice(0, index), ...moved, ...others.slice(index)];
+    const same = next.length === old.length && next.every((id, i) => id === old[i]);
+    return same || moved.length === 0
+        ? null
+        : moveNodes(document, moved, { into, before: others[index] ?? null });
+}
+
+/* Can a node take the place of `child` and hold it? */
+export function fitsBetween(
+    schema: Schema,
+    document: SceneDocument,
+    id: string,
+    child: string,
+): boolean {
+    const parent = document.nodes.get(child)?.parent ?? null;
+    return (
+        parent !== null &&
+        document.nodes.get(id)?.parent !== null &&
+        !isInside(document, child, id) &&
+        fits(schema, document, [id], parent) &&
+        fits(schema, document, [child], id)
+    );
+}
+
+/* Puts a node between `child` and its parent; both stay where they are in the world. */
+export function insertBetween(
+    schema: Schema,
+    document: SceneDocument,
+    id: string,
+    child: string,
+): Edit | null {
+    const node = document.nodes.get(id);
+    const parent = document.nodes.get(child)?.parent ?? null;
+    const put = parent === null ? null : moveNodes(document, [id], { into: parent, before: child });
+    const then = put && apply(document, put.ops, schema);
+    if (!node || !put || !then?.ok) {
+        return null;
+    }
+    const held = [
+        ...keepPlace(then.document, child, id),
+        moveTo(child, { into: id, before: null }),
+    ];
+    return { ops: [...put.ops, ...held], label: `insert ${nodeLabel(node)}`, select: [id] };
+}
+
+/* --- the shelf --- */
 
 const SHELF = "Shelf";
 

@@ -10,17 +10,23 @@ import { WAY_NAMES, type Way } from "./placing.ts";
 export type Theme = "auto" | "light" | "dark";
 export type Quality = "auto" | "smooth" | "sharp";
 export type Pointing = "mouse" | "trackpad";
-/* What covers the page; one at a time, Esc closes it. `wrap`: what can go around the selection. */
+/* What covers the page; one at a time, Esc closes it. `wrap`: what can go around the selection;
+ * `input`: what can become the last input of `into`. */
 export type Popup =
     | "commands"
     | "add"
     | "wrap"
+    | "input"
     | "scenes"
     | "help"
     | "reference"
     | "statistics"
     | "picture"
     | null;
+
+/* What can be shown below the picture. */
+export const DRAWERS = ["graph", "code"] as const;
+export type Drawer = (typeof DRAWERS)[number];
 
 /* The output that is the picture itself. */
 export const COLOR = "color";
@@ -31,7 +37,11 @@ export interface Preferences {
     readonly theme: Theme;
     readonly pointing: Pointing;
     readonly quality: Quality;
-    readonly panels: { readonly scene: boolean; readonly inspector: boolean };
+    readonly panels: {
+        readonly scene: boolean;
+        readonly inspector: boolean;
+        readonly graph: boolean;
+    };
     /* Names of hints that were followed or closed. */
     readonly hintsDone: readonly string[];
     /* Single keys (G, H, F …) act as commands; some assistive tools need that off. */
@@ -59,7 +69,7 @@ export const PREFERENCES: Preferences = {
     theme: "auto",
     pointing: "mouse",
     quality: "auto",
-    panels: { scene: true, inspector: true },
+    panels: { scene: true, inspector: true, graph: false },
     hintsDone: [],
     singleKeys: true,
     recent: [],
@@ -84,8 +94,12 @@ export interface View {
     /* The node whose name is being typed. */
     readonly renaming: string | null;
     readonly popup: Popup;
+    /* The node that the next addition goes into, while the popup is `input`. */
+    readonly into: string | null;
     /* The place of the code that is being edited; null: the editor of code is closed. */
     readonly code: string | null;
+    /* What is in front below the picture, where the graph and code are both open. */
+    readonly drawer: Drawer;
     /* The type at which the reference opens. */
     readonly topic: string | null;
     /* Ctrl+\ hides all but the picture. */
@@ -107,7 +121,9 @@ export const INITIAL_VIEW: View = {
     isolated: [],
     renaming: null,
     popup: null,
+    into: null,
     code: null,
+    drawer: "graph",
     topic: null,
     chromeHidden: false,
     aov: COLOR,
@@ -133,6 +149,28 @@ export function select(
     }
     const toggledOff = mode === "toggle" && others.length < selection.length;
     return toggledOff ? others : [...others, id];
+}
+
+/* Unfolds all that hides a node. */
+export function unfoldTo({ collapsed }: View, above: readonly string[]): Partial<View> {
+    const open = new Set(above);
+    return { collapsed: new Set([...collapsed].filter((one) => !open.has(one))) };
+}
+
+/* What is shown below the picture; null: nothing. */
+export function drawerOf({ drawer, code, preferences }: View): Drawer | null {
+    const { graph } = preferences.panels;
+    return graph && (drawer === "graph" || code === null) ? "graph" : code !== null ? "code" : null;
+}
+
+/* Brings the graph to the front, or closes it where it is there. */
+export function toggleGraph(view: View): Partial<View> {
+    const graph = drawerOf(view) !== "graph";
+    const panels = { ...view.preferences.panels, graph };
+    return {
+        drawer: graph ? "graph" : "code",
+        preferences: { ...view.preferences, panels },
+    };
 }
 
 /* Esc: closes the topmost thing only. Null when there was nothing to close. */
@@ -181,6 +219,7 @@ export function readPreferences(text: string | null): Preferences {
         panels: {
             scene: stored.panels?.scene !== false,
             inspector: stored.panels?.inspector !== false,
+            graph: stored.panels?.graph === true,
         },
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,

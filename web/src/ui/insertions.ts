@@ -3,8 +3,14 @@
  * commands (model/commands.ts). */
 
 import { perform, tellDeleted } from "../model/actions.ts";
-import { type Addition, addNode as buildNode, typeNaming } from "../model/add.ts";
+import {
+    type Addition,
+    addInput as buildInput,
+    addNode as buildNode,
+    typeNaming,
+} from "../model/add.ts";
 import { findResource, type Resource, type SceneDocument } from "../model/document.ts";
+import type { Edit } from "../model/edits.ts";
 import { newLight } from "../model/lights.ts";
 import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import type { Preset } from "../model/presets.ts";
@@ -25,17 +31,33 @@ import { t } from "./texts.ts";
 
 const MOST_RECENT = 8;
 
-export function addNode(editor: Editor, addition: Addition): void {
+/* Sends an edit that adds something, and remembers what. */
+function performAdding(
+    editor: Editor,
+    { type }: Addition,
+    build: (document: SceneDocument, schema: Schema) => Edit,
+): void {
     const { stores } = editor;
     const { document, schema } = stores.document.getState();
-    const { selection, preferences } = stores.view.getState();
-    if (
-        document &&
-        perform(editor, buildNode(document, schema, addition, selection, preferences.way))
-    ) {
-        const others = preferences.recent.filter((old) => old !== addition.type);
-        setPreferences(stores.view, { recent: [addition.type, ...others].slice(0, MOST_RECENT) });
+    if (document && perform(editor, build(document, schema))) {
+        const { recent } = stores.view.getState().preferences;
+        const others = recent.filter((old) => old !== type);
+        setPreferences(stores.view, { recent: [type, ...others].slice(0, MOST_RECENT) });
     }
+}
+
+export function addNode(editor: Editor, addition: Addition): void {
+    const { selection, preferences } = editor.stores.view.getState();
+    performAdding(editor, addition, (document, schema) =>
+        buildNode(document, schema, addition, selection, preferences.way),
+    );
+}
+
+/* As the last input of `into`. */
+export function addInput(editor: Editor, addition: Addition, into: string): void {
+    performAdding(editor, addition, (document, schema) =>
+        buildInput(document, schema, addition, into),
+    );
 }
 
 export function selectNode(editor: Editor, id: string): void {
@@ -45,7 +67,7 @@ export function selectNode(editor: Editor, id: string): void {
 /* --- code --- */
 
 export function openCode(editor: Editor, place: string): void {
-    editor.stores.view.setState({ code: place });
+    editor.stores.view.setState({ code: place, drawer: "code" });
 }
 
 /* Shows whatever a place lies in, and the code there. */

@@ -2,7 +2,7 @@
 /* The forms of a node: its own parameters, where it stands, what it is made of. */
 import { CircleQuestionMark } from "lucide-react";
 import { useMemo } from "react";
-import { functionOf, modelOf, nodeLabel, nodeParams } from "../../model/document.ts";
+import { functionOf, modelOf, nodeLabel, nodeParams, shownParams } from "../../model/document.ts";
 import { rename } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
 import { findParam, nodeType, type Param } from "../../model/schema.ts";
@@ -68,22 +68,24 @@ export default function NodeInspector({ id }: { id: string }) {
 
 const NO_PARAMS: readonly Param[] = [];
 
-/* A node that names a distance function has its name and what that declares; its own code, and
- * what belongs to it, is of no use then. */
+/* The rows of all types and of all that the document declares; they change seldom. */
 function useParams(id: string): readonly Param[] {
-    const all = useDocument(({ document, schema }) => {
+    const schema = useDocument((state) => state.schema);
+    const all = useDocument(({ document }) => {
         const node = document?.nodes.get(id);
         return document && node ? nodeParams(schema, document, node) : NO_PARAMS;
     });
-    const own = useDocument(({ document, schema }) => {
+    const named = useDocument(({ document }) => {
         const node = document?.nodes.get(id);
-        const named = document && node ? functionOf(schema, document, node) : null;
-        return named && node ? (nodeType(schema, node.type)?.params ?? null) : null;
+        return (document && node && functionOf(schema, document, node)?.name) ?? null;
     });
-    return useMemo(
-        () => all.filter((row) => row.type === "function" || !own?.includes(row)),
-        [all, own],
-    );
+    const { stores } = useEditor();
+    // biome-ignore lint/correctness/useExhaustiveDependencies: what is shown follows from these
+    return useMemo(() => {
+        const { document } = stores.document.getState();
+        const node = document?.nodes.get(id);
+        return document && node ? shownParams(schema, document, node) : NO_PARAMS;
+    }, [all, named, schema, id]);
 }
 
 /* What can be done with an instance of a model. */

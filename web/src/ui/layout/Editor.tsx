@@ -4,11 +4,13 @@
 
 import { useState } from "react";
 import { Group, Panel, Separator, useDefaultLayout } from "react-resizable-panels";
+import { DRAWERS, type Drawer as DrawerName, drawerOf } from "../../model/view.ts";
 import { CodePanel } from "../code/index.ts";
+import { GraphPanel } from "../graph/index.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
-import { useDocument, useView } from "../state.ts";
+import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
 import { View } from "../view/View.tsx";
@@ -60,30 +62,59 @@ function Middle({ hidden, layout }: { hidden: boolean; layout: "columns" | "stac
     return layout === "columns" ? <Columns /> : <Stack />;
 }
 
-/* The picture, and below it the code that is being written, if any. */
+/* The picture, and below it the graph or the code that is being written, if any. */
 function Picture() {
-    const code = useView((view) => view.code);
+    const drawer = useView(drawerOf);
     const saved = useDefaultLayout({
-        id: "picture-code",
-        panelIds: code === null ? ["panel-picture"] : ["panel-picture", "panel-code"],
+        id: "picture-drawer",
+        panelIds: drawer === null ? ["panel-picture"] : ["panel-picture", `panel-${drawer}`],
         storage: localStorage,
     });
     return (
-        <Group id="picture-code" orientation="vertical" {...saved}>
+        <Group id="picture-drawer" orientation="vertical" {...saved}>
             <Panel id="panel-picture" minSize={120}>
                 <Region name={t("region.view")} context="view">
                     <View />
                 </Region>
             </Panel>
-            {code !== null && (
-                <Separator className="separator" aria-label={t("region.resizeCode")} />
+            {drawer !== null && (
+                <Separator className="separator" aria-label={t("region.resizeDrawer")} />
             )}
-            {code !== null && (
-                <Panel id="panel-code" minSize={140} defaultSize="46%">
-                    <CodePanel place={code} />
+            {drawer !== null && (
+                <Panel id={`panel-${drawer}`} key={drawer} minSize={140} defaultSize="46%">
+                    <Drawer drawer={drawer} />
                 </Panel>
             )}
         </Group>
+    );
+}
+
+/* Tabs where both are open. */
+function Drawer({ drawer }: { drawer: DrawerName }) {
+    const { view } = useEditor().stores;
+    const code = useView((state) => state.code);
+    const both = useView((state) => state.code !== null && state.preferences.panels.graph);
+    const part = drawer === "graph" ? <GraphPanel /> : code && <CodePanel place={code} />;
+    if (!both) {
+        return part;
+    }
+    return (
+        <div className="drawer">
+            <Tabs
+                tabs={DRAWERS.map((id) => ({ id, title: t(`tab.${id}`) }))}
+                active={drawer}
+                panel="drawer-panel"
+                onChange={(id) => view.setState({ drawer: id })}
+            />
+            <div
+                id="drawer-panel"
+                role="tabpanel"
+                className="tab-panel"
+                aria-label={t(`tab.${drawer}`)}
+            >
+                {part}
+            </div>
+        </div>
     );
 }
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* On a phone: the picture above, one sheet below with three heights. */
 import { type ReactNode, useEffect, useRef, useState } from "react";
+import { DRAWERS, type Drawer, drawerOf } from "../../model/view.ts";
 import { CodePanel } from "../code/index.ts";
+import { GraphPanel } from "../graph/index.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
@@ -11,13 +13,14 @@ import { Region } from "./Region.tsx";
 import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
 
-type Tab = "scene" | "inspector" | "setup" | "code";
+type Tab = "scene" | "inspector" | "setup" | Drawer;
 const always: readonly Tab[] = ["scene", "inspector", "setup"];
 
 const names = {
     scene: "region.scene",
     inspector: "region.inspector",
     setup: "region.scene",
+    graph: "graph.label",
     code: "code.title",
 } as const;
 
@@ -47,12 +50,18 @@ export function Sheet({ picture }: { picture: ReactNode }) {
     /* What was touched last. */
     const touched = useRef<"picture" | "sheet">("sheet");
     const code = useView((view) => view.code);
-    const tabs: readonly Tab[] = code === null ? always : [...always, "code"];
-    /* Code that is opened is shown, and what was there before when it is closed. */
+    const drawer = useView(drawerOf);
+    const graph = useView((view) => view.preferences.panels.graph);
+    const tabs: readonly Tab[] = [
+        ...always,
+        ...DRAWERS.filter((one) => (one === "graph" ? graph : code !== null)),
+    ];
+    /* What is opened is shown, and what was there before when it is closed. */
+    // biome-ignore lint/correctness/useExhaustiveDependencies: other code is shown, too
     useEffect(() => {
-        setTab((old) => (code !== null ? "code" : old === "code" ? "inspector" : old));
-        setHeight((now) => (code === null ? now : 2));
-    }, [code]);
+        setTab((old) => drawer ?? (old === "graph" || old === "code" ? "inspector" : old));
+        setHeight((now) => (drawer === null ? now : 2));
+    }, [drawer, code]);
     usePicked(touched, () => {
         setTab("inspector");
         setHeight((now) => Math.max(1, now));
@@ -115,12 +124,13 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                     <Region
                         name={t(names[tab])}
                         className={tab === "inspector" ? "region values-region" : "region"}
-                        context={tab === "scene" ? "tree" : "anywhere"}
+                        context={tab === "scene" || tab === "graph" ? "tree" : "anywhere"}
                     >
                         {tab === "scene" && <Scene />}
                         {tab === "inspector" && <Inspector />}
                         {tab === "setup" && <Resources />}
                         {tab === "setup" && <Setup />}
+                        {tab === "graph" && <GraphPanel />}
                         {tab === "code" && code !== null && <CodePanel place={code} />}
                     </Region>
                 </div>

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The line below: what can be done next with what is selected, and whether all is saved. */
-import { useView } from "../state.ts";
+import { Workflow } from "lucide-react";
+import { drawerOf, toggleGraph } from "../../model/view.ts";
+import { useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
+import { Tip } from "../widgets/Tip.tsx";
 import { keyText } from "./keys.ts";
 import { Region } from "./Region.tsx";
 import { Saved } from "./Saved.tsx";
@@ -30,6 +33,26 @@ const something: readonly Hint[] = [
     { key: "?", what: "hint.keys" },
 ];
 
+/* Opens the graph below the picture, and closes it. */
+function GraphTab() {
+    const { view } = useEditor().stores;
+    const open = useView((state) => drawerOf(state) === "graph");
+    return (
+        <Tip text={t("graph.label")} keys={keyText("Alt+1")}>
+            <button
+                type="button"
+                className="status-tab"
+                aria-pressed={open}
+                data-command="view.graph"
+                onClick={() => view.setState(toggleGraph)}
+            >
+                <Workflow size={14} aria-hidden="true" />
+                {t("graph.title")}
+            </button>
+        </Tip>
+    );
+}
+
 export function Status() {
     const touch = useMedia(TOUCH);
     const touched = (gesture: TextKey): TextKey =>
@@ -37,6 +60,7 @@ export function Status() {
     const selected = useView((view) => view.selection.length > 0);
     return (
         <Region as="footer" name={t("region.status")} className="status">
+            <GraphTab />
             <div className="status-hints">
                 {(selected ? something : nothing).map(({ key, gesture, what }) => (
                     <span key={what}>

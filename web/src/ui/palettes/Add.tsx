@@ -1,17 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* Add: everything that a scene can hold, with its picture and a line of help, found by name or
- * synonym. Wrap: the part of it that goes around what is selected. */
+ * synonym. Wrap: the part of it that goes around what is selected. Input: the part that a node can
+ * hold, as its last input. */
 import { useCallback, useMemo } from "react";
 import { whatAdding } from "../../model/add.ts";
 import type { SceneDocument } from "../../model/document.ts";
+import { nameAll } from "../../model/edits.ts";
 import { WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
-import { addNode } from "../insertions.ts";
+import { addInput, addNode } from "../insertions.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { groupTitle, type Offer, offersOf, searchOffers, wrappersOf } from "./additions.ts";
+import {
+    groupTitle,
+    inputsOf,
+    type Offer,
+    offersOf,
+    searchOffers,
+    wrappersOf,
+} from "./additions.ts";
 import { type Face, type Group, Palette } from "./Palette.tsx";
 import { TypePicture } from "./TypePicture.tsx";
 
@@ -37,7 +46,8 @@ export function Add() {
     const editor = useEditor();
     const popup = useView((view) => view.popup);
     const wrapping = popup === "wrap";
-    const open = popup === "add" || wrapping;
+    const into = useView((view) => (view.popup === "input" ? view.into : null));
+    const open = popup === "add" || wrapping || into !== null;
     const schema = useDocument((state) => state.schema);
     const document = useNames();
     const recent = useView((view) => view.preferences.recent);
@@ -46,7 +56,8 @@ export function Add() {
             if (document === null || !open) {
                 return [];
             }
-            const offers = wrapping ? wrappersOf(schema) : offersOf(schema, document);
+            const all = wrapping ? wrappersOf(schema) : offersOf(schema, document);
+            const offers = into === null ? all : inputsOf(schema, document, into, all);
             if (query.trim() !== "") {
                 return [{ title: t("add.results"), items: searchOffers(offers, query) }];
             }
@@ -58,22 +69,30 @@ export function Add() {
                 ? [{ title: t("add.recent"), items: last }, ...groups]
                 : groups;
         },
-        [schema, document, recent, wrapping, open],
+        [schema, document, recent, wrapping, into, open],
     );
-    const footOf = (offer: Offer) => <AddFoot offer={offer} />;
+    const footOf = (offer: Offer) =>
+        into === null ? <AddFoot offer={offer} /> : <InputFoot into={into} />;
     return (
         <Palette
             open={open}
-            title={t(wrapping ? "wrap.title" : "add.title")}
+            title={t(wrapping ? "wrap.title" : into === null ? "add.title" : "input.title")}
             placeholder={t(wrapping ? "wrap.search" : "add.search")}
             grid
             find={find}
             faceOf={faceOf}
             footOf={footOf}
-            onTake={(offer) => addNode(editor, offer)}
+            onTake={(offer) =>
+                into === null ? addNode(editor, offer) : addInput(editor, offer, into)
+            }
             onClose={() => editor.stores.view.setState({ popup: null })}
         />
     );
+}
+
+function InputFoot({ into }: { into: string }) {
+    const name = useDocument(({ document }) => (document ? nameAll(document, [into]) : ""));
+    return <span className="palette-what ellipsis">{t("input.what", { name })}</span>;
 }
 
 /* Where it goes, and as what: a choice where there is one. */

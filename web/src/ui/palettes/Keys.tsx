@@ -41,6 +41,17 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
             ["keys.treeMenu", "Right click"],
         ],
     },
+    {
+        title: "keys.graph",
+        rows: [
+            ["keys.graphMove", "↑ ↓ ← →"],
+            ["keys.graphFold", "Space"],
+            ["keys.graphWire", "Drag"],
+            ["keys.graphAdd", "Drag"],
+            ["keys.graphPark", "Drag"],
+            ["keys.graphInsert", "Drag"],
+        ],
+    },
 ];
 
 export function Keys() {

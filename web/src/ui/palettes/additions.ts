@@ -2,10 +2,11 @@
 /* What can be added to a scene: every node type, and the models and distance functions of the
  * document. Shared by both palettes. */
 import { type Addition, typeNaming } from "../../model/add.ts";
-import type { SceneDocument } from "../../model/document.ts";
-import { isContainer } from "../../model/placing.ts";
+import { pathTo, type SceneDocument } from "../../model/document.ts";
+import { isContainer, SOLID_MAKERS } from "../../model/placing.ts";
 import type { NodeType, Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
+import { modelsFor } from "../../model/usage.ts";
 import { typeTitle } from "../names.ts";
 import { type TextKey, t } from "../texts.ts";
 
@@ -51,6 +52,23 @@ export function offersOf(schema: Schema, document: SceneDocument): readonly Offe
 /* Only what can go around others. */
 export function wrappersOf(schema: Schema): readonly Offer[] {
     return schema.nodes.filter((row) => isContainer(row) && row.group !== "primitive").map(ofType);
+}
+
+/* What can be an input of a node: no model that would come to hold itself, and below what makes
+ * solids of flat shapes no solid. */
+export function inputsOf(
+    schema: Schema,
+    document: SceneDocument,
+    into: string,
+    offers: readonly Offer[],
+): readonly Offer[] {
+    const flat = pathTo(document, into).some(({ type }) => SOLID_MAKERS.includes(type));
+    const models = modelsFor(schema, document, into);
+    return offers.filter(
+        ({ group, named }) =>
+            !(flat && group === "primitive") &&
+            (group !== "models" || models.includes(named ?? "")),
+    );
 }
 
 export function searchOffers(offers: readonly Offer[], query: string): readonly Offer[] {

@@ -3,7 +3,7 @@
  * kept until it takes them, and reach no command and no field. */
 import type { Popup } from "../../model/view.ts";
 
-const PALETTES: readonly Popup[] = ["commands", "add", "wrap"];
+const PALETTES: readonly Popup[] = ["commands", "add", "wrap", "input"];
 
 type Take = (key: string) => void;
 

@@ -19,6 +19,7 @@ import { moveNodes } from "../../model/edits.ts";
 import { fits } from "../../model/moves.ts";
 import { isContainer } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
+import { unfoldTo } from "../../model/view.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { useMedia } from "../theme.ts";
@@ -279,8 +280,7 @@ function useReveal(
             above.push(MODELS);
         }
         if (above.some((one) => collapsed.has(one))) {
-            const open = new Set(above);
-            view.setState({ collapsed: new Set([...collapsed].filter((one) => !open.has(one))) });
+            view.setState((state) => unfoldTo(state, above));
             return;
         }
         revealed.current = id;

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+/* The graph of nodes: a second view of the one tree. It is laid out by itself, the result on the
+ * right. React Flow moves the view and draws the cards that are in sight; what a hand does with
+ * cards and wires is in reach.ts. */
+import { Background, ReactFlow, ReactFlowProvider, useReactFlow } from "@xyflow/react";
+import { Maximize, Minus, Plus, X } from "lucide-react";
+import { useMemo, useRef, useState } from "react";
+import { CARD, type Graph, graphOf } from "../../model/graph.ts";
+import { toggleGraph } from "../../model/view.ts";
+import { NodeMenu } from "../scene/NodeMenu.tsx";
+import { useDocument, useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import { IconButton } from "../widgets/Button.tsx";
+import { type CardNode, GraphCard } from "./Card.tsx";
+import { GraphContext } from "./context.ts";
+import { Reach } from "./Reach.tsx";
+import { FARTHEST, NEAREST, useFraming } from "./sight.ts";
+import { Wires } from "./Wires.tsx";
+import "@xyflow/react/dist/base.css";
+import "./graph.css";
+
+const TYPES = { card: GraphCard };
+
+/* Cards, wires and spots are the same objects while only numbers change. */
+function useGraph(): Graph | null {
+    const schema = useDocument((state) => state.schema);
+    const document = useDocument((state) => state.document);
+    const collapsed = useView((view) => view.collapsed);
+    const before = useRef<Graph | null>(null);
+    return useMemo(() => {
+        before.current = document && graphOf(schema, document, collapsed, before.current);
+        return before.current;
+    }, [schema, document, collapsed]);
+}
+
+export default function GraphPanel() {
+    const graph = useGraph();
+    return (
+        <section
+            className="graph-panel"
+            aria-label={t("graph.label")}
+            data-testid="graph"
+            data-region={t("graph.label")}
+            data-context="tree"
+            tabIndex={-1}
+        >
+            {graph && (
+                <ReactFlowProvider>
+                    <Head count={graph.document.nodes.size} />
+                    <Flow graph={graph} />
+                </ReactFlowProvider>
+            )}
+        </section>
+    );
+}
+
+const QUICK = { duration: 150 };
+
+function Head({ count }: { count: number }) {
+    const { stores } = useEditor();
+    const flow = useReactFlow();
+    return (
+        <header className="graph-head">
+            <h2>{t("graph.title")}</h2>
+            <span className="section-count">{t("graph.count", { count })}</span>
+            <span className="bar-space" />
+            <IconButton
+                title={t("graph.farther")}
+                data-size="s"
+                onClick={() => void flow.zoomOut(QUICK)}
+            >
+                <Minus size={15} />
+            </IconButton>
+            <IconButton
+                title={t("graph.nearer")}
+                data-size="s"
+                onClick={() => void flow.zoomIn(QUICK)}
+            >
+                <Plus size={15} />
+            </IconButton>
+            <IconButton
+                title={t("graph.fit")}
+                data-size="s"
+                onClick={() => void flow.fitView({ ...QUICK, padding: 0.08, maxZoom: NEAREST })}
+            >
+                <Maximize size={15} />
+            </IconButton>
+            <IconButton
+                title={t("close")}
+                data-size="s"
+                onClick={() => stores.view.setState(toggleGraph)}
+            >
+                <X size={15} />
+            </IconButton>
+        </header>
+    );
+}
+
+/* React Flow lets pointers through what it does not handle itself. */
+const REACHED = { pointerEvents: "all" } as const;
+
+/* What React Flow gets of a card: where it is and how large, so that it measures nothing. */
+function useNodes({ cards, spots }: Graph): CardNode[] {
+    return useMemo(
+        () =>
+            [...cards.values()].map((card) => {
+                const { x, y } = spots.get(card.id) ?? { x: 0, y: 0 };
+                const size = { width: CARD.width, height: card.height };
+                return {
+                    id: card.id,
+                    type: "card" as const,
+                    position: { x: x - CARD.width, y: y - card.height / 2 },
+                    data: { card },
+                    ...size,
+                    measured: size,
+                    handles: [],
+                    style: REACHED,
+                };
+            }),
+        [cards, spots],
+    );
+}
+
+function Flow({ graph }: { graph: Graph }) {
+    const { view } = useEditor().stores;
+    const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
+    const nodes = useNodes(graph);
+    const frame = useFraming(graph);
+    const trackpad = useView(({ preferences }) => preferences.pointing === "trackpad");
+    const shared = useMemo(() => ({ graph, openMenu: setMenu }), [graph]);
+    return (
+        <GraphContext value={shared}>
+            <p className="unseen" id="graph-help">
+                {t("graph.help")}
+            </p>
+            <Reach graph={graph}>
+                <ReactFlow<CardNode>
+                    nodes={nodes}
+                    nodeTypes={TYPES}
+                    minZoom={FARTHEST}
+                    maxZoom={NEAREST}
+                    onlyRenderVisibleElements
+                    nodesDraggable={false}
+                    nodesConnectable={false}
+                    nodesFocusable={false}
+                    elementsSelectable={false}
+                    zoomOnDoubleClick={false}
+                    panOnScroll={trackpad}
+                    deleteKeyCode={null}
+                    selectionKeyCode={null}
+                    multiSelectionKeyCode={null}
+                    panActivationKeyCode={null}
+                    disableKeyboardA11y
+                    onInit={frame}
+                    onPaneClick={() => view.setState({ selection: [] })}
+                >
+                    <Background gap={24} size={1.5} color="var(--line-2)" bgColor="transparent" />
+                    <Wires graph={graph} />
+                </ReactFlow>
+            </Reach>
+            <NodeMenu at={menu} onClose={() => setMenu(null)} />
+        </GraphContext>
+    );
+}
