@@ -147,6 +147,25 @@ for (const theme of ['dark', 'light']) {
             await closePage(page);
         });
 
+        test('graph', async () => {
+            const page = await stage.page({ scene: await stage.scene(), theme, height: 1000 });
+            await settled(page);
+            await page.keyboard.press('Alt+1');
+            await page.locator('[data-card="root"]').waitFor();
+            await check(page, 'the graph');
+            await row(page, 'ball').click();
+            await page.locator('[data-card="ball"][data-selected]').waitFor();
+            await check(page, 'a card that is selected');
+            await page.getByRole('button', { name: 'Fold pair' }).click();
+            await page.locator('[data-card="ring"]').waitFor({ state: 'detached' });
+            await page.getByRole('button', { name: 'Reduce' }).click();
+            await page.getByRole('button', { name: 'Reduce' }).click();
+            await page.getByRole('button', { name: 'Reduce' }).click();
+            await page.locator('.graph-flow[data-far="2"]').waitFor();
+            await check(page, 'cards from afar');
+            await closePage(page);
+        });
+
         test('palettes, keys, statistics, menus', async () => {
             const page = await stage.page({ scene, theme });
             await settled(page);
@@ -239,6 +258,22 @@ describe('sizes', () => {
             await page.keyboard.press('Control+Shift+S');
             await page.getByRole('dialog').getByRole('button', { name: 'Download' }).waitFor();
             assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            await closePage(page);
+        });
+    }
+
+    for (const [width, height] of [
+        [1200, 800],
+        [900, 700],
+        [320, 640],
+    ]) {
+        test(`graph, ${width} × ${height}`, async () => {
+            const page = await stage.page({ scene, width, height });
+            await page.keyboard.press('Alt+1');
+            await page.locator('.graph-head').waitFor();
+            await page.locator('[data-card="root"]').waitFor();
+            const head = await page.locator('.graph-head').boundingBox();
+            assert.ok(head.x >= 0 && head.x + head.width <= width);
             await closePage(page);
         });
     }

@@ -32,7 +32,9 @@ function tools({ SLACK, LAP }) {
             const words = (one.getAttribute('aria-label') ?? one.textContent ?? '').trim().slice(0, 48);
             return `${one.tagName.toLowerCase()}${[...one.classList].map((name) => `.${name}`).join('')} “${words}”`;
         },
+        /* What lies in a view that is moved by hand may be out of sight. */
         isSeen: (one) =>
+            !one.closest('.react-flow__viewport') &&
             !one.matches('[role=separator], [aria-hidden=true] *, input[aria-hidden=true]') &&
             !one.closest('.unseen, [data-base-ui-focus-guard]') &&
             one.checkVisibility({ opacityProperty: true, visibilityProperty: true }),

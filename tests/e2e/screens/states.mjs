@@ -475,6 +475,41 @@ const CODE = [
     }],
 ];
 
+async function graph(page) {
+    await page.keyboard.press('Alt+1');
+    await page.locator('[data-card]').first().waitFor();
+}
+
+/** Takes hold of what a locator finds first, and keeps it. */
+async function hold(page, found, dx, dy) {
+    const box = await found.first().boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + dx, box.y + dy, { steps: 4 });
+    await page.locator('.graph-say').waitFor();
+}
+
+const GRAPH = [
+    ['graph', graph],
+    ['graph, a node', async (page) => {
+        await graph(page);
+        await page.keyboard.press('F6');
+        await page.locator('[data-card]').first().locator('header').click();
+    }],
+    ['graph, a wire held', async (page) => {
+        await graph(page);
+        await hold(page, page.locator('[data-grab="output"]'), -40, 60);
+    }],
+    ['graph, all of it', async (page) => {
+        await graph(page);
+        await page.getByRole('button', { name: 'Show the whole graph' }).click();
+    }],
+    ['graph and code', async (page) => {
+        await openCode(page);
+        await graph(page);
+    }, { scene: CODED }],
+];
+
 const example = (name) => path.join(examples, `${name}.json`);
 
 const OTHERS = [
@@ -503,5 +538,6 @@ export const STATES = [
     ...rows('dialogs', DIALOGS, { scene: STUDIO }),
     ...rows('changes', CHANGES, { scene: STUDIO, alone: true, tampered: true }),
     ...rows('code', CODE, { scene: CODED, alone: true, tampered: true }),
+    ...rows('graph', GRAPH, { scene: STUDIO, alone: true }),
     ...rows('others', OTHERS, { alone: true }),
 ];

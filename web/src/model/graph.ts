@@ -29,6 +29,7 @@ const BELOW: readonly ParamType[] = ["vec2", "vec3", "color", "enum", "model", "
 
 export interface Card {
     readonly id: string;
+    readonly parent: string | null;
     /* The root of the model that it is an instance of; null: of none. */
     readonly model: string | null;
     readonly beside: readonly Param[];
@@ -55,7 +56,13 @@ export interface Graph {
     readonly wires: readonly Wire[];
     /* The middle of each card's right side; that of the scene's root is (0, 0). */
     readonly spots: ReadonlyMap<string, Point>;
-    /* What it was derived from. */
+    /* The scene's result. */
+    readonly root: string;
+}
+
+/* A graph and what it was derived from. */
+export interface Derived {
+    readonly graph: Graph;
     readonly document: SceneDocument;
     readonly schema: Schema;
 }
@@ -85,6 +92,7 @@ function cardOf(schema: Schema, document: SceneDocument, node: SceneNode, folded
     const ports = (inputs.length + (open ? 1 : 0)) * CARD.input;
     return {
         id: node.id,
+        parent: node.parent,
         model: modelNamed(schema, document, node)?.root ?? null,
         beside,
         below,
@@ -102,6 +110,7 @@ function kept(old: Card | undefined, now: Card): Card {
     const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
         a.length === b.length && a.every((one, i) => one === b[i]);
     return old &&
+        old.parent === now.parent &&
         old.model === now.model &&
         old.hidden === now.hidden &&
         old.open === now.open &&
@@ -149,22 +158,18 @@ function spotsOf(document: SceneDocument, cards: Graph["cards"]): Map<string, Po
     return spots;
 }
 
+type Source = Pick<Derived, "schema" | "document">;
+
 /* Can a card of before be taken as it is? */
-function untouched(before: Graph, { schema, document }: Source, node: SceneNode): boolean {
+function untouched(before: Derived, { schema, document }: Source, node: SceneNode): boolean {
     return (
         before.schema === schema &&
         before.document.nodes.get(node.id) === node &&
-        before.document.primitives === document.primitives &&
-        before.document.models === document.models
+        before.document.primitives === document.primitives
     );
 }
 
-interface Source {
-    readonly schema: Schema;
-    readonly document: SceneDocument;
-}
-
-function cardsOf(source: Source, collapsed: ReadonlySet<string>, before: Graph | null) {
+function cardsOf(source: Source, collapsed: ReadonlySet<string>, before: Derived | null) {
     const { schema, document } = source;
     const cards = new Map<string, Card>();
     const stack = [document.root, ...document.models.map(({ root }) => root)].reverse();
@@ -172,7 +177,7 @@ function cardsOf(source: Source, collapsed: ReadonlySet<string>, before: Graph |
         const node = document.nodes.get(id);
         if (node) {
             const folded = collapsed.has(id) && node.children.length > 0;
-            const old = before?.cards.get(id);
+            const old = before?.graph.cards.get(id);
             const unfolded = before !== null && !folded && old?.hidden === 0;
             const same = unfolded && untouched(before, source, node);
             const card = same ? old : kept(old, cardOf(schema, document, node, folded));
@@ -197,33 +202,33 @@ function equal(a: Graph["cards"], b: Graph["cards"]): boolean {
     return true;
 }
 
-/* `before`: what it was, of which all is kept that is still so: while only numbers change, cards,
- * wires and spots are the same objects. */
-export function graphOf(
+/* `before`: what it was, of which all is kept that is still so: the graph is the same object while
+ * only numbers change. */
+export function deriveGraph(
     schema: Schema,
     document: SceneDocument,
     collapsed: ReadonlySet<string>,
-    before: Graph | null = null,
-): Graph {
+    before: Derived | null = null,
+): Derived {
     const cards = cardsOf({ schema, document }, collapsed, before);
-    if (before && equal(before.cards, cards)) {
-        return { ...before, schema, document };
-    }
-    const spots = spotsOf(document, cards);
-    return { cards, wires: wiresOf(cards), spots, document, schema };
+    const { root } = document;
+    const graph =
+        before && before.graph.root === root && equal(before.graph.cards, cards)
+            ? before.graph
+            : { cards, wires: wiresOf(cards), spots: spotsOf(document, cards), root };
+    return { graph, document, schema };
 }
 
 /* The card that an arrow leads to from another: inputs are left, the result is right. */
-export function neighbour(graph: Graph, id: string, key: string): string | null {
-    const node = graph.document.nodes.get(id);
-    const card = graph.cards.get(id);
-    const siblings = graph.cards.get(node?.parent ?? "")?.inputs ?? NONE;
+export function neighbour({ cards }: Graph, id: string, key: string): string | null {
+    const card = cards.get(id);
+    const siblings = cards.get(card?.parent ?? "")?.inputs ?? NONE;
     const index = siblings.indexOf(id);
     switch (key) {
         case "ArrowLeft":
             return card?.inputs[Math.floor((card.inputs.length - 1) / 2)] ?? null;
         case "ArrowRight":
-            return node?.parent ?? null;
+            return card?.parent ?? null;
         case "ArrowUp":
             return siblings[index - 1] ?? null;
         case "ArrowDown":

@@ -44,24 +44,8 @@ export function connect(
         : moveNodes(document, moved, { into, before: others[index] ?? null });
 }
 
-/* Can a node take the place of `child` and hold it? */
-export function fitsBetween(
-    schema: Schema,
-    document: SceneDocument,
-    id: string,
-    child: string,
-): boolean {
-    const parent = document.nodes.get(child)?.parent ?? null;
-    return (
-        parent !== null &&
-        document.nodes.get(id)?.parent !== null &&
-        !isInside(document, child, id) &&
-        fits(schema, document, [id], parent) &&
-        fits(schema, document, [child], id)
-    );
-}
-
-/* Puts a node between `child` and its parent; both stay where they are in the world. */
+/* Puts a node between `child` and its parent; both stay where they are in the world. Null where it
+ * does not fit there. */
 export function insertBetween(
     schema: Schema,
     document: SceneDocument,
@@ -69,17 +53,21 @@ export function insertBetween(
     child: string,
 ): Edit | null {
     const node = document.nodes.get(id);
-    const parent = document.nodes.get(child)?.parent ?? null;
-    const put = parent === null ? null : moveNodes(document, [id], { into: parent, before: child });
-    const then = put && apply(document, put.ops, schema);
-    if (!node || !put || !then?.ok) {
+    const into = document.nodes.get(child)?.parent ?? null;
+    const row = nodeType(schema, node?.type ?? "");
+    if (!node || into === null || row === null || !isContainer(row)) {
+        return null;
+    }
+    const put = moveNodes(document, [id], { into, before: child }).ops;
+    const then = apply(document, put, schema);
+    if (put.length === 0 || !then.ok) {
         return null;
     }
     const held = [
         ...keepPlace(then.document, child, id),
         moveTo(child, { into: id, before: null }),
     ];
-    return { ops: [...put.ops, ...held], label: `insert ${nodeLabel(node)}`, select: [id] };
+    return { ops: [...put, ...held], label: `insert ${nodeLabel(node)}`, select: [id] };
 }
 
 /* --- the shelf --- */

@@ -3,9 +3,8 @@
  * let go. Pure; the edits are those of moves.ts. */
 import { nodeLabel, type SceneDocument } from "./document.ts";
 import type { Edit } from "./edits.ts";
-import { connect, fits, fitsBetween, insertBetween, park, parkable } from "./moves.ts";
-import { isContainer } from "./placing.ts";
-import { nodeType, type Schema } from "./schema.ts";
+import { connect, fits, insertBetween, park, parkable } from "./moves.ts";
+import type { Schema } from "./schema.ts";
 
 /* `cards`: by their heads. `output`: a new end of their wires, drawn from a card's result. `loose`:
  * their wires, pulled off an input. `free`: a wire drawn from the free input of `into`. */
@@ -62,17 +61,12 @@ function toCard(scene: Scene, ids: readonly string[], into: string): Outcome {
 /* What can hold others comes between the ends of a wire; anything else does not fit there. */
 function toWire({ schema, document }: Scene, ids: readonly string[], child: string): Outcome {
     const name = labelOf(document, child);
-    const [id] = ids;
-    const row = nodeType(schema, document.nodes.get(id ?? "")?.type ?? "");
+    const [id, ...others] = ids;
     if (ids.includes(child)) {
         return { kind: "back", name };
     }
-    if (id === undefined || ids.length > 1 || row === null || !isContainer(row)) {
-        return { kind: "not", name };
-    }
-    const edit = fitsBetween(schema, document, id, child)
-        ? insertBetween(schema, document, id, child)
-        : null;
+    const alone = id !== undefined && others.length === 0;
+    const edit = alone ? insertBetween(schema, document, id, child) : null;
     return edit ? { kind: "between", edit, name } : { kind: "not", name };
 }
 

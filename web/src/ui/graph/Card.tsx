@@ -38,6 +38,10 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
     const hovered = useView((view) => view.hovered === id);
     useFocus(element, id);
     const acts = useActs(card);
+    const tabIndex = useTabIndex(id);
+    if (type === "") {
+        return null /* removed; the graph follows */;
+    }
     return (
         // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look of its own
         <div
@@ -46,7 +50,7 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
             aria-label={label}
             aria-describedby="graph-help"
             aria-current={selected || undefined}
-            tabIndex={useTabIndex(id)}
+            tabIndex={tabIndex}
             className="graph-card"
             data-grab="card"
             data-card={id}
@@ -57,14 +61,14 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
             {...acts}
         >
             <header className="graph-card-head">
-                <Glyph type={type} group={group} size={far ? 26 : 16} />
+                <Glyph type={type} group={group} size={far > 1 ? 26 : 16} />
                 <span className="graph-card-name ellipsis">{name}</span>
                 <Problem id={id} />
-                {!far && <CardButtons card={card} name={name} />}
+                {far === 0 && <CardButtons card={card} name={name} />}
             </header>
             <div className="graph-card-body">
                 <TypePicture type={type} group={group} size={34} />
-                {!far && <Values card={card} name={name} />}
+                {far === 0 && <Values card={card} name={name} />}
             </div>
             <Ports card={card} name={name} />
         </div>
@@ -101,7 +105,7 @@ function useLabel({ id }: Card, name: string, type: string): string {
 function useTabIndex(id: string): 0 | -1 {
     const { graph } = useShared();
     const active = useView((view) => view.selection.at(-1) ?? null);
-    return (active === null ? graph.document.root === id : active === id) ? 0 : -1;
+    return (active === null ? graph.root === id : active === id) ? 0 : -1;
 }
 
 /* The focus goes along with the selection, unless it is somewhere else. */

@@ -4,8 +4,8 @@
  * cards and wires is in reach.ts. */
 import { Background, ReactFlow, ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import { Maximize, Minus, Plus, X } from "lucide-react";
-import { useMemo, useRef, useState } from "react";
-import { CARD, type Graph, graphOf } from "../../model/graph.ts";
+import { memo, useMemo, useRef, useState } from "react";
+import { CARD, type Derived, deriveGraph, type Graph } from "../../model/graph.ts";
 import { toggleGraph } from "../../model/view.ts";
 import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -14,23 +14,21 @@ import { IconButton } from "../widgets/Button.tsx";
 import { type CardNode, GraphCard } from "./Card.tsx";
 import { GraphContext } from "./context.ts";
 import { Reach } from "./Reach.tsx";
-import { FARTHEST, NEAREST, useFraming } from "./sight.ts";
+import { FARTHEST, glide, NEAREST, useFraming, useZoom } from "./sight.ts";
 import { Wires } from "./Wires.tsx";
 import "@xyflow/react/dist/base.css";
 import "./graph.css";
 
 const TYPES = { card: GraphCard };
 
-/* Cards, wires and spots are the same objects while only numbers change. */
+/* The same one while only numbers change. */
 function useGraph(): Graph | null {
-    const schema = useDocument((state) => state.schema);
-    const document = useDocument((state) => state.document);
     const collapsed = useView((view) => view.collapsed);
-    const before = useRef<Graph | null>(null);
-    return useMemo(() => {
-        before.current = document && graphOf(schema, document, collapsed, before.current);
-        return before.current;
-    }, [schema, document, collapsed]);
+    const before = useRef<Derived | null>(null);
+    return useDocument(({ schema, document }) => {
+        before.current = document && deriveGraph(schema, document, collapsed, before.current);
+        return before.current?.graph ?? null;
+    });
 }
 
 export default function GraphPanel() {
@@ -46,7 +44,7 @@ export default function GraphPanel() {
         >
             {graph && (
                 <ReactFlowProvider>
-                    <Head count={graph.document.nodes.size} />
+                    <Head graph={graph} />
                     <Flow graph={graph} />
                 </ReactFlowProvider>
             )}
@@ -54,34 +52,29 @@ export default function GraphPanel() {
     );
 }
 
-const QUICK = { duration: 150 };
+/* One press of a button. */
+const STEP = 1.3;
 
-function Head({ count }: { count: number }) {
+const Head = memo(function Head({ graph }: { graph: Graph }) {
     const { stores } = useEditor();
+    const count = useDocument(({ document }) => document?.nodes.size ?? 0);
     const flow = useReactFlow();
+    const zoom = useZoom(graph);
     return (
         <header className="graph-head">
             <h2>{t("graph.title")}</h2>
             <span className="section-count">{t("graph.count", { count })}</span>
             <span className="bar-space" />
-            <IconButton
-                title={t("graph.farther")}
-                data-size="s"
-                onClick={() => void flow.zoomOut(QUICK)}
-            >
+            <IconButton title={t("graph.farther")} data-size="s" onClick={() => zoom(1 / STEP)}>
                 <Minus size={15} />
             </IconButton>
-            <IconButton
-                title={t("graph.nearer")}
-                data-size="s"
-                onClick={() => void flow.zoomIn(QUICK)}
-            >
+            <IconButton title={t("graph.nearer")} data-size="s" onClick={() => zoom(STEP)}>
                 <Plus size={15} />
             </IconButton>
             <IconButton
                 title={t("graph.fit")}
                 data-size="s"
-                onClick={() => void flow.fitView({ ...QUICK, padding: 0.08, maxZoom: NEAREST })}
+                onClick={() => void flow.fitView({ duration: glide(), padding: 0.08, maxZoom: 1 })}
             >
                 <Maximize size={15} />
             </IconButton>
@@ -94,7 +87,7 @@ function Head({ count }: { count: number }) {
             </IconButton>
         </header>
     );
-}
+});
 
 /* React Flow lets pointers through what it does not handle itself. */
 const REACHED = { pointerEvents: "all" } as const;
@@ -121,7 +114,7 @@ function useNodes({ cards, spots }: Graph): CardNode[] {
     );
 }
 
-function Flow({ graph }: { graph: Graph }) {
+const Flow = memo(function Flow({ graph }: { graph: Graph }) {
     const { view } = useEditor().stores;
     const [menu, setMenu] = useState<{ x: number; y: number } | null>(null);
     const nodes = useNodes(graph);
@@ -133,7 +126,7 @@ function Flow({ graph }: { graph: Graph }) {
             <p className="unseen" id="graph-help">
                 {t("graph.help")}
             </p>
-            <Reach graph={graph}>
+            <Reach>
                 <ReactFlow<CardNode>
                     nodes={nodes}
                     nodeTypes={TYPES}
@@ -161,4 +154,4 @@ function Flow({ graph }: { graph: Graph }) {
             <NodeMenu at={menu} onClose={() => setMenu(null)} />
         </GraphContext>
     );
-}
+});

@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* What of the graph is in sight: at first all of it if that can be read, else its result; then
  * whatever is selected elsewhere. */
-import { type Rect, useReactFlow, useStore } from "@xyflow/react";
+import { type Rect, useReactFlow, useStore, type Viewport } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import { pathTo } from "../../model/document.ts";
 import { CARD, type Graph } from "../../model/graph.ts";
 import { unfoldTo } from "../../model/view.ts";
 import { useEditor, useView } from "../state.ts";
 
-/* Zooms: the least and the most, the least at which cards show their values, and at which they can
- * still be read. */
-export const FARTHEST = 0.08;
+/* Zooms: the least and the most. */
+export const FARTHEST = 0.03;
 export const NEAREST = 1.25;
-export const NEAR = 0.5;
-const READABLE = 0.62;
+/* The least at which a row of 26 px is large enough for a finger, 24 px; below it cards show their
+ * picture and name alone. The least at which that can be read. */
+const NEAR = 24 / 26;
+const READABLE = 0.55;
 const MARGIN = 24;
 const GLIDE_MS = 150;
 
-export const useFar = (): boolean => useStore(({ transform }) => transform[2] < NEAR);
+/* How far away the cards are: 0 with their values, 1, 2. */
+export const useFar = (): number =>
+    useStore(({ transform: [, , zoom] }) => (zoom < READABLE ? 2 : zoom < NEAR ? 1 : 0));
 
 function boundsOf({ cards, spots }: Graph): Rect {
     let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
@@ -46,14 +49,44 @@ export function useFraming(graph: Graph): () => void {
             void flow.setViewport({ x, y: height / 2 - (all.y + all.height / 2) * zoom, zoom });
         } else {
             /* The result stands at (0, 0). */
-            void flow.setViewport({ x: width - 2 * MARGIN, y: height / 2, zoom: READABLE });
+            void flow.setViewport({ x: width - 2 * MARGIN, y: height / 2, zoom: 1 });
         }
     };
 }
 
+/* How far the view has to move so that all of a card, else its start, is in sight. */
+function wayTo(card: Rect, { x, y, zoom }: Viewport, room: Size): { dx: number; dy: number } {
+    const by = (start: number, size: number, space: number): number => {
+        const over = start + size + MARGIN - space;
+        return start < MARGIN || size > space ? MARGIN - start : Math.max(0, over) * -1;
+    };
+    return {
+        dx: by(card.x * zoom + x, card.width * zoom, room.width),
+        dy: by(card.y * zoom + y, card.height * zoom, room.height),
+    };
+}
+
+interface Size {
+    readonly width: number;
+    readonly height: number;
+}
+
+function rectOf(graph: Graph, id: string | null): Rect | null {
+    const card = graph.cards.get(id ?? "");
+    const spot = graph.spots.get(id ?? "");
+    return card && spot
+        ? {
+              x: spot.x - CARD.width,
+              y: spot.y - card.height / 2,
+              width: CARD.width,
+              height: card.height,
+          }
+        : null;
+}
+
 /* Brings the card of a node that was selected elsewhere in sight, by the least way. */
 function useRevealed(graph: Graph, width: number, height: number): void {
-    const { view } = useEditor().stores;
+    const { view, document: scene } = useEditor().stores;
     const flow = useReactFlow();
     const active = useView((state) => state.selection.at(-1) ?? null);
     const shown = useRef<string | null>(null);
@@ -61,28 +94,45 @@ function useRevealed(graph: Graph, width: number, height: number): void {
         if (active === null || active === shown.current || width === 0) {
             return;
         }
-        if (!graph.cards.has(active)) {
-            const above = pathTo(graph.document, active).map(({ id }) => id);
+        const { document } = scene.getState();
+        if (document !== null && !graph.cards.has(active)) {
+            const above = pathTo(document, active).map(({ id }) => id);
             view.setState((state) => unfoldTo(state, above.slice(0, -1)));
             return;
         }
         shown.current = active;
-        const card = graph.cards.get(active);
-        const spot = graph.spots.get(active);
-        if (!card || !spot) {
-            return;
-        }
-        const { x, y, zoom } = flow.getViewport();
-        const by = (start: number, size: number, room: number): number => {
-            const end = start + size;
-            const over = end + MARGIN - room;
-            return start < MARGIN || size > room ? MARGIN - start : over > 0 ? -over : 0;
-        };
-        const dx = by((spot.x - CARD.width) * zoom + x, CARD.width * zoom, width);
-        const dy = by((spot.y - card.height / 2) * zoom + y, card.height * zoom, height);
+        const card = rectOf(graph, active);
+        const old = flow.getViewport();
+        const { dx, dy } = card ? wayTo(card, old, { width, height }) : { dx: 0, dy: 0 };
         if (dx !== 0 || dy !== 0) {
-            const duration = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : GLIDE_MS;
-            void flow.setViewport({ x: x + dx, y: y + dy, zoom }, { duration });
+            const next = { ...old, x: old.x + dx, y: old.y + dy };
+            void flow.setViewport(next, { duration: glide() });
         }
-    }, [active, graph, width, height, flow, view]);
+    }, [active, graph, width, height, flow, view, scene]);
+}
+
+export const glide = (): number =>
+    matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : GLIDE_MS;
+
+/* Answers what enlarges the graph: around the active card, else around the middle of the view. */
+export function useZoom(graph: Graph): (factor: number) => void {
+    const flow = useReactFlow();
+    const width = useStore((state) => state.width);
+    const height = useStore((state) => state.height);
+    const { view } = useEditor().stores;
+    return (factor) => {
+        const old = flow.getViewport();
+        const card = rectOf(graph, view.getState().selection.at(-1) ?? null);
+        const zoom = Math.min(NEAREST, Math.max(FARTHEST, old.zoom * factor));
+        const [cx, cy] = card
+            ? [card.x + card.width / 2, card.y + card.height / 2]
+            : [(width / 2 - old.x) / old.zoom, (height / 2 - old.y) / old.zoom];
+        const next = {
+            x: old.x + cx * (old.zoom - zoom),
+            y: old.y + cy * (old.zoom - zoom),
+            zoom,
+        };
+        const { dx, dy } = card ? wayTo(card, next, { width, height }) : { dx: 0, dy: 0 };
+        void flow.setViewport({ ...next, x: next.x + dx, y: next.y + dy }, { duration: glide() });
+    };
 }
