@@ -147,6 +147,18 @@ for (const theme of ['dark', 'light']) {
             await closePage(page);
         });
 
+        test('gallery of materials', async () => {
+            const page = await stage.page({ scene, theme });
+            await settled(page);
+            await row(page, 'ball').click();
+            await page.locator('[data-param=material]').getByRole('button', { name: 'New material' }).click();
+            await page.locator('.gallery-tile').first().waitFor();
+            /* What floats may lie over parts of controls. */
+            await check(page, 'gallery', ['region', 'target-size']);
+            await page.keyboard.press('Escape');
+            await closePage(page);
+        });
+
         test('graph', async () => {
             const page = await stage.page({ scene: await stage.scene(), theme, height: 1000 });
             await settled(page);
@@ -267,6 +279,20 @@ describe('sizes', () => {
         [900, 700],
         [320, 640],
     ]) {
+        test(`gallery of materials, ${width} × ${height}`, async () => {
+            const page = await stage.page({ scene, width, height });
+            const looks = page.getByRole('tab', { name: 'Looks' });
+            if ((await looks.count()) > 0) {
+                await looks.click();
+            }
+            await page.getByRole('button', { name: 'Add a material' }).click();
+            await page.locator('.gallery-tile').first().waitFor();
+            assert.deepEqual(await spill(page), { outside: [], scrolls: false });
+            const box = await page.getByTestId('gallery').boundingBox();
+            assert.ok(box.x >= 0 && box.x + box.width <= width && box.y >= 0 && box.y + box.height <= height);
+            await closePage(page);
+        });
+
         test(`graph, ${width} × ${height}`, async () => {
             const page = await stage.page({ scene, width, height });
             await page.keyboard.press('Alt+1');

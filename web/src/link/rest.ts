@@ -106,6 +106,8 @@ export interface Rest {
     fetchFile(url: string, signal?: AbortSignal): Promise<Blob>;
     /* The same as an object URL, which the caller revokes. */
     fetchImage(url: string): Promise<string>;
+    /* A picture of a document that is stored nowhere; the object URL is revoked by the caller. */
+    renderImage(document: Json, wish: PictureWish, signal: AbortSignal): Promise<string>;
     readonly token: string | null;
 }
 
@@ -254,6 +256,11 @@ export function createRest(base: string, token: string | null): Rest {
         exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
         referenceImageUrl: (type) => `${base}/v1/reference/${segment(type)}.jpg`,
         fetchFile,
+        renderImage: async (scene, { outputs: _outputs, ...wish }, signal) => {
+            const body = JSON.stringify({ scene, ...wish });
+            const response = await request("/v1/render", { method: "POST", body, signal });
+            return URL.createObjectURL(await response.blob());
+        },
         fetchImage: async (url) => URL.createObjectURL(await fetchFile(url)),
     };
 }

@@ -48,7 +48,7 @@ function newParts(
     name: string,
     selection: readonly string[],
     way: Way,
-    preset: Preset | null,
+    preset: JsonObject | null,
 ): { value: JsonObject; seen: Operation[]; select: readonly string[] } {
     const active = selection.at(-1);
     switch (list) {
@@ -86,10 +86,22 @@ function newParts(
         }
         default: {
             const plain = { shader: schema.shaders[0]?.type ?? "", properties: {} };
-            const value = preset ? { shader: preset.shader, properties: preset.properties } : plain;
-            return { value, seen: [], select: selection };
+            return { value: preset ?? plain, seen: [], select: selection };
         }
     }
+}
+
+/* What a preset consists of: a material, and its shader where the document has none like it. */
+function presetParts(document: SceneDocument, { shader, properties, code }: Preset) {
+    const old = document.shaders.find(({ values }) => code && values.code === code.code);
+    if (!code || old) {
+        return { ops: [], value: { shader: old?.name ?? shader, properties } };
+    }
+    const name = plainName(document, "shaders", shader);
+    return {
+        ops: [insertResource("shaders", name, code, null)],
+        value: { shader: name, properties },
+    };
 }
 
 /* A new one. `use`: the place that is to name it. Else a distance function and a model come with
@@ -106,9 +118,18 @@ export function newResource(
     const name = preset
         ? plainName(document, list, preset.name)
         : freeName(document, list, LISTS[list].one);
-    const { value, seen, select } = newParts(document, schema, list, name, selection, way, preset);
+    const made = preset && presetParts(document, preset);
+    const { value, seen, select } = newParts(
+        document,
+        schema,
+        list,
+        name,
+        selection,
+        way,
+        made?.value ?? null,
+    );
     const used: Operation[] = use === null ? seen : [{ op: "set", at: use, value: name }];
-    const ops = [insertResource(list, name, value, null), ...used];
+    const ops = [...(made?.ops ?? []), insertResource(list, name, value, null), ...used];
     return { ops, label: `add ${name}`, select: use === null ? select : selection, name };
 }
 

@@ -6,6 +6,7 @@ import { MOTIONS, type Motion } from "./grip.ts";
 import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
+import type { Preset } from "./presets.ts";
 
 export type Theme = "auto" | "light" | "dark";
 export type Quality = "auto" | "smooth" | "sharp";
@@ -83,6 +84,12 @@ export type Subject =
     | { readonly kind: "resource"; readonly list: ListName; readonly name: string }
     | { readonly kind: RecordName };
 
+/* A preset at the place that would name the material. */
+export interface Trial {
+    readonly preset: Preset;
+    readonly use: string;
+}
+
 export interface View {
     /* Selected node ids, the active one last. */
     readonly selection: readonly string[];
@@ -91,6 +98,8 @@ export interface View {
     readonly collapsed: ReadonlySet<string>;
     /* Ids of nodes that this page shows alone; empty: it shows all. */
     readonly isolated: readonly string[];
+    /* A material that is looked at on a node, without an edit. */
+    readonly trial: Trial | null;
     /* The node whose name is being typed. */
     readonly renaming: string | null;
     readonly popup: Popup;
@@ -119,6 +128,7 @@ export const INITIAL_VIEW: View = {
     hovered: null,
     collapsed: new Set(),
     isolated: [],
+    trial: null,
     renaming: null,
     popup: null,
     into: null,

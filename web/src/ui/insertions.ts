@@ -129,7 +129,7 @@ export function addResource(
             const code = codePlace(schema, list, name);
             if (list === "models" && use === null) {
                 editor.stores.view.setState({ selection: select });
-            } else if (use === null || code !== null || list === "materials") {
+            } else if (use === null || code !== null) {
                 editor.show({ kind: "resource", list, name });
             }
             if (code !== null) {

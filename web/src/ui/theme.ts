@@ -14,10 +14,14 @@ export function useTheme(): void {
     }, [theme]);
 }
 
-/* Whether a media query holds now. */
+/* From here on the tree and the inspector have a column each; below the second one, a sheet. */
+export const WIDE = "(min-width: 1100px)";
+export const NARROW = "(max-width: 719px)";
+
 /* Is a finger what points here first? */
 export const TOUCH = "(pointer: coarse)";
 
+/* Whether a media query holds now. */
 export function useMedia(query: string): boolean {
     return useSyncExternalStore(
         (onChange) => {

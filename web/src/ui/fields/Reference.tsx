@@ -8,7 +8,7 @@ import { LISTS, nodeOfPlace } from "../../model/places.ts";
 import type { Param } from "../../model/schema.ts";
 import { listNamedBy, modelsFor, type NamedList, usersOf } from "../../model/usage.ts";
 import { addResource, makeMaterialUnique } from "../insertions.ts";
-import { NewMaterial } from "../scene/NewMaterial.tsx";
+import { NewMaterial } from "../materials/NewMaterial.tsx";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";

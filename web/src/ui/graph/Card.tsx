@@ -11,6 +11,7 @@ import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
 import { select } from "../../model/view.ts";
 import { Form } from "../form.tsx";
+import { carriedBy, carriesMaterial, dropMaterial } from "../materials/drag.ts";
 import { typeTitle } from "../names.ts";
 import { TypePicture } from "../palettes/TypePicture.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
@@ -120,7 +121,8 @@ function useFocus(element: { readonly current: HTMLElement | null }, id: string)
 
 /* What pointers and keys do with the card itself, not with what is on it. */
 function useActs({ id, hidden, inputs }: Card) {
-    const { view } = useEditor().stores;
+    const editor = useEditor();
+    const { view } = editor.stores;
     const { graph, openMenu } = useShared();
     const pick = (mode: "replace" | "toggle"): void =>
         view.setState(({ selection }) => ({
@@ -144,6 +146,18 @@ function useActs({ id, hidden, inputs }: Card) {
             event.preventDefault();
             keep();
             openMenu({ x: event.clientX, y: event.clientY });
+        },
+        onDragOver: (event: React.DragEvent): void => {
+            if (carriesMaterial(event)) {
+                event.preventDefault();
+                view.setState({ hovered: id });
+            }
+        },
+        onDrop: (event: React.DragEvent): void => {
+            if (carriesMaterial(event)) {
+                event.preventDefault();
+                dropMaterial(editor, carriedBy(event.dataTransfer), id);
+            }
         },
         onPointerEnter: (): void => view.setState({ hovered: id }),
         onPointerLeave: (): void => view.setState({ hovered: null }),

@@ -5,7 +5,7 @@ import { useMemo } from "react";
 import { functionOf, modelOf, nodeLabel, nodeParams, shownParams } from "../../model/document.ts";
 import { rename } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
-import { findParam, nodeType, type Param } from "../../model/schema.ts";
+import { nodeType, type Param } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
 import { TextField } from "../fields/Text.tsx";
 import { Form } from "../form.tsx";
@@ -19,6 +19,7 @@ import { Glyph } from "../widgets/Glyph.tsx";
 import { type Option, Select } from "../widgets/Select.tsx";
 import { Nothing } from "./Inspector.tsx";
 import { Section } from "./Section.tsx";
+import { Surface } from "./Surface.tsx";
 import "./inspector.css";
 
 const ignore = (): void => undefined;
@@ -32,12 +33,7 @@ export default function NodeInspector({ id }: { id: string }) {
     const group = useDocument((state) => nodeType(state.schema, type ?? "")?.group ?? "structure");
     const params = useParams(id);
     const transform = useDocument((state) => state.schema.transform);
-    const common = useDocument((state) => state.schema.node);
     const selected = useView((view) => view.selection.length);
-    const surface = useMemo(() => {
-        const material = findParam(common, "material");
-        return material ? [material] : [];
-    }, [common]);
     if (type === null) {
         return <Nothing />;
     }
@@ -57,11 +53,7 @@ export default function NodeInspector({ id }: { id: string }) {
                     <Form params={transform} base={`/nodes/${id}/transform`} owner={label} />
                 </div>
             </Section>
-            <Section title={t("inspector.surface")}>
-                <div className="section-body">
-                    <Form params={surface} base={`/nodes/${id}`} owner={label} />
-                </div>
-            </Section>
+            <Surface id={id} owner={label} />
         </div>
     );
 }

@@ -12,7 +12,7 @@ import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { useMedia } from "../theme.ts";
+import { NARROW, useMedia, WIDE } from "../theme.ts";
 import { View } from "../view/View.tsx";
 import { Bar } from "./Bar.tsx";
 import { Region } from "./Region.tsx";
@@ -20,10 +20,6 @@ import { Sheet } from "./Sheet.tsx";
 import { Status } from "./Status.tsx";
 import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
-
-/* From here on the tree and the inspector have a column each; below the second one, a sheet. */
-export const WIDE = "(min-width: 1100px)";
-export const NARROW = "(max-width: 719px)";
 
 export function EditorPage() {
     const hidden = useView((view) => view.chromeHidden);

@@ -21,11 +21,13 @@ export interface Face {
     content: ReactNode;
     tip?: string;
     disabled?: boolean;
+    /* It can be dragged elsewhere. */
+    onDragStart?: (event: React.DragEvent) => void;
     /* What tests find it by. */
     data: Readonly<Record<`data-${string}`, string>>;
 }
 
-interface Props<T> {
+export interface PaletteProps<T> {
     title: string;
     placeholder: string;
     /* Laid out in columns; else one below the other. */
@@ -34,9 +36,11 @@ interface Props<T> {
     faceOf: (item: T) => Face;
     footOf?: (item: T) => ReactNode;
     onTake: (item: T) => void;
+    /* The one that Enter would take. */
+    onActive?: (item: T | null) => void;
 }
 
-interface DialogProps<T> extends Props<T> {
+interface DialogProps<T> extends PaletteProps<T> {
     open: boolean;
     onClose: () => void;
 }
@@ -53,18 +57,19 @@ export function Palette<T>({ open, onClose, ...props }: DialogProps<T>) {
             closeLabel={t("close")}
             onClose={onClose}
         >
-            <Body {...props} field={field} onClose={onClose} />
+            <PaletteBody {...props} field={field} onClose={onClose} />
         </Dialog>
     );
 }
 
-interface BodyProps<T> extends Props<T> {
+interface BodyProps<T> extends PaletteProps<T> {
     field: React.RefObject<HTMLInputElement | null>;
     onClose: () => void;
 }
 
-function Body<T>(props: BodyProps<T>) {
-    const { field, title, placeholder, grid, find, faceOf, footOf, onTake, onClose } = props;
+export function PaletteBody<T>(props: BodyProps<T>) {
+    const { field, title, placeholder, grid, find, faceOf, footOf, onTake, onActive, onClose } =
+        props;
     const [query, setQuery] = useState("");
     const groups = useMemo(() => find(query), [find, query]);
     const all = groups.flatMap((group) => group.items);
@@ -97,6 +102,7 @@ function Body<T>(props: BodyProps<T>) {
         }
     }, [early]);
     const active = all[box.active];
+    useEffect(() => onActive?.(active ?? null), [active, onActive]);
     let index = -1;
     return (
         <>
@@ -144,6 +150,8 @@ function Body<T>(props: BodyProps<T>) {
                                             aria-disabled={face.disabled || undefined}
                                             title={face.tip}
                                             {...face.data}
+                                            draggable={face.onDragStart !== undefined}
+                                            onDragStart={face.onDragStart}
                                             onPointerMove={() => box.hover(here)}
                                             onClick={() => take(here)}
                                         >

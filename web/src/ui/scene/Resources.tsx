@@ -26,12 +26,13 @@ import { findParam } from "../../model/schema.ts";
 import { usersOf } from "../../model/usage.ts";
 import { addResource, addTyped } from "../insertions.ts";
 import { Section } from "../inspector/Section.tsx";
+import { dragMaterial } from "../materials/drag.ts";
+import { NewMaterial } from "../materials/NewMaterial.tsx";
 import { typeTitle } from "../names.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { sentence, type TextKey, t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
 import { Menu, MenuItem } from "../widgets/Menu.tsx";
-import { NewMaterial } from "./NewMaterial.tsx";
 import { ResourceIcon, TypeIcon } from "./ResourceIcon.tsx";
 import { ResourceMenu } from "./ResourceMenu.tsx";
 import "../inspector/inspector.css";
@@ -137,6 +138,8 @@ function ResourceRow({ list, resource }: { list: ListName; resource: Resource })
                 type="button"
                 className="resource-pick"
                 aria-pressed={selected}
+                draggable={list === "materials"}
+                onDragStart={list === "materials" ? dragMaterial(name) : undefined}
                 onClick={() => editor.show({ kind: "resource", list, name })}
             >
                 <ResourceIcon list={list} name={name} />

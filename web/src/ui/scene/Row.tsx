@@ -14,6 +14,7 @@ import { rename, setVisible } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
 import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
+import { carriedBy, carriesMaterial, dropMaterial } from "../materials/drag.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { sentence, t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
@@ -32,7 +33,8 @@ interface Props {
 }
 
 export function Row({ item, node, top, height, indent, onMenu }: Props) {
-    const { stores } = useEditor();
+    const editor = useEditor();
+    const { stores } = editor;
     const id = item.getId();
     const group = useDocument((state) => nodeType(state.schema, node?.type ?? "")?.group);
     const problem = useDocument((state) => {
@@ -107,6 +109,22 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                 const to = event.relatedTarget;
                 if (!(to instanceof Element && to.closest("[role='tree']"))) {
                     props.onDragLeave?.(event);
+                }
+            }}
+            onDragOver={(event) => {
+                if (carriesMaterial(event)) {
+                    event.preventDefault();
+                    stores.view.setState({ hovered: id });
+                } else {
+                    props.onDragOver?.(event);
+                }
+            }}
+            onDrop={(event) => {
+                if (carriesMaterial(event)) {
+                    event.preventDefault();
+                    dropMaterial(editor, carriedBy(event.dataTransfer), id);
+                } else {
+                    props.onDrop?.(event);
                 }
             }}
             onDoubleClick={() => model === null && stores.view.setState({ renaming: id })}

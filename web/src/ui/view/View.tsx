@@ -15,11 +15,13 @@ import { Crumbs } from "./Crumbs.tsx";
 import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
+import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
 import { beginStep, pointerActions } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
+import { Trial } from "./Trial.tsx";
 import "./view.css";
 
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
@@ -29,6 +31,7 @@ export function View() {
         <div className="view">
             <Picture />
             <Poster />
+            <Trial />
             <Empty />
             <Strip />
             <div className="view-top">
@@ -68,7 +71,9 @@ function Picture() {
         const hands = new Hands({ stores: editor.stores, begin: beginStep(editor) }, element);
         const stop = attachPointer(element, pointerActions(editor, element, hands, open));
         const rest = watchHover(editor, element);
+        const drops = takeMaterials(editor, element);
         return () => {
+            drops();
             rest();
             stop();
             hands.end();

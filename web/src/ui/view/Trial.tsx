@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* The view with a material that is only looked at: a picture of the document as it would be, drawn
+ * for this page alone, over the stream. */
+import { useEffect, useState } from "react";
+import { printCamera } from "../../model/camera.ts";
+import { printDocument } from "../../model/documentJson.ts";
+import { apply } from "../../model/operations.ts";
+import { newResource } from "../../model/resources.ts";
+import type { Trial as Wish } from "../../model/view.ts";
+import type { Editor } from "../editor.ts";
+import { typeTitle } from "../names.ts";
+import { useEditor, useView } from "../state.ts";
+import { t } from "../texts.ts";
+import "./view.css";
+
+/* What is passed over on the way to another is not drawn. */
+const REST_MS = 120;
+/* Of the view's pixels. */
+const SCALE = 0.6;
+
+async function draw(editor: Editor, wish: Wish, signal: AbortSignal): Promise<string | null> {
+    const { document, schema } = editor.stores.document.getState();
+    const box = window.document.querySelector(".view-picture")?.getBoundingClientRect();
+    if (document === null || !box) {
+        return null;
+    }
+    const { ops } = newResource(document, schema, "materials", wish.use, [], "union", wish.preset);
+    const tried = apply(document, ops, schema);
+    if (!tried.ok) {
+        return null;
+    }
+    const size = (length: number): number => Math.max(16, Math.round(length * SCALE));
+    return editor.rest.renderImage(
+        printDocument(tried.document),
+        {
+            width: size(box.width),
+            height: size(box.height),
+            format: "jpg",
+            level: "interactive",
+            camera: printCamera(editor.stores.camera.getState().camera),
+        },
+        signal,
+    );
+}
+
+export function Trial() {
+    const editor = useEditor();
+    const wish = useView((view) => view.trial);
+    const [shown, setShown] = useState<{ wish: Wish; address: string } | null>(null);
+    useEffect(() => {
+        if (wish === null) {
+            setShown(null);
+            return;
+        }
+        const stop = new AbortController();
+        const timer = setTimeout(() => {
+            draw(editor, wish, stop.signal).then(
+                (address) => address !== null && setShown({ wish, address }),
+                () => undefined /* another is asked for, or the server says why elsewhere */,
+            );
+        }, REST_MS);
+        return () => {
+            clearTimeout(timer);
+            stop.abort();
+        };
+    }, [editor, wish]);
+    useEffect(() => () => URL.revokeObjectURL(shown?.address ?? ""), [shown]);
+    if (shown === null || wish === null) {
+        return null;
+    }
+    return (
+        <div className="view-trial" data-testid="trial" data-preset={shown.wish.preset.name}>
+            <img src={shown.address} alt="" />
+            <p className="glass view-hint">
+                {t("gallery.trying", { name: typeTitle(shown.wish.preset.name) })}
+            </p>
+        </div>
+    );
+}
