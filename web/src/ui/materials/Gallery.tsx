@@ -25,7 +25,7 @@ export default function Gallery({ use, onClose }: Props) {
     const { view } = editor.stores;
     const field = useRef<HTMLInputElement>(null);
     useEffect(() => {
-        field.current?.focus();
+        field.current?.focus({ preventScroll: true });
         return () => view.setState({ trial: null });
     }, [view]);
     const tryOut = useCallback(
