@@ -34,6 +34,8 @@ import "./scene.css";
 const TOP = "/";
 const MODELS = "/models";
 const INDENT = 14;
+/* Frames that a new row may take. */
+const FRAMES = 60;
 const ROW = 26;
 const TOUCH_ROW = 36;
 
@@ -286,7 +288,16 @@ function useReveal(
         revealed.current = id;
         tree.getItemInstance(id)?.setFocused();
         scroll(id);
-        requestAnimationFrame(() => focusRow(tree, id));
+        /* The row of a node that has just come is drawn in one of the next frames. */
+        const focus = (frames: number): void => {
+            const there = tree.getItemInstance(id)?.getElement()?.isConnected === true;
+            if (there || frames === 0) {
+                focusRow(tree, id);
+            } else if (view.getState().selection.at(-1) === id) {
+                requestAnimationFrame(() => focus(frames - 1));
+            }
+        };
+        requestAnimationFrame(() => focus(FRAMES));
     });
 }
 
