@@ -5,6 +5,7 @@ import fs from 'node:fs';
 import { after, afterEach, before, test } from 'node:test';
 import { OUTPUTS } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
+import { readNpy } from '../support/npy.mjs';
 import { decodePng } from '../support/png.mjs';
 import {
     closePage,
@@ -223,4 +224,39 @@ test('a transparent picture has holes where nothing is', async () => {
     assert.equal(image.channels, 4);
     assert.equal(image.pixels[3], 0);
     assert.ok(image.pixels.some((value, i) => i % 4 === 3 && value === 255));
+});
+
+test('the value of an output stands beside it, as in the numbers of REST', async () => {
+    await open();
+    const box = await picture(page).boundingBox();
+    const [width, height] = [Math.round(box.width), Math.round(box.height)];
+    const scale = height / 2 / Math.tan(Math.PI / 8) / 6.25;
+    const [x, y] = [Math.round(width / 2 + 1.5 * scale), Math.round(height / 2)];
+    const value = page.getByTestId('probe').locator('output');
+    const numbers = async () => (await value.innerText()).split(/\s+/).map(Number);
+    await page.mouse.move(box.x + x + 0.5, box.y + y + 0.5);
+    assert.equal(await value.count(), 0, 'none of the picture itself');
+    const show = async (name) => {
+        await pill().click();
+        await page.getByRole('menuitemradio', { name }).click();
+        await page.getByRole('menu').waitFor({ state: 'detached' });
+        await page.mouse.move(box.x + x + 0.5, box.y + y + 0.5);
+        await value.waitFor();
+    };
+    await show(/^Depth/);
+    /* The middle of the crate's front: 6.25 before the camera, 1.5 to the right. */
+    const depth = Math.hypot(6.25, (x + 0.5 - width / 2) / scale, (y + 0.5 - height / 2) / scale);
+    await until(async () => Math.abs((await numbers())[0] - depth) < 2e-3, `the depth ${depth}`);
+    await show(/^Normals/);
+    await until(async () => (await numbers()).join() === '0,0,1', 'the normal along Z');
+    await show(/^Steps/);
+    const [id] = await page.evaluate(() => [location.pathname.split('/').at(-1)]);
+    const camera = 'camera.position=0,0,7&camera.target=0,0,0&camera.up=0,1,0&camera.fov=45';
+    const answer = await fetch(
+        `${stage.daemon.url}/v1/scenes/${id}/image.npy?aov=steps&width=${width}&height=${height}&${camera}`,
+    );
+    const steps = readNpy(Buffer.from(await answer.arrayBuffer()));
+    await until(async () => (await numbers()).join() === `${steps.values[y * width + x]}`, 'the steps of REST');
+    await page.mouse.move(box.x + 2, box.y - 20);
+    await value.waitFor({ state: 'detached' });
 });

@@ -37,6 +37,8 @@ export interface PictureWish {
     readonly width: number;
     readonly height: number;
     readonly format: Format;
+    /* Left, top, width and height in pixels of the whole. */
+    readonly region?: readonly [number, number, number, number];
     readonly outputs?: readonly string[];
     readonly level?: string;
     readonly transparent?: boolean;
@@ -132,8 +134,12 @@ async function problemOf(response: Response): Promise<RestError> {
 
 const segment = encodeURIComponent;
 
-function queryOf({ width, height, outputs, level, transparent, camera }: PictureWish): string {
+function queryOf(wish: PictureWish): string {
+    const { width, height, region, outputs, level, transparent, camera } = wish;
     const query = new URLSearchParams({ width: String(width), height: String(height) });
+    if (region) {
+        query.set("region", region.join(","));
+    }
     if (outputs) {
         query.set("aov", outputs.join(","));
     }

@@ -156,6 +156,7 @@ const texts = {
 
     "material.shared": "Also on {count} others.",
     "material.shared.one": "Also on 1 other.",
+    "output.value": "Value under the pointer",
     "gallery.title": "Materials to begin with",
     "gallery.search": "Clay, gold, glass, wood …",
     "gallery.what": "Adds it to the scene. Drag it onto something to use it there.",

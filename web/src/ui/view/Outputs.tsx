@@ -11,6 +11,7 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
 import { Tip } from "../widgets/Tip.tsx";
+import { Probe } from "./Probe.tsx";
 import "./view.css";
 
 export function Outputs() {
@@ -20,6 +21,7 @@ export function Outputs() {
         <div className="outputs-place">
             <Shown aov={aov} name={name} />
             <Legend aov={aov} />
+            <Probe />
         </div>
     );
 }
