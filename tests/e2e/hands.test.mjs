@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { closePage, documentWhen, nodeIn, openStage, picture, row, SCENE, settled } from './stage.mjs';
 
 let stage;
 let page;
@@ -49,6 +49,10 @@ async function drag(from, dx, dy) {
     await page.mouse.up();
 }
 
+const centerOf = async (locator) => {
+    const box = await locator.boundingBox();
+    return [box.x + box.width / 2, box.y + box.height / 2];
+};
 const select = (node) => row(page, node).click();
 const placeOf = (document, node) => nodeIn(document, node).transform?.translation ?? [0, 0, 0];
 const when = (holds, what) => documentWhen(stage, id, holds, what);
@@ -202,5 +206,46 @@ describe('keys', () => {
         await when((d) => placeOf(d, 'ball')[0] > -1.4, 'a ball at the pointer');
         await page.mouse.click(box.x + 380, box.y + 260, { button: 'right' });
         await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+});
+
+describe('what stands in the scene and is not seen', () => {
+    const LAMP = {
+        ...SCENE,
+        lights: [...SCENE.lights, { id: 'lamp', type: 'point', position: [0, 1, 1], intensity: 5 }],
+    };
+
+    test('a light has an icon; a click chooses it, and the gizmo moves it', async () => {
+        id = await stage.scene(LAMP);
+        page = await stage.page({ scene: id });
+        await settled(page);
+        const mark = page.locator('[data-mark="lights/lamp"]');
+        await mark.click();
+        await page.locator('[data-resource=lamp][data-selected]').waitFor();
+        const before = await mark.boundingBox();
+        await drag(await place('move', 0), 90, 0);
+        const moved = await when((d) => d.lights[1].position[0] > 0.5, 'a lamp further right');
+        assert.deepEqual(moved.lights[1].position.slice(1), [1, 1]);
+        await until(async () => (await mark.boundingBox()).x > before.x + 60, 'the icon goes along');
+        await page.keyboard.press('Control+k');
+        await page.keyboard.type('lights, volumes and camera');
+        await page.keyboard.press('Enter');
+        await mark.waitFor({ state: 'detached' });
+    });
+
+    test('a click on an end of the axes looks from there', async () => {
+        await open();
+        const ball = page.getByRole('group', { name: 'Views along the axes' });
+        const end = (view) => ball.locator(`[data-view="${view}"]`);
+        await end('right').click();
+        const middle = async () => {
+            const [a, b] = [await ball.boundingBox(), await end('right').boundingBox()];
+            return Math.hypot(a.x + a.width / 2 - b.x - b.width / 2, a.y + a.height / 2 - b.y - b.height / 2);
+        };
+        await until(async () => (await middle()) < 2, 'the end of X in the middle');
+        await settled(page);
+        /* From the right, the crate hides what is behind it: its face fills the middle. */
+        await page.mouse.click(...(await centerOf(picture(page))));
+        await page.locator('[data-node="crate"][aria-selected="true"]').waitFor();
     });
 });

@@ -584,6 +584,17 @@ export const COMMANDS: readonly Command[] = [
         run: show(toggleGraph),
     }),
     row({
+        id: "view.marks",
+        words: "icons overlay gizmos show hide",
+        title: "Lights, volumes and camera in the picture",
+        group: "view",
+        whyNot: never,
+        run: (app) =>
+            setPreferences(app.stores.view, {
+                marks: !app.stores.view.getState().preferences.marks,
+            }),
+    }),
+    row({
         id: "view.statistics",
         words: "performance fps speed timing",
         title: "Statistics",

@@ -52,6 +52,8 @@ export interface Preferences {
     /* How what is added combines with what is selected: as it was last. */
     readonly way: Way;
     readonly hands: HandSettings;
+    /* Lights, volumes and the camera have icons in the picture. */
+    readonly marks: boolean;
 }
 
 /* How hands in the picture act. */
@@ -76,6 +78,7 @@ export const PREFERENCES: Preferences = {
     recent: [],
     way: "union",
     hands: HANDS,
+    marks: true,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -241,5 +244,6 @@ export function readPreferences(text: string | null): Preferences {
             pivot: one(stored.hands?.pivot, PIVOTS, HANDS.pivot),
             snap: stored.hands?.snap === true,
         },
+        marks: stored.marks !== false,
     };
 }

@@ -12,6 +12,7 @@ import { add, scale } from "../model/transform.ts";
 import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
 import { colorOf, line, paintGizmo, paintHandles, paintLabel, stroke } from "./paint.ts";
 import type { Holding, Press } from "./pointer.ts";
+import { shownCamera } from "./shown.ts";
 
 export interface HandsPage {
     readonly stores: Stores;
@@ -229,11 +230,8 @@ export class Hands {
     }
 
     #projection(): Projection | null {
-        const { link, camera } = this.#page.stores;
-        const { frame } = link.getState();
-        return frame.state === "none"
-            ? null
-            : projectionOf(frame.camera ?? camera.getState().camera, this.#size);
+        const camera = shownCamera(this.#page.stores);
+        return camera && projectionOf(camera, this.#size);
     }
 
     /* Of the one that is selected; none on top of the middle of the gizmo. */

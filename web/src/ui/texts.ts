@@ -156,6 +156,8 @@ const texts = {
 
     "material.shared": "Also on {count} others.",
     "material.shared.one": "Also on 1 other.",
+    "axes.title": "Views along the axes",
+    "marks.camera": "Camera of the scene",
     "output.value": "Value under the pointer",
     "gallery.title": "Materials to begin with",
     "gallery.search": "Clay, gold, glass, wood …",

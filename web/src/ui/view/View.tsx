@@ -11,10 +11,12 @@ import { t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
 import { Button } from "../widgets/Button.tsx";
 import type { MenuPlace } from "../widgets/Menu.tsx";
+import { AxesBall } from "./AxesBall.tsx";
 import { Crumbs } from "./Crumbs.tsx";
 import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
+import { Marks } from "./Marks.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
@@ -32,6 +34,7 @@ export function View() {
             <Picture />
             <Poster />
             <Trial />
+            <Marks />
             <Empty />
             <Strip />
             <div className="view-top">
@@ -40,6 +43,7 @@ export function View() {
                 <HandTools />
                 <Outputs />
             </div>
+            <AxesBall />
             <div className="view-bottom">
                 <Aim />
                 <Isolation />

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* The camera of the picture that is shown, for all that the page draws over it. */
+import type { Camera } from "../model/camera.ts";
+import type { Stores } from "../model/stores.ts";
+
+/* Null while there is no picture. */
+export function shownCamera({ link, camera }: Stores): Camera | null {
+    const { frame } = link.getState();
+    return frame.state === "none" ? null : (frame.camera ?? camera.getState().camera);
+}
+
+/* Runs `draw` now, and in the next animation frame after the picture, the camera or the document has
+ * changed. Answers the function that ends it. */
+export function drawOver(stores: Stores, draw: () => void): () => void {
+    let asked = 0;
+    const ask = (): void => {
+        if (asked === 0) {
+            asked = requestAnimationFrame(() => {
+                asked = 0;
+                draw();
+            });
+        }
+    };
+    const stops = [
+        stores.document.subscribe((now, before) => now.document !== before.document && ask()),
+        stores.link.subscribe((now, before) => now.frame !== before.frame && ask()),
+        stores.camera.subscribe(ask),
+    ];
+    draw();
+    return () => {
+        cancelAnimationFrame(asked);
+        for (const stop of stops) {
+            stop();
+        }
+    };
+}
