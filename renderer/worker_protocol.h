@@ -72,6 +72,7 @@ struct packet_asset {
 struct packet_scene {
     const char *scene;
     uint64_t revision;
+    bool portrait; /* only its nodes count: portrait.h does the rest */
     cJSON *document;
 };
 

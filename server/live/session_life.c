@@ -59,6 +59,7 @@ void session_leave_room(struct session *session)
 static void session_destroy(struct session *session)
 {
     picker_forget(session);
+    thumbnails_stop(session);
     stream_finish(session);
     free(session->stream);
     session_leave_room(session);
@@ -92,5 +93,6 @@ void session_close(struct session *session, int code, const char *reason, int re
     session_say(session, message_bye(reason, retry_ms));
     session->close_code = code;
     picker_forget(session);
+    thumbnails_stop(session);
     stream_stop(session);
 }
