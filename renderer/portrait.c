@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "protocol/json.h"
+#include "protocol/messages.h"
 #include "renderer/draw/camera.h"
 #include "renderer/field/field.h"
 
@@ -16,7 +17,7 @@ static const char SETTING[] =
     "\"intensity\":2.7,\"size\":10},"
     "{\"type\":\"directional\",\"direction\":[-1,-0.25,0.15],\"color\":[0.8,0.9,1],"
     "\"intensity\":0.6,\"shadow\":\"none\"},"
-    "{\"type\":\"directional\",\"direction\":[0.5,-0.4,0.8],\"intensity\":0.8,"
+    "{\"type\":\"directional\",\"direction\":[0.5,-0.4,0.8],\"intensity\":1.3,"
     "\"shadow\":\"none\"}],"
     "\"environment\":{\"zenith\":[0.75,0.8,0.9],\"horizon\":[0.85,0.85,0.85],"
     "\"ground\":[0.3,0.29,0.28],\"sun\":false},"
@@ -34,6 +35,7 @@ enum {
     BOX_OF_THICKNESS = 6, /* half of the box of what has no end, for each unit of half the rest */
 };
 static const double FOV = 22;      /* degrees */
+static const double GROUND = 0.02; /* around what stands on it, of its length and depth */
 static const double MARGIN = 1.08; /* around the outline */
 
 /* --- what has no end --- */
@@ -213,6 +215,21 @@ static void add_setting(cJSON *document)
     cJSON_Delete(setting);
 }
 
+/* Hides the planes, on which scenes stand. */
+static void hide_planes(cJSON *node)
+{
+    cJSON *child;
+
+    if (strcmp(json_member_text(node, "type", ""), "plane") == 0) {
+        cJSON_DeleteItemFromObjectCaseSensitive(node, "visible");
+        cJSON_AddFalseToObject(node, "visible");
+    }
+    cJSON_ArrayForEach(child, cJSON_GetObjectItemCaseSensitive(node, "children"))
+    {
+        hide_planes(child);
+    }
+}
+
 static struct scene *read_scene(const cJSON *document, struct field **out_field, struct error *err)
 {
     struct scene *scene = scene_read(document, err);
@@ -225,6 +242,30 @@ static struct scene *read_scene(const cJSON *document, struct field **out_field,
     return scene;
 }
 
+/* Of what has no end: the box of what stands on its planes, with some ground around it, or one in
+ * its middle. */
+static struct bounds find_box(const cJSON *document, const struct bounds *whole)
+{
+    cJSON *standing = cJSON_Duplicate(document, true);
+    struct field *field;
+
+    hide_planes(cJSON_GetObjectItemCaseSensitive(standing, "root"));
+    struct scene *scene = read_scene(standing, &field, NULL);
+    struct bounds box = scene ? field->bounds : bounds_empty();
+    const bool stands = !bounds_is_empty(&box) && bounds_is_finite(&box);
+    if (stands) {
+        box = bounds_grow(box, GROUND * (box.high[0] - box.low[0] + box.high[2] - box.low[2]));
+    } else {
+        box = cut_bounds(*whole);
+    }
+    if (scene) {
+        field_unref(field);
+        scene_destroy(scene);
+    }
+    cJSON_Delete(standing);
+    return box;
+}
+
 struct scene *portrait_scene(cJSON *document, struct error *err)
 {
     struct field *field;
@@ -232,7 +273,7 @@ struct scene *portrait_scene(cJSON *document, struct error *err)
     add_setting(document);
     struct scene *scene = read_scene(document, &field, err);
     if (scene && !bounds_is_empty(&field->bounds) && !bounds_is_finite(&field->bounds)) {
-        const struct bounds box = cut_bounds(field->bounds);
+        const struct bounds box = find_box(document, &field->bounds);
 
         field_unref(field);
         scene_destroy(scene);
