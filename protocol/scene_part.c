@@ -105,6 +105,9 @@ static cJSON *print_root(const struct node *node, const struct resource *materia
     remove_names(json);
     cJSON_DeleteItemFromObjectCaseSensitive(json, "visible");
     cJSON_DeleteItemFromObjectCaseSensitive(transform, "translation");
+    if (transform && !transform->child) {
+        cJSON_DeleteItemFromObjectCaseSensitive(json, "transform");
+    }
     if (material && !cJSON_GetObjectItemCaseSensitive(json, "material")) {
         cJSON_AddStringToObject(json, "material", material->name);
     }

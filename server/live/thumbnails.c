@@ -19,6 +19,10 @@
 
 enum { SLICE_US = 4000 }; /* of a pump */
 
+/* All thumbnails share the drawing time of one client. So tiles of other pictures are short while
+ * they are drawn, and a thumbnail waits for milliseconds instead of a whole tile. */
+#define ACCOUNT "thumbnails"
+
 struct thumbnails {
     struct hub *hub; /* while something is drawn */
     struct image_cache cache;
@@ -184,7 +188,7 @@ static void draw(struct session *session, const struct thumbnail *item, const ch
     struct render_order order = {.document = document,
                                  .portrait = true,
                                  .priority = RENDER_THUMBNAIL,
-                                 .account = session->id,
+                                 .account = ACCOUNT,
                                  .again = true,
                                  .on_done = on_picture,
                                  .data = all};

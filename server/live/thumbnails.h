@@ -8,9 +8,10 @@
  * come again, most of them from the cache after an undo. A part that cannot be drawn has an empty
  * picture, which is kept too.
  *
- * One thumbnail is drawn at a time, with the lowest priority, and none until THUMBNAIL_REST_MS
- * after the last change of the scene or of a view of it. What moves cancels the one that is being
- * drawn. Every function is called under the hub's lock. */
+ * One thumbnail is drawn at a time, and none until THUMBNAIL_REST_MS after the last change of the
+ * scene or of a view of it. What moves cancels the one that is being drawn. Moving pictures go
+ * first; the still picture of the view is there by then, and its samples share the time. Every
+ * function is called under the hub's lock. */
 #ifndef SERVER_THUMBNAILS_H
 #define SERVER_THUMBNAILS_H
 
