@@ -47,8 +47,8 @@ static bool add_named(struct part *part, const struct record *record)
         const char *name = kind ? record->values[i].text : NULL;
 
         if (name && *name &&
-            !add_resource(part, resource_find(resource_list_of(kind, (struct scene *)part->scene),
-                                              name))) {
+            !add_resource(
+                part, resource_find(resource_list_of(kind, (struct scene *)part->scene), name))) {
             return false;
         }
     }

@@ -59,8 +59,7 @@ const struct cached_image *image_cache_find(struct image_cache *cache, const cha
 void image_cache_add(struct image_cache *cache, const char *key, enum codec codec,
                      uint64_t revision, const void *bytes, size_t length)
 {
-    if (strlen(key) + length > cache->limit / LARGEST_PART ||
-        image_cache_find(cache, key)) {
+    if (strlen(key) + length > cache->limit / LARGEST_PART || image_cache_find(cache, key)) {
         return;
     }
     struct cached_image *image = memory_alloc(1, sizeof *image + length);

@@ -18,8 +18,8 @@ enum {
     RENDER_LOSSLESS = 2,
     RENDER_IMAGE = 3,
     RENDER_THUMBNAIL = RENDER_STILL, /* drawn at rest alone; thumbnails.h */
-    RENDER_DEADLINE_MS = 120000, /* after so long without progress an order fails */
-    RENDER_DEATHS = 2,           /* workers that one scene may end */
+    RENDER_DEADLINE_MS = 120000,     /* after so long without progress an order fails */
+    RENDER_DEATHS = 2,               /* workers that one scene may end */
 };
 
 struct render_queue {

@@ -53,14 +53,13 @@ static void send_scene(struct room *room, const struct scene *scene, uint64_t re
     const bool printed = room->text && scene == room->scene && !room->hub->code_refused;
 
     send_image(room, scene);
-    room_sync_send_scene(room->hub, &(struct packet_scene){
-                                        .scene = room->id,
-                                        .revision = revision,
-                                        .document =
-                                            printed
-                                                ? cJSON_CreateRaw((const char *)room->text->bytes)
-                                                : scene_to_json(scene),
-                                    });
+    room_sync_send_scene(room->hub,
+                         &(struct packet_scene){
+                             .scene = room->id,
+                             .revision = revision,
+                             .document = printed ? cJSON_CreateRaw((const char *)room->text->bytes)
+                                                 : scene_to_json(scene),
+                         });
     room->sent = revision;
 }
 

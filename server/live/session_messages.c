@@ -147,8 +147,7 @@ static void handle(struct session *session, const struct message *message)
         thumbnails(session, message->json);
         break;
     case MESSAGE_ACK_THUMBNAILS:
-        thumbnails_acknowledge(session,
-                               (uint32_t)json_member_number(message->json, "number", 0));
+        thumbnails_acknowledge(session, (uint32_t)json_member_number(message->json, "number", 0));
         break;
     case MESSAGE_HELLO: /* hello_receive */
     case MESSAGE_COUNT:

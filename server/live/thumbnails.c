@@ -240,9 +240,8 @@ static bool is_due(const struct thumbnail *item, uint64_t revision)
 static bool add_picture(struct hub *hub, struct thumbnail *item, FILE *out)
 {
     static const struct cached_image none = {.length = 0};
-    const struct cached_image *picture = strcmp(item->key, "-") == 0
-                                             ? &none
-                                             : image_cache_find(&hub->thumbnails->cache, item->key);
+    const struct cached_image *picture =
+        strcmp(item->key, "-") == 0 ? &none : image_cache_find(&hub->thumbnails->cache, item->key);
     uint8_t row[THUMBNAIL_ROW_BYTES];
 
     if (!picture) {

@@ -47,7 +47,7 @@ struct send_queue {
     struct send_queue_frame current, next;
     struct shared_buffer *behind; /* NULL: nothing */
     size_t behind_sent;           /* bytes written: once begun, it is written to its end */
-    bool linked; /* no frame was lost since the last key */
+    bool linked;                  /* no frame was lost since the last key */
 };
 
 enum send_queue_kind { SEND_QUEUE_TEXT, SEND_QUEUE_BINARY };

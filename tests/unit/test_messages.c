@@ -220,8 +220,8 @@ static void test_frame_header_bytes(void **state)
 
 static void test_thumbnail_bytes(void **state)
 {
-    static const uint8_t header_bytes[THUMBNAIL_HEADER_BYTES] = {
-        'F', 'C', 'T', '1', 1, 2, 3, 0, 5, 6, 0, 0, 0, 0, 0, 0, 7, 8};
+    static const uint8_t header_bytes[THUMBNAIL_HEADER_BYTES] = {'F', 'C', 'T', '1', 1, 2, 3, 0, 5,
+                                                                 6,   0,   0,   0,   0, 0, 0, 7, 8};
     static const uint8_t row_bytes[THUMBNAIL_ROW_BYTES] = {1, 9, 96, 0, 64, 0, 0, 0, 1, 2, 3, 4};
     uint8_t header[THUMBNAIL_HEADER_BYTES], row[THUMBNAIL_ROW_BYTES];
 

@@ -55,17 +55,16 @@ static void a_part_holds_what_it_uses_and_nothing_else(void **state)
     assert_part("a", "{'format':'fieldcast/1','materials':{'snow':{'shader':'phong'}},"
                      "'root':{'type':'sphere','transform':{'rotation':[1,0,0]},"
                      "'material':'snow'}}");
-    assert_part("c",
-                "{'format':'fieldcast/1','primitives':{'rod':{'code':"
-                "'float sdf(vec3 p) { return length(p) - 1.0; }','lipschitz':1}},"
-                "'shaders':{'stripes':{'code':"
-                "'vec3 shade(FragmentProperties q) { return vec3(1.0); }'}},"
-                "'materials':{'coal':{'shader':'phong'},'striped':{'shader':'stripes'}},"
-                "'models':{'pawn':{'type':'field','params':{'primitive':'rod'}}},"
-                "'root':{'type':'group','material':'coal','children':["
-                "{'type':'model','params':{'model':'pawn'}},"
-                "{'type':'sphere','material':'striped','visible':false},"
-                "{'type':'sphere','transform':{'translation':[9,0,0]}}]}}");
+    assert_part("c", "{'format':'fieldcast/1','primitives':{'rod':{'code':"
+                     "'float sdf(vec3 p) { return length(p) - 1.0; }','lipschitz':1}},"
+                     "'shaders':{'stripes':{'code':"
+                     "'vec3 shade(FragmentProperties q) { return vec3(1.0); }'}},"
+                     "'materials':{'coal':{'shader':'phong'},'striped':{'shader':'stripes'}},"
+                     "'models':{'pawn':{'type':'field','params':{'primitive':'rod'}}},"
+                     "'root':{'type':'group','material':'coal','children':["
+                     "{'type':'model','params':{'model':'pawn'}},"
+                     "{'type':'sphere','material':'striped','visible':false},"
+                     "{'type':'sphere','transform':{'translation':[9,0,0]}}]}}");
     assert_part("f", "{'format':'fieldcast/1','materials':{'coal':{'shader':'phong'}},"
                      "'root':{'type':'sphere','material':'coal'}}");
 }
@@ -109,8 +108,7 @@ static void parts_are_documents(void **state)
 
 static void a_material_is_shown_by_a_sphere(void **state)
 {
-    cJSON *json =
-        scene_part_of_material(scene, resource_find(&scene->materials, "striped"));
+    cJSON *json = scene_part_of_material(scene, resource_find(&scene->materials, "striped"));
     char *text = json_print(json, false);
 
     (void)state;

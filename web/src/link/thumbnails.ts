@@ -66,10 +66,11 @@ export class ThumbnailStore implements Thumbnails {
         const key = keyOf(kind, id, large);
         const shown = this.#shown.get(key) ?? { kind, id, large, listeners: new Set() };
         this.#shown.set(key, shown);
-        shown.listeners.add(changed);
+        const listener = (): void => changed(); /* one for each call */
+        shown.listeners.add(listener);
         this.#tellSoon();
         return () => {
-            shown.listeners.delete(changed);
+            shown.listeners.delete(listener);
             if (shown.listeners.size === 0 && this.#shown.get(key) === shown) {
                 this.#shown.delete(key);
                 this.#tellSoon();
