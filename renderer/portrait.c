@@ -30,7 +30,7 @@ enum {
     ROWS = 16,
     PASSES = 3,
     STEPS = 64,           /* of a ray */
-    WORK = 20000000,      /* operations of all rays, at most */
+    WORK = 8000000,       /* operations of all rays, about */
     BOX_HALF = 2,         /* of what has no end at all */
     BOX_OF_THICKNESS = 6, /* half of the box of what has no end, for each unit of half the rest */
 };

@@ -17,6 +17,7 @@
 #include "server_message.h"
 #include "session_life.h"
 #include "stream.h"
+#include "thumbnails.h"
 
 /* Numbers may be left out, but nobody gets to where none is left. */
 static bool use_number(struct session *session, int64_t number, struct error *err)

@@ -104,7 +104,7 @@ static bool add_member(struct thumbnail_list *list, const cJSON *message, const 
 
 bool thumbnails_ask(struct session *session, const cJSON *message, struct error *err)
 {
-    struct thumbnail_list *old = &session->thumbnails, wanted = *old;
+    struct thumbnail_list *old = session->thumbnails, wanted = *old;
     const int width = (int)json_member_number(message, "width", THUMBNAIL_WIDTH);
 
     wanted.items = NULL;
@@ -130,8 +130,8 @@ bool thumbnails_ask(struct session *session, const cJSON *message, struct error 
 
 void thumbnails_acknowledge(struct session *session, uint32_t number)
 {
-    if (number == session->thumbnails.number) {
-        session->thumbnails.unacknowledged = false;
+    if (number == session->thumbnails->number) {
+        session->thumbnails->unacknowledged = false;
         supervisor_wake(session->hub->supervisor);
     }
 }
@@ -141,9 +141,9 @@ void thumbnails_stop(struct session *session)
     if (session->hub->thumbnails->session == session) {
         cancel(session->hub);
     }
-    free(session->thumbnails.items);
-    session->thumbnails.items = NULL;
-    session->thumbnails.count = 0;
+    free(session->thumbnails->items);
+    session->thumbnails->items = NULL;
+    session->thumbnails->count = 0;
 }
 
 /* --- looking and drawing --- */
@@ -263,7 +263,7 @@ static bool add_picture(struct hub *hub, struct thumbnail *item, FILE *out)
 
 static void send_message(struct session *session, uint8_t *bytes, size_t length, uint16_t count)
 {
-    struct thumbnail_list *list = &session->thumbnails;
+    struct thumbnail_list *list = session->thumbnails;
     const struct thumbnail_header header = {
         .count = count, .number = ++list->number, .revision = session->room->revision};
     struct shared_buffer *message;
@@ -281,7 +281,7 @@ static void send_message(struct session *session, uint8_t *bytes, size_t length,
 static void send_due(struct session *session)
 {
     const uint8_t header[THUMBNAIL_HEADER_BYTES] = {0};
-    struct thumbnail_list *list = &session->thumbnails;
+    struct thumbnail_list *list = session->thumbnails;
     char *bytes = NULL;
     size_t length = 0;
     uint16_t count = 0;
@@ -305,7 +305,7 @@ static void send_due(struct session *session)
 
 static bool may_send(const struct session *session)
 {
-    const struct thumbnail_list *list = &session->thumbnails;
+    const struct thumbnail_list *list = session->thumbnails;
 
     for (size_t i = 0; i < list->count && !list->unacknowledged; i++) {
         if (is_due(&list->items[i], session->room->revision)) {
@@ -332,7 +332,7 @@ static int64_t rests_at(const struct room *room)
 
 static struct thumbnail *find_unseen(const struct session *session)
 {
-    const struct thumbnail_list *list = &session->thumbnails;
+    const struct thumbnail_list *list = session->thumbnails;
 
     for (size_t i = 0; i < list->count && !session->close_code; i++) {
         if (list->items[i].looked != session->room->revision) {
@@ -351,7 +351,7 @@ static struct session *next_in_turn(const struct hub *hub, int64_t now_ms)
             continue;
         }
         for (struct session *session = room->sessions; session; session = session->next) {
-            if ((!best || session->thumbnails.turn < best->thumbnails.turn) &&
+            if ((!best || session->thumbnails->turn < best->thumbnails->turn) &&
                 find_unseen(session)) {
                 best = session;
             }
@@ -369,7 +369,7 @@ static int64_t send_all(struct hub *hub, int64_t now_ms)
         const int64_t rested = rests_at(room);
 
         for (struct session *session = room->sessions; session; session = session->next) {
-            if (session->thumbnails.count > 0 && rested > now_ms) {
+            if (session->thumbnails->count > 0 && rested > now_ms) {
                 next = clock_earlier(next, rested);
             } else if (!session->close_code && may_send(session)) {
                 send_due(session);
@@ -390,7 +390,7 @@ int64_t thumbnails_pump(struct hub *hub, int64_t now_ms)
     }
     while (hub->render_queue->ready && !all->job && (session = next_in_turn(hub, now_ms)) &&
            clock_us() < end_us) {
-        session->thumbnails.turn = ++all->turns;
+        session->thumbnails->turn = ++all->turns;
         look(session, find_unseen(session));
     }
     const int64_t rested = send_all(hub, now_ms);

@@ -199,11 +199,11 @@ static void next_behind(struct send_queue *queue, uint8_t *out, struct send_queu
 
 bool send_queue_next(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece)
 {
-    if (queue->behind_sent > 0) {
-        next_behind(queue, out, piece);
-    } else if (queue->first) {
+    const bool begun = queue->behind_sent > 0;
+
+    if (queue->first && !begun) {
         next_text(queue, out, piece);
-    } else if (queue->current.payload) {
+    } else if (queue->current.payload && !begun) {
         next_frame_part(queue, out, piece);
     } else if (queue->behind) {
         next_behind(queue, out, piece);
