@@ -72,8 +72,8 @@ struct packet_asset {
 struct packet_scene {
     const char *scene;
     uint64_t revision;
-    bool portrait; /* only its nodes count: portrait.h does the rest */
     cJSON *document;
+    bool portrait; /* only its nodes count: portrait.h does the rest */
 };
 
 struct packet_edit {
