@@ -17,7 +17,10 @@
 #include "session.h"
 #include "stream.h"
 
-enum { SLICE_US = 4000 }; /* of a pump */
+enum {
+    SLICE_US = 4000, /* of a pump */
+    WAITING = 32,    /* of a session, to be sent: more might leave the cache before */
+};
 
 /* All thumbnails share the drawing time of one client. So tiles of other pictures are short while
  * they are drawn, and a thumbnail waits for milliseconds instead of a whole tile. */
@@ -330,16 +333,20 @@ static int64_t rests_at(const struct room *room)
     return at;
 }
 
+/* NULL: there is none, or enough wait to be sent. */
 static struct thumbnail *find_unseen(const struct session *session)
 {
     const struct thumbnail_list *list = session->thumbnails;
+    struct thumbnail *unseen = NULL;
+    int waiting = 0;
 
     for (size_t i = 0; i < list->count && !session->close_code; i++) {
-        if (list->items[i].looked != session->room->revision) {
-            return &list->items[i];
+        waiting += is_due(&list->items[i], session->room->revision);
+        if (!unseen && list->items[i].looked != session->room->revision) {
+            unseen = &list->items[i];
         }
     }
-    return NULL;
+    return waiting < WAITING ? unseen : NULL;
 }
 
 static struct session *next_in_turn(const struct hub *hub, int64_t now_ms)
