@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The binary header of a frame; its bytes are listed in README.md. */
+/* The binary headers of frames and thumbnails; their bytes are listed in README.md. */
 #include <string.h>
 
 #include "messages.h"
 
-enum { VERSION = 3 };
+enum { VERSION = 3, THUMBNAIL_VERSION = 1 };
 
 static void put(uint8_t **at, uint64_t value, int bytes)
 {
@@ -82,4 +82,33 @@ void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES])
     uint8_t *at = out + 4;
     memcpy(out, "FCFP", 4);
     put(&at, number, 4);
+}
+
+int thumbnail_height(int width)
+{
+    return (2 * width + 1) / 3;
+}
+
+void thumbnail_header_pack(const struct thumbnail_header *header,
+                           uint8_t out[THUMBNAIL_HEADER_BYTES])
+{
+    uint8_t *at = out + 4;
+
+    memcpy(out, "FCT1", 4);
+    put(&at, THUMBNAIL_VERSION, 1);
+    put(&at, CODEC_PNG, 1);
+    put(&at, header->count, 2);
+    put(&at, header->number, 4);
+    put(&at, 0, 4);
+    put(&at, header->revision, 8);
+}
+
+void thumbnail_row_pack(const struct thumbnail_row *row, uint8_t out[THUMBNAIL_ROW_BYTES])
+{
+    put(&out, (uint64_t)row->kind, 1);
+    put(&out, row->id_bytes, 1);
+    put(&out, (uint64_t)row->width, 2);
+    put(&out, (uint64_t)row->height, 2);
+    put(&out, 0, 2);
+    put(&out, row->bytes, 4);
 }

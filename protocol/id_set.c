@@ -38,7 +38,7 @@ bool id_set_equal(const struct id_set *a, const struct id_set *b)
     return i == a->count && i == b->count;
 }
 
-static bool check(const cJSON *list, const char *place, struct error *err)
+static bool check(const cJSON *list, int most, const char *place, struct error *err)
 {
     const cJSON *id;
     int index = 0;
@@ -47,9 +47,9 @@ static bool check(const cJSON *list, const char *place, struct error *err)
     }
     cJSON_ArrayForEach(id, list)
     {
-        if (index == LIMIT_ISOLATED) {
+        if (index == most) {
             return error_set(err, ERROR_LIMIT, place, "%d ids are above the maximum %d",
-                             cJSON_GetArraySize(list), LIMIT_ISOLATED);
+                             cJSON_GetArraySize(list), most);
         }
         if (!cJSON_IsString(id) || !record_name_valid(id->valuestring)) {
             char item[ERROR_PLACE_BYTES], number[16];
@@ -67,12 +67,13 @@ static int compare_ids(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-bool id_set_read(struct id_set *out, const cJSON *list, const char *place, struct error *err)
+bool id_set_read(struct id_set *out, const cJSON *list, int most, const char *place,
+                 struct error *err)
 {
     const char *ids[LIMIT_ISOLATED];
     struct id_set all = {.ids = (char **)ids}, once = {.ids = (char **)ids};
     const cJSON *id;
-    if (!check(list, place, err)) {
+    if (!check(list, most, place, err)) {
         return false;
     }
     cJSON_ArrayForEach(id, list)

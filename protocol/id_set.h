@@ -18,8 +18,9 @@ struct id_set {
 void id_set_finish(struct id_set *set);
 void id_set_copy(struct id_set *to, const struct id_set *from); /* `to` is overwritten */
 bool id_set_equal(const struct id_set *a, const struct id_set *b);
-/* A list of at most LIMIT_ISOLATED ids. On failure `*out` is as it was. */
-bool id_set_read(struct id_set *out, const cJSON *list, const char *place, struct error *err);
+/* A list of at most `most` ids, which is at most LIMIT_ISOLATED. On failure `*out` is as it was. */
+bool id_set_read(struct id_set *out, const cJSON *list, int most, const char *place,
+                 struct error *err);
 cJSON *id_set_print(const struct id_set *set); /* caller frees */
 
 #endif

@@ -80,6 +80,11 @@
     X(PICK_WORK, "pick_work", 50000000, "operations",                                              \
       "the ray of a pick: instructions of the field, operations of code in it")                    \
     X(ISOLATED, "isolated", 256, "nodes", "nodes that a view isolates")                            \
+    X(THUMBNAILS, "thumbnails", 256, "ids", "one list of thumbnails that a client asks for")       \
+    X(THUMBNAIL_WIDTH, "thumbnail_width", 192, "pixels", "width of a small thumbnail")             \
+    X(THUMBNAIL_NODES, "thumbnail_nodes", 4096, "nodes",                                           \
+      "a node with all below it and in its models, where it has a thumbnail")                      \
+    X(THUMBNAIL_CACHE_BYTES, "thumbnail_cache_bytes", 16777216, "bytes", "thumbnails kept")        \
     X(FRAMES_IN_FLIGHT, "frames_in_flight", 2, "frames",                                           \
       "frames sent and not yet acknowledged, per client")                                          \
     X(SESSIONS, "sessions", 256, "sessions", "live connections")                                   \

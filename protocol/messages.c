@@ -23,7 +23,7 @@ enum member_kind {
 };
 
 struct message_member {
-    struct param param; /* of MEMBER_OBJECT and the like only name and doc */
+    struct param param; /* of MEMBER_OBJECT and the like only name and doc; `max` ids of nodes */
     bool required;
     enum member_kind kind;
 };
@@ -39,6 +39,7 @@ struct message_type {
 #define COUNT PARAM_INT, .min = 0, .max = EXACT_MAX
 #define SMALL PARAM_INT, .min = 0, .max = 4294967295.0
 #define SIDE PARAM_INT, .min = 1, .max = LIMIT_VIEW_SIDE
+#define TILE PARAM_INT, .min = 12, .max = LIMIT_THUMBNAIL_WIDTH, .def = {THUMBNAIL_WIDTH}
 #define AT PARAM_FLOAT, .min = 0, .max = LIMIT_VIEW_SIDE
 
 static const char *const qualities[] = {"auto", "smooth", "sharp", NULL};
@@ -77,8 +78,9 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}},
-        {.param = {"isolate", .doc = "Ids: this client's pictures and picks show these nodes and"
-                                     " what is below them. Absent, or none in the scene: all."},
+        {.param = {"isolate", .max = LIMIT_ISOLATED,
+          .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
+                 " Absent, or none in the scene: all."},
          .kind = MEMBER_NODES})},
     [MESSAGE_EDIT] = {"edit", "Changes the scene.", MEMBERS(
         EDIT_NUMBER,
@@ -96,6 +98,19 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
     [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", MEMBERS(
         {.param = {"place", PARAM_TEXT, .doc = "Of the notice; absent: whatever it is."}})},
+    [MESSAGE_THUMBNAILS] = {"thumbnails",
+        "Whose thumbnails this client shows; only the newest counts.", MEMBERS(
+        {.param = {"nodes", .max = LIMIT_THUMBNAILS,
+          .doc = "Ids of nodes on screen. Those that the scene does not have are ignored."},
+         .kind = MEMBER_NODES},
+        {.param = {"large", .max = LIMIT_THUMBNAILS, .doc = "The same, 8/3 as wide."},
+         .kind = MEMBER_NODES},
+        {.param = {"materials", .max = LIMIT_THUMBNAILS, .doc = "Names of materials on screen."},
+         .kind = MEMBER_NODES},
+        {.param = {"width", TILE,
+          .doc = "Device pixels of a small one; the height is 2/3 of it. Absent: 96."}})},
+    [MESSAGE_ACK_THUMBNAILS] = {"ack_thumbnails", "Thumbnails were taken.", MEMBERS(
+        {.param = {"number", SMALL, .doc = "Of their message."}, .required = true})},
 };
 
 static const struct message_type server_messages[] = {
@@ -199,10 +214,10 @@ static bool check_key(const cJSON *json, const char *place, struct error *err)
            error_set(err, ERROR_INVALID, place, "expected %d of 0-9 a-f", MESSAGE_KEY_CHARACTERS);
 }
 
-static bool check_nodes(const cJSON *json, const char *place, struct error *err)
+static bool check_nodes(const cJSON *json, int most, const char *place, struct error *err)
 {
     struct id_set ids = {0};
-    bool ok = id_set_read(&ids, json, place, err);
+    bool ok = id_set_read(&ids, json, most, place, err);
     id_set_finish(&ids);
     return ok;
 }
@@ -226,7 +241,7 @@ static bool check_member(const struct message_member *member, const cJSON *json,
     case MEMBER_OPERATIONS:
         return edit_check(json, err);
     case MEMBER_NODES:
-        return check_nodes(json, place, err);
+        return check_nodes(json, (int)member->param.max, place, err);
     case MEMBER_OBJECT:
         return cJSON_IsObject(json) || error_set(err, ERROR_SYNTAX, place, "expected an object");
     case MEMBER_VALUE:

@@ -19,6 +19,8 @@ enum message_kind {
     MESSAGE_PICK,
     MESSAGE_ACK,
     MESSAGE_RETRY,
+    MESSAGE_THUMBNAILS,
+    MESSAGE_ACK_THUMBNAILS,
     MESSAGE_COUNT
 };
 
@@ -68,5 +70,30 @@ struct frame_header {
 void frame_header_pack(const struct frame_header *header, uint8_t out[FRAME_HEADER_BYTES]);
 bool frame_header_unpack(const uint8_t *bytes, size_t length, struct frame_header *out);
 void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES]);
+
+/* --- thumbnails --- */
+
+enum { THUMBNAIL_WIDTH = 96, THUMBNAIL_HEADER_BYTES = 24, THUMBNAIL_ROW_BYTES = 12 };
+
+enum thumbnail_kind { THUMBNAIL_NODE, THUMBNAIL_MATERIAL };
+
+struct thumbnail_header {
+    uint16_t count;    /* rows that follow, each with its id and its picture behind it */
+    uint32_t number;   /* 1, 2, 3... on this connection */
+    uint64_t revision; /* of the scene whose parts look so */
+};
+
+struct thumbnail_row {
+    enum thumbnail_kind kind;
+    size_t id_bytes;
+    int width, height;
+    size_t bytes; /* of the PNG; 0: it cannot be drawn */
+};
+
+/* The height of a thumbnail. */
+int thumbnail_height(int width);
+void thumbnail_header_pack(const struct thumbnail_header *header,
+                           uint8_t out[THUMBNAIL_HEADER_BYTES]);
+void thumbnail_row_pack(const struct thumbnail_row *row, uint8_t out[THUMBNAIL_ROW_BYTES]);
 
 #endif

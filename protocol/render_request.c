@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "limits.h"
 #include "nodes.h"
 
 /* clang-format off */
@@ -252,11 +253,12 @@ bool render_request_unpack(struct render_request *request, const cJSON *object, 
 
     cJSON_ArrayForEach(member, object)
     {
-        const bool ok = strcmp(member->string, "delivery") == 0
-                            ? record_read(&request->delivery, member, "/delivery", err)
-                        : strcmp(member->string, "isolate") == 0
-                            ? id_set_read(&request->isolate, member, "/isolate", err)
-                            : read_member(request, member, err);
+        const bool ok =
+            strcmp(member->string, "delivery") == 0
+                ? record_read(&request->delivery, member, "/delivery", err)
+            : strcmp(member->string, "isolate") == 0
+                ? id_set_read(&request->isolate, member, LIMIT_ISOLATED, "/isolate", err)
+                : read_member(request, member, err);
         if (!ok) {
             return false;
         }

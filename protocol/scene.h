@@ -68,6 +68,13 @@ void scene_destroy(struct scene *scene);
 char *scene_print(const struct scene *scene, bool pretty);
 cJSON *scene_to_json(const struct scene *scene);
 cJSON *node_to_json(const struct node *node);
+/* A part as a document of its own, with the resources that it uses: a subtree, where it stands at
+ * the origin, with the material that it inherits, visible even where it is hidden; or a sphere of a
+ * material. Ids and names of nodes, camera, lights and the rest are left out, so parts that look
+ * the same have the same text. NULL where it has more nodes than `most`, those of its models
+ * included. Caller frees. */
+cJSON *scene_part_of_node(const struct scene *scene, const struct node *node, size_t most);
+cJSON *scene_part_of_material(const struct scene *scene, const struct resource *material);
 
 struct node *scene_find(const struct scene *scene, const char *id);
 struct resource *resource_find(const struct resource_list *list, const char *name);

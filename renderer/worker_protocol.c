@@ -54,7 +54,7 @@ struct packet_row {
 static const struct packet_row to_worker[TO_WORKER_COUNT] = {
     [TO_WORKER_ASSET] = {true, MEMBERS(M(TEXT, asset.asset))},
     [TO_WORKER_SCENE] = {false, MEMBERS(M(TEXT, scene.scene), M(U64, scene.revision),
-                                        M(JSON, scene.document))},
+                                        M(BOOL, scene.portrait), M(JSON, scene.document))},
     [TO_WORKER_EDIT] = {false,
                         MEMBERS(M(TEXT, edit.scene), M(U64, edit.revision), M(JSON, edit.ops))},
     [TO_WORKER_DROP] = {false, MEMBERS(M(TEXT, state.scene))},

@@ -73,6 +73,7 @@ struct packet_scene {
     const char *scene;
     uint64_t revision;
     cJSON *document;
+    bool portrait; /* only its nodes count: portrait.h does the rest */
 };
 
 struct packet_edit {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "portrait.h"
 #include "protocol/memory.h"
 #include "worker_parts.h"
 
@@ -125,11 +126,26 @@ void worker_on_read(void *data, const char *image)
     }
 }
 
+/* The engine draws portraits whatever draws scenes: no compiler is to work for them. */
+static struct resident *make_resident(struct worker *w, struct scene *scene,
+                                      const struct packet_scene *packet)
+{
+    const enum render_stage stage = renderer_info(w->renderer)->stage;
+
+    if (packet->portrait) {
+        renderer_use_stage(w->renderer, RENDER_ENGINE);
+    }
+    struct resident *resident = resident_create(w->renderer, scene, packet->revision);
+    renderer_use_stage(w->renderer, stage);
+    return resident;
+}
+
 void worker_on_scene(struct worker *w, const struct packet_scene *packet)
 {
     struct worker_scene *entry = *worker_find_scene(w, packet->scene);
     struct error err = {0};
-    struct scene *scene = scene_read(packet->document, &err);
+    struct scene *scene = packet->portrait ? portrait_scene(packet->document, &err)
+                                           : scene_read(packet->document, &err);
 
     if (!scene) {
         worker_send_broken(w, packet->scene, packet->revision, &err, 0);
@@ -138,7 +154,7 @@ void worker_on_scene(struct worker *w, const struct packet_scene *packet)
     } else {
         entry = memory_alloc(1, sizeof *entry);
         entry->name = memory_text(packet->scene);
-        entry->resident = resident_create(w->renderer, scene, packet->revision);
+        entry->resident = make_resident(w, scene, packet);
         entry->next = w->scenes;
         w->scenes = entry;
     }

@@ -40,6 +40,12 @@
     X(FRAMES_SENT, "frames_sent_total", "counter", "Frames sent completely")                       \
     X(FRAMES_DROPPED, "frames_dropped_total", "counter", "Frames given up for newer ones")         \
     X(FRAME_BYTES, "frame_bytes_total", "counter", "Payload bytes of frames sent")                 \
+    X(THUMBNAILS_DRAWN, "thumbnails_drawn_total", "counter", "Thumbnails drawn, or tried")         \
+    X(THUMBNAILS_REUSED, "thumbnails_reused_total", "counter", "Thumbnails found in the cache")    \
+    X(THUMBNAILS_CANCELLED, "thumbnails_cancelled_total", "counter",                               \
+      "Thumbnails given up because something moved or nobody wanted them any more")                \
+    X(THUMBNAILS_SENT, "thumbnails_sent_total", "counter", "Thumbnails sent")                      \
+    X(THUMBNAIL_BYTES, "thumbnail_bytes_total", "counter", "Bytes of thumbnails sent")             \
     X(WORKER_UP, "worker_up", "gauge", "1 while the worker is ready")                              \
     X(WORKER_FILES_CONFINED, "worker_files_confined", "gauge",                                     \
       "1 where the kernel keeps the worker from files that are not its own")                       \

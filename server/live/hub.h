@@ -28,6 +28,7 @@ struct quarantine;
 struct render_queue;
 struct room;
 struct asset_index;
+struct thumbnails;
 struct ws;
 
 struct hub {
@@ -52,6 +53,7 @@ struct hub {
     struct quarantine *quarantine;
     struct compiles *compiles;
     struct image_cache *image_cache;
+    struct thumbnails *thumbnails;
     struct renderer_info renderer; /* of the newest worker; name "" before the first */
     int64_t next_cleaning;         /* clock_ms */
     atomic_bool draining;

@@ -27,6 +27,7 @@
 #include "server/log.h"
 #include "session.h"
 #include "stream.h"
+#include "thumbnails.h"
 
 /* --- events of the worker --- */
 
@@ -240,6 +241,7 @@ static int64_t on_tick(void *data, int64_t now_ms)
         }
         next = clock_earlier(next, compiles_watch(room, now_ms));
     }
+    next = clock_earlier(next, thumbnails_pump(hub, now_ms));
     if (now_ms >= hub->next_cleaning) {
         close_idle_rooms(hub, now_ms);
         hub->next_cleaning = now_ms + 5000;
@@ -288,6 +290,8 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     hub->quarantine = memory_alloc(1, sizeof *hub->quarantine);
     hub->compiles = memory_alloc(1, sizeof *hub->compiles);
     hub->image_cache = memory_alloc(1, sizeof *hub->image_cache);
+    hub->image_cache->limit = LIMIT_IMAGE_CACHE_BYTES;
+    hub->thumbnails = thumbnails_create();
     render_queue_init(hub->render_queue);
     hub->access = params->access;
     hub->web_dir = params->web_dir;
@@ -364,6 +368,7 @@ void hub_destroy(struct hub *hub)
     }
     render_queue_finish(hub->render_queue);
     image_cache_finish(hub->image_cache);
+    thumbnails_destroy(hub->thumbnails);
     catalog_finish(hub->catalog);
     asset_index_finish(hub->assets);
     free(hub->catalog);

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "protocol/limits.h"
 #include "protocol/memory.h"
 
 enum { LARGEST_PART = 4 }; /* one picture takes at most this part of the limit */
@@ -60,8 +59,7 @@ const struct cached_image *image_cache_find(struct image_cache *cache, const cha
 void image_cache_add(struct image_cache *cache, const char *key, enum codec codec,
                      uint64_t revision, const void *bytes, size_t length)
 {
-    if (strlen(key) + length > LIMIT_IMAGE_CACHE_BYTES / LARGEST_PART ||
-        image_cache_find(cache, key)) {
+    if (strlen(key) + length > cache->limit / LARGEST_PART || image_cache_find(cache, key)) {
         return;
     }
     struct cached_image *image = memory_alloc(1, sizeof *image + length);
@@ -72,7 +70,7 @@ void image_cache_add(struct image_cache *cache, const char *key, enum codec code
     memcpy(image->bytes, bytes, length);
     link_first(cache, image);
     cache->bytes += weight(image);
-    while (cache->bytes > LIMIT_IMAGE_CACHE_BYTES) {
+    while (cache->bytes > cache->limit) {
         drop(cache, cache->last);
     }
 }

@@ -21,7 +21,7 @@ struct cached_image {
 /* `first` was used most recently. */
 struct image_cache {
     struct cached_image *first, *last;
-    size_t bytes;
+    size_t bytes, limit;
 };
 
 void image_cache_finish(struct image_cache *cache);

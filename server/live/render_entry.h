@@ -17,8 +17,9 @@ enum {
     RENDER_STILL = 1,
     RENDER_LOSSLESS = 2,
     RENDER_IMAGE = 3,
-    RENDER_DEADLINE_MS = 120000, /* after so long without progress an order fails */
-    RENDER_DEATHS = 2,           /* workers that one scene may end */
+    RENDER_THUMBNAIL = RENDER_STILL, /* drawn at rest alone; thumbnails.h */
+    RENDER_DEADLINE_MS = 120000,     /* after so long without progress an order fails */
+    RENDER_DEATHS = 2,               /* workers that one scene may end */
 };
 
 struct render_queue {
@@ -39,6 +40,7 @@ struct picture_answer {
 struct render_order {
     struct room *room;             /* the scene; or */
     const char *document;          /* a document for this picture alone */
+    bool portrait;                 /* of which only the nodes count (renderer/portrait.h) */
     struct render_request request; /* taken */
     int priority;
     /* Who pays for the time: the id of a live connection, or the address of a client; copied. */

@@ -99,7 +99,10 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
 
     asset_index_send(hub, json_member_text(environment, "image", ""));
     scene_name(entry, name);
-    room_sync_send_scene(hub, name, 1, document);
+    room_sync_send_scene(hub, &(struct packet_scene){.scene = name,
+                                                     .revision = 1,
+                                                     .portrait = entry->order.portrait,
+                                                     .document = document});
 }
 
 static struct render_demand render_demand(const struct render_order *order)

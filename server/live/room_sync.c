@@ -23,15 +23,14 @@ static void send_image(struct room *room, const struct scene *scene)
     }
 }
 
-/* Takes `document`. Where code is not allowed, none reaches the worker. */
-void room_sync_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document)
+/* Takes the document. Where code is not allowed, none reaches the worker. */
+void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet)
 {
     if (hub->code_refused) {
-        code_text_remove(document);
+        code_text_remove(packet->document);
     }
-    supervisor_send(hub->supervisor,
-                    &(struct packet){.kind = TO_WORKER_SCENE, .scene = {name, revision, document}});
-    cJSON_Delete(document);
+    supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_SCENE, .scene = *packet});
+    cJSON_Delete(packet->document);
 }
 
 /* The same of an edit. */
@@ -54,9 +53,13 @@ static void send_scene(struct room *room, const struct scene *scene, uint64_t re
     const bool printed = room->text && scene == room->scene && !room->hub->code_refused;
 
     send_image(room, scene);
-    room_sync_send_scene(room->hub, room->id, revision,
-                         printed ? cJSON_CreateRaw((const char *)room->text->bytes)
-                                 : scene_to_json(scene));
+    room_sync_send_scene(room->hub,
+                         &(struct packet_scene){
+                             .scene = room->id,
+                             .revision = revision,
+                             .document = printed ? cJSON_CreateRaw((const char *)room->text->bytes)
+                                                 : scene_to_json(scene),
+                         });
     room->sent = revision;
 }
 

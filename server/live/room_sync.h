@@ -10,10 +10,11 @@
 #include <stdint.h>
 
 struct hub;
+struct packet_scene;
 struct room;
 
 /* Sends a scene under `name`; takes `document`. */
-void room_sync_send_scene(struct hub *hub, const char *name, uint64_t revision, cJSON *document);
+void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet);
 
 /* Sends the scene to a worker that does not hold it, before its first order. */
 void room_sync_open(struct room *room);

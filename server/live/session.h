@@ -9,6 +9,7 @@
 
 struct author;
 struct stream;
+struct thumbnail_list;
 struct hub;
 struct room;
 
@@ -24,6 +25,7 @@ struct session {
     int64_t newest_edit;             /* the greatest edit number used, refused edits included */
     struct send_queue send_queue;
     struct stream *stream;
+    struct thumbnail_list *thumbnails;
     uint64_t pick_turn; /* turn of the picker that answered it last */
     bool working;       /* a task works on its message; the session stays meanwhile */
     bool heavy;         /* that short message may take long */

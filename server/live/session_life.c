@@ -13,6 +13,7 @@
 #include "server/clock.h"
 #include "server_message.h"
 #include "stream.h"
+#include "thumbnails.h"
 
 struct session *session_create(struct hub *hub, void (*wake)(void *connection), void *connection)
 {
@@ -29,6 +30,7 @@ struct session *session_create(struct hub *hub, void (*wake)(void *connection), 
     send_queue_init(&session->send_queue);
     session->stream = memory_alloc(1, sizeof *session->stream);
     stream_init(session->stream);
+    session->thumbnails = memory_alloc(1, sizeof *session->thumbnails);
     metric_add(&hub->metrics, METRIC_SESSIONS, 1);
     metric_add(&hub->metrics, METRIC_SESSIONS_TOTAL, 1);
     return session;
@@ -59,8 +61,10 @@ void session_leave_room(struct session *session)
 static void session_destroy(struct session *session)
 {
     picker_forget(session);
+    thumbnails_stop(session);
     stream_finish(session);
     free(session->stream);
+    free(session->thumbnails);
     session_leave_room(session);
     send_queue_finish(&session->send_queue);
     metric_add(&session->hub->metrics, METRIC_SESSIONS, -1);
@@ -92,5 +96,6 @@ void session_close(struct session *session, int code, const char *reason, int re
     session_say(session, message_bye(reason, retry_ms));
     session->close_code = code;
     picker_forget(session);
+    thumbnails_stop(session);
     stream_stop(session);
 }

@@ -17,6 +17,7 @@
 #include "server_message.h"
 #include "session_life.h"
 #include "stream.h"
+#include "thumbnails.h"
 
 /* Numbers may be left out, but nobody gets to where none is left. */
 static bool use_number(struct session *session, int64_t number, struct error *err)
@@ -106,6 +107,15 @@ static void retry(struct session *session, const cJSON *message)
     }
 }
 
+static void thumbnails(struct session *session, const cJSON *message)
+{
+    struct error err = {0};
+
+    if (!thumbnails_ask(session, message, &err)) {
+        session_error(session, &err);
+    }
+}
+
 static void handle(struct session *session, const struct message *message)
 {
     if (!session->room) {
@@ -133,6 +143,12 @@ static void handle(struct session *session, const struct message *message)
         break;
     case MESSAGE_ACK:
         stream_acknowledge(session, (uint32_t)json_member_number(message->json, "frame", 0));
+        break;
+    case MESSAGE_THUMBNAILS:
+        thumbnails(session, message->json);
+        break;
+    case MESSAGE_ACK_THUMBNAILS:
+        thumbnails_acknowledge(session, (uint32_t)json_member_number(message->json, "number", 0));
         break;
     case MESSAGE_HELLO: /* hello_receive */
     case MESSAGE_COUNT:

@@ -122,7 +122,7 @@ static bool read_picture(const cJSON *message, struct render_request *out, struc
     record_put(&out->picture, "height", json_member_number(message, "height", 0));
     record_put_text(&out->picture, "aov", json_member_text(message, "aov", aov_name(AOV_COLOR)));
     return (!camera || record_read(&out->camera, camera, "/camera", err)) &&
-           (!isolate || id_set_read(&out->isolate, isolate, "/isolate", err));
+           (!isolate || id_set_read(&out->isolate, isolate, LIMIT_ISOLATED, "/isolate", err));
 }
 
 bool stream_set_view(struct session *session, const cJSON *message, struct error *err)

@@ -68,6 +68,7 @@ void send_queue_finish(struct send_queue *queue)
     }
     frame_clear(&queue->current);
     frame_clear(&queue->next);
+    shared_buffer_unref(queue->behind);
 }
 
 bool send_queue_text(struct send_queue *queue, struct shared_buffer *text)
@@ -116,9 +117,16 @@ uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *h
     return given_up;
 }
 
+void send_queue_behind(struct send_queue *queue, struct shared_buffer *message)
+{
+    shared_buffer_unref(queue->behind);
+    queue->behind = shared_buffer_ref(message);
+    queue->behind_sent = 0;
+}
+
 bool send_queue_is_empty(const struct send_queue *queue)
 {
-    return !queue->first && !queue->current.payload;
+    return !queue->first && !queue->current.payload && !queue->behind;
 }
 
 bool send_queue_has_frame(const struct send_queue *queue, bool *out_precious)
@@ -170,12 +178,35 @@ static void next_frame_part(struct send_queue *queue, uint8_t *out, struct send_
     }
 }
 
+static void next_behind(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece)
+{
+    const struct shared_buffer *message = queue->behind;
+    const size_t left = message->length - queue->behind_sent;
+    const size_t length = left < SEND_QUEUE_PART_BYTES ? left : SEND_QUEUE_PART_BYTES;
+
+    memcpy(out, message->bytes + queue->behind_sent, length);
+    *piece = (struct send_queue_piece){.kind = SEND_QUEUE_BINARY,
+                                       .first = queue->behind_sent == 0,
+                                       .last = length == left,
+                                       .length = length};
+    queue->behind_sent += length;
+    if (piece->last) {
+        shared_buffer_unref(queue->behind);
+        queue->behind = NULL;
+        queue->behind_sent = 0;
+    }
+}
+
 bool send_queue_next(struct send_queue *queue, uint8_t *out, struct send_queue_piece *piece)
 {
-    if (queue->first) {
+    const bool begun = queue->behind_sent > 0;
+
+    if (queue->first && !begun) {
         next_text(queue, out, piece);
-    } else if (queue->current.payload) {
+    } else if (queue->current.payload && !begun) {
         next_frame_part(queue, out, piece);
+    } else if (queue->behind) {
+        next_behind(queue, out, piece);
     } else {
         return false;
     }

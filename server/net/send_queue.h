@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The send queue of one live connection: messages and the pieces in which they are written. Texts
  * go first; a frame goes in parts between texts. At most one frame waits behind the one being
- * written. Pure; not thread-safe.
+ * written. A binary message goes behind all of these. Pure; not thread-safe.
  * Frames are a stream. A key frame decodes alone; any other frame needs all frames since the last
  * key. A lost frame therefore makes all frames up to the next key useless; send_queue_wants_key
  * asks for that key. A key replaces the waiting frame. No other frame does, because it needs the
@@ -45,7 +45,9 @@ struct send_queue {
     struct send_queue_text *first, **end;
     size_t text_bytes, text_offset;
     struct send_queue_frame current, next;
-    bool linked; /* no frame was lost since the last key */
+    struct shared_buffer *behind; /* NULL: nothing */
+    size_t behind_sent;           /* bytes written: once begun, it is written to its end */
+    bool linked;                  /* no frame was lost since the last key */
 };
 
 enum send_queue_kind { SEND_QUEUE_TEXT, SEND_QUEUE_BINARY };
@@ -71,6 +73,9 @@ uint32_t send_queue_frame(struct send_queue *queue, const struct frame_header *h
 void send_queue_skip(struct send_queue *queue);
 /* Whether the queue accepts a key frame alone. */
 bool send_queue_wants_key(const struct send_queue *queue);
+/* Queues a binary message that goes when nothing else waits; takes a reference of its own. One that
+ * waits is replaced, so the caller waits for an acknowledgement. */
+void send_queue_behind(struct send_queue *queue, struct shared_buffer *message);
 bool send_queue_is_empty(const struct send_queue *queue);
 /* Whether a frame waits to be written. `*out_precious`: a newer frame would not replace it. */
 bool send_queue_has_frame(const struct send_queue *queue, bool *out_precious);

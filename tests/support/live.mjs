@@ -108,6 +108,8 @@ export class Live {
         this.ack = ack;
         this.messages = [];
         this.frames = [];
+        this.thumbnails = []; // each with the message that it came in
+        this.ackThumbnails = ack;
         this.status = null;
         this.closeCode = null;
         this.closed = false;
@@ -187,8 +189,38 @@ export class Live {
         }
     }
 
+    takeThumbnails(bytes) {
+        const header = { number: bytes.readUInt32LE(8), revision: Number(bytes.readBigUInt64LE(16)) };
+        let at = 24;
+        for (let i = 0; i < bytes.readUInt16LE(6); i += 1) {
+            const idAt = at + 12;
+            const pngAt = idAt + bytes[at + 1];
+            const end = pngAt + bytes.readUInt32LE(at + 8);
+            this.thumbnails.push({
+                ...header,
+                at: Date.now(),
+                kind: ['node', 'material'][bytes[at]],
+                id: bytes.subarray(idAt, pngAt).toString(),
+                width: bytes.readUInt16LE(at + 2),
+                height: bytes.readUInt16LE(at + 4),
+                png: bytes.subarray(pngAt, end),
+            });
+            at = end;
+        }
+        if (at !== bytes.length) {
+            throw new Error(`thumbnails take ${at} of ${bytes.length} bytes`);
+        }
+        if (this.ackThumbnails) {
+            this.say({ type: 'ack_thumbnails', number: header.number });
+        }
+    }
+
     takePart(bytes) {
         const magic = bytes.subarray(0, 4).toString();
+        if (magic === 'FCT1') {
+            this.takeThumbnails(bytes);
+            return;
+        }
         if (magic === 'FCF1') {
             const header = readFrameHeader(bytes);
             this.frame = { ...header, at: Date.now(), parts: [bytes.subarray(40 + 4 * header.stagesUs.length)], got: 0 };

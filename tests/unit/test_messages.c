@@ -74,6 +74,11 @@ static void test_accepts(void **state)
     assert_accepted("{'type':'pick','pick':1,'x':0,'y':10.5,'seq':4}", MESSAGE_PICK);
     assert_accepted("{'type':'ack','frame':1}", MESSAGE_ACK);
     assert_accepted("{'type':'retry','place':'/nodes/a'}", MESSAGE_RETRY);
+    assert_accepted("{'type':'thumbnails'}", MESSAGE_THUMBNAILS);
+    assert_accepted("{'type':'thumbnails','nodes':['a','b'],'large':['a'],'materials':['m'],"
+                    "'width':192}",
+                    MESSAGE_THUMBNAILS);
+    assert_accepted("{'type':'ack_thumbnails','number':1}", MESSAGE_ACK_THUMBNAILS);
     for (enum message_kind kind = 0; kind < MESSAGE_COUNT; kind++) {
         if (!accepted[kind]) {
             fail_msg("nothing above says %s", message_name(kind));
@@ -122,6 +127,9 @@ static void test_refuses(void **state)
                    "/isolate", "expected a list of ids");
     assert_refused("{'type':'view','seq':1,'width':9,'height':9,'isolate':['a',1]}", ERROR_INVALID,
                    "/isolate/1", "expected the id of a node");
+    assert_refused("{'type':'thumbnails','nodes':['a','no id']}", ERROR_INVALID, "/nodes/1",
+                   "expected the id of a node");
+    assert_refused("{'type':'thumbnails','width':193}", ERROR_INVALID, "/width", "192");
     assert_refused("{'type':'edit','edit':0,'ops':[]}", ERROR_INVALID, "/edit",
                    "0 is below the minimum 1");
     assert_refused("{'type':'edit','edit':1,'ops':[]}", ERROR_SYNTAX, "",
@@ -210,6 +218,27 @@ static void test_frame_header_bytes(void **state)
     assert_false(frame_header_unpack(bytes, sizeof bytes, &back));
 }
 
+static void test_thumbnail_bytes(void **state)
+{
+    static const uint8_t header_bytes[THUMBNAIL_HEADER_BYTES] = {'F', 'C', 'T', '1', 1, 2, 3, 0, 5,
+                                                                 6,   0,   0,   0,   0, 0, 0, 7, 8};
+    static const uint8_t row_bytes[THUMBNAIL_ROW_BYTES] = {1, 9, 96, 0, 64, 0, 0, 0, 1, 2, 3, 4};
+    uint8_t header[THUMBNAIL_HEADER_BYTES], row[THUMBNAIL_ROW_BYTES];
+
+    (void)state;
+    thumbnail_header_pack(
+        &(struct thumbnail_header){.count = 3, .number = 0x605, .revision = 0x807}, header);
+    assert_memory_equal(header, header_bytes, sizeof header);
+    thumbnail_row_pack(&(struct thumbnail_row){.kind = THUMBNAIL_MATERIAL,
+                                               .id_bytes = 9,
+                                               .width = 96,
+                                               .height = thumbnail_height(96),
+                                               .bytes = 0x04030201},
+                       row);
+    assert_memory_equal(row, row_bytes, sizeof row);
+    assert_int_equal(thumbnail_height(256), 171);
+}
+
 static void test_describes_both_directions(void **state)
 {
     (void)state;
@@ -246,6 +275,7 @@ int main(void)
         cmocka_unit_test(test_refuses_large_messages),
         cmocka_unit_test(test_members_have_fallbacks),
         cmocka_unit_test(test_frame_header_bytes),
+        cmocka_unit_test(test_thumbnail_bytes),
         cmocka_unit_test(test_describes_both_directions),
     };
     return cmocka_run_group_tests_name("messages", tests, NULL, NULL);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "protocol/json.h"
+#include "protocol/limits.h"
 #include "protocol/nodes.h"
 #include "protocol/render_request.h"
 #include "renderer/renderer.h"
@@ -113,7 +114,7 @@ static void what_is_printed_is_read(void **state)
     sent.codec = CODEC_JPEG;
     record_put(&sent.delivery, "fast", true);
     cJSON *ids = json_text_parse("['b','a','b']", &err), *printed;
-    assert_true(id_set_read(&sent.isolate, ids, "", &err));
+    assert_true(id_set_read(&sent.isolate, ids, LIMIT_ISOLATED, "", &err));
     assert_int_equal(sent.isolate.count, 2);
     printed = render_request_print(&sent);
     render_request_init(&got);

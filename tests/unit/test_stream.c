@@ -291,6 +291,57 @@ static void what_arrives_can_be_decoded(void **state)
     }
 }
 
+static struct shared_buffer *buffer_of(size_t length, uint8_t value)
+{
+    uint8_t *bytes = memory_alloc(length, 1);
+
+    memset(bytes, value, length);
+    struct shared_buffer *buffer = shared_buffer_create(bytes, length);
+    free(bytes);
+    return buffer;
+}
+
+static void assert_piece(struct send_queue *queue, enum send_queue_kind kind, bool first, bool last,
+                         uint8_t value)
+{
+    static uint8_t bytes[SEND_QUEUE_PART_BYTES + FRAME_HEADER_BYTES];
+    struct send_queue_piece piece;
+
+    assert_true(send_queue_next(queue, bytes, &piece));
+    assert_int_equal(piece.kind, kind);
+    assert_int_equal(piece.first, first);
+    assert_int_equal(piece.last, last);
+    assert_int_equal(bytes[piece.length - 1], value);
+}
+
+static void what_is_behind_goes_last_and_in_one_go(void **state)
+{
+    struct shared_buffer *behind = buffer_of(SEND_QUEUE_PART_BYTES + 5, 1);
+    struct shared_buffer *text = buffer_of(9, 2), *frame = buffer_of(7, 3);
+    const struct frame_header header = {.number = 1, .flags = FRAME_KEY};
+    struct send_queue queue;
+
+    (void)state;
+    send_queue_init(&queue);
+    send_queue_behind(&queue, behind);
+    send_queue_text(&queue, text);
+    send_queue_frame(&queue, &header, frame);
+    assert_piece(&queue, SEND_QUEUE_TEXT, true, true, 2);
+    assert_piece(&queue, SEND_QUEUE_BINARY, true, true, 3);
+    assert_piece(&queue, SEND_QUEUE_BINARY, true, false, 1);
+    /* A message that is begun is finished: nothing may stand between its pieces. */
+    send_queue_text(&queue, text);
+    assert_piece(&queue, SEND_QUEUE_BINARY, false, true, 1);
+    assert_piece(&queue, SEND_QUEUE_TEXT, true, true, 2);
+    assert_true(send_queue_is_empty(&queue));
+    send_queue_behind(&queue, behind);
+    assert_false(send_queue_is_empty(&queue));
+    send_queue_finish(&queue);
+    shared_buffer_unref(behind);
+    shared_buffer_unref(text);
+    shared_buffer_unref(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +351,7 @@ int main(void)
         cmocka_unit_test(a_frame_takes_no_place_that_it_needs),
         cmocka_unit_test(a_lost_frame_takes_its_dependants),
         cmocka_unit_test(what_arrives_can_be_decoded),
+        cmocka_unit_test(what_is_behind_goes_last_and_in_one_go),
     };
 
     return cmocka_run_group_tests_name("stream", tests, NULL, NULL);

@@ -15,11 +15,15 @@ import {
     type RetryMessage,
     readMessage,
     readPacket,
+    readTiles,
     type ServerMessage,
+    type ThumbnailsMessage,
+    type Tile,
     type ViewMessage,
 } from "./protocol.ts";
 
 export type ViewState = Omit<ViewMessage, "type" | "seq">;
+export type WantedTiles = Omit<ThumbnailsMessage, "type">;
 
 /* From the page. */
 export type Order =
@@ -41,6 +45,7 @@ export type Order =
     | { readonly kind: "send"; readonly message: OutgoingEdit | RetryMessage }
     | { readonly kind: "pick"; readonly pick: number; readonly x: number; readonly y: number }
     | { readonly kind: "view"; readonly view: ViewState }
+    | { readonly kind: "thumbnails"; readonly wanted: WantedTiles }
     | { readonly kind: "surface"; readonly surface: Surface | null };
 
 /* To the page. */
@@ -56,6 +61,7 @@ export type Report =
       }
     | { readonly kind: "message"; readonly message: ServerMessage }
     | { readonly kind: "frame"; readonly frame: FrameInfo }
+    | { readonly kind: "thumbnails"; readonly tiles: readonly Tile[] }
     | { readonly kind: "statistics"; readonly statistics: Statistics };
 
 const FIRST_RETRY_MS = 250;
@@ -156,6 +162,7 @@ export class Engine {
     #bye: { reason: string; retryMs: number | null } | null = null;
     #at: { revision: number; epoch: string | number } | null = null;
     #view: ViewState | null = null;
+    #wanted: WantedTiles | null = null;
     #viewDue = false;
     #seq = 0;
     #sent = "";
@@ -207,6 +214,10 @@ export class Engine {
                 break;
             case "view":
                 this.#setView(order.view);
+                break;
+            case "thumbnails":
+                this.#wanted = order.wanted;
+                this.#sendWanted();
                 break;
             case "surface":
                 this.#presenter.setSurface(order.surface);
@@ -266,6 +277,7 @@ export class Engine {
         });
         this.#sent = "";
         this.#sendView();
+        this.#sendWanted();
     }
 
     #lost(reason: string): void {
@@ -352,6 +364,12 @@ export class Engine {
         this.#meter.viewSent(this.#seq, performance.now());
     }
 
+    #sendWanted(): void {
+        if (this.#wanted) {
+            this.#send({ type: "thumbnails", ...this.#wanted });
+        }
+    }
+
     /* The picture on screen may be none of what is looked at now. */
     #ask(asked: Asked): void {
         this.#asked.set(this.#seq, asked);
@@ -393,6 +411,12 @@ export class Engine {
     /* --- frames --- */
 
     #binary(data: ArrayBuffer): void {
+        const message = readTiles(data);
+        if (message) {
+            this.#report({ kind: "thumbnails", tiles: message.tiles });
+            this.#send({ type: "ack_thumbnails", number: message.number });
+            return;
+        }
         const packet = readPacket(data);
         const frame = packet && this.#assembler.push(packet, performance.now());
         if (!frame) {

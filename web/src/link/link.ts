@@ -32,6 +32,7 @@ import {
     SUBPROTOCOL,
     TOKEN_PREFIX,
 } from "./protocol.ts";
+import { ThumbnailStore, type Thumbnails } from "./thumbnails.ts";
 import { Viewer } from "./viewer.ts";
 
 export interface EditOptions {
@@ -68,6 +69,8 @@ export interface Link {
     pickIdle(x: number, y: number): Promise<PickedMessage | null>;
     /* What was given up at a place, because it was too slow or crashed, is tried again. */
     tryAgain(place: string): void;
+    /* Small pictures of nodes and materials. */
+    readonly thumbnails: Thumbnails;
     /* Tries to connect at once instead of waiting for the next attempt. */
     retry(): void;
     destroy(): void;
@@ -91,6 +94,7 @@ class SceneLink implements Link {
     readonly #picks: Picks;
     readonly #notices: Notices;
     readonly #motion: Motion;
+    readonly thumbnails: ThumbnailStore;
     readonly #retry = (): void => this.retry();
     #session: sessions.Session | null = null;
     #author: Author | null = null;
@@ -107,6 +111,10 @@ class SceneLink implements Link {
         this.#picks = new Picks(this.#host);
         this.#notices = new Notices(stores);
         this.#motion = new Motion(stores);
+        this.thumbnails = new ThumbnailStore(
+            (order) => this.#host.send(order),
+            window.devicePixelRatio,
+        );
         window.addEventListener("online", this.#retry);
     }
 
@@ -139,6 +147,7 @@ class SceneLink implements Link {
         }
         this.#session = null;
         this.#picks.fail();
+        this.thumbnails.clear();
         this.#host.send({ kind: "close" });
         const { schema } = this.#stores.document.getState();
         this.#stores.document.setState({ ...EMPTY_DOCUMENT_STATE, schema });
@@ -175,6 +184,9 @@ class SceneLink implements Link {
                 break;
             case "frame":
                 this.#stores.link.setState({ frame: report.frame });
+                break;
+            case "thumbnails":
+                this.thumbnails.take(report.tiles);
                 break;
             case "statistics":
                 this.#stores.link.setState({ statistics: report.statistics });

@@ -53,12 +53,30 @@ export interface RetryMessage {
     readonly place?: string;
 }
 
+/* What this client shows thumbnails of; only the newest counts. */
+export interface ThumbnailsMessage {
+    readonly type: "thumbnails";
+    /* Device pixels of a small one. */
+    readonly width: number;
+    readonly nodes: readonly string[];
+    /* Ids of nodes, 8/3 as wide. */
+    readonly large: readonly string[];
+    readonly materials: readonly string[];
+}
+
+export interface AckThumbnailsMessage {
+    readonly type: "ack_thumbnails";
+    readonly number: number;
+}
+
 export type ClientMessage =
     | HelloMessage
     | ViewMessage
     | OutgoingEdit
     | PickMessage
     | AckMessage
+    | ThumbnailsMessage
+    | AckThumbnailsMessage
     | RetryMessage;
 
 /* --- server to client --- */
@@ -307,4 +325,78 @@ export function packPart(number: number, payload: Uint8Array): ArrayBuffer {
     view.setUint32(4, number, true);
     new Uint8Array(data, FRAME_PART_HEADER_BYTES).set(payload);
     return data;
+}
+
+/* --- thumbnails --- */
+
+export type TileKind = "node" | "material";
+
+export interface Tile {
+    readonly kind: TileKind;
+    readonly id: string;
+    /* Device pixels. */
+    readonly width: number;
+    readonly height: number;
+    /* Null: it cannot be drawn. */
+    readonly picture: Blob | null;
+}
+
+export interface TileMessage {
+    readonly number: number;
+    /* Of the scene whose parts look so. */
+    readonly revision: number;
+    readonly tiles: readonly Tile[];
+}
+
+/* "FCT1", read little-endian. */
+const MAGIC_THUMBNAILS = 0x31544346;
+const THUMBNAILS_VERSION = 1;
+const THUMBNAILS_HEADER_BYTES = 24;
+const TILE_HEADER_BYTES = 12;
+const TILE_KINDS: readonly TileKind[] = ["node", "material"];
+
+function readTile(data: ArrayBuffer, at: number): { tile: Tile; end: number } | null {
+    if (at + TILE_HEADER_BYTES > data.byteLength) {
+        return null;
+    }
+    const view = new DataView(data, at);
+    const kind = TILE_KINDS[view.getUint8(0)];
+    const start = at + TILE_HEADER_BYTES + view.getUint8(1);
+    const end = start + view.getUint32(8, true);
+    if (!kind || end > data.byteLength) {
+        return null;
+    }
+    const id = new TextDecoder().decode(
+        new Uint8Array(data, at + TILE_HEADER_BYTES, start - at - TILE_HEADER_BYTES),
+    );
+    const picture = end > start ? new Blob([data.slice(start, end)], { type: "image/png" }) : null;
+    const [width, height] = [view.getUint16(2, true), view.getUint16(4, true)];
+    return { tile: { kind, id, width, height, picture }, end };
+}
+
+/* One binary message; null for what is no whole message of thumbnails. */
+export function readTiles(data: ArrayBuffer): TileMessage | null {
+    const view = new DataView(data);
+    if (
+        data.byteLength < THUMBNAILS_HEADER_BYTES ||
+        view.getUint32(0, true) !== MAGIC_THUMBNAILS ||
+        view.getUint8(4) !== THUMBNAILS_VERSION
+    ) {
+        return null;
+    }
+    const tiles: Tile[] = [];
+    let at = THUMBNAILS_HEADER_BYTES;
+    for (let count = view.getUint16(6, true); count > 0; count--) {
+        const next = readTile(data, at);
+        if (!next) {
+            return null;
+        }
+        tiles.push(next.tile);
+        at = next.end;
+    }
+    return {
+        number: view.getUint32(8, true),
+        revision: Number(view.getBigUint64(16, true)),
+        tiles,
+    };
 }

@@ -602,6 +602,17 @@ export const COMMANDS: readonly Command[] = [
         run: show({ popup: "statistics" }),
     }),
     row({
+        id: "view.thumbnails",
+        words: "preview icons tiles tree",
+        title: "Thumbnails in the tree",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, {
+                thumbnails: !stores.view.getState().preferences.thumbnails,
+            }),
+    }),
+    row({
         id: "view.theme",
         words: "next dark light system mode appearance",
         title: "Switch the theme",

@@ -47,6 +47,8 @@ export interface Preferences {
     readonly hintsDone: readonly string[];
     /* Single keys (G, H, F …) act as commands; some assistive tools need that off. */
     readonly singleKeys: boolean;
+    /* Rows of the tree have pictures of their nodes. */
+    readonly thumbnails: boolean;
     /* Node types last added, newest first. */
     readonly recent: readonly string[];
     /* How what is added combines with what is selected: as it was last. */
@@ -75,6 +77,7 @@ export const PREFERENCES: Preferences = {
     panels: { scene: true, inspector: true, graph: false },
     hintsDone: [],
     singleKeys: true,
+    thumbnails: true,
     recent: [],
     way: "union",
     hands: HANDS,
@@ -236,6 +239,7 @@ export function readPreferences(text: string | null): Preferences {
         },
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,
+        thumbnails: stored.thumbnails !== false,
         recent: texts(stored.recent).slice(0, 12),
         way: one(stored.way, WAY_NAMES, PREFERENCES.way),
         hands: {

@@ -17,6 +17,7 @@ import { type TextKey, t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { type Option, Select } from "../widgets/Select.tsx";
+import { Thumbnail } from "../widgets/Thumbnail.tsx";
 import { Nothing } from "./Inspector.tsx";
 import { Section } from "./Section.tsx";
 import { Surface } from "./Surface.tsx";
@@ -160,7 +161,9 @@ function Head({ id, type, label }: { id: string; type: string; label: string }) 
     return (
         <header className="inspector-head">
             <span className="inspector-badge">
-                <Glyph type={type} group={row?.group} size={22} />
+                <Thumbnail id={id} className="inspector-thumbnail">
+                    <Glyph type={type} group={row?.group} size={22} />
+                </Thumbnail>
             </span>
             <div className="inspector-name">
                 <TextField

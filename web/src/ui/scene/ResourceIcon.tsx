@@ -14,6 +14,7 @@ import { findResource } from "../../model/document.ts";
 import type { ListName } from "../../model/places.ts";
 import { useDocument } from "../state.ts";
 import { Swatch } from "../widgets/Swatch.tsx";
+import { Thumbnail } from "../widgets/Thumbnail.tsx";
 
 const icons: Record<ListName, LucideIcon> = {
     models: Component,
@@ -49,7 +50,11 @@ export function ResourceIcon({ list, name, size = 15 }: Props) {
         list === "lights" && document ? (findResource(document, list, name)?.type ?? "") : "",
     );
     if (list === "materials") {
-        return <Swatch name={name} />;
+        return (
+            <Thumbnail kind="material" id={name} className="swatch">
+                <Swatch name={name} />
+            </Thumbnail>
+        );
     }
     return <TypeIcon list={list} type={type} size={size} />;
 }

@@ -19,6 +19,7 @@ import { useDocument, useEditor, useView } from "../state.ts";
 import { sentence, t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { Swatch } from "../widgets/Swatch.tsx";
+import { Thumbnail } from "../widgets/Thumbnail.tsx";
 import { TypeIcon } from "./ResourceIcon.tsx";
 import { selectTo, setAnchor, type TreeItem } from "./range.ts";
 import "./scene.css";
@@ -54,6 +55,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
               null)
             : null,
     );
+    const pictured = useView((view) => view.preferences.thumbnails);
     const hovered = useView((view) => view.hovered === id);
     const renaming = useView((view) => view.renaming === id);
     const isolated = useView((view) => view.isolated);
@@ -158,6 +160,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
             )}
             {typeof own === "string" && own !== "" && <Swatch name={own} className="tree-swatch" />}
             {isolated.includes(id) && <IsolatedMark />}
+            {pictured && <Thumbnail id={id} className="tree-thumbnail" />}
             <EyeButton node={node} name={name} />
         </div>
     );
