@@ -9,7 +9,7 @@ import { nodeType, type Param, type ParamType, type Schema } from "./schema.ts";
 
 /* CSS pixels at zoom 1; graph.css takes them from here. */
 export const CARD = {
-    width: 256,
+    width: 272,
     head: 30,
     pad: 8,
     picture: 64,

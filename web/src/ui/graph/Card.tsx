@@ -3,7 +3,7 @@
  * values between them. */
 import type { Node, NodeProps } from "@xyflow/react";
 import { ChevronsLeft, ChevronsRight, CircleAlert, Eye, EyeOff, Focus } from "lucide-react";
-import { memo, useEffect, useRef } from "react";
+import { memo, type ReactNode, useEffect, useRef, useState } from "react";
 import { isShown, isVisible, nodeLabel, parentOf } from "../../model/document.ts";
 import { setVisible } from "../../model/edits.ts";
 import { type Card, inputY, neighbour } from "../../model/graph.ts";
@@ -17,6 +17,7 @@ import { TypePicture } from "../palettes/TypePicture.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { sentence, t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
+import { Thumbnail } from "../widgets/Thumbnail.tsx";
 import { useShared } from "./context.ts";
 import { useFar } from "./sight.ts";
 
@@ -68,13 +69,31 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
                 {far === 0 && <CardButtons card={card} name={name} />}
             </header>
             <div className="graph-card-body">
-                <TypePicture type={type} group={group} size={34} />
+                <Picture id={id}>
+                    <TypePicture type={type} group={group} size={34} />
+                </Picture>
                 {far === 0 && <Values card={card} name={name} />}
             </div>
             <Ports card={card} name={name} />
         </div>
     );
 });
+
+/* The result so far; larger while the pointer is on it. */
+function Picture({ id, children }: { id: string; children: ReactNode }) {
+    const [large, setLarge] = useState(false);
+    return (
+        <span
+            className="graph-card-picture"
+            onPointerEnter={({ buttons }) => setLarge(buttons === 0)}
+            onPointerLeave={() => setLarge(false)}
+            onPointerDown={() => setLarge(false)}
+        >
+            <Thumbnail id={id}>{children}</Thumbnail>
+            {large && <Thumbnail id={id} large className="graph-card-large" />}
+        </span>
+    );
+}
 
 const useName = (id: string): string =>
     useDocument(({ document }) => {
