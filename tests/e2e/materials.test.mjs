@@ -148,7 +148,7 @@ describe('values at hand', () => {
         await when((d) => materialOf(d, 'ring') === 'clay', 'a ring of clay');
         await page.getByText('Also on 1 other.').waitFor();
         await page.locator('[data-param="diffuse"]').first().waitFor();
-        await page.locator('.form-note').getByRole('button').click();
+        await page.getByRole('button', { name: 'Make unique' }).click();
         const own = await when((d) => materialOf(d, 'ring') === 'clay-1', 'a material of its own');
         assert.equal(materialOf(own, 'ball'), 'clay');
         await page.getByText('Also on 1 other.').waitFor({ state: 'detached' });

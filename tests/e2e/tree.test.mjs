@@ -217,7 +217,7 @@ describe('materials and lights', () => {
         await open();
         await row(page, 'ball').click();
         await page.getByRole('button', { name: 'New material' }).click();
-        await page.getByRole('menuitem', { name: 'Plain' }).click();
+        await page.getByRole('button', { name: 'Plain, to be made' }).click();
         await when((d) => nodeIn(d, 'ball').material === 'material-1', 'the new material');
         await page.locator('[data-resource=material-1] .resource-pick').click();
         const name = page.getByTestId('inspector').getByLabel('Name', { exact: true });

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Something of the scene by its name: a material, a model, a distance function. Choose it, go to
- * it, make a new one, or make a shared material this node's own. */
-import { CopyPlus, type LucideIcon, Plus, SquarePen } from "lucide-react";
+ * it, or make a new one. */
+import { type LucideIcon, Plus, SquarePen } from "lucide-react";
 import { useMemo } from "react";
 import { materialOf } from "../../model/document.ts";
 import { LISTS, nodeOfPlace } from "../../model/places.ts";
 import type { Param } from "../../model/schema.ts";
-import { listNamedBy, modelsFor, type NamedList, usersOf } from "../../model/usage.ts";
-import { addResource, makeMaterialUnique } from "../insertions.ts";
+import { listNamedBy, modelsFor, type NamedList } from "../../model/usage.ts";
+import { addResource } from "../insertions.ts";
 import { NewMaterial } from "../materials/NewMaterial.tsx";
 import { ResourceIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor } from "../state.ts";
@@ -44,13 +44,6 @@ export function ReferenceField({
     const { one } = LISTS[list];
     const node = nodeOfPlace(place);
     const options = useOptions(param, list, node);
-    const shared = useDocument(
-        ({ document, schema }) =>
-            document !== null &&
-            list === "materials" &&
-            value !== NOTHING &&
-            usersOf(schema, document, list, value).length > 1,
-    );
     return (
         <div className="named">
             <Select
@@ -66,13 +59,6 @@ export function ReferenceField({
                     title={t("reference.edit", { name: value })}
                     icon={SquarePen}
                     onClick={() => editor.show({ kind: "resource", list, name: value })}
-                />
-            )}
-            {shared && node !== null && (
-                <Act
-                    title={t("material.unique")}
-                    icon={CopyPlus}
-                    onClick={() => makeMaterialUnique(editor, node, value)}
                 />
             )}
             {list === "materials" ? (

@@ -2,20 +2,20 @@
 /* A node as a card: its inputs on the left, its result on the right, its picture and its two main
  * values between them. */
 import type { Node, NodeProps } from "@xyflow/react";
-import { ChevronsLeft, ChevronsRight, CircleAlert, Eye, EyeOff, Focus } from "lucide-react";
+import { ChevronsLeft, ChevronsRight, Eye, EyeOff, Focus } from "lucide-react";
 import { memo, type ReactNode, useEffect, useRef, useState } from "react";
 import { isShown, isVisible, nodeLabel, parentOf } from "../../model/document.ts";
 import { setVisible } from "../../model/edits.ts";
 import { type Card, inputY, neighbour } from "../../model/graph.ts";
-import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
 import { select } from "../../model/view.ts";
 import { Form } from "../form.tsx";
-import { carriedBy, carriesMaterial, dropMaterial } from "../materials/drag.ts";
+import { takesMaterial } from "../materials/drag.ts";
 import { typeTitle } from "../names.ts";
 import { TypePicture } from "../palettes/TypePicture.tsx";
+import { ProblemMark } from "../scene/ProblemMark.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
-import { sentence, t } from "../texts.ts";
+import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { Thumbnail } from "../widgets/Thumbnail.tsx";
 import { useShared } from "./context.ts";
@@ -65,7 +65,7 @@ const CardBody = memo(function CardBody({ card }: { card: Card }) {
             <header className="graph-card-head">
                 <Glyph type={type} group={group} size={far > 1 ? 26 : 16} />
                 <span className="graph-card-name ellipsis">{name}</span>
-                <Problem id={id} />
+                <ProblemMark id={id} />
                 {far === 0 && <CardButtons card={card} name={name} />}
             </header>
             <div className="graph-card-body">
@@ -166,18 +166,7 @@ function useActs({ id, hidden, inputs }: Card) {
             keep();
             openMenu({ x: event.clientX, y: event.clientY });
         },
-        onDragOver: (event: React.DragEvent): void => {
-            if (carriesMaterial(event)) {
-                event.preventDefault();
-                view.setState({ hovered: id });
-            }
-        },
-        onDrop: (event: React.DragEvent): void => {
-            if (carriesMaterial(event)) {
-                event.preventDefault();
-                dropMaterial(editor, carriedBy(event.dataTransfer), id);
-            }
-        },
+        ...takesMaterial(editor, id),
         onPointerEnter: (): void => view.setState({ hovered: id }),
         onPointerLeave: (): void => view.setState({ hovered: null }),
         onKeyDown: (event: React.KeyboardEvent<HTMLElement>): void => {
@@ -209,25 +198,6 @@ function toggled(set: ReadonlySet<string>, id: string): ReadonlySet<string> {
         next.add(id);
     }
     return next;
-}
-
-function Problem({ id }: { id: string }) {
-    const problem = useDocument(({ problems }) => {
-        const found = problemIn(problems, `/nodes/${id}`);
-        return found && sentence(found);
-    });
-    return (
-        problem && (
-            <span
-                className="tree-error"
-                role="img"
-                title={problem}
-                aria-label={t("scene.problem", { message: problem })}
-            >
-                <CircleAlert size={14} />
-            </span>
-        )
-    );
 }
 
 function CardButtons({ card: { id, hidden, inputs }, name }: { card: Card; name: string }) {

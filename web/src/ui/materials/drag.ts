@@ -51,3 +51,32 @@ export function dropMaterial(editor: Editor, { preset, material }: Carried, node
         editor.link.edit([{ op: "set", at: use, value: material }], { label });
     }
 }
+
+/* What a row or a card of a node does with materials that are dragged over it; what else is dragged
+ * is for `others`. */
+export function takesMaterial(
+    editor: Editor,
+    node: string,
+    others: { onDragOver?: DragTaker; onDrop?: DragTaker } = {},
+): { onDragOver: DragTaker; onDrop: DragTaker } {
+    return {
+        onDragOver: (event) => {
+            if (carriesMaterial(event)) {
+                event.preventDefault();
+                editor.stores.view.setState({ hovered: node });
+            } else {
+                others.onDragOver?.(event);
+            }
+        },
+        onDrop: (event) => {
+            if (carriesMaterial(event)) {
+                event.preventDefault();
+                dropMaterial(editor, carriedBy(event.dataTransfer), node);
+            } else {
+                others.onDrop?.(event);
+            }
+        },
+    };
+}
+
+type DragTaker = (event: DragEvent) => void;

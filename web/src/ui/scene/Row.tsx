@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One row of the tree. */
 import type { ItemInstance } from "@headless-tree/core";
-import { ChevronRight, CircleAlert, Eye, EyeOff, Focus } from "lucide-react";
+import { ChevronRight, Eye, EyeOff, Focus } from "lucide-react";
 import {
     functionOf,
     isApart,
@@ -12,14 +12,14 @@ import {
 } from "../../model/document.ts";
 import { rename, setVisible } from "../../model/edits.ts";
 import { modelNamed } from "../../model/models.ts";
-import { problemIn } from "../../model/problems.ts";
 import { nodeType } from "../../model/schema.ts";
-import { carriedBy, carriesMaterial, dropMaterial } from "../materials/drag.ts";
+import { takesMaterial } from "../materials/drag.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
-import { sentence, t } from "../texts.ts";
+import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
 import { Swatch } from "../widgets/Swatch.tsx";
 import { Thumbnail } from "../widgets/Thumbnail.tsx";
+import { ProblemMark } from "./ProblemMark.tsx";
 import { TypeIcon } from "./ResourceIcon.tsx";
 import { selectTo, setAnchor, type TreeItem } from "./range.ts";
 import "./scene.css";
@@ -38,10 +38,6 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
     const { stores } = editor;
     const id = item.getId();
     const group = useDocument((state) => nodeType(state.schema, node?.type ?? "")?.group);
-    const problem = useDocument((state) => {
-        const found = problemIn(state.problems, `/nodes/${id}`);
-        return found && sentence(found);
-    });
     /* The root of a model bears the model's name; an instance says of what. */
     const model = useDocument(({ document }) =>
         node?.parent === null
@@ -113,22 +109,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                     props.onDragLeave?.(event);
                 }
             }}
-            onDragOver={(event) => {
-                if (carriesMaterial(event)) {
-                    event.preventDefault();
-                    stores.view.setState({ hovered: id });
-                } else {
-                    props.onDragOver?.(event);
-                }
-            }}
-            onDrop={(event) => {
-                if (carriesMaterial(event)) {
-                    event.preventDefault();
-                    dropMaterial(editor, carriedBy(event.dataTransfer), id);
-                } else {
-                    props.onDrop?.(event);
-                }
-            }}
+            {...takesMaterial(editor, id, props)}
             onDoubleClick={() => model === null && stores.view.setState({ renaming: id })}
             onContextMenu={(event) => {
                 event.preventDefault();
@@ -148,16 +129,7 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                     {of !== null && of !== name && <span className="tree-of">{of}</span>}
                 </span>
             )}
-            {problem && (
-                <span
-                    className="tree-error"
-                    role="img"
-                    title={problem}
-                    aria-label={t("scene.problem", { message: problem })}
-                >
-                    <CircleAlert size={14} />
-                </span>
-            )}
+            <ProblemMark id={id} />
             {typeof own === "string" && own !== "" && <Swatch name={own} className="tree-swatch" />}
             {isolated.includes(id) && <IsolatedMark />}
             {pictured && <Thumbnail id={id} className="tree-thumbnail" />}
