@@ -19,6 +19,7 @@ import type { KeyPress } from "../src/model/keys.ts";
 import { fits } from "../src/model/moves.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
+import type { Way } from "../src/model/placing.ts";
 import { newResource } from "../src/model/resources.ts";
 import { createStores } from "../src/model/stores.ts";
 import { SCHEMA, scene } from "./fixture.ts";
@@ -216,7 +217,7 @@ test("deleting says what is gone, with the step that brings it back", () => {
     expect(stores.notices.getState().notices.at(-1)?.message).toBe("2 nodes deleted.");
 });
 
-const added = (selection: string[], way: "union" | "cut" | "blend", type = "box") => {
+const added = (selection: string[], way: Way, type = "box") => {
     const edit = addNode(scene(), SCHEMA, { type }, selection, way);
     const result = apply(scene(), edit.ops, SCHEMA);
     if (!result.ok) {
@@ -258,7 +259,7 @@ const MUG = readDocument({
 });
 
 test("nothing is cut that was not to be cut", () => {
-    const after = (selection: string[], way: "union" | "cut") => {
+    const after = (selection: string[], way: Way) => {
         const edit = addNode(MUG, SCHEMA, { type: "torus" }, selection, way);
         const result = apply(MUG, edit.ops, SCHEMA);
         return (id: string) => (result.ok ? result.document.nodes.get(id)?.children : undefined);

@@ -1,19 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Where something new goes, and how it combines with what is selected: as a union, a cut or a blend.
+/* Where something new goes, and how it combines with what is selected: as a union, a cut, or either
+ * of them blended.
  * Nothing is ever combined otherwise than that says. */
 import { nodeLabel, type SceneDocument, type SceneNode, siblingAfter } from "./document.ts";
 import { freshIds, freshNames, moveTo, type Spot } from "./edits.ts";
 import type { Operation } from "./operation.ts";
 import { type NodeType, nodeType, type ParamType, type Schema } from "./schema.ts";
 
-export type Way = "union" | "cut" | "blend";
+export type Way = "union" | "cut" | "blend" | "carve";
 
 /* THE TABLE of ways: the operation that makes it. */
 export const WAYS: Readonly<Record<Way, string>> = {
     union: "union",
     cut: "difference",
     blend: "smooth_union",
+    carve: "smooth_difference",
 };
+
+/* Takes away, so that the first of its operands is what is left. */
+const takesAway = (way: Way): boolean => WAYS[way].endsWith("difference");
 
 export const WAY_NAMES = Object.keys(WAYS) as readonly Way[];
 
@@ -62,7 +67,12 @@ const inside = (node: SceneNode, way: Way | null, verb = "Into"): Placing => ({
 });
 
 /* What is said where a place leaves no choice. */
-const FORCED: Readonly<Record<Way, string>> = { union: "Into", cut: "Cuts", blend: "Blends into" };
+const FORCED: Readonly<Record<Way, string>> = {
+    union: "Into",
+    cut: "Cuts",
+    blend: "Blends into",
+    carve: "Cuts",
+};
 
 function together(document: SceneDocument, active: SceneNode, parent: string, way: Way): Placing {
     const type = WAYS[way];
@@ -72,7 +82,7 @@ function together(document: SceneDocument, active: SceneNode, parent: string, wa
         { op: "insert", into: `/nodes/${parent}`, before: active.id, value: { id, type, name } },
         moveTo(active.id, { into: id, before: null }),
     ];
-    const verb = way === "cut" ? "Cuts" : "With";
+    const verb = takesAway(way) ? "Cuts" : "With";
     return {
         ops,
         spot: { into: id, before: null },
@@ -101,14 +111,14 @@ function besideOrTogether(
     /* What changes its children adds them up first. */
     const fits = wayOf(row) === way || (row?.group === "modifier" && way === "union");
     /* The first of a difference is what is cut; cutting a tool would make it smaller. */
-    const base = way !== "cut" || parent.children[0] === active.id;
+    const base = !takesAway(way) || parent.children[0] === active.id;
     if (!fits || !base) {
         return together(document, active, parent.id, way);
     }
     return {
         ops: [],
         spot: { into: parent.id, before: siblingAfter(document, active.id) },
-        words: way === "cut" ? `Cuts ${nodeLabel(active)}.` : `Beside ${nodeLabel(active)}.`,
+        words: takesAway(way) ? `Cuts ${nodeLabel(active)}.` : `Beside ${nodeLabel(active)}.`,
         above: parent.id,
         way,
     };
@@ -144,7 +154,7 @@ export function placing(
         return placing(document, schema, [only], added, way);
     }
     if (wayOf(row) === way) {
-        return inside(active, way, way === "cut" ? "Cuts" : "Into");
+        return inside(active, way, takesAway(way) ? "Cuts" : "Into");
     }
     return besideOrTogether(document, schema, active, parent, way);
 }

@@ -420,6 +420,7 @@ const texts = {
     "way.union": "union",
     "way.cut": "cut",
     "way.blend": "blend",
+    "way.carve": "smooth cut",
     "add.recent": "Recent",
     "add.results": "Matches",
     "input.title": "Add an input",
