@@ -2,6 +2,8 @@
 /* An equation as code, from its parts. */
 #include "equation_code.h"
 
+#include <math.h>
+
 #include "equation_writer.h"
 
 enum { TRIES = 4 }; /* of steps, for one bound */
@@ -47,6 +49,16 @@ static void write_functions(const struct equation_writer *w)
 
 /* --- the whole --- */
 
+double equation_unsteady(double extent)
+{
+    return hypot(EQUATION_MARGIN, EQUATION_REACH) * extent;
+}
+
+static const char *extent_of(struct equation_form form)
+{
+    return form.ball ? "radius" : "(0.5 * length(size))";
+}
+
 static void write_nodes(const struct equation_writer *w, bool varying,
                         void (*write)(const struct equation_writer *, size_t))
 {
@@ -70,8 +82,8 @@ static void write_bound(const struct equation_writer *w, uint16_t root, struct e
 {
     fprintf(w->out,
             "float value = abs(g%d.w), d = 0.0, first = -1.0;\n"
-            "float reach = min(value / max(length(g%d.xyz), 1e-18), 0.25 * %s);\n",
-            root, root, form.ball ? "radius" : "length(size)");
+            "float reach = min(value / max(length(g%d.xyz), 1e-18), %g * %s);\n",
+            root, root, EQUATION_REACH, extent_of(form));
     write_nodes(w, true, write_axis);
     fprintf(w->out, "for (int i = 0; i < %d; i++) {\nvec2 sides = vec2(-reach, reach);\n", TRIES);
     write_nodes(w, true, equation_write_jet);
@@ -87,18 +99,35 @@ static void write_bound(const struct equation_writer *w, uint16_t root, struct e
 }
 
 /* Near a sheet the first of the bounds is its distance: it is as smooth as the function is. */
-static void write_sdf(const struct equation_writer *w, uint16_t root, struct equation_form form)
+static void write_within(const struct equation_writer *w, uint16_t root, struct equation_form form)
 {
-    fputs("float sdf(vec3 p)\n{\n", w->out);
+    fputs("float within_clip(vec3 p)\n{\n", w->out);
     write_nodes(w, false, equation_write_scalar);
     write_nodes(w, true, equation_write_gradient);
     write_bound(w, root, form);
     if (form.sheet) {
-        fputs("d = d > 2.0 * thickness ? d - thickness : first - 0.5 * thickness;\n", w->out);
+        fputs("return d > 2.0 * thickness ? d - thickness : first - 0.5 * thickness;\n}\n", w->out);
     } else {
-        fprintf(w->out, "d = g%d.w < 0.0 ? -d : d;\n", root);
+        fprintf(w->out, "return g%d.w < 0.0 ? -d : d;\n}\n", root);
     }
-    fputs(form.ball ? "return max(d, length(p) - radius);\n}\n" : "return d;\n}\n", w->out);
+}
+
+static void write_sdf(const struct equation_writer *w, struct equation_form form)
+{
+    fprintf(w->out,
+            "float sdf(vec3 p)\n{\n"
+            "vec3 near = %s;\n"
+            "float outside = distance(p, near);\n"
+            "if (outside > %g * %s) {\nreturn outside;\n}\n"
+            "float d = within_clip(near);\n",
+            form.ball ? "p * min(1.0, radius / max(length(p), 1e-18))"
+                      : "clamp(p, -0.5 * size, 0.5 * size)",
+            EQUATION_MARGIN, extent_of(form));
+    fprintf(w->out,
+            "%s\n"
+            "return outside > 0.0 ? length(vec2(outside, max(d, 0.0))) : max(d, %s);\n}\n",
+            form.ball ? "" : "vec3 faces = abs(p) - 0.5 * size;",
+            form.ball ? "length(p) - radius" : "max(faces.x, max(faces.y, faces.z))");
 }
 
 /* What is negative inside. */
@@ -132,7 +161,8 @@ char *equation_code(const struct equation *equation, const char *const *letters,
     if (is_called(&w, EQUATION_POWER, -1)) {
         fputs("mat3 jet_exp(mat3 a) { return jet_of(a, range_exp(a[2].xy)); }\n", w.out);
     }
-    write_sdf(&w, root, form);
+    write_within(&w, root, form);
+    write_sdf(&w, form);
     fclose(w.out);
     return text;
 }

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "protocol/equation.h"
+#include "renderer/code/equation_code.h"
 #include "tests/support/code_engine.h"
 #include "tests/support/equation_value.h"
 #include "tests/support/json_text.h"
@@ -129,6 +130,63 @@ static void the_sign_holds_within_the_distance(void **state)
     }
 }
 
+/* A distance around the clip: beyond its margin it is that to the clip, whatever the equation is, and
+ * nowhere does it lead beyond a point of the solid. */
+static double around_clip(bool ball, const double p[3])
+{
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        const double beyond = ball ? fabs(p[i]) : fmax(fabs(p[i]) - 1, 0);
+        square += beyond * beyond;
+    }
+    return ball ? sqrt(square) - 1 : sqrt(square);
+}
+
+enum { INSIDE = 2000 };
+
+static size_t points_inside(struct random *random, bool ball, double out[INSIDE][3])
+{
+    struct equation *equation = read("x^3 + y*z < 0.1");
+    size_t count = 0;
+    while (count < INSIDE) {
+        random_point(random, 1, out[count]);
+        const double clip = around_clip(ball, out[count]);
+        count += clip <= 0 && equation_value(equation, out[count], letter_values) < 0;
+    }
+    free(equation);
+    return count;
+}
+
+static void the_clip_is_the_distance_beyond_its_margin(void **state)
+{
+    static double inside[INSIDE][3];
+    struct random random = {.state = 18};
+    (void)state;
+    for (int ball = 0; ball < 2; ball++) {
+        const double margin = EQUATION_MARGIN * (ball ? 1 : sqrt(3));
+        struct field *field = field_of("x^3 + y*z < 0.1", ball ? ",'clip':'ball','radius':1"
+                                                              : ",'size':[2,2,2]");
+        const size_t count = points_inside(&random, ball, inside);
+        int beyond = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], nearest = INFINITY;
+            random_point(&random, 2, p);
+            const double d = field_surface(field, p, NULL).distance, clip = around_clip(ball, p);
+            for (size_t k = 0; k < count; k++) {
+                nearest = fmin(nearest, hypot(hypot(p[0] - inside[k][0], p[1] - inside[k][1]),
+                                              p[2] - inside[k][2]));
+            }
+            assert_true(d <= nearest);
+            if (clip > margin) {
+                assert_float_equal(d, clip, 1e-9);
+                beyond++;
+            }
+        }
+        assert_in_range(beyond, POINTS / 4, POINTS);
+        field_unref(field);
+    }
+}
+
 static void every_function_has_a_row(void **state)
 {
     (void)state;
@@ -223,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_has_a_row),
         cmocka_unit_test(the_sign_holds_within_the_distance),
+        cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_bound_comes_near),
     };
