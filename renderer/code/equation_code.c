@@ -77,7 +77,9 @@ static void write_axis(const struct equation_writer *w, size_t index)
     }
 }
 
-/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. */
+/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. Nothing is
+ * in a box without a zero among the values there. Close to a jump or a pole in every box, a ray goes
+ * on by a little: it ends at the jump where the sign changes. */
 static void write_bound(const struct equation_writer *w, uint16_t root, struct equation_form form)
 {
     fprintf(w->out,
@@ -89,13 +91,15 @@ static void write_bound(const struct equation_writer *w, uint16_t root, struct e
     write_nodes(w, true, equation_write_jet);
     fprintf(w->out,
             "float most = length(max(abs(j%d[0]), abs(j%d[1])));\n"
-            "float free = min(value / max(most, 1e-18), reach);\n"
-            "d = max(d, most < 1e17 ? free : 0.02 * reach);\n"
+            "bool clear = j%d[2].x * j%d[2].y > 0.0;\n"
+            "bool jumps = !clear && most > 1e17;\n"
+            "float free = clear ? reach : min(value / max(most, 1e-18), reach);\n"
+            "d = max(d, jumps ? 0.0003 * reach : free);\n"
             "first = first < 0.0 ? d : first;\n"
             "if (free > 0.4 * reach%s) {\nbreak;\n}\n"
-            "reach = sqrt(max(free, 0.001 * reach) * reach);\n"
+            "reach = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);\n"
             "}\n",
-            root, root, form.sheet ? " || reach < thickness" : "");
+            root, root, root, root, form.sheet ? " || reach < thickness" : "");
 }
 
 /* Near a sheet the first of the bounds is its distance: it is as smooth as the function is. */

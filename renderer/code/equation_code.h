@@ -30,7 +30,7 @@ struct equation_form {
 };
 
 #define EQUATION_MARGIN 0.15 /* around the clip, as a part of its extent */
-#define EQUATION_REACH 0.25 /* the same of the longest step that is tried */
+#define EQUATION_REACH 0.25  /* the same of the longest step that is tried */
 /* Above this the distance is that to the clip. No distance is below minus this. `extent` is the
  * radius of the clip, or half of the diagonal of its box. */
 double equation_unsteady(double extent);

@@ -123,13 +123,9 @@ static void write_dual_call(const struct equation_writer *w, const struct equati
         write_dual_rule(w, rule, node->args[0]);
         return;
     }
-    for (int i = 0; i < 2; i++) {
-        fputs(i == 0 ? "(" : node->which == EQUATION_MIN ? ".w < " : ".w > ", w->out);
-        write_dual(w, node->args[i]);
-    }
-    fputs(".w ? ", w->out);
+    fprintf(w->out, "dual_%s(", equation_functions[node->which].name);
     write_dual(w, node->args[0]);
-    fputs(" : ", w->out);
+    fputs(", ", w->out);
     write_dual(w, node->args[1]);
     fputs(")", w->out);
 }

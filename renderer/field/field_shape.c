@@ -123,7 +123,8 @@ static struct result emit_code(struct builder *b, const struct node *node,
     int count = sdf_numbers(call.params, call.values, numbers);
     size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
     uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
-    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
+    uint32_t arguments =
+        builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
     builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS,

@@ -14,7 +14,9 @@
 #include <cmocka.h>
 
 #include "protocol/equation.h"
+#include "renderer/code/code.h"
 #include "renderer/code/equation_code.h"
+#include "renderer/code/equation_rules.h"
 #include "tests/support/code_engine.h"
 #include "tests/support/equation_value.h"
 #include "tests/support/json_text.h"
@@ -43,6 +45,12 @@ static const struct {
     {EQUATION_SQRT, "(sqrt(x^2 + z^2) - 1)^2 + y^2 = 0.16"},
     {EQUATION_CBRT, "cbrt(x + 2) + cbrt(y*z) = 1.5"},
     {EQUATION_ABS, "|x|^3 + |y - z| = 0.8"},
+    {EQUATION_SIGN, "sign(x - 0.3)*y + 2z = 0.1 + sign(y)"},
+    {EQUATION_FLOOR, "floor(2x)*0.4 + y = z + fract(1.5y)"},
+    {EQUATION_CEIL, "ceil(x + y)*z = mod(y, 0.7)"},
+    {EQUATION_ATAN2, "atan2(y, x) + z = 0.4*atan2(z + 1, y - 2)"},
+    {EQUATION_FUNCTIONS, "cheb(8, x) + cheb(6, y) + cheb(5, z) = 0"},
+    {EQUATION_FUNCTIONS, "smoothstep(-1, 1, x) + step(0.2, y) = z"},
     {EQUATION_MIN, "min(x^2 + y^2, y^2 + z^2) = 0.2"},
     {EQUATION_MAX, "max(x^2 + y, z^2 - x*y) < 0.5"},
     {EQUATION_FUNCTIONS, "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 0.4 = 0"},
@@ -164,8 +172,8 @@ static void the_clip_is_the_distance_beyond_its_margin(void **state)
     (void)state;
     for (int ball = 0; ball < 2; ball++) {
         const double margin = EQUATION_MARGIN * (ball ? 1 : sqrt(3));
-        struct field *field = field_of("x^3 + y*z < 0.1", ball ? ",'clip':'ball','radius':1"
-                                                              : ",'size':[2,2,2]");
+        struct field *field =
+            field_of("x^3 + y*z < 0.1", ball ? ",'clip':'ball','radius':1" : ",'size':[2,2,2]");
         const size_t count = points_inside(&random, ball, inside);
         int beyond = 0;
         for (int i = 0; i < POINTS; i++) {
@@ -184,6 +192,105 @@ static void the_clip_is_the_distance_beyond_its_margin(void **state)
         }
         assert_in_range(beyond, POINTS / 4, POINTS);
         field_unref(field);
+    }
+}
+
+/* --- ranges --- */
+
+/* Of a function, by its row, while its arguments are within p.x +- q.x and p.y +- q.y: least and
+ * greatest value, and least and greatest slope along the first argument and the second. */
+static double range_of(const struct code *code, const double p[3], const double half[2], int which)
+{
+    const double numbers[] = {half[0], half[1], which};
+    return code_distance(code, p, numbers, NULL);
+}
+
+static const struct param range_params[] = {{.name = "half_x", .type = PARAM_FLOAT},
+                                            {.name = "half_y", .type = PARAM_FLOAT},
+                                            {.name = "which", .type = PARAM_FLOAT},
+                                            {.name = NULL}};
+
+static struct code *range_code(enum equation_name name)
+{
+    struct error err = {0};
+    char text[4000];
+    const bool one = equation_functions[name].arguments == 1;
+    const int length =
+        snprintf(text, sizeof text,
+                 "%s%s\nfloat sdf(vec3 p)\n{\n"
+                 "mat3 x = mat3(vec3(1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), vec3(p.x - half_x, p.x + "
+                 "half_x, 0.0));\n"
+                 "mat3 y = mat3(vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(p.y - half_y, p.y + "
+                 "half_y, 0.0));\n"
+                 "mat3 j = %s%s%s;\n"
+                 "float n[6] = {j[2].x, j[2].y, j[0].x, j[1].x, j[0].y, j[1].y};\n"
+                 "return clamp(n[int(which)], -9e8, 9e8);\n}\n",
+                 equation_sizes, equation_rules[name].range, one ? "jet_of(x, range_" : "jet_",
+                 equation_functions[name].name, one ? "(x[2].xy))" : "(x, y)");
+    assert_in_range(length, 1, sizeof text - 1);
+    struct code *code =
+        code_compile(&(struct code_source){CODE_DISTANCE, text, range_params, true}, &err);
+    if (!code) {
+        fail_msg("%s: %s", equation_functions[name].name, err.message);
+    }
+    return code;
+}
+
+static double function_value(enum equation_name name, double x, double y)
+{
+    struct equation equation = {.count = 5, .left = 2, .right = 3};
+    const double p[3] = {x, y, 0};
+    equation.nodes[0] = (struct equation_node){.op = EQUATION_AXIS, .which = 0};
+    equation.nodes[1] = (struct equation_node){.op = EQUATION_AXIS, .which = 1};
+    equation.nodes[2] =
+        (struct equation_node){.op = EQUATION_CALL, .which = (uint8_t)name, .args = {0, 1}};
+    equation.nodes[3] = (struct equation_node){.op = EQUATION_NUMBER, .value = 0};
+    equation.nodes[4] = equation.nodes[3];
+    return equation_value(&equation, p, letter_values);
+}
+
+/* Values between and differences between, by the mean value theorem; a slope of JET_MOST says that
+ * there may be a jump. */
+static bool range_holds(enum equation_name name, const struct code *code, struct random *random)
+{
+    double p[3], half[2] = {random_between(random, 0, 0.6), random_between(random, 0, 0.6)}, n[6];
+    random_point(random, 2.5, p);
+    for (int i = 0; i < 6; i++) {
+        n[i] = range_of(code, p, half, i);
+    }
+    for (int i = 0; i < SAMPLES; i++) {
+        const double x = p[0] + random_between(random, -1, 1) * half[0];
+        const double y = p[1] + random_between(random, -1, 1) * half[1];
+        const double u = p[0] + random_between(random, -1, 1) * half[0];
+        const double v = p[1] + random_between(random, -1, 1) * half[1];
+        const double f = function_value(name, x, y), room = 1e-6 * (1 + fabs(f));
+        const double along = function_value(name, u, y) - f, up = function_value(name, x, v) - f;
+        const double a = n[2] * (u - x), b = n[3] * (u - x), c = n[4] * (v - y), d = n[5] * (v - y);
+        const bool jumps = n[3] > 8e8 || n[5] > 8e8;
+        if (jumps && f >= n[0] - room && f <= n[1] + room) {
+            continue;
+        }
+        if (f < n[0] - room || f > n[1] + room || along < fmin(a, b) - room ||
+            along > fmax(a, b) + room || up < fmin(c, d) - room || up > fmax(c, d) + room) {
+            print_error("%s at (%g, %g) +- (%g, %g): %g in [%g, %g], slopes [%g, %g] [%g, %g]\n",
+                        equation_functions[name].name, p[0], p[1], half[0], half[1], f, n[0], n[1],
+                        n[2], n[3], n[4], n[5]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static void ranges_hold_values_and_slopes(void **state)
+{
+    struct random random = {.state = 19};
+    (void)state;
+    for (int name = 0; name < EQUATION_FUNCTIONS; name++) {
+        struct code *code = range_code((enum equation_name)name);
+        for (int i = 0; i < POINTS; i++) {
+            assert_true(range_holds((enum equation_name)name, code, &random));
+        }
+        code_destroy(code);
     }
 }
 
@@ -280,6 +387,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_has_a_row),
+        cmocka_unit_test(ranges_hold_values_and_slopes),
         cmocka_unit_test(the_sign_holds_within_the_distance),
         cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
         cmocka_unit_test(the_engine_agrees),
