@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Derivatives and interval rules of the functions of equations, in the language of users' code.
  * Rules of intervals: Moore, Interval Analysis (1966). Outside of a function's domain its value is
- * that at the domain's nearest end. */
+ * that at the domain's nearest end, and its slope 0. */
 #include "equation_rules.h"
 
 #include "jets.h"
@@ -48,13 +48,16 @@ const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
                        "vec4 range_asin(vec2 x)\n"
                        "{\n"
                        "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
-                       "    return vec4(asin(y), inversesqrt(max(1.0 - s * s, 1e-18)));\n"
+                       "    vec2 slope = inversesqrt(max(1.0 - s * s, 1e-18));\n"
+                       "    slope.x = y == x ? slope.x : 0.0;\n"
+                       "    return vec4(asin(y), slope);\n"
                        "}\n"},
     [EQUATION_ACOS] = {"acos($)", "(-inversesqrt(max(1.0 - $ * $, 1e-18)))",
                        "vec4 range_acos(vec2 x)\n"
                        "{\n"
                        "    vec2 y = clamp(x, -1.0, 1.0), s = sizes(y);\n"
                        "    vec2 slope = inversesqrt(max(1.0 - s * s, 1e-18));\n"
+                       "    slope.x = y == x ? slope.x : 0.0;\n"
                        "    return vec4(acos(y).yx, -slope.yx);\n"
                        "}\n"},
     [EQUATION_ATAN] = {"atan($)", "(1.0 / (1.0 + $ * $))",
@@ -91,12 +94,14 @@ const struct equation_rule equation_rules[EQUATION_FUNCTIONS] = {
                       "vec4 range_log(vec2 x)\n"
                       "{\n"
                       "    vec2 y = max(x, 1e-18), slope = 1.0 / y;\n"
+                      "    slope.y = y.x > x.x ? 0.0 : slope.y;\n"
                       "    return vec4(log(y), slope.yx);\n"
                       "}\n"},
     [EQUATION_SQRT] = {"sqrt(max($, 0.0))", "(0.5 * inversesqrt(max($, 1e-18)))",
                        "vec4 range_sqrt(vec2 x)\n"
                        "{\n"
                        "    vec2 y = max(x, 1e-18), slope = 0.5 * inversesqrt(y);\n"
+                       "    slope.y = y.x > x.x ? 0.0 : slope.y;\n"
                        "    return vec4(sqrt(max(x, 0.0)), slope.yx);\n"
                        "}\n"},
     [EQUATION_CBRT] = {"(sign($) * pow(abs($), 0.3333333333))",

@@ -249,8 +249,8 @@ static double function_value(enum equation_name name, double x, double y)
     return equation_value(&equation, p, letter_values);
 }
 
-/* Values between and differences between, by the mean value theorem; a slope of JET_MOST says that
- * there may be a jump. */
+/* Values between and differences between, by the mean value theorem; a slope of 1e9 or more says
+ * that there may be a jump. */
 static bool range_holds(enum equation_name name, const struct code *code, struct random *random)
 {
     double p[3], half[2] = {random_between(random, 0, 0.6), random_between(random, 0, 0.6)}, n[6];
@@ -266,7 +266,7 @@ static bool range_holds(enum equation_name name, const struct code *code, struct
         const double f = function_value(name, x, y), room = 1e-6 * (1 + fabs(f));
         const double along = function_value(name, u, y) - f, up = function_value(name, x, v) - f;
         const double a = n[2] * (u - x), b = n[3] * (u - x), c = n[4] * (v - y), d = n[5] * (v - y);
-        const bool jumps = n[3] > 8e8 || n[5] > 8e8;
+        const bool jumps = n[2] < -8e8 || n[3] > 8e8 || n[4] < -8e8 || n[5] > 8e8;
         if (jumps && f >= n[0] - room && f <= n[1] + room) {
             continue;
         }
