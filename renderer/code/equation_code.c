@@ -77,42 +77,70 @@ static void write_axis(const struct equation_writer *w, size_t index)
     }
 }
 
-/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. Nothing is
- * in a box without a zero among the values there. Close to a jump or a pole in every box, a ray goes
- * on by a little: it ends at the jump where the sign changes. */
-static void write_bound(const struct equation_writer *w, uint16_t root, struct equation_form form)
+/* Up to what makes `most`, the greatest slope in the box of the half side `reach`. */
+static void write_box(const struct equation_writer *w, uint16_t root, struct equation_form form,
+                      const char *begin)
 {
     fprintf(w->out,
-            "float value = abs(g%d.w), d = 0.0, first = -1.0;\n"
-            "float reach = min(value / max(length(g%d.xyz), 1e-18), %g * %s);\n",
-            root, root, EQUATION_REACH, extent_of(form));
+            "float value = abs(g%d.w);\n"
+            "float reach = min(value / max(length(g%d.xyz), 1e-18), %g * %s);\n%s",
+            root, root, EQUATION_REACH, extent_of(form), begin);
     write_nodes(w, true, write_axis);
     fprintf(w->out, "for (int i = 0; i < %d; i++) {\nvec2 sides = vec2(-reach, reach);\n", TRIES);
     write_nodes(w, true, equation_write_jet);
     fprintf(w->out,
-            "float most = length(max(abs(j%d[0]), abs(j%d[1])));\n"
-            "bool clear = j%d[2].x * j%d[2].y > 0.0;\n"
-            "bool jumps = !clear && most > 1e17;\n"
-            "float free = clear ? reach : min(value / max(most, 1e-18), reach);\n"
-            "d = max(d, jumps ? 0.0003 * reach : free);\n"
-            "first = first < 0.0 ? d : first;\n"
-            "if (free > 0.4 * reach%s) {\nbreak;\n}\n"
-            "reach = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);\n"
-            "}\n",
-            root, root, root, root, form.sheet ? " || reach < thickness" : "");
+            "float most = max(length(max(abs(j%d[0]), abs(j%d[1]))), 1e-18);\n"
+            "bool clear = j%d[2].x * j%d[2].y > 0.0, jumps = !clear && most > 1e17;\n",
+            root, root, root, root);
 }
 
-/* Near a sheet the first of the bounds is its distance: it is as smooth as the function is. */
+/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. Nothing is
+ * in a box without a zero among its values. Close to a jump or a pole in every box, a ray goes on by
+ * a little: it ends at the jump where the sign changes. */
+static void write_solid(const struct equation_writer *w, uint16_t root, struct equation_form form)
+{
+    write_box(w, root, form, "float d = 0.0;\n");
+    fprintf(w->out,
+            "float free = clear ? reach : min(value / most, reach);\n"
+            "d = max(d, jumps ? 0.0003 * reach : free);\n"
+            "if (free > 0.4 * reach) {\nbreak;\n}\n"
+            "reach = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);\n"
+            "}\n"
+            "return g%d.w < 0.0 ? -d : d;\n}\n",
+            root);
+}
+
+/* A sheet is where |f| is at most half of the thickness times the slope in a small box (`grain`)
+ * around the point. Let M be the slope in a box that is larger by the grain than a ball. Within the
+ * ball |f| falls by at most M a unit of way, and the slope in small boxes is at most M: the sheet is
+ * at least |f| / M less half of its thickness away, or the ball's radius. */
+static void write_sheet(const struct equation_writer *w, uint16_t root, struct equation_form form)
+{
+    write_box(w, root, form,
+              "float grain = thickness / 16.0, d = -0.5 * thickness;\n"
+              "reach = max(reach, thickness);\n");
+    fprintf(w->out,
+            "bool last = reach <= grain;\n"
+            "float free = min(value / most - 0.5 * thickness, last ? grain : reach - grain);\n"
+            "d = max(d, last && clear && most > 1e17 ? grain : free);\n"
+            "if (last || free > 0.4 * reach) {\nbreak;\n}\n"
+            "float less = jumps ? 0.2 * reach : sqrt(max(free, 0.001 * reach) * reach);\n"
+            "reach = i == %d || free < 2.0 * grain && reach < 2.0 * thickness ? grain\n"
+            "                                                               : max(less, grain);\n"
+            "}\n"
+            "return d;\n}\n",
+            TRIES - 2);
+}
+
 static void write_within(const struct equation_writer *w, uint16_t root, struct equation_form form)
 {
     fputs("float within_clip(vec3 p)\n{\n", w->out);
     write_nodes(w, false, equation_write_scalar);
     write_nodes(w, true, equation_write_gradient);
-    write_bound(w, root, form);
     if (form.sheet) {
-        fputs("return d > 2.0 * thickness ? d - thickness : first - 0.5 * thickness;\n}\n", w->out);
+        write_sheet(w, root, form);
     } else {
-        fprintf(w->out, "return g%d.w < 0.0 ? -d : d;\n}\n", root);
+        write_solid(w, root, form);
     }
 }
 

@@ -67,7 +67,7 @@ enum { EQUATIONS = sizeof equations / sizeof equations[0] };
 static struct field *field_of(const char *text, const char *more)
 {
     struct error err = {0};
-    char json[512];
+    char json[1024];
     snprintf(json, sizeof json,
              "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
              "'equation':'%s','a':0.7%s}}}",
@@ -191,6 +191,69 @@ static void the_clip_is_the_distance_beyond_its_margin(void **state)
             }
         }
         assert_in_range(beyond, POINTS / 4, POINTS);
+        field_unref(field);
+    }
+}
+
+/* --- sheets --- */
+
+#define OCTIC(x) "128*" x "^8 - 256*" x "^6 + 160*" x "^4 - 32*" x "^2 + 1"
+static const char *const sheets[] = {OCTIC("x") " + " OCTIC("y") " + " OCTIC("z"),
+                                     "cheb(8, x) + cheb(8, y) + cheb(8, z)", "x^2 = y^2*z",
+                                     "sin(4x)*cos(4y) + sin(4y)*cos(4z) + sin(4z)*cos(4x)"};
+#define SHEET 0.02
+
+/* A zero on the way between two points of different signs. */
+static bool find_zero(const struct equation *equation, double p[3], double q[3])
+{
+    const bool below = equation_value(equation, p, letter_values) < 0;
+    if (below == (equation_value(equation, q, letter_values) < 0)) {
+        return false;
+    }
+    for (int i = 0; i < 40; i++) {
+        double middle[3];
+        for (int k = 0; k < 3; k++) {
+            middle[k] = 0.5 * (p[k] + q[k]);
+        }
+        const bool on = below == (equation_value(equation, middle, letter_values) < 0);
+        memcpy(on ? p : q, middle, sizeof middle);
+    }
+    return true;
+}
+
+/* What is outside has no point of the sheet within its distance; all zeros are in the middle of the
+ * sheet, and what is in it is a small part of space. */
+static void sheets_are_thin_and_whole(void **state)
+{
+    struct random random = {.state = 20};
+    (void)state;
+    for (size_t e = 0; e < sizeof sheets / sizeof sheets[0]; e++) {
+        struct field *field =
+            field_of(sheets[e], ",'mode':'sheet','thickness':0.02,'size':[4,4,4]");
+        struct equation *equation = read(sheets[e]);
+        int within = 0, zeros = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], q[3], way[3];
+            random_point(&random, 1, p);
+            const double d = field_distance(field, p);
+            within += d < 0;
+            for (int k = 0; d > 0 && k < SAMPLES; k++) {
+                random_direction(&random, way);
+                for (int c = 0; c < 3; c++) {
+                    q[c] = p[c] + 0.999 * d * way[c];
+                }
+                assert_true(field_distance(field, q) > -0.05 * SHEET);
+            }
+            random_point(&random, 1, q);
+            if (find_zero(equation, p, q)) {
+                zeros++;
+                assert_true(field_distance(field, p) < -0.49 * SHEET);
+            }
+        }
+        if (within > POINTS / 5 || zeros < POINTS / 20) {
+            fail_msg("%s: %d points in the sheet, %d zeros", sheets[e], within, zeros);
+        }
+        free(equation);
         field_unref(field);
     }
 }
@@ -390,6 +453,7 @@ int main(void)
         cmocka_unit_test(ranges_hold_values_and_slopes),
         cmocka_unit_test(the_sign_holds_within_the_distance),
         cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
+        cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_bound_comes_near),
     };
