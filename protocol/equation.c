@@ -8,12 +8,13 @@
 #include "equation_parts.h"
 
 const struct equation_function equation_functions[EQUATION_FUNCTIONS] = {
-    [EQUATION_SIN] = {"sin", 1},   [EQUATION_COS] = {"cos", 1},   [EQUATION_TAN] = {"tan", 1},
-    [EQUATION_ASIN] = {"asin", 1}, [EQUATION_ACOS] = {"acos", 1}, [EQUATION_ATAN] = {"atan", 1},
-    [EQUATION_SINH] = {"sinh", 1}, [EQUATION_COSH] = {"cosh", 1}, [EQUATION_TANH] = {"tanh", 1},
-    [EQUATION_EXP] = {"exp", 1},   [EQUATION_LOG] = {"log", 1},   [EQUATION_SQRT] = {"sqrt", 1},
-    [EQUATION_CBRT] = {"cbrt", 1}, [EQUATION_ABS] = {"abs", 1},   [EQUATION_MIN] = {"min", 2},
-    [EQUATION_MAX] = {"max", 2},
+    [EQUATION_SIN] = {"sin", 1},     [EQUATION_COS] = {"cos", 1},     [EQUATION_TAN] = {"tan", 1},
+    [EQUATION_ASIN] = {"asin", 1},   [EQUATION_ACOS] = {"acos", 1},   [EQUATION_ATAN] = {"atan", 1},
+    [EQUATION_SINH] = {"sinh", 1},   [EQUATION_COSH] = {"cosh", 1},   [EQUATION_TANH] = {"tanh", 1},
+    [EQUATION_EXP] = {"exp", 1},     [EQUATION_LOG] = {"log", 1},     [EQUATION_SQRT] = {"sqrt", 1},
+    [EQUATION_CBRT] = {"cbrt", 1},   [EQUATION_ABS] = {"abs", 1},     [EQUATION_SIGN] = {"sign", 1},
+    [EQUATION_FLOOR] = {"floor", 1}, [EQUATION_CEIL] = {"ceil", 1},   [EQUATION_MIN] = {"min", 2},
+    [EQUATION_MAX] = {"max", 2},     [EQUATION_ATAN2] = {"atan2", 2},
 };
 
 const struct equation_constant equation_constants[] = {

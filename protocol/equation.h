@@ -4,7 +4,7 @@
  *     text       := { name ":=" expression ";" } expression [ relation expression ]
  *     relation   := "=" | "<" | "<=" | ">" | ">="
  *     expression := term { ("+" | "-") term }
- *     term       := unary { ("*" | "/" | nothing) unary }      nothing: 2x, 3(x + 1), (x)(y), (x)y
+ *     term       := unary { ("*" | "/" | nothing) unary }      nothing: 2x, 3(x + 1), (x)y, x y
  *     unary      := { "-" | "+" } power
  *     power      := atom [ ("^" | "**") unary ]                -x^2 is -(x^2), x^y^z is x^(y^z)
  *     atom       := number | name | name "(" expression { "," expression } ")"
@@ -53,8 +53,12 @@ enum equation_name {
     EQUATION_SQRT,
     EQUATION_CBRT,
     EQUATION_ABS,
+    EQUATION_SIGN,
+    EQUATION_FLOOR,
+    EQUATION_CEIL,
     EQUATION_MIN,
     EQUATION_MAX,
+    EQUATION_ATAN2,
     EQUATION_FUNCTIONS,
 };
 

@@ -118,15 +118,20 @@ static const char *next_character(struct reader *r, char out[8])
 
 /* --- nodes --- */
 
+static void note_full(struct reader *r)
+{
+    r->ended = true;
+    note(r, r->at,
+         "more than %d different operations (equation_nodes), or %d with all "
+         "definitions written out (equation_weight)",
+         LIMIT_EQUATION_NODES, LIMIT_EQUATION_WEIGHT);
+}
+
 static uint16_t add(struct reader *r, struct equation_node node)
 {
     uint16_t index = 0;
     if (!r->ended && !equation_add(r->equation, node, &index)) {
-        r->ended = true;
-        note(r, r->at,
-             "more than %d different operations (equation_nodes), or %d with all "
-             "definitions written out (equation_weight)",
-             LIMIT_EQUATION_NODES, LIMIT_EQUATION_WEIGHT);
+        note_full(r);
     }
     return index;
 }
@@ -179,16 +184,12 @@ static int find(const char *const *names, const char *name)
     return -1;
 }
 
-/* Functions that are written by others. */
-enum composite { HYPOT, CLAMP, MIX, LOG2, POW, COMPOSITES };
-static const struct equation_function composites[COMPOSITES] = {
-    {"hypot", 2}, {"clamp", 3}, {"mix", 3}, {"log2", 1}, {"pow", 2}};
-
 static int function_of(const char *name, int *out_arguments)
 {
-    for (int i = 0; i < EQUATION_FUNCTIONS + COMPOSITES; i++) {
-        const struct equation_function *row =
-            i < EQUATION_FUNCTIONS ? &equation_functions[i] : &composites[i - EQUATION_FUNCTIONS];
+    for (int i = 0; i < EQUATION_FUNCTIONS + EQUATION_COMPOSITES; i++) {
+        const struct equation_function *row = i < EQUATION_FUNCTIONS
+                                                  ? &equation_functions[i]
+                                                  : &equation_composites[i - EQUATION_FUNCTIONS];
         if (strcmp(row->name, name) == 0) {
             *out_arguments = row->arguments;
             return i;
@@ -197,25 +198,25 @@ static int function_of(const char *name, int *out_arguments)
     return -1;
 }
 
-static uint16_t compose(struct reader *r, enum composite which, const uint16_t *in, const char *at)
+static uint16_t compose(struct reader *r, enum equation_composite which, const uint16_t *in,
+                        const char *at)
 {
-    switch (which) {
-    case HYPOT:
-        return add_call(r, EQUATION_SQRT,
-                        add_two(r, EQUATION_ADD, add_whole(r, in[0], 2), add_whole(r, in[1], 2)),
-                        0);
-    case CLAMP:
-        return add_call(r, EQUATION_MIN, add_call(r, EQUATION_MAX, in[0], in[1]), in[2]);
-    case MIX:
-        return add_two(
-            r, EQUATION_ADD, in[0],
-            add_two(r, EQUATION_MULTIPLY, add_two(r, EQUATION_SUBTRACT, in[1], in[0]), in[2]));
-    case LOG2:
-        return add_two(r, EQUATION_DIVIDE, add_call(r, EQUATION_LOG, in[0], 0),
-                       add_call(r, EQUATION_LOG, add_number(r, 2), 0));
-    default:
+    const struct equation_node *degree = &r->equation->nodes[in[0]];
+    uint16_t out = 0;
+    if (which == EQUATION_POW) {
         return add_power(r, in[0], in[1], at);
     }
+    if (which == EQUATION_CHEB &&
+        !(degree->known && degree->constant == floor(degree->constant) && degree->constant >= 0 &&
+          degree->constant <= LIMIT_EQUATION_EXPONENT)) {
+        note(r, at, "cheb(n, x) takes a whole number n from 0 to %d (equation_exponent)",
+             LIMIT_EQUATION_EXPONENT);
+        return 0;
+    }
+    if (!r->ended && !equation_compose(r->equation, which, in, &out)) {
+        note_full(r);
+    }
+    return out;
 }
 
 /* Reads a name; its length. Digits belong to it, so x2 is no product. */
@@ -257,8 +258,8 @@ static void note_unknown(struct reader *r, const char *name, bool called, const 
     for (int i = 0; i < EQUATION_FUNCTIONS; i++) {
         suggest_consider(&near, equation_functions[i].name);
     }
-    for (int i = 0; i < COMPOSITES; i++) {
-        suggest_consider(&near, composites[i].name);
+    for (int i = 0; i < EQUATION_COMPOSITES; i++) {
+        suggest_consider(&near, equation_composites[i].name);
     }
     for (int i = 0; !called && equation_constants[i].name; i++) {
         suggest_consider(&near, equation_constants[i].name);
@@ -345,7 +346,7 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
     }
     return function < EQUATION_FUNCTIONS
                ? add_call(r, (enum equation_name)function, in[0], wanted > 1 ? in[1] : 0)
-               : compose(r, (enum composite)(function - EQUATION_FUNCTIONS), in, at);
+               : compose(r, (enum equation_composite)(function - EQUATION_FUNCTIONS), in, at);
 }
 
 static uint16_t read_number(struct reader *r)
@@ -485,7 +486,8 @@ static bool ends_with(const char *begin, const char *end, const char *with)
     return (size_t)(end - begin) >= length && memcmp(end - length, with, length) == 0;
 }
 
-/* Whether a factor follows without a sign: after a number or ")" a name or "(". */
+/* Whether a factor follows without a sign: after a number, a name or ")" a name or "(". Between two
+ * names is a blank; xy is one name. */
 static bool is_beside(struct reader *r, const char *begin)
 {
     const char *last = r->at;
@@ -502,7 +504,7 @@ static bool is_beside(struct reader *r, const char *begin)
         (isdigit((unsigned char)last[-1]) || last[-1] == '.' || ends_with(begin, last, "\u03c0") ||
          ends_with(begin, last, "\u00b2") || ends_with(begin, last, "\u00b3"));
     const bool letter = last > begin && isalpha((unsigned char)last[-1]);
-    return ((closed || digit) && (named || opens)) || (letter && opens);
+    return (closed || digit || letter) && (named || opens);
 }
 
 static uint16_t read_term(struct reader *r)

@@ -8,7 +8,16 @@
  * point of the surface is nearer than the lesser of |f| / M and the step (the mean value theorem;
  * Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface 1990, for the
  * intervals). Where the step is short M is hardly above |g|, so rays converge as fast as Newton's
- * method. The bound has no bounded slope itself: engines may not prune by it. */
+ * method.
+ *
+ * The equation is asked within its clip alone, at the point of the clip that is nearest. What is in
+ * the clip lies beyond that point, at a right angle or more, so outside both ways together are no
+ * longer than the distance. Farther from the clip than EQUATION_MARGIN of its extent the way to the
+ * clip is the distance, and the equation is not asked: that took a third of all evaluations. With
+ * less of a margin the clip would be seen in soft shadows and ambient occlusion.
+ *
+ * So the distance changes as fast as the way where it exceeds equation_unsteady(), and is the lower
+ * bound of a distance everywhere. */
 #ifndef RENDERER_EQUATION_CODE_H
 #define RENDERER_EQUATION_CODE_H
 
@@ -17,8 +26,14 @@
 /* What is made of the surface. */
 struct equation_form {
     bool sheet; /* so thick as the number `thickness` says; else what is behind it, solid */
-    bool ball;  /* cut by one of the number `radius`; else the caller cuts it by a box */
+    bool ball;  /* cut by one of the number `radius`; else by a box of the lengths `size` */
 };
+
+#define EQUATION_MARGIN 0.15 /* around the clip, as a part of its extent */
+#define EQUATION_REACH 0.25  /* the same of the longest step that is tried */
+/* Above this the distance is that to the clip. No distance is below minus this. `extent` is the
+ * radius of the clip, or half of the diagonal of its box. */
+double equation_unsteady(double extent);
 
 /* The text of float sdf(vec3 p). It reads the declared numbers vec3 size, float radius, float
  * thickness, and the equation's letters. The caller frees it. */

@@ -10,7 +10,8 @@ struct equation_rule {
     const char *value; /* of a number */
     const char *slope; /* its derivative there; NULL: the function has two arguments */
     /* vec4 range_NAME(vec2 x): what value (x, y) and slope (z, w) are at least and at most while
-     * the argument is from x.x to x.y. With two arguments: mat3 jet_NAME(mat3 a, mat3 b). */
+     * the argument is from x.x to x.y. With two arguments: vec4 dual_NAME(vec4 a, vec4 b) of their
+     * (gradient, value), and mat3 jet_NAME(mat3 a, mat3 b). */
     const char *range;
 };
 extern const struct equation_rule equation_rules[EQUATION_FUNCTIONS];

@@ -36,6 +36,7 @@ struct machine {
      * second in bit 8 + `child` and on. */
     uint16_t *drops;
     float radius;
+    vf loose[FIELD_SLOTS_MAX]; /* so much more than the way to them distances there may differ */
     int child;
     struct open open[OPEN_MAX];
     int depth;
@@ -55,6 +56,17 @@ static void select_all(vb m, const vf *from, vf *to, int count)
     }
 }
 
+/* Around the point, of one whose distance is v->d[in->a]. */
+static vf looseness(const struct machine *v, const struct operation *in)
+{
+    if (!in->code) {
+        return vf_zero;
+    }
+    const float *cut = v->c->own + 4 * (FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
+    const float unsteady = cut[FIELD_UNSTEADY];
+    return vf_select(v->d[in->a] - v->radius > unsteady, vf_zero, vf_all(2.0f * unsteady));
+}
+
 static void run_shape(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
@@ -62,6 +74,9 @@ static void run_shape(struct machine *v, const struct operation *in)
     const vf *const p = v->p[in->point];
     v->d[in->a] =
         in->code ? run_code(c, v->m, in->code, p) : CALL(shape_function, in->function)(c, v->m, p);
+    if (v->drops) {
+        v->loose[in->a] = looseness(v, in);
+    }
     if (v->mixtures) {
         vf local[3];
         place(c->own, p, local);
@@ -93,9 +108,11 @@ static void run_combine(struct machine *v, const struct operation *in)
 }
 
 /* Whether one operand is so far from the other that it cannot matter within the radius: both have
- * slopes of at most 1 (Barbier et al.: Lipschitz pruning, Computer Graphics Forum 2025). */
+ * slopes of at most 1, but for what is loose (Barbier et al.: Lipschitz pruning, Computer Graphics Forum 2025). */
 static void record(struct machine *v, const struct operation *in, size_t at)
 {
+    const vf loose[2] = {v->loose[in->a], v->loose[in->b]};
+    v->loose[in->a] = vf_max(loose[0], loose[1]);
     if (!in->prunes) {
         return;
     }
@@ -104,7 +121,8 @@ static void record(struct machine *v, const struct operation *in, size_t at)
                  : in->rule == SDF_FIRST ? -v->d[in->a]
                                          : v->d[in->a];
     const vf b = in->rule == SDF_ALL ? -v->d[in->b] : v->d[in->b];
-    const vf far = 2.0f * v->radius + (float)in->reach(n) + 1e-5f * (vf_abs(a) + vf_abs(b));
+    const vf far = 2.0f * v->radius + loose[0] + loose[1] + (float)in->reach(n) +
+                   1e-5f * (vf_abs(a) + vf_abs(b));
     uint32_t first = lanes_bits(a - b > far), second = lanes_bits(b - a > far);
     if (in->seen && v->c->numbers[in->seen] != 0.0f) {
         first = v->c->numbers[in->seen] > 0.0f ? 0xff : 0;
@@ -132,6 +150,7 @@ static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
     open->before = v->m;
     open->left = spmd_cell_count(c, v->m, open->first, open->last);
     v->d[in->a] = vf_all(FIELD_FAR);
+    v->loose[in->a] = vf_zero;
     if (v->mixtures) {
         spmd_mixture_far(c, v->m, v->mixtures[in->a]);
     }
@@ -175,6 +194,7 @@ static void run_move(struct machine *v, const struct operation *in, bool negated
 {
     const vf d = v->d[in->b];
     v->d[in->a] = negated ? -d : d;
+    v->loose[in->a] = v->drops ? v->loose[in->b] : vf_zero;
     if (v->mixtures) {
         memcpy(v->mixtures[in->a], v->mixtures[in->b], sizeof v->mixtures[0]);
         v->mixtures[in->a][0] = v->d[in->a];
@@ -200,6 +220,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             if (v->mixtures) {
                 spmd_mixture_far(c, v->m, v->mixtures[in->a]);
             }
+            v->loose[in->a] = vf_zero;
             break;
         case FIELD_SHAPE:
             run_shape(v, in);

@@ -113,7 +113,9 @@ static bool make(const struct engine_program *program, struct operation *out,
 /* What a slot holds at this place of the field, and which loops are open. */
 struct reading {
     bool mixed[FIELD_SLOTS_MAX];
-    bool steep[FIELD_SLOTS_MAX]; /* a shape in it has no bound on its slope */
+    /* A shape in it has no bound on its slope, and is in a space that is repeated, or longer than
+     * ours: nobody follows where it is steady. */
+    bool steep[FIELD_SLOTS_MAX];
     uint32_t loops[LIMIT_NODE_DEPTH];
     int depth, bent; /* open loops; open changes of space that lengthen */
 };
@@ -133,7 +135,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
     program->count++;
     if (in->op == FIELD_SHAPE || in->op == FIELD_EMPTY) {
         r->mixed[in->a] = false;
-        r->steep[in->a] = in->type && in->type->kind == KIND_EQUATION;
+        r->steep[in->a] = in->type && in->type->kind == KIND_EQUATION && r->depth + r->bent > 0;
     } else if (in->op == FIELD_COMBINE) {
         to->mixes = in->sdf->soft || r->mixed[in->a] || r->mixed[in->b];
         r->mixed[in->a] = to->mixes;

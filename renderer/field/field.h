@@ -90,8 +90,9 @@ enum {
 #define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/through.glsl */
 
 /* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
- * it, scale), then what it declares. */
-enum { FIELD_HEAD_VEC4S = 2, FIELD_CUT_VEC4S = 1 };
+ * it, scale), (unsteady, 0, 0, 0), then what it declares. Distances above `unsteady` alone change
+ * no faster than the way, none is below minus it: see equation_unsteady(). 0: all are steady. */
+enum { FIELD_HEAD_VEC4S = 2, FIELD_CUT_VEC4S = 2, FIELD_CUT_NUMBERS = 5, FIELD_UNSTEADY = 4 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
 
 /* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half, 0).

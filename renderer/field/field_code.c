@@ -150,8 +150,10 @@ static void call_equation(const struct node *node, struct field_call *out)
                                .values = params->values + (first - params->type->params),
                                .lipschitz = 1,
                                .size = record_vector(params, "size")};
+    out->extent = 0.5 * hypot(hypot(out->size[0], out->size[1]), out->size[2]);
     if (out->form.ball) {
         out->size = out->ball;
+        out->extent = across / 2;
     }
     snprintf(out->place, sizeof out->place, "/nodes/%s/params/equation", node->id);
 }

@@ -27,6 +27,7 @@ struct field_call {
     const struct value *values; /* and what the node gives; both borrowed */
     double lipschitz;
     const double *size;
+    double extent;                 /* of an equation's clip; of code 0 */
     char place[ERROR_PLACE_BYTES]; /* of the text */
 };
 /* False: it has none, so it is empty space or another shape. `out` stays where it is. */

@@ -61,7 +61,8 @@ static double run_code(const struct field *field, const struct field_instruction
         square += beyond > 0 ? beyond * beyond : 0;
         face = fmax(face, beyond);
     }
-    double d = code_distance(field->codes[in->choices].code, within, cut + 4, NULL) * n[0];
+    double d =
+        code_distance(field->codes[in->choices].code, within, cut + FIELD_CUT_NUMBERS, NULL) * n[0];
     return square > 0 ? hypot(sqrt(square) * cut[3], fmax(d, 0)) : fmax(d, face * cut[3]);
 }
 

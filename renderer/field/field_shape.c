@@ -88,6 +88,22 @@ static struct bounds shape_box(const struct node *node, const struct sdf *sdf)
     return sdf->box(numbers);
 }
 
+/* Equations cut themselves. Returns the box around it. */
+static struct bounds fill_cut(const struct field_call *call, double scale,
+                              double out_cut[FIELD_CUT_NUMBERS])
+{
+    struct bounds box = bounds_infinite();
+    for (int i = 0; i < 3; i++) {
+        const bool ends = call->size[i] > 0;
+        box.high[i] = ends ? call->size[i] / 2 : INFINITY;
+        box.low[i] = -box.high[i];
+        out_cut[i] = ends && !call->is_equation ? box.high[i] : FIELD_UNCUT;
+    }
+    out_cut[3] = scale;
+    out_cut[FIELD_UNSTEADY] = equation_unsteady(call->extent) * scale;
+    return box;
+}
+
 /* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
 static struct result emit_code(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
@@ -101,25 +117,21 @@ static struct result emit_code(struct builder *b, const struct node *node,
         return (struct result){0};
     }
     const struct field_code *code = &b->field->codes[index];
-    double numbers[SDF_NUMBERS_MAX], cut[4] = {0, 0, 0, frame->scale}, head[FIELD_HEAD_NUMBERS];
-    struct bounds box = bounds_infinite();
-    for (int i = 0; i < 3; i++) {
-        bool ends = call.size[i] > 0;
-        cut[i] = ends ? call.size[i] / 2 : FIELD_UNCUT;
-        box.high[i] = ends ? cut[i] : INFINITY;
-        box.low[i] = -box.high[i];
-    }
+    double numbers[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
+    const struct bounds box = fill_cut(&call, frame->scale, cut);
     fill_head(b, frame, call.lipschitz, number, head);
     int count = sdf_numbers(call.params, call.values, numbers);
     size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
     uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
-    uint32_t arguments = builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + 4 + (size_t)count);
+    uint32_t arguments =
+        builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
-    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS, 4, cut);
+    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS,
+                FIELD_CUT_NUMBERS, cut);
     builder_put_params(b, call.params, call.values, NULL, 1,
                        block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
-                       arguments + 12 + FIELD_HEAD_NUMBERS + 4);
+                       arguments + 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS);
     builder_add_trips(b, (uint64_t)code_trips(code->code));
     add_leaf(b, number, node);
     builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,

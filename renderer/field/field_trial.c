@@ -57,7 +57,7 @@ static void add_shapes(struct field_trial *trial)
             continue;
         }
         struct tried *tried = add(trial, code);
-        memcpy(tried->numbers, cut + 4, numbers_of(tried->code) * sizeof *n);
+        memcpy(tried->numbers, cut + FIELD_CUT_NUMBERS, numbers_of(tried->code) * sizeof *n);
         memcpy(tried->half, cut, sizeof tried->half);
         tried->lipschitz = cut[3] / n[0];
     }

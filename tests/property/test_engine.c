@@ -201,6 +201,48 @@ static void other_pictures_are_noticed(void **state)
     renderer_destroy(renderer);
 }
 
+/* Equations among balls, near and far; in a twist by nothing no operand is left out. */
+static struct embedded equations_among_balls(bool whole, char *text, size_t room)
+{
+    enum { BALLS = 24 };
+    static const char implicit[] =
+        "{'type':'implicit','params':{'equation':'x^2+y^2-3*z^2<0.1','clip':'ball','radius':1.1}},"
+        "{'type':'implicit','params':{'equation':'x^3-y*z=0','mode':'sheet','size':[1,1,1]},"
+        "'transform':{'translation':[1.7,0.4,-1]}}";
+    size_t at = (size_t)snprintf(text, room,
+                                 "{'format':'fieldcast/1','root':{'type':'%s','params':{%s},"
+                                 "'children':[{'type':'union','children':[%s",
+                                 whole ? "twist" : "union", whole ? "'rate':0" : "", implicit);
+    for (unsigned i = 0; i < BALLS; i++) {
+        at += (size_t)snprintf(text + at, room - at,
+                               ",{'type':'sphere','transform':{'translation':"
+                               "[%g,%g,%g],'scale':[0.3,0.3,0.3]}}",
+                               0.15 * (i * 7 % BALLS) - 1.8, 0.1 * (i * 5 % BALLS) - 1.2,
+                               0.15 * (i * 11 % BALLS) - 1.8);
+    }
+    at += (size_t)snprintf(text + at, room - at, "]}]}}");
+    assert_true(at < room);
+    json_text_quote(text);
+    return (struct embedded){.path = "balls", .bytes = (const unsigned char *)text, .length = at};
+}
+
+static void what_is_left_out_beside_equations_is_not_missed(void **state)
+{
+    static char text[SCENE_BYTES];
+    struct renderer *renderer = open_renderer(RENDER_ENGINE, usual);
+    struct image images[2];
+
+    (void)state;
+    for (int whole = 0; whole < 2; whole++) {
+        const struct embedded scene = equations_among_balls(whole, text, sizeof text);
+        images[whole] = draw(renderer, &scene, 1);
+    }
+    assert_in_range(difference(&images[0], &images[1]), 0, WIDTH * HEIGHT * PER_MILLE / 1000);
+    image_finish(&images[0]);
+    image_finish(&images[1]);
+    renderer_destroy(renderer);
+}
+
 /* Every width, numbers of threads, sides of tiles. */
 static size_t list_ways(struct way *out)
 {
@@ -257,6 +299,7 @@ int main(void)
         cmocka_unit_test(small_examples_are_the_same_by_both),
         cmocka_unit_test(many_shapes_are_the_same_by_both),
         cmocka_unit_test(other_pictures_are_noticed),
+        cmocka_unit_test(what_is_left_out_beside_equations_is_not_missed),
         cmocka_unit_test(all_ways_give_the_same_bytes),
     };
     return cmocka_run_group_tests_name("engine", tests, NULL, NULL);

@@ -14,6 +14,9 @@
 #include <cmocka.h>
 
 #include "protocol/equation.h"
+#include "renderer/code/code.h"
+#include "renderer/code/equation_code.h"
+#include "renderer/code/equation_rules.h"
 #include "tests/support/code_engine.h"
 #include "tests/support/equation_value.h"
 #include "tests/support/json_text.h"
@@ -42,6 +45,12 @@ static const struct {
     {EQUATION_SQRT, "(sqrt(x^2 + z^2) - 1)^2 + y^2 = 0.16"},
     {EQUATION_CBRT, "cbrt(x + 2) + cbrt(y*z) = 1.5"},
     {EQUATION_ABS, "|x|^3 + |y - z| = 0.8"},
+    {EQUATION_SIGN, "sign(x - 0.3)*y + 2z = 0.1 + sign(y)"},
+    {EQUATION_FLOOR, "floor(2x)*0.4 + y = z + fract(1.5y)"},
+    {EQUATION_CEIL, "ceil(x + y)*z = mod(y, 0.7)"},
+    {EQUATION_ATAN2, "atan2(y, x) + z = 0.4*atan2(z + 1, y - 2)"},
+    {EQUATION_FUNCTIONS, "cheb(8, x) + cheb(6, y) + cheb(5, z) = 0"},
+    {EQUATION_FUNCTIONS, "smoothstep(-1, 1, x) + step(0.2, y) = z"},
     {EQUATION_MIN, "min(x^2 + y^2, y^2 + z^2) = 0.2"},
     {EQUATION_MAX, "max(x^2 + y, z^2 - x*y) < 0.5"},
     {EQUATION_FUNCTIONS, "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 0.4 = 0"},
@@ -58,7 +67,7 @@ enum { EQUATIONS = sizeof equations / sizeof equations[0] };
 static struct field *field_of(const char *text, const char *more)
 {
     struct error err = {0};
-    char json[512];
+    char json[1024];
     snprintf(json, sizeof json,
              "{'format':'fieldcast/1','root':{'type':'implicit','params':{"
              "'equation':'%s','a':0.7%s}}}",
@@ -126,6 +135,225 @@ static void the_sign_holds_within_the_distance(void **state)
         }
         free(equation);
         field_unref(field);
+    }
+}
+
+/* A distance around the clip: beyond its margin it is that to the clip, whatever the equation is, and
+ * nowhere does it lead beyond a point of the solid. */
+static double around_clip(bool ball, const double p[3])
+{
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        const double beyond = ball ? fabs(p[i]) : fmax(fabs(p[i]) - 1, 0);
+        square += beyond * beyond;
+    }
+    return ball ? sqrt(square) - 1 : sqrt(square);
+}
+
+enum { INSIDE = 2000 };
+
+static size_t points_inside(struct random *random, bool ball, double out[INSIDE][3])
+{
+    struct equation *equation = read("x^3 + y*z < 0.1");
+    size_t count = 0;
+    while (count < INSIDE) {
+        random_point(random, 1, out[count]);
+        const double clip = around_clip(ball, out[count]);
+        count += clip <= 0 && equation_value(equation, out[count], letter_values) < 0;
+    }
+    free(equation);
+    return count;
+}
+
+static void the_clip_is_the_distance_beyond_its_margin(void **state)
+{
+    static double inside[INSIDE][3];
+    struct random random = {.state = 18};
+    (void)state;
+    for (int ball = 0; ball < 2; ball++) {
+        const double margin = EQUATION_MARGIN * (ball ? 1 : sqrt(3));
+        struct field *field =
+            field_of("x^3 + y*z < 0.1", ball ? ",'clip':'ball','radius':1" : ",'size':[2,2,2]");
+        const size_t count = points_inside(&random, ball, inside);
+        int beyond = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], nearest = INFINITY;
+            random_point(&random, 2, p);
+            const double d = field_surface(field, p, NULL).distance, clip = around_clip(ball, p);
+            for (size_t k = 0; k < count; k++) {
+                nearest = fmin(nearest, hypot(hypot(p[0] - inside[k][0], p[1] - inside[k][1]),
+                                              p[2] - inside[k][2]));
+            }
+            assert_true(d <= nearest);
+            if (clip > margin) {
+                assert_float_equal(d, clip, 1e-9);
+                beyond++;
+            }
+        }
+        assert_in_range(beyond, POINTS / 4, POINTS);
+        field_unref(field);
+    }
+}
+
+/* --- sheets --- */
+
+#define OCTIC(x) "128*" x "^8 - 256*" x "^6 + 160*" x "^4 - 32*" x "^2 + 1"
+static const char *const sheets[] = {OCTIC("x") " + " OCTIC("y") " + " OCTIC("z"),
+                                     "cheb(8, x) + cheb(8, y) + cheb(8, z)", "x^2 = y^2*z",
+                                     "sin(4x)*cos(4y) + sin(4y)*cos(4z) + sin(4z)*cos(4x)"};
+#define SHEET 0.02
+
+/* A zero on the way between two points of different signs. */
+static bool find_zero(const struct equation *equation, double p[3], double q[3])
+{
+    const bool below = equation_value(equation, p, letter_values) < 0;
+    if (below == (equation_value(equation, q, letter_values) < 0)) {
+        return false;
+    }
+    for (int i = 0; i < 40; i++) {
+        double middle[3];
+        for (int k = 0; k < 3; k++) {
+            middle[k] = 0.5 * (p[k] + q[k]);
+        }
+        const bool on = below == (equation_value(equation, middle, letter_values) < 0);
+        memcpy(on ? p : q, middle, sizeof middle);
+    }
+    return true;
+}
+
+/* What is outside has no point of the sheet within its distance; all zeros are in the middle of the
+ * sheet, and what is in it is a small part of space. */
+static void sheets_are_thin_and_whole(void **state)
+{
+    struct random random = {.state = 20};
+    (void)state;
+    for (size_t e = 0; e < sizeof sheets / sizeof sheets[0]; e++) {
+        struct field *field =
+            field_of(sheets[e], ",'mode':'sheet','thickness':0.02,'size':[4,4,4]");
+        struct equation *equation = read(sheets[e]);
+        int within = 0, zeros = 0;
+        for (int i = 0; i < POINTS; i++) {
+            double p[3], q[3], way[3];
+            random_point(&random, 1, p);
+            const double d = field_distance(field, p);
+            within += d < 0;
+            for (int k = 0; d > 0 && k < SAMPLES; k++) {
+                random_direction(&random, way);
+                for (int c = 0; c < 3; c++) {
+                    q[c] = p[c] + 0.999 * d * way[c];
+                }
+                assert_true(field_distance(field, q) > -0.05 * SHEET);
+            }
+            random_point(&random, 1, q);
+            if (find_zero(equation, p, q)) {
+                zeros++;
+                assert_true(field_distance(field, p) < -0.49 * SHEET);
+            }
+        }
+        if (within > POINTS / 5 || zeros < POINTS / 20) {
+            fail_msg("%s: %d points in the sheet, %d zeros", sheets[e], within, zeros);
+        }
+        free(equation);
+        field_unref(field);
+    }
+}
+
+/* --- ranges --- */
+
+/* Of a function, by its row, while its arguments are within p.x +- q.x and p.y +- q.y: least and
+ * greatest value, and least and greatest slope along the first argument and the second. */
+static double range_of(const struct code *code, const double p[3], const double half[2], int which)
+{
+    const double numbers[] = {half[0], half[1], which};
+    return code_distance(code, p, numbers, NULL);
+}
+
+static const struct param range_params[] = {{.name = "half_x", .type = PARAM_FLOAT},
+                                            {.name = "half_y", .type = PARAM_FLOAT},
+                                            {.name = "which", .type = PARAM_FLOAT},
+                                            {.name = NULL}};
+
+static struct code *range_code(enum equation_name name)
+{
+    struct error err = {0};
+    char text[4000];
+    const bool one = equation_functions[name].arguments == 1;
+    const int length =
+        snprintf(text, sizeof text,
+                 "%s%s\nfloat sdf(vec3 p)\n{\n"
+                 "mat3 x = mat3(vec3(1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), vec3(p.x - half_x, p.x + "
+                 "half_x, 0.0));\n"
+                 "mat3 y = mat3(vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(p.y - half_y, p.y + "
+                 "half_y, 0.0));\n"
+                 "mat3 j = %s%s%s;\n"
+                 "float n[6] = {j[2].x, j[2].y, j[0].x, j[1].x, j[0].y, j[1].y};\n"
+                 "return clamp(n[int(which)], -9e8, 9e8);\n}\n",
+                 equation_sizes, equation_rules[name].range, one ? "jet_of(x, range_" : "jet_",
+                 equation_functions[name].name, one ? "(x[2].xy))" : "(x, y)");
+    assert_in_range(length, 1, sizeof text - 1);
+    struct code *code =
+        code_compile(&(struct code_source){CODE_DISTANCE, text, range_params, true}, &err);
+    if (!code) {
+        fail_msg("%s: %s", equation_functions[name].name, err.message);
+    }
+    return code;
+}
+
+static double function_value(enum equation_name name, double x, double y)
+{
+    struct equation equation = {.count = 5, .left = 2, .right = 3};
+    const double p[3] = {x, y, 0};
+    equation.nodes[0] = (struct equation_node){.op = EQUATION_AXIS, .which = 0};
+    equation.nodes[1] = (struct equation_node){.op = EQUATION_AXIS, .which = 1};
+    equation.nodes[2] =
+        (struct equation_node){.op = EQUATION_CALL, .which = (uint8_t)name, .args = {0, 1}};
+    equation.nodes[3] = (struct equation_node){.op = EQUATION_NUMBER, .value = 0};
+    equation.nodes[4] = equation.nodes[3];
+    return equation_value(&equation, p, letter_values);
+}
+
+/* Values between and differences between, by the mean value theorem; a slope of 1e9 or more says
+ * that there may be a jump. */
+static bool range_holds(enum equation_name name, const struct code *code, struct random *random)
+{
+    double p[3], half[2] = {random_between(random, 0, 0.6), random_between(random, 0, 0.6)}, n[6];
+    random_point(random, 2.5, p);
+    for (int i = 0; i < 6; i++) {
+        n[i] = range_of(code, p, half, i);
+    }
+    for (int i = 0; i < SAMPLES; i++) {
+        const double x = p[0] + random_between(random, -1, 1) * half[0];
+        const double y = p[1] + random_between(random, -1, 1) * half[1];
+        const double u = p[0] + random_between(random, -1, 1) * half[0];
+        const double v = p[1] + random_between(random, -1, 1) * half[1];
+        const double f = function_value(name, x, y), room = 1e-6 * (1 + fabs(f));
+        const double along = function_value(name, u, y) - f, up = function_value(name, x, v) - f;
+        const double a = n[2] * (u - x), b = n[3] * (u - x), c = n[4] * (v - y), d = n[5] * (v - y);
+        const bool jumps = n[2] < -8e8 || n[3] > 8e8 || n[4] < -8e8 || n[5] > 8e8;
+        if (jumps && f >= n[0] - room && f <= n[1] + room) {
+            continue;
+        }
+        if (f < n[0] - room || f > n[1] + room || along < fmin(a, b) - room ||
+            along > fmax(a, b) + room || up < fmin(c, d) - room || up > fmax(c, d) + room) {
+            print_error("%s at (%g, %g) +- (%g, %g): %g in [%g, %g], slopes [%g, %g] [%g, %g]\n",
+                        equation_functions[name].name, p[0], p[1], half[0], half[1], f, n[0], n[1],
+                        n[2], n[3], n[4], n[5]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static void ranges_hold_values_and_slopes(void **state)
+{
+    struct random random = {.state = 19};
+    (void)state;
+    for (int name = 0; name < EQUATION_FUNCTIONS; name++) {
+        struct code *code = range_code((enum equation_name)name);
+        for (int i = 0; i < POINTS; i++) {
+            assert_true(range_holds((enum equation_name)name, code, &random));
+        }
+        code_destroy(code);
     }
 }
 
@@ -222,7 +450,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_function_has_a_row),
+        cmocka_unit_test(ranges_hold_values_and_slopes),
         cmocka_unit_test(the_sign_holds_within_the_distance),
+        cmocka_unit_test(the_clip_is_the_distance_beyond_its_margin),
+        cmocka_unit_test(sheets_are_thin_and_whole),
         cmocka_unit_test(the_engine_agrees),
         cmocka_unit_test(the_bound_comes_near),
     };

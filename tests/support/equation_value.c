@@ -34,6 +34,14 @@ static double call(enum equation_name name, double a, double b)
         return cbrt(a);
     case EQUATION_ABS:
         return fabs(a);
+    case EQUATION_SIGN:
+        return (a > 0) - (a < 0);
+    case EQUATION_FLOOR:
+        return floor(a);
+    case EQUATION_CEIL:
+        return ceil(a);
+    case EQUATION_ATAN2:
+        return atan2(a, b);
     case EQUATION_MIN:
         return fmin(a, b);
     case EQUATION_MAX:
