@@ -179,6 +179,19 @@ static const struct {
     {"surface-clebsch", SURFACE},
     {"surface-kummer", SURFACE},
     {"surface-chmutov", SURFACE},
+    {"surface-cayley", SURFACE},
+    {"surface-tanglecube", SURFACE},
+    {"surface-chair", SURFACE},
+    {"surface-dingdong", SURFACE},
+    {"surface-whitney", SURFACE},
+    {"surface-steiner", SURFACE},
+    {"surface-klein", SURFACE},
+    {"surface-dupin", SURFACE},
+    {"surface-schwarz-p", SURFACE},
+    {"surface-schwarz-d", SURFACE},
+    {"surface-octic", SURFACE},
+    {"surface-endrass", SURFACE},
+    {"surface-togliatti", SURFACE},
 };
 enum { EXAMPLE_ROWS = sizeof example_rows / sizeof example_rows[0] };
 

@@ -73,7 +73,7 @@ static void test_examples_of_the_readme(void **state)
     free(readme);
 }
 
-enum { EXAMPLES = 49 };
+enum { EXAMPLES = 62 };
 
 static void test_example_scenes(void **state)
 {
