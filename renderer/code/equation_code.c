@@ -94,9 +94,9 @@ static void write_box(const struct equation_writer *w, uint16_t root, struct equ
             root, root, root, root);
 }
 
-/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. Nothing is
- * in a box without a zero among its values. Close to a jump or a pole in every box, a ray goes on by
- * a little: it ends at the jump where the sign changes. */
+/* Where the slope in a box tells less than that in a smaller one would, the box shrinks. Nothing
+ * is in a box without a zero among its values. Close to a jump or a pole in every box, a ray goes
+ * on by a little: it ends at the jump where the sign changes. */
 static void write_solid(const struct equation_writer *w, uint16_t root, struct equation_form form)
 {
     write_box(w, root, form, "float d = 0.0;\n");
@@ -111,9 +111,9 @@ static void write_solid(const struct equation_writer *w, uint16_t root, struct e
 }
 
 /* A sheet is where |f| is at most half of the thickness times the slope in a small box (`grain`)
- * around the point. Let M be the slope in a box that is larger by the grain than a ball. Within the
- * ball |f| falls by at most M a unit of way, and the slope in small boxes is at most M: the sheet is
- * at least |f| / M less half of its thickness away, or the ball's radius. */
+ * around the point. Let M be the slope in a box that is larger by the grain than a ball. Within
+ * the ball |f| falls by at most M a unit of way, and the slope in small boxes is at most M: the
+ * sheet is at least |f| / M less half of its thickness away, or the ball's radius. */
 static void write_sheet(const struct equation_writer *w, uint16_t root, struct equation_form form)
 {
     write_box(w, root, form,

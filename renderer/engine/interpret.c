@@ -108,7 +108,8 @@ static void run_combine(struct machine *v, const struct operation *in)
 }
 
 /* Whether one operand is so far from the other that it cannot matter within the radius: both have
- * slopes of at most 1, but for what is loose (Barbier et al.: Lipschitz pruning, Computer Graphics Forum 2025). */
+ * slopes of at most 1, but for what is loose (Barbier et al.: Lipschitz pruning, Computer Graphics
+ * Forum 2025). */
 static void record(struct machine *v, const struct operation *in, size_t at)
 {
     const vf loose[2] = {v->loose[in->a], v->loose[in->b]};

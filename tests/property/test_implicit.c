@@ -138,8 +138,8 @@ static void the_sign_holds_within_the_distance(void **state)
     }
 }
 
-/* A distance around the clip: beyond its margin it is that to the clip, whatever the equation is, and
- * nowhere does it lead beyond a point of the solid. */
+/* A distance around the clip: beyond its margin it is that to the clip, whatever the equation is,
+ * and nowhere does it lead beyond a point of the solid. */
 static double around_clip(bool ball, const double p[3])
 {
     double square = 0;
