@@ -598,7 +598,7 @@ describe('adding', () => {
         assert.equal(nodeIn(beside, 'torus-1').name, 'Torus');
         await row(page, 'mug').click();
         await add('donut');
-        await foot.getByRole('button', { name: 'cut' }).click();
+        await foot.getByRole('button', { name: 'cut', exact: true }).click();
         await foot.getByText('Cuts Mug.').waitFor();
         await page.keyboard.press('Enter');
         await when((d) => nodeIn(d, 'mug').children.length === 3, 'the cut');
