@@ -79,7 +79,9 @@ endif
 
 # The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
 apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile skies threads,$(S)/renderer/engine/$(f).c)
-sources := $(filter-out $(apart),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
+# The program that finds equations; FLINT is linked with it alone.
+algebra := $(wildcard $(S)/renderer/algebra/*.c)
+sources := $(filter-out $(apart) $(algebra),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
 object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
@@ -94,11 +96,15 @@ engine_objects := $(foreach w,$(widths),$(OUT)/generated/engine-$(w).o)
 objects := $(filter-out $(main),$(call object,$(sources))) $(embedded) $(engine_objects)
 library := $(OUT)/libfieldcast.a
 
-fieldcast: $(OUT)/fieldcast ## the program with the page that web/dist holds now, if any (C only)
+fieldcast: $(OUT)/fieldcast $(OUT)/fieldcast-algebra ## the program with the page that web/dist holds now, if any (C only)
 
 $(OUT)/fieldcast: $(main) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
 	$(Q)$(link) -o $@ $(filter %.o %.a,$^) $(packages_libs)
+
+$(OUT)/fieldcast-algebra: $(call object,$(algebra)) $(library) $(OUT)/link-flags
+	$(call say,LD,$@)
+	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lflint -lgmp $(packages_libs)
 
 $(library): $(objects) $(OUT)/link-flags
 	$(Q)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
@@ -196,7 +202,7 @@ test_programs := $(patsubst %.o,%,$(call object,$(test_sources)))
 support := $(call object,$(wildcard $(S)/tests/support/*.c))
 preloaded := $(patsubst %.o,%.so,$(call object,$(wildcard $(S)/tests/*/*_driver.c $(S)/tests/*/*/*_driver.c)))
 
-programs: $(OUT)/fieldcast $(test_programs) $(preloaded) $(BUILD)/compile_commands.json ## the program and all C tests
+programs: $(OUT)/fieldcast $(OUT)/fieldcast-algebra $(test_programs) $(preloaded) $(BUILD)/compile_commands.json ## the program and all C tests
 
 $(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
@@ -273,6 +279,7 @@ deps test-deps:
 install: ## copy program and service files to $(DESTDIR)$(PREFIX)
 	$(again) all
 	install -Dm755 $(OUT)/fieldcast $(DESTDIR)$(PREFIX)/bin/fieldcast
+	install -Dm755 $(OUT)/fieldcast-algebra $(DESTDIR)$(PREFIX)/bin/fieldcast-algebra
 	install -Dm644 $(S)/deploy/fieldcast.conf $(DESTDIR)$(PREFIX)/share/doc/fieldcast/fieldcast.conf
 	install -Dm644 $(S)/README.md $(DESTDIR)$(PREFIX)/share/doc/fieldcast/README.md
 	install -d $(DESTDIR)$(PREFIX)/lib/systemd/system
@@ -280,7 +287,7 @@ install: ## copy program and service files to $(DESTDIR)$(PREFIX)
 	  >$(DESTDIR)$(PREFIX)/lib/systemd/system/fieldcast.service
 
 uninstall: ## remove what install copied
-	rm -f $(DESTDIR)$(PREFIX)/bin/fieldcast $(DESTDIR)$(PREFIX)/lib/systemd/system/fieldcast.service
+	rm -f $(DESTDIR)$(PREFIX)/bin/fieldcast $(DESTDIR)$(PREFIX)/bin/fieldcast-algebra $(DESTDIR)$(PREFIX)/lib/systemd/system/fieldcast.service
 	rm -rf $(DESTDIR)$(PREFIX)/share/doc/fieldcast
 
 dist: ## a source archive of the last commit
@@ -295,4 +302,4 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 	@sed -n '4,9s/^#//p' $(firstword $(MAKEFILE_LIST))
 
--include $(patsubst %.o,%.d,$(main) $(objects) $(support) $(spmd_objects) $(test_programs:=.o))
+-include $(patsubst %.o,%.d,$(main) $(objects) $(call object,$(algebra)) $(support) $(spmd_objects) $(test_programs:=.o))

@@ -116,6 +116,9 @@ struct equation_errors {
  * at least one error, in the order in which they were found. */
 struct equation *equation_read(const char *text, const char *const *letters,
                                struct equation_errors *out_errors);
+/* One expression in letters alone, without x, y, z and without a relation: it is `left`. */
+struct equation *equation_read_expression(const char *text, const char *const *letters,
+                                          struct equation_errors *out_errors);
 /* Canonical text; reading it gives the same text again. The caller frees it. */
 char *equation_print(const struct equation *equation, const char *const *letters);
 /* How many arguments a node has. */

@@ -29,6 +29,7 @@ struct reader {
     int definition_count, depth;
     bool ended;   /* what follows cannot be read */
     bool in_bars; /* between | and | */
+    bool plain;   /* an expression in letters alone: x, y and z are no names */
 };
 
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -276,7 +277,7 @@ static uint16_t value_of(struct reader *r, const char *name, const char *at)
             return r->definitions[i].node;
         }
     }
-    const int axis = find(axes, name), letter = find(r->letters, name);
+    const int axis = r->plain ? -1 : find(axes, name), letter = find(r->letters, name);
     if (axis >= 0 || letter >= 0) {
         return add(r, (struct equation_node){.op = axis >= 0 ? EQUATION_AXIS : EQUATION_LETTER,
                                              .which = (uint8_t)(axis >= 0 ? axis : letter)});
@@ -605,7 +606,9 @@ static void check_end(struct reader *r)
         return;
     }
     if (strchr("<>=", *r->at)) {
-        note(r, r->at, "a second relation; an equation has one");
+        note(r, r->at,
+             r->plain ? "a relation; an expression has none"
+                      : "a second relation; an equation has one");
     } else if (*r->at == ')') {
         note(r, r->at, "nothing is open that \")\" could close");
     } else {
@@ -613,29 +616,53 @@ static void check_end(struct reader *r)
     }
 }
 
-struct equation *equation_read(const char *text, const char *const *letters,
-                               struct equation_errors *out_errors)
+static void check_varies(struct reader *r)
+{
+    const struct equation *equation = r->equation;
+    if (r->errors->count == 0 && !equation->nodes[equation->left].varies &&
+        !equation->nodes[equation->right].varies) {
+        note(r, r->text, "no x, y or z: it holds everywhere or nowhere");
+    }
+}
+
+static struct equation *read_text(const char *text, const char *const *letters, bool plain,
+                                  struct equation_errors *out_errors)
 {
     struct equation *equation = memory_alloc(1, sizeof *equation);
-    struct reader r = {
-        .text = text, .at = text, .letters = letters, .equation = equation, .errors = out_errors};
+    struct reader r = {.text = text,
+                       .at = text,
+                       .letters = letters,
+                       .equation = equation,
+                       .errors = out_errors,
+                       .plain = plain};
     out_errors->count = 0;
     while (!r.ended && read_definition(&r)) {
     }
     if (!r.ended) {
         equation->left = read_expression(&r);
     }
-    if (!r.ended) {
+    if (!r.ended && !plain) {
         read_relation(&r);
     }
     check_end(&r);
-    if (out_errors->count == 0 && !equation->nodes[equation->left].varies &&
-        !equation->nodes[equation->right].varies) {
-        note(&r, text, "no x, y or z: it holds everywhere or nowhere");
+    if (!plain) {
+        check_varies(&r);
     }
     if (out_errors->count > 0) {
         free(equation);
         return NULL;
     }
     return equation;
+}
+
+struct equation *equation_read(const char *text, const char *const *letters,
+                               struct equation_errors *out_errors)
+{
+    return read_text(text, letters, false, out_errors);
+}
+
+struct equation *equation_read_expression(const char *text, const char *const *letters,
+                                          struct equation_errors *out_errors)
+{
+    return read_text(text, letters, true, out_errors);
 }

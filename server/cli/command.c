@@ -27,6 +27,12 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
         .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "
                 "scenes. What was put right while reading is told as `file:line:column: what`."},
+    [COMMAND_IMPLICITIZE] = {"implicitize", .operands = "X Y Z", .many = true,
+        .run = command_implicitize,
+        .doc = "Find the equation of a parametric surface.",
+        .more = "X, Y and Z are expressions in two of the letters s, t, u, v: polynomials, "
+                "fractions, and sin, cos, exp of a letter that stands in these alone. Prints the "
+                "equation in x, y, z with its certificate as JSON, or why there is none."},
     [COMMAND_SCHEMA] = {"schema", .run = command_schema,
         .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
     [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,

@@ -14,6 +14,7 @@ enum command_id {
     COMMAND_CHECK,
     COMMAND_SHADER,
     COMMAND_IMPORT,
+    COMMAND_IMPLICITIZE,
     COMMAND_SCHEMA,
     COMMAND_DOCTOR,
     COMMAND_BENCH,
@@ -45,6 +46,7 @@ int command_render(const struct options *options);
 int command_check(const struct options *options);
 int command_shader(const struct options *options);
 int command_import(const struct options *options);
+int command_implicitize(const struct options *options);
 int command_schema(const struct options *options);
 int command_doctor(const struct options *options);
 int command_bench(const struct options *options);
