@@ -111,7 +111,7 @@ static bool admits(const struct tasks *tasks, const struct task_order *order, st
     }
     const bool share = own >= LIMIT_DOCUMENT_SHARE;
     error_set(err, share ? ERROR_SHARE : ERROR_UNAVAILABLE, "",
-              "%d large documents%s wait already; the limit is %d", share ? own : all,
+              "%d large tasks%s wait already; the limit is %d", share ? own : all,
               share ? " of this client" : "", share ? LIMIT_DOCUMENT_SHARE : LIMIT_DOCUMENT_QUEUE);
     if (err) {
         err->retry_ms = 1000;

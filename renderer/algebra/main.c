@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast-algebra X Y Z: the equation of a parametric surface and its certificate, as JSON. A
- * program of its own: FLINT ends the process when memory is short, and no other links it. `fieldcast
- * implicitize` starts it with its limits of time and memory. */
+/* fieldcast-algebra X Y Z: the equation of a parametric surface and its certificate as JSON, or
+ * {"error": {kind, place, line, column, message}}. A program of its own: FLINT ends the process
+ * when memory is short, and no other program links it. server/algebra.h starts it, within limits.
+ */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -72,7 +73,7 @@ static void check_drawable(const char *text, cJSON *json)
     free(equation);
 }
 
-static void print(const struct result *result, const char *const texts[3])
+static cJSON *answer(const struct result *result, const char *const texts[3])
 {
     static const char *axes[] = {"x", "y", "z"};
     char *equation = fmpz_mpoly_get_str_pretty(result->equation, axes, result->space);
@@ -80,41 +81,51 @@ static void print(const struct result *result, const char *const texts[3])
     cJSON_AddStringToObject(json, "equation", equation);
     cJSON_AddItemToObject(json, "certificate", certificate(result, texts));
     check_drawable(equation, json);
-    char *text = json_print(json, true);
-    if (text) {
-        puts(text);
-    }
-    free(text);
-    cJSON_Delete(json);
     flint_free(equation);
+    return json;
 }
 
-int main(int argc, char **argv)
+static cJSON *answer_error(const struct error *err)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON *members = cJSON_AddObjectToObject(json, "error");
+    cJSON_AddNumberToObject(members, "kind", err->kind);
+    cJSON_AddStringToObject(members, "place", err->place);
+    cJSON_AddNumberToObject(members, "line", err->line);
+    cJSON_AddNumberToObject(members, "column", err->column);
+    cJSON_AddStringToObject(members, "message", err->message);
+    return json;
+}
+
+static cJSON *find_equation(const char *const texts[3])
 {
     struct error err = {0};
     struct patch patch;
     struct result result = {0};
+    if (!patch_read(&patch, texts, &err)) {
+        return answer_error(&err);
+    }
+    fmpz_mpoly_ctx_init(result.space, 3, ORD_DEGLEX);
+    fmpz_mpoly_init(result.equation, result.space);
+    cJSON *json = implicitize(&patch, &result, &err) ? answer(&result, texts) : answer_error(&err);
+    fmpz_mpoly_clear(result.equation, result.space);
+    fmpz_mpoly_ctx_clear(result.space);
+    patch_clear(&patch);
+    return json;
+}
+
+int main(int argc, char **argv)
+{
     if (argc != 4) {
         fputs("usage: fieldcast-algebra X Y Z\n", stderr);
         return 2;
     }
     const char *const texts[] = {argv[1], argv[2], argv[3]};
-    if (!patch_read(&patch, texts, &err)) {
-        error_print(&err, stderr);
-        flint_cleanup_master();
-        return 1;
-    }
-    fmpz_mpoly_ctx_init(result.space, 3, ORD_DEGLEX);
-    fmpz_mpoly_init(result.equation, result.space);
-    const bool ok = implicitize(&patch, &result, &err);
-    if (ok) {
-        print(&result, texts);
-    } else {
-        error_print(&err, stderr);
-    }
-    fmpz_mpoly_clear(result.equation, result.space);
-    fmpz_mpoly_ctx_clear(result.space);
-    patch_clear(&patch);
+    cJSON *json = find_equation(texts);
+    char *text = json_print(json, false);
+    puts(text);
+    free(text);
+    cJSON_Delete(json);
     flint_cleanup_master();
-    return ok ? 0 : 1;
+    return 0;
 }

@@ -32,7 +32,8 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Find the equation of a parametric surface.",
         .more = "X, Y and Z are expressions in two of the letters s, t, u, v: polynomials, "
                 "fractions, and sin, cos, exp of a letter that stands in these alone. Prints the "
-                "equation in x, y, z with its certificate as JSON, or why there is none."},
+                "equation in x, y, z with its certificate as JSON, or why there is none. Write -- "
+                "before an expression that begins with a minus sign."},
     [COMMAND_SCHEMA] = {"schema", .run = command_schema,
         .doc = "Print the JSON Schema of scene documents, with the registry of nodes in it."},
     [COMMAND_DOCTOR] = {"doctor", .run = command_doctor,

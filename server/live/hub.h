@@ -41,7 +41,8 @@ struct hub {
     struct supervisor *supervisor;
     struct picker *picker;
     struct tasks *tasks;
-    struct ws *ws; /* set before its thread starts */
+    struct algebra *algebra; /* finds equations */
+    struct ws *ws;           /* set before its thread starts */
     const char *web_dir;
     bool code_refused;            /* users' code is neither accepted nor compiled */
     char *schema, schema_tag[32]; /* of /v1/schema.json; never change */

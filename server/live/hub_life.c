@@ -23,6 +23,7 @@
 #include "room_snapshot.h"
 #include "room_sync.h"
 #include "scene_error.h"
+#include "server/algebra.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
@@ -302,7 +303,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     if (!hub->store || !store_list(hub->store, add_to_catalog, hub->catalog, err) ||
         !store_list_assets(hub->store, asset_index_add, hub->assets, err) ||
         !(hub->picker = picker_create(hub, err)) ||
-        !(hub->tasks = tasks_create(&hub->metrics, err))) {
+        !(hub->tasks = tasks_create(&hub->metrics, err)) || !(hub->algebra = algebra_create(err))) {
         hub_destroy(hub);
         return NULL;
     }
@@ -331,6 +332,7 @@ void hub_drain(struct hub *hub)
 {
     atomic_store(&hub->draining, true);
     tasks_stop(hub->tasks);
+    algebra_stop(hub->algebra);
     hub_lock(hub);
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (room->edits_since_snapshot) {
@@ -357,6 +359,7 @@ void hub_destroy(struct hub *hub)
     }
     hub_stop(hub);
     tasks_destroy(hub->tasks);
+    algebra_destroy(hub->algebra);
     picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);

@@ -18,6 +18,7 @@ static const struct route table[] = {
     {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
     {"GET", "/v1/queue", images_queue, BODY_NONE, GUARDED, SCENE_NONE},
+    {"POST", "/v1/implicitize", equations_implicitize, BODY_JSON, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples", site_examples, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}", site_example, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}/card.jpg", site_card, BODY_NONE, GUARDED, SCENE_NONE},

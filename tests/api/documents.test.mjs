@@ -182,5 +182,5 @@ test('one client has no more than its share of large documents waiting', async (
     assert.ok(Number(refused[0].headers.get('retry-after')) >= 1);
     const problem = await refused[0].json();
     assert.equal(problem.code, 'share');
-    assert.match(problem.detail, new RegExp(`^${SHARE} large documents of this client wait already; the limit is ${SHARE}$`));
+    assert.match(problem.detail, new RegExp(`^${SHARE} large tasks of this client wait already; the limit is ${SHARE}$`));
 });

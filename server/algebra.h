@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* The program fieldcast-algebra, which lies beside this one: it finds equations of parametric
+ * surfaces in a process of its own, with bounds of processor time and memory (algebra_seconds,
+ * algebra_bytes). */
+#ifndef SERVER_ALGEBRA_H
+#define SERVER_ALGEBRA_H
+
+#include <cjson/cJSON.h>
+#include <stdbool.h>
+
+#include "protocol/error.h"
+
+struct algebra;
+
+struct algebra *algebra_create(struct error *err);
+/* Waits for the process. The caller deletes *out: its answer as main.c of renderer/algebra has it.
+ * The place of an error is "x", "y", "z" or "". Any thread, one at a time. */
+bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
+                         struct error *err);
+/* Calls `run` once on a thread where it may call algebra_implicitize; clients take turns. `dropped`
+ * and the limits of waiting: tasks.h. */
+bool algebra_add(struct algebra *algebra, const char *account, void (*run)(void *, bool dropped),
+                 void *data, struct error *err);
+/* Ends the process; drops what waits and all that comes later. */
+void algebra_stop(struct algebra *algebra);
+void algebra_destroy(struct algebra *algebra); /* may be NULL */
+
+#endif

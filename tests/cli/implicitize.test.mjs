@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// fieldcast implicitize: the equations of classical surfaces, their certificates, and what is refused.
+// The oracle evaluates the parametric texts themselves in double precision.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { test } from 'node:test';
+
+const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
+
+// Degree and number of terms are those of the literature, or, for patches with numbers of our own, of
+// the general surface of that kind: 2 m n for degrees m and n in the parameters, n^2 for a triangle.
+const d = '(5-3*cos(u)*cos(v))';
+const klein = '(2+cos(t/2)*sin(s)-sin(t/2)*sin(2*s))';
+const SURFACES = [
+    ['plane', ['s', 't', '1+s-2*t'], 1, 4],
+    ['cylinder', ['cos(s)', 'sin(s)', 't'], 2, 3],
+    ['cone', ['s*cos(t)', 's*sin(t)', 's'], 2, 3],
+    ['paraboloid', ['s*cos(t)', 's*sin(t)', 's^2'], 2, 3],
+    ['hyperbolic paraboloid', ['s', 't', 's t'], 2, 2],
+    ['monkey saddle', ['s', 't', 's^3-3s*t^2'], 3, 3],
+    ['Whitney umbrella', ['s*t', 's', 't^2'], 3, 2],
+    ['swallowtail', ['u*v^2+3v^4', '-2u*v-4v^3', 'u'], 5, 6],
+    ['tacnodal quintic', ['t', 's^2', 's(s^2-t^2)'], 5, 4],
+    ['sphere', ['2s/(1+s^2+t^2)', '2t/(1+s^2+t^2)', '(1-s^2-t^2)/(1+s^2+t^2)'], 2, 4],
+    ['torus', ['(2+cos(u))*cos(v)', '(2+cos(u))*sin(v)', 'sin(u)'], 4, 10],
+    ['Roman surface', ['cos(u)*cos(v)*sin(v)', 'sin(u)*cos(v)*sin(v)', 'cos(u)*sin(u)*cos(v)^2'], 4, 4],
+    ['cross-cap', ['cos(u)*sin(2v)', 'sin(u)*sin(2v)', 'cos(v)^2-cos(u)^2*sin(v)^2'], 4, 7],
+    ['Dupin cyclide', [`(3-5cos(u)*cos(v)+16cos(u))/${d}`, `4sin(u)*(5-cos(v))/${d}`, `4sin(v)*(3cos(u)-1)/${d}`], 4, 11],
+    ['conoid of Pluecker', ['s*cos(t)', 's*sin(t)', 'sin(2t)'], 3, 3],
+    ['Moebius strip', ['(1+s/2*cos(t/2))*cos(t)', '(1+s/2*cos(t/2))*sin(t)', 's/2*sin(t/2)'], 3, 7],
+    ['Enneper', ['s-s^3/3+s*t^2', 't-t^3/3+t*s^2', 's^2-t^2'], 9, 23],
+    ['Klein bottle', [`${klein}*cos(t)`, `${klein}*sin(t)`, 'sin(t/2)*sin(s)+cos(t/2)*sin(2s)'], 12, 157],
+    ['Henneberg', ['2sinh(s)*cos(t)-2/3*sinh(3s)*cos(3t)', '2sinh(s)*sin(t)+2/3*sinh(3s)*sin(3t)', '2cosh(2s)*cos(2t)'], 15, 127],
+    ['biquadratic patch', ['s+s^2*t^2-t', 't+2s^2-s*t^2', 's t+3s^2*t-t^2+1'], 8, null],
+    ['cubic triangle', ['s^3+2s*t-t', 't^3-s^2+s', 's^2*t+s*t^2+t^2-s'], 9, null],
+    ['bicubic patch', ['s^3*t^3+s-2t^2', '2s^3*t^3+s^3-t+s t', 's^3*t^3+t^3+s^2'], 18, null],
+];
+
+const implicitize = (texts) => JSON.parse(execFileSync(program, ['implicitize', '--', ...texts], { encoding: 'utf8' }));
+
+// The language of equations as JavaScript: products that are not written, powers, functions of Math.
+function compile(text, names) {
+    const code = text
+        .replace(/(\d)\s*([a-z(])/g, '$1*$2')
+        .replace(/\b([stuv])\s*(?=[(stuv])/g, '$1*')
+        .replaceAll('^', '**')
+        .replace(/\b(sin|cos|tan|sinh|cosh|tanh|exp)\(/g, 'Math.$1(');
+    return new Function(...names, `return ${code}`);
+}
+
+// |sum of terms| / sum of |terms| at a point.
+function residual(equation, point) {
+    const terms = equation.replace(/-/g, '+-').split('+').filter(Boolean);
+    const values = terms.map((term) => compile(term.replace(/^-/, '-1*'), ['x', 'y', 'z'])(...point));
+    const sum = values.reduce((a, b) => a + b, 0);
+    return Math.abs(sum) / values.reduce((a, b) => a + Math.abs(b), 1e-300);
+}
+
+function points(texts, count) {
+    const parts = texts.map((text) => compile(text, ['s', 't', 'u', 'v']));
+    return Array.from({ length: count }, (_, i) => {
+        const [a, b] = [0.15 + ((i * 0.618034) % 1) * 0.8, 0.2 + ((i * 0.754878) % 1) * 0.7];
+        return parts.map((part) => part(a, b, a, b));
+    });
+}
+
+for (const [name, texts, degree, terms] of SURFACES) {
+    test(`${name}: its equation and certificate`, () => {
+        const { equation, certificate } = implicitize(texts);
+        assert.equal(certificate.degree, degree);
+        assert.equal(certificate.identity, 'exact');
+        assert.equal(certificate.irreducible, true);
+        assert.deepEqual(certificate.parametric, texts);
+        assert.equal(certificate.terms, equation.replace(/-/g, '+-').split('+').filter(Boolean).length);
+        if (terms !== null) {
+            assert.equal(certificate.terms, terms);
+        }
+        for (const point of points(texts, 20)) {
+            assert.ok(residual(equation, point) < 1e-9, `${name} misses ${point}`);
+        }
+    });
+}
+
+test('a coefficient that is one off is seen by the oracle', () => {
+    const wrong = implicitize(SURFACES[10][1]).equation.replace('10*x^2', '11*x^2');
+    assert.ok(points(SURFACES[10][1], 20).some((point) => residual(wrong, point) > 1e-3));
+});
+
+test('how often the parameters cover the surface', () => {
+    assert.equal(implicitize(['s*cos(t)', 's*sin(t)', 's^2']).certificate.map_degree, 2);
+    assert.equal(implicitize(['s', 't', 's*t']).certificate.map_degree, 1);
+    assert.equal(implicitize(['s^2', 't^3', 's^2+t^3']).certificate.map_degree, 6);
+});
+
+test('decimals are the fractions that are written', () => {
+    assert.equal(implicitize(['s', 't', '0.1s^2+0.25t']).equation, '2*x^2+5*y-20*z');
+    assert.equal(implicitize(['s', 't', '1e-3s*t']).equation, 'x*y-1000*z');
+});
+
+// --- refusals ---
+
+const REFUSED = [
+    ['a curve', ['s', 's^2', 's^3'], /make a curve, not a surface/],
+    ['a curve in two parameters', ['(s+t)^2', '(s+t)^3', 's+t'], /make a curve, not a surface/],
+    ['a point', ['1', '2', '3'], /make a point, not a surface/],
+    ['helicoid', ['s*cos(t)', 's*sin(t)', 't'], /^z: t stands inside and outside of sin, cos or tan/],
+    ['catenoid', ['cosh(v)*cos(u)', 'cosh(v)*sin(u)', 'v'], /^z: v stands inside and outside of exp, sinh, cosh or tanh/],
+    ['Dini', ['cos(u)*sin(v)', 'sin(u)*sin(v)', 'cos(v)+log(tan(v/2))+u/5'], /^z: .*(log|not algebraic)/],
+    ['two families', ['sin(t)', 'exp(t)', 's'], /^y: t stands in sin, cos or tan and in exp/],
+    ['a root', ['sqrt(s)', 't', 's'], /^x: sqrt\(\) makes no polynomial/],
+    ['a number that is not rational', ['s', 'e*t', 't'], /^y: e is no rational number/],
+    ['an angle that is not rational', ['s*cos(t+1)', 's*sin(t)', 's'], /^x: an angle may be shifted by multiples of pi\/2/],
+    ['a denominator of 0', ['s', 't', '1/(s-s)'], /^z: a denominator is 0 everywhere/],
+    ['three parameters', ['s', 't', 'u'], /a surface has two parameters/],
+    ['degree 32', ['s^4*t^4+s', 's^4-t^4', 's^3*t^4+t'], /the equation has degree \d+, .* the limit is 18 \(implicit_degree\)/],
+    ['a tower', ['((s^60)^60)^60', 't', 's'], /^x: degree \d+ in the parameters; the limit is 64 \(parametric_degree\)/],
+    ['a long number', ['s*(10^60)^60*(10^60)^60', 't', 's*t'], /^x: a coefficient of \d+ bits; the limit is 4096 \(coefficient_bits\)/],
+    ['an unknown name', ['s', 'sn(t)', 't'], /^y:1:1: "sn" is no function/],
+    ['x', ['x', 's', 't'], /^x:1:1: "x" is no name/],
+    ['a relation', ['s = t', 's', 't'], /^x:1:3: a relation; an expression has none/],
+    ['no text', ['', 's', 't'], /^x:1:1/],
+    ['more text than fits', [`s${'+s'.repeat(3000)}`, 's', 't'], /^x: 6001 bytes; the limit is 4096 \(equation_bytes\)/],
+];
+
+for (const [name, texts, wanted] of REFUSED) {
+    test(`refused: ${name}`, () => {
+        const { status, stdout, stderr } = spawnSync(program, ['implicitize', '--', ...texts], { encoding: 'utf8' });
+        assert.equal(status, 1);
+        assert.equal(stdout, '');
+        assert.match(stderr, wanted);
+    });
+}
