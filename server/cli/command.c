@@ -72,7 +72,7 @@ static void print_help(FILE *out)
           out);
     for (int i = 0; i < COMMAND_COUNT; i++) {
         if (!table[i].hidden) {
-            fprintf(out, "  %-10s%s\n", table[i].name, table[i].doc);
+            fprintf(out, "  %-13s%s\n", table[i].name, table[i].doc);
         }
     }
     fputs("\n`fieldcast COMMAND --help` says more; `fieldcast help options` lists all options;\n"
