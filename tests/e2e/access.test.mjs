@@ -90,6 +90,21 @@ for (const theme of ['dark', 'light']) {
             await closePage(page);
         });
 
+        test('the equation of a parametric surface, found and refused', async () => {
+            const document = { format: 'fieldcast/1', root: { id: 'it', type: 'implicit' } };
+            const page = await stage.page({ scene: await stage.scene(document), theme });
+            page.expected = /status of 422/;
+            await settled(page);
+            await row(page, 'it').click();
+            await page.getByRole('button', { name: 'From a parametric surface' }).click();
+            await page.getByText('proved to be exact').waitFor();
+            await check(page, 'an equation that is found');
+            await page.getByRole('textbox', { name: 'z =' }).fill('t+');
+            await page.getByRole('dialog').locator('mark').waitFor();
+            await check(page, 'an error in a part');
+            await closePage(page);
+        });
+
         test('volumes, backdrop, render, another output, a picture as a file', async () => {
             const misty = {
                 ...SCENE,

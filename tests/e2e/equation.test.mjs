@@ -91,3 +91,27 @@ test('a letter is a number: dragging it compiles nothing', async () => {
     await pictureChanged(page, ball, 'the smaller ball');
     assert.equal(await counter(stage.daemon, 'shader_compilations_total'), compiled);
 });
+
+test('is found for a parametric surface, which is proved, and drawn as one edit', async () => {
+    await open();
+    page.expected = /status of 422/;
+    const nothing = await stillPixels(page);
+    await page.getByRole('button', { name: 'From a parametric surface' }).click();
+    const dialog = page.getByRole('dialog', { name: 'Equation of a parametric surface' });
+    const take = dialog.getByRole('button', { name: 'Use this equation' });
+    await dialog.getByText('Degree 3, 2 terms; proved to be exact.').waitFor();
+    await dialog.getByRole('textbox', { name: 'x =' }).fill('s*cos(t)');
+    await dialog.getByRole('textbox', { name: 'y =' }).fill('s*sin(t)');
+    await dialog.getByRole('textbox', { name: 'z =' }).fill('t');
+    await dialog.getByText('z: t stands inside and outside of sin, cos or tan: this surface is not algebraic').waitFor();
+    assert.equal(await take.isDisabled(), true);
+    await dialog.getByRole('textbox', { name: 'z =' }).fill('s +* 1');
+    await dialog.locator('mark').getByText('*', { exact: true }).waitFor();
+    await dialog.getByRole('textbox', { name: 'z =' }).fill('s^2 - 1');
+    await dialog.getByText('Degree 2, 4 terms; proved to be exact.').waitFor();
+    await take.click();
+    await equationIs('x^2+y^2-z-1 = 0');
+    await pictureChanged(page, nothing, 'the paraboloid');
+    await page.keyboard.press('Control+z');
+    await documentWhen(stage, id, (d) => nodeIn(d, 'it').params?.equation !== 'x^2+y^2-z-1 = 0', 'undo');
+});

@@ -51,6 +51,23 @@ export interface Imported {
     readonly notes: readonly string[];
 }
 
+/* A parametric surface: expressions in two parameters. */
+export interface PartTexts {
+    readonly x: string;
+    readonly y: string;
+    readonly z: string;
+}
+
+/* Its equation, which is proved. */
+export interface Implicit {
+    readonly equation: string;
+    /* Whether a node can hold it; `why` not. */
+    readonly drawable: boolean;
+    readonly why: string;
+    readonly degree: number;
+    readonly terms: number;
+}
+
 /* A problem+json answer, or a network that did not answer (status 0). */
 export class RestError extends Error {
     readonly status: number;
@@ -77,6 +94,18 @@ export class RestError extends Error {
     }
 }
 
+function readImplicit(json: Json): Implicit {
+    const answer = isObject(json) ? json : {};
+    const certificate = isObject(answer.certificate) ? answer.certificate : {};
+    return {
+        equation: textOf(answer.equation),
+        drawable: answer.drawable === true,
+        why: textOf(answer.why),
+        degree: numberOf(certificate.degree),
+        terms: numberOf(certificate.terms),
+    };
+}
+
 export interface Rest {
     listScenes(): Promise<readonly SceneEntry[]>;
     /* Each answers the new scene's id. */
@@ -85,6 +114,7 @@ export interface Rest {
     createFromText(text: string): Promise<string>;
     /* Of files in the other format, their texts by path; `scene` says which of several. */
     importScene(files: Readonly<Record<string, string>>, scene: string | null): Promise<Imported>;
+    implicitize(texts: PartTexts, signal: AbortSignal): Promise<Implicit>;
     createFromExample(example: string): Promise<string>;
     createFromScene(scene: string): Promise<string>;
     deleteScene(id: string): Promise<void>;
@@ -222,6 +252,11 @@ export function createRest(base: string, token: string | null): Rest {
         createFromText,
         importScene: (files, scene) =>
             post("/v1/import", JSON.stringify({ files, ...(scene === null ? {} : { scene }) })),
+        implicitize: async (texts, signal) => {
+            const body = JSON.stringify(texts);
+            const response = await request("/v1/implicitize", { method: "POST", body, signal });
+            return readImplicit((await response.json()) as Json);
+        },
         createFromExample: (example) => create({ from: `example:${example}` }),
         createFromScene: (scene) => create({ from: `scene:${scene}` }),
         deleteScene: async (id) => {

@@ -479,6 +479,15 @@ const texts = {
     "keys.graphPark": "A wire off its input: to the shelf",
     "keys.graphInsert": "A card onto a wire: between its ends",
 
+    "parametric.open": "From a parametric surface…",
+    "parametric.title": "Equation of a parametric surface",
+    "parametric.doc":
+        "Expressions in two of the letters s, t, u, v: polynomials and fractions. A letter may stand in sin, cos, tan alone, or in exp, sinh, cosh, tanh alone.",
+    "parametric.equation": "Equation",
+    "parametric.busy": "Looking for the equation…",
+    "parametric.found": "Degree {degree}, {terms} terms; proved to be exact.",
+    "parametric.large": "An equation of this size cannot be drawn: {why}.",
+    "parametric.take": "Use this equation",
     "picture.title": "Download a picture",
     "picture.size": "Size",
     "picture.pixels": "Pixels",

@@ -3,6 +3,8 @@
  * stands under the letter. Escape restores what was there. */
 import { useEffect, useRef, useState } from "react";
 import { useDocument } from "../state.ts";
+import { Mark } from "./Mark.tsx";
+import { FromParametric } from "./Parametric.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -59,29 +61,7 @@ export function EquationField(props: Props) {
             {problem?.line !== undefined && (
                 <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
             )}
+            <FromParametric onTake={onCommit} />
         </div>
-    );
-}
-
-interface MarkProps {
-    text: string;
-    /* From 1, in code points. */
-    line: number;
-    column: number;
-}
-
-/* Letters before and behind the one that is meant. */
-const AROUND = 14;
-
-function Mark({ text, line, column }: MarkProps) {
-    const row = [...(text.split("\n")[line - 1] ?? "")];
-    const at = Math.min(column - 1, row.length);
-    const from = Math.max(0, at - AROUND);
-    return (
-        <pre className="equation-mark" aria-hidden="true">
-            {row.slice(from, at).join("")}
-            <mark>{row[at] ?? " "}</mark>
-            {row.slice(at + 1, at + 1 + AROUND).join("")}
-        </pre>
     );
 }
