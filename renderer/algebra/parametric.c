@@ -134,8 +134,7 @@ static bool whole_multiple(const struct reading *r, const struct affine *argumen
     }
     fmpq_init(ratio);
     fmpq_div(ratio, argument->of[i], r->units[i]);
-    const bool fits = fmpz_cmpabs(fmpq_numref(ratio), fmpq_denref(ratio)) == 0 ||
-                      fmpz_bits(fmpq_numref(ratio)) < 32;
+    const bool fits = fmpz_bits(fmpq_numref(ratio)) < 32;
     *out = fits ? fmpz_get_si(fmpq_numref(ratio)) : LIMIT_EQUATION_EXPONENT + 1;
     fmpq_clear(ratio);
     return labs(*out) <= LIMIT_EQUATION_EXPONENT ||
