@@ -106,7 +106,7 @@ function Sheet({ texts, onChange, onTake }: SheetProps) {
                     {found === null ? "" : `${found.equation} = 0`}
                 </output>
             </div>
-            <footer className="parametric-foot">
+            <footer className="dialog-foot">
                 <Verdict answer={answer} />
                 <Button
                     look="primary"

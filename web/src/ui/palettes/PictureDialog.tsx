@@ -217,7 +217,7 @@ function Foot({ choice }: { choice: PictureChoice }) {
     };
     const message = whyNot ?? failed;
     return (
-        <footer className="picture-foot">
+        <footer className="dialog-foot">
             <p role="status" data-bad={message !== null || undefined}>
                 {message ?? t(busy ? "picture.drawing" : "picture.ready", summary(choice))}
             </p>
