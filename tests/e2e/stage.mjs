@@ -280,15 +280,28 @@ export const pictureChanged = (page, before, what) =>
         what,
     );
 
-/** Waits until the server's document satisfies `holds`. */
-export const documentWhen = (stage, id, holds, what) =>
-    until(
-        async () => {
-            const document = JSON.parse(await stage.document(id));
+/**
+ * Waits until the server's document satisfies `holds`. A document leaves out what is empty or a
+ * default: an expression about a part that is not there yet is not true yet.
+ */
+export async function documentWhen(stage, id, holds, what) {
+    let last;
+    const asked = async () => {
+        const document = JSON.parse(await stage.document(id));
+        try {
             return holds(document) && document;
-        },
-        what,
-    );
+        } catch (problem) {
+            last = problem;
+            return false;
+        }
+    };
+    try {
+        return await until(asked, what);
+    } catch (problem) {
+        problem.cause ??= last;
+        throw problem;
+    }
+}
 
 export function nodeIn(document, id, node = document.root) {
     if (node.id === id) {
