@@ -10,6 +10,7 @@ static const struct {
     [CODEC_PNG] = {"png", "image/png"},
     [CODEC_NPY] = {"npy", "application/x-npy"},
     [CODEC_ZIP] = {"zip", "application/zip"},
+    [CODEC_GUIDE] = {"guide", "application/octet-stream"},
 };
 
 const char *codec_choice(size_t index)

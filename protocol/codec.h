@@ -10,7 +10,8 @@ enum codec {
     CODEC_JPEG = 1,
     CODEC_PNG = 2,
     CODEC_NPY,
-    CODEC_ZIP, /* several of them, or one that shall be in a ZIP */
+    CODEC_ZIP,   /* several of them, or one that shall be in a ZIP */
+    CODEC_GUIDE, /* which node each pixel shows: README.md, Guides; in frames alone */
     CODEC_COUNT
 };
 

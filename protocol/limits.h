@@ -87,6 +87,7 @@
     X(PICK_WORK, "pick_work", 50000000, "operations",                                              \
       "the ray of a pick: instructions of the field, operations of code in it")                    \
     X(ISOLATED, "isolated", 256, "nodes", "nodes that a view isolates")                            \
+    X(GUIDE_PIXELS, "guide_pixels", 1048576, "pixels", "a guide; that of a larger view is scaled") \
     X(THUMBNAILS, "thumbnails", 256, "ids", "one list of thumbnails that a client asks for")       \
     X(THUMBNAIL_WIDTH, "thumbnail_width", 192, "pixels", "width of a small thumbnail")             \
     X(THUMBNAIL_NODES, "thumbnail_nodes", 4096, "nodes",                                           \

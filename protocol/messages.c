@@ -78,6 +78,8 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"quality", PARAM_ENUM, .choices = qualities,
           .doc = "Speed or sharpness in motion."}},
         {.param = {"visible", PARAM_BOOL, .def = {1}, .doc = "false stops frames."}},
+        {.param = {"guides", PARAM_BOOL,
+          .doc = "true: a frame at rest tells which node each pixel shows."}},
         {.param = {"isolate", .max = LIMIT_ISOLATED,
           .doc = "Ids: this client's pictures and picks show these nodes and what is below them."
                  " Absent, or none in the scene: all."},

@@ -18,6 +18,7 @@ const struct record_type delivery_type = {"delivery", "How a picture comes to wh
     {"fast", PARAM_BOOL, .doc = "PNG that is quick to write."},
     {"key", PARAM_BOOL, .doc = "Decodes without earlier pictures of the stream."},
     {"zipped", PARAM_BOOL, .doc = "A ZIP also of one picture."},
+    {"guide", PARAM_BOOL, .doc = "A guide instead of pictures; of the output id, raw."},
     {.name = NULL}}};
 /* clang-format on */
 

@@ -23,7 +23,8 @@ struct render_request {
  * `exact`: wait for the newest revision's shader, else draw the newest drawable state;
  * `in_rounds`: of ever more samples, each a whole picture;
  * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one;
- * `key`: it decodes without earlier pictures of the stream. */
+ * `key`: it decodes without earlier pictures of the stream; `guide`: a CODEC_GUIDE, of the output
+ * id as NPY. */
 extern const struct record_type delivery_type;
 
 /* A colour picture of the usual size, PNG. */

@@ -19,6 +19,7 @@
 #include "renderer/gl/device.h"
 #include "renderer/image/image.h"
 
+struct field;    /* field/field.h */
 struct renderer; /* a GL context on a device */
 struct resident; /* a scene held ready for drawing, at a revision */
 struct job;      /* one picture being drawn, tile by tile */
@@ -212,6 +213,8 @@ bool job_is_drawn(const struct job *job);
 bool job_step_possible(const struct job *job);
 const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
+/* What it draws: the ids of its nodes by the values of its raw `id` (field/field.h). The job's. */
+struct field *job_field(const struct job *job);
 /* The shape of what it draws where there is code of users in it; else 0. */
 uint64_t job_shape_with_code(const struct job *job);
 /* Microseconds by enum frame_stage; those that only others know are 0. */

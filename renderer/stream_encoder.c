@@ -12,11 +12,11 @@ struct stream_encoder {
     bool broken; /* the last picture is not whole: nothing to build on */
 };
 
-struct stream_encoder *stream_encoder_open(const struct stream_class *class)
+struct stream_encoder *stream_encoder_open(const struct stream_class *class, void *about)
 {
     struct stream_encoder *stream = memory_alloc(1, sizeof *stream);
 
-    *stream = (struct stream_encoder){.class = class, .state = class->open(), .broken = true};
+    *stream = (struct stream_encoder){.class = class, .state = class->open(about), .broken = true};
     return stream;
 }
 
@@ -67,8 +67,9 @@ static void drop(struct pictures *pictures)
     pictures->file = NULL;
 }
 
-static void *open_pictures(void)
+static void *open_pictures(void *about)
 {
+    (void)about;
     return memory_alloc(1, sizeof(struct pictures));
 }
 

@@ -16,22 +16,23 @@ struct stream_packet {
     bool key; /* it decodes alone; else with all since the last key */
 };
 
-/* `begin` takes a picture of these outputs, the last one's rows all in or given up, and writes it
+/* `open`: what its pictures are about, as the class has it; held until `close`. Both, alone, are
+ * called by the owner of the stream. `begin` takes a picture of these outputs, the last one's rows all in or given up, and writes it
  * to `out`; with `key` it may use no earlier one. Each fails as image/encode.h has it. */
 struct stream_class {
-    void *(*open)(void);
+    void *(*open)(void *about);
     bool (*begin)(void *state, const struct image shapes[AOV_COUNT],
                   const struct encode_params *params, bool key, FILE *out, struct error *err);
     bool (*add)(void *state, enum aov aov, const struct image *rows, struct error *err);
     bool (*end)(void *state, struct stream_packet *out, struct error *err);
     void (*close)(void *state);
 };
-/* The files of image.h, one a picture. */
+/* The files of image.h, one a picture; about nothing. */
 extern const struct stream_class picture_stream;
 
 struct stream_encoder;
 
-struct stream_encoder *stream_encoder_open(const struct stream_class *class);
+struct stream_encoder *stream_encoder_open(const struct stream_class *class, void *about);
 /* The next picture shall be a key, as the first one is. */
 void stream_encoder_ask_key(struct stream_encoder *stream);
 /* `out` stays the caller's. What was begun before and not ended is given up, and this is a key. */

@@ -5,6 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "guide.h"
 #include "protocol/memory.h"
 #include "worker_parts.h"
 
@@ -60,14 +61,16 @@ static bool begin_job(struct worker *w, const struct packet_render *packet, stru
     desc.careful = packet->careful;
     desc.patience = packet->patience;
     job->encode = encode_params_of(packet->request);
-    job->stream = stream_encoder_open(&picture_stream);
-    if (render_request_is(packet->request, "key")) {
-        stream_encoder_ask_key(job->stream);
-    }
     job->encode.limit_bytes = LIMIT_IMAGE_BYTES;
     job->drawing = job_create(entry->resident, &desc, err);
     if (!job->drawing) {
         return false;
+    }
+    job->stream = render_request_is(packet->request, "guide")
+                      ? stream_encoder_open(&guide_stream, job_field(job->drawing))
+                      : stream_encoder_open(&picture_stream, NULL);
+    if (render_request_is(packet->request, "key")) {
+        stream_encoder_ask_key(job->stream);
     }
     job->revision = job_revision(job->drawing);
     job->newest = job->revision == resident_revision(entry->resident);

@@ -403,6 +403,11 @@ uint64_t job_revision(const struct job *job)
     return job->snapshot->revision;
 }
 
+struct field *job_field(const struct job *job)
+{
+    return job->snapshot->field;
+}
+
 uint64_t job_shape_with_code(const struct job *job)
 {
     return snapshot_shape_with_code(job->snapshot);

@@ -53,6 +53,8 @@ static const struct stage_rule stage_rules[] = {
                        STREAM_STILL_MS, 0},
     [STREAM_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
                       STREAM_STILL_MS, FRAME_STILL},
+    [STREAM_GUIDE] = {QUALITY_INTERACTIVE, CODEC_NPY, RENDER_STILL, 90, false, false,
+                      STREAM_STILL_MS, FRAME_STILL},
     [STREAM_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, STREAM_LOSSLESS_MS,
                          FRAME_STILL | FRAME_LOSSLESS},
 };
@@ -107,7 +109,7 @@ static enum stream_preference find_preference(const char *name)
 
 static bool same_picture(const struct stream_view *a, const struct stream_view *b)
 {
-    return a->preference == b->preference && a->visible == b->visible &&
+    return a->preference == b->preference && a->visible == b->visible && a->guides == b->guides &&
            render_request_equal(&a->picture, &b->picture);
 }
 
@@ -133,6 +135,7 @@ bool stream_set_view(struct session *session, const cJSON *message, struct error
         .seq = (uint32_t)json_member_number(message, "seq", 0),
         .preference = find_preference(json_member_text(message, "quality", "auto")),
         .visible = json_member_bool(message, "visible", true),
+        .guides = json_member_bool(message, "guides", false),
     };
 
     if (!read_picture(message, &view.picture, err)) {
@@ -287,7 +290,8 @@ static int larger_step(const struct session *session, const struct stream_view *
 static double scale_of(const struct session *session, const struct stream_view *view,
                        enum stream_stage stage)
 {
-    return stage >= STREAM_STILL    ? 1
+    return stage == STREAM_GUIDE    ? fmin(1, sqrt(LIMIT_GUIDE_PIXELS / pixels_of(view, 0)))
+           : stage >= STREAM_STILL  ? 1
            : stage == STREAM_MOVING ? scales[session->stream->step]
                                     : scales[larger_step(session, view)];
 }
@@ -460,7 +464,12 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "exact", rule->exact);
     record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
     record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
-    out->codec = may_be_jpeg(session, picture) ? rule->codec : CODEC_PNG;
+    record_put(delivery, "guide", stage == STREAM_GUIDE);
+    if (stage == STREAM_GUIDE) {
+        record_put_text(picture, "aov", aov_name(AOV_ID));
+    }
+    out->codec =
+        rule->codec == CODEC_JPEG && !may_be_jpeg(session, picture) ? CODEC_PNG : rule->codec;
 }
 
 static void ask(struct session *session, enum stream_stage stage)
@@ -494,6 +503,16 @@ bool stream_is_waiting(const struct stream *stream)
            (stream->job || stream->stale || stream->done < STREAM_LOSSLESS);
 }
 
+static enum stream_stage next_stage(const struct session *session, const struct stream_view *view)
+{
+    const enum stream_stage next = session->stream->done + 1;
+
+    if (next == STREAM_LARGER && larger_step(session, view) == session->stream->step) {
+        return STREAM_STILL;
+    }
+    return next == STREAM_GUIDE && !view->guides ? STREAM_LOSSLESS : next;
+}
+
 int64_t stream_pump(struct session *session, int64_t now_ms)
 {
     struct stream *stream = session->stream;
@@ -504,10 +523,7 @@ int64_t stream_pump(struct session *session, int64_t now_ms)
         stream->done >= STREAM_LOSSLESS || !has_credit(stream, now_ms)) {
         return 0;
     }
-    enum stream_stage stage = stream->done + 1;
-    if (stage == STREAM_LARGER && larger_step(session, view) == stream->step) {
-        stage = STREAM_STILL;
-    }
+    const enum stream_stage stage = next_stage(session, view);
     if (!line_is_free(session, stage)) {
         return 0; /* session_next wakes */
     }

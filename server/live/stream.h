@@ -6,7 +6,8 @@
  *
  *   changed --> moving pictures, scaled so that each takes about 50 ms
  *
- *           --100 ms rest--> one larger, where full size takes long, then one still in full size
+ *           --100 ms rest--> one larger, where full size takes long, then one still in full size,
+ *                            then a guide for who wants it
  *
  *           --300 ms rest--> one lossless, shown after 4 and 16 samples too --> nothing
  *
@@ -24,7 +25,14 @@
 
 struct session;
 
-enum stream_stage { STREAM_NOTHING, STREAM_MOVING, STREAM_LARGER, STREAM_STILL, STREAM_LOSSLESS };
+enum stream_stage {
+    STREAM_NOTHING,
+    STREAM_MOVING,
+    STREAM_LARGER,
+    STREAM_STILL,
+    STREAM_GUIDE,
+    STREAM_LOSSLESS
+};
 enum stream_preference { PREFER_AUTO, PREFER_SMOOTH, PREFER_SHARP };
 
 enum {
@@ -40,6 +48,7 @@ struct stream_view {
     struct render_request picture; /* the whole view: its size, camera, output, what it isolates */
     enum stream_preference preference;
     bool visible;
+    bool guides; /* wants to know which node each pixel shows */
 };
 
 struct stream {

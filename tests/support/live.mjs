@@ -61,7 +61,7 @@ function decodeMessage(bytes) {
 
 export function readFrameHeader(bytes) {
     return {
-        codec: bytes[5] === 1 ? 'jpeg' : bytes[5] === 2 ? 'png' : `?${bytes[5]}`,
+        codec: { 1: 'jpeg', 2: 'png', 5: 'guide' }[bytes[5]] ?? `?${bytes[5]}`,
         still: Boolean(bytes[6] & 2),
         lossless: Boolean(bytes[6] & 4),
         stale: Boolean(bytes[6] & 8),

@@ -61,7 +61,8 @@ static struct encoding *begin(const struct image *image, const struct encode_par
 {
     struct image shapes[AOV_COUNT] = {[AOV_COLOR] = *image};
     struct error err = {0};
-    struct stream_encoder *stream = streams[stream_count++] = stream_encoder_open(&picture_stream);
+    struct stream_encoder *stream = streams[stream_count++] =
+        stream_encoder_open(&picture_stream, NULL);
     struct encoding *encoding =
         encode_thread_begin(encode_thread, stream, shapes, params, 0, NULL, &err);
 
@@ -197,8 +198,9 @@ enum { STUCK_SECONDS = 60 }; /* then the test has failed */
 static sem_t stuck, let_go;
 static bool in_time;
 
-static void *open_slow(void)
+static void *open_slow(void *about)
 {
+    (void)about;
     return NULL;
 }
 
@@ -249,7 +251,8 @@ static void test_urgent(void **state)
 {
     const struct encode_params params = {.format = CODEC_JPEG};
     struct image image = make_image(WIDTH, HEIGHT, 7), shapes[AOV_COUNT] = {[AOV_COLOR] = image};
-    struct stream_encoder *stream = streams[stream_count++] = stream_encoder_open(&slow_stream);
+    struct stream_encoder *stream = streams[stream_count++] =
+        stream_encoder_open(&slow_stream, NULL);
     struct encoding *slow = encode_thread_begin(encode_thread, stream, shapes, &params,
                                                 ENCODE_URGENT + 1, NULL, NULL),
                     *first;

@@ -22,8 +22,9 @@ struct delta {
     FILE *out;
 };
 
-static void *delta_open(void)
+static void *delta_open(void *about)
 {
+    (void)about;
     return memory_alloc(1, sizeof(struct delta));
 }
 
@@ -91,7 +92,7 @@ static bool push_is_key(struct stream_encoder *stream)
 static void a_stream_begins_with_a_key_and_gives_one_when_asked(void **state)
 {
     static const struct image shapes[AOV_COUNT];
-    struct stream_encoder *stream = stream_encoder_open(&deltas);
+    struct stream_encoder *stream = stream_encoder_open(&deltas, NULL);
 
     (void)state;
     assert_true(push_is_key(stream));
@@ -108,7 +109,7 @@ static void a_stream_begins_with_a_key_and_gives_one_when_asked(void **state)
 
 static void pictures_are_keys(void **state)
 {
-    struct stream_encoder *stream = stream_encoder_open(&picture_stream);
+    struct stream_encoder *stream = stream_encoder_open(&picture_stream, NULL);
     uint8_t pixels[4 * 4 * 4] = {0};
     struct image image = {4, 4, 3, PIXEL_RGBA8, pixels, sizeof pixels};
     const struct image shapes[AOV_COUNT] = {[AOV_COLOR] = image};
@@ -150,7 +151,7 @@ struct viewer {
 
 static void start(struct viewer *viewer)
 {
-    *viewer = (struct viewer){.stream = stream_encoder_open(&deltas)};
+    *viewer = (struct viewer){.stream = stream_encoder_open(&deltas, NULL)};
     send_queue_init(&viewer->send_queue);
 }
 
