@@ -16,9 +16,10 @@ struct stream_packet {
     bool key; /* it decodes alone; else with all since the last key */
 };
 
-/* `open`: what its pictures are about, as the class has it; held until `close`. Both, alone, are
- * called by the owner of the stream. `begin` takes a picture of these outputs, the last one's rows all in or given up, and writes it
- * to `out`; with `key` it may use no earlier one. Each fails as image/encode.h has it. */
+/* `open` gets what its pictures are about, as the class has it, and holds it until `close`; the
+ * owner of the stream calls both. `begin` takes a picture of these outputs, the last one's rows all
+ * in or given up, and writes it to `out`; with `key` it may use no earlier one. Each fails as
+ * image/encode.h has it. */
 struct stream_class {
     void *(*open)(void *about);
     bool (*begin)(void *state, const struct image shapes[AOV_COUNT],

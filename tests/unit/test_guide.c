@@ -81,8 +81,8 @@ static void encode(struct stream_encoder *stream, const uint32_t *numbers, int b
         uint32_t part[PIXELS];
 
         memcpy(part, numbers + (ptrdiff_t)row * WIDTH, 4 * (size_t)height * WIDTH);
-        const struct image rows = {WIDTH, height, 1, PIXEL_UINT32, part,
-                                   4 * (size_t)height * WIDTH};
+        const struct image rows = {WIDTH,        height, 1,
+                                   PIXEL_UINT32, part,   4 * (size_t)height * WIDTH};
         assert_true(stream_encoder_add(stream, AOV_ID, &rows, &err));
     }
     assert_true(stream_encoder_end(stream, &packet, &err));

@@ -3,9 +3,11 @@
  * Runs in the worker, or in the page where a canvas cannot be handed over. Knows no document: it
  * passes messages on and is told where the page stands. */
 import { type Camera, readCamera } from "../model/camera.ts";
+import type { Guide } from "../model/guide.ts";
 import type { OutgoingEdit } from "../model/session.ts";
 import type { FrameInfo, FrameState, Statistics } from "../model/stores.ts";
 import { decode, type Frame, FrameAssembler } from "./decode.ts";
+import { decodeGuide } from "./guide.ts";
 import { Meter } from "./meter.ts";
 import { Presenter, type Surface } from "./present.ts";
 import {
@@ -61,6 +63,7 @@ export type Report =
       }
     | { readonly kind: "message"; readonly message: ServerMessage }
     | { readonly kind: "frame"; readonly frame: FrameInfo }
+    | { readonly kind: "guide"; readonly guide: Guide }
     | { readonly kind: "thumbnails"; readonly tiles: readonly Tile[] }
     | { readonly kind: "statistics"; readonly statistics: Statistics };
 
@@ -101,6 +104,7 @@ export function frameInfo(
         stale: header.stale,
         outdated,
         number: header.number,
+        input: header.input,
         revision: header.revision,
         width: header.width,
         height: header.height,
@@ -423,6 +427,10 @@ export class Engine {
             return;
         }
         const socket = this.#socket;
+        if (frame.header.codec === "guide") {
+            void this.#guide(frame, socket);
+            return;
+        }
         decode(frame).then(
             (bitmap) => this.#decoded(frame, bitmap, socket),
             () => {
@@ -431,6 +439,15 @@ export class Engine {
                 this.#acknowledge(frame.header.number, socket);
             },
         );
+    }
+
+    /* A damaged one is skipped. */
+    async #guide(frame: Frame, socket: WebSocket | null): Promise<void> {
+        const guide = await decodeGuide(frame).catch(() => null);
+        this.#acknowledge(frame.header.number, socket);
+        if (guide !== null && socket === this.#socket) {
+            this.#report({ kind: "guide", guide });
+        }
     }
 
     #acknowledge(frame: number, socket: WebSocket | null): void {

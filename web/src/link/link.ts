@@ -185,6 +185,9 @@ class SceneLink implements Link {
             case "frame":
                 this.#stores.link.setState({ frame: report.frame });
                 break;
+            case "guide":
+                this.#stores.link.setState({ guide: report.guide });
+                break;
             case "thumbnails":
                 this.thumbnails.take(report.tiles);
                 break;

@@ -31,6 +31,7 @@ export interface ViewMessage {
     readonly aov: string;
     readonly quality: Quality;
     readonly visible: boolean;
+    readonly guides: boolean;
     /* Ids of the nodes that are shown alone; absent: all are. */
     readonly isolate?: readonly string[];
 }
@@ -170,8 +171,15 @@ export function readMessage(text: string): ServerMessage | null {
 export const FRAME_FIXED_BYTES = 40;
 export const FRAME_PART_HEADER_BYTES = 8;
 
-export type Codec = "jpeg" | "png";
-const CODECS: Record<number, Codec> = { 1: "jpeg", 2: "png" };
+export type Codec = "jpeg" | "png" | "guide";
+const CODECS: readonly (Codec | undefined)[] = [
+    undefined,
+    "jpeg",
+    "png",
+    undefined,
+    undefined,
+    "guide",
+];
 
 const FLAG_KEY = 1;
 const FLAG_STILL = 2;
@@ -293,7 +301,7 @@ export function packFrame(header: FrameHeader, payload: Uint8Array): ArrayBuffer
     const flag = (on: boolean, bit: number): number => (on ? bit : 0);
     view.setUint32(0, MAGIC_FRAME, true);
     view.setUint8(4, FRAME_VERSION);
-    view.setUint8(5, header.codec === "jpeg" ? 1 : 2);
+    view.setUint8(5, CODECS.indexOf(header.codec));
     view.setUint8(
         6,
         flag(header.key, FLAG_KEY) |

@@ -100,6 +100,7 @@ export class Viewer {
             aov,
             quality: preferences.quality,
             visible: document.visibilityState === "visible" && this.#element !== null,
+            guides: true,
             ...(isolated.length > 0 ? { isolate: isolated } : {}),
         };
         this.#host.send({ kind: "view", view });

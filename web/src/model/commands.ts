@@ -595,6 +595,17 @@ export const COMMANDS: readonly Command[] = [
             }),
     }),
     row({
+        id: "view.outlines",
+        words: "contour edges highlight selection hover show hide",
+        title: "Outlines in the picture",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, {
+                outlines: !stores.view.getState().preferences.outlines,
+            }),
+    }),
+    row({
         id: "view.statistics",
         words: "performance fps speed timing",
         title: "Statistics",

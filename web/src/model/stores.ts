@@ -5,6 +5,7 @@ import { createStore, type StoreApi } from "zustand/vanilla";
 import type { Camera } from "./camera.ts";
 import { DEFAULT_CAMERA } from "./camera.ts";
 import type { SceneDocument } from "./document.ts";
+import type { Guide } from "./guide.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
 import type { Operation } from "./operation.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
@@ -69,6 +70,8 @@ export interface FrameInfo {
     /* The view is newer than the picture: another camera, output, size, or other nodes alone. */
     readonly outdated: boolean;
     readonly number: number;
+    /* `seq` of the view that it shows. */
+    readonly input: number;
     readonly revision: number;
     readonly width: number;
     readonly height: number;
@@ -116,6 +119,8 @@ export interface LinkState {
     readonly retryAt: number | null;
     readonly renderer: RendererInfo | null;
     readonly frame: FrameInfo;
+    /* Of the newest picture that has one; guide.ts says whether that is shown. */
+    readonly guide: Guide | null;
     readonly compiling: Compiling | null;
     /* A hand moves the camera or a value. */
     readonly moving: boolean;
@@ -127,6 +132,7 @@ export const NO_FRAME: FrameInfo = {
     stale: false,
     outdated: false,
     number: 0,
+    input: 0,
     revision: 0,
     width: 0,
     height: 0,
@@ -142,6 +148,7 @@ export const IDLE_LINK: LinkState = {
     retryAt: null,
     renderer: null,
     frame: NO_FRAME,
+    guide: null,
     compiling: null,
     moving: false,
     statistics: null,

@@ -56,6 +56,8 @@ export interface Preferences {
     readonly hands: HandSettings;
     /* Lights, volumes and the camera have icons in the picture. */
     readonly marks: boolean;
+    /* What is selected, and what is under the pointer, is outlined. */
+    readonly outlines: boolean;
 }
 
 /* How hands in the picture act. */
@@ -82,6 +84,7 @@ export const PREFERENCES: Preferences = {
     way: "union",
     hands: HANDS,
     marks: true,
+    outlines: true,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -249,5 +252,6 @@ export function readPreferences(text: string | null): Preferences {
             snap: stored.hands?.snap === true,
         },
         marks: stored.marks !== false,
+        outlines: stored.outlines !== false,
     };
 }

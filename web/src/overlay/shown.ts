@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The camera of the picture that is shown, for all that the page draws over it. */
 import type { Camera } from "../model/camera.ts";
+import { nodeAt, shownGuide } from "../model/guide.ts";
+import type { Spot } from "../model/projection.ts";
 import type { Stores } from "../model/stores.ts";
 
 /* Null while there is no picture. */
@@ -9,7 +11,20 @@ export function shownCamera({ link, camera }: Stores): Camera | null {
     return frame.state === "none" ? null : (frame.camera ?? camera.getState().camera);
 }
 
-/* Runs `draw` now, and in the next animation frame after the picture, the camera or the document has
+/* The node at a point of the picture's element, in CSS pixels from its left top, as the guide of the
+ * picture tells it; null: none. Undefined: there is no guide, and it must be asked. */
+export function guideAt(
+    { link }: Stores,
+    element: HTMLElement,
+    { x, y }: Spot,
+): string | null | undefined {
+    const guide = shownGuide(link.getState());
+    return guide === null
+        ? undefined
+        : nodeAt(guide, x / element.clientWidth, y / element.clientHeight);
+}
+
+/* Runs `draw` now, and in the next animation frame after the picture, its guide, the camera or the document has
  * changed. Answers the function that ends it. */
 export function drawOver(stores: Stores, draw: () => void): () => void {
     let asked = 0;
@@ -23,7 +38,9 @@ export function drawOver(stores: Stores, draw: () => void): () => void {
     };
     const stops = [
         stores.document.subscribe((now, before) => now.document !== before.document && ask()),
-        stores.link.subscribe((now, before) => now.frame !== before.frame && ask()),
+        stores.link.subscribe(
+            (now, before) => (now.frame !== before.frame || now.guide !== before.guide) && ask(),
+        ),
         stores.camera.subscribe(ask),
     ];
     draw();

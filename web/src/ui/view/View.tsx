@@ -3,6 +3,7 @@
  * picks; React draws only what lies over it. */
 import { useCallback, useEffect, useRef, useState } from "react";
 import { Hands } from "../../overlay/hands.ts";
+import { Outlines } from "../../overlay/outlines.ts";
 import { attachPointer } from "../../overlay/pointer.ts";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
@@ -72,6 +73,7 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
+        const outlines = new Outlines(editor.stores, element);
         const hands = new Hands({ stores: editor.stores, begin: beginStep(editor) }, element);
         const stop = attachPointer(element, pointerActions(editor, element, hands, open));
         const rest = watchHover(editor, element);
@@ -81,6 +83,7 @@ function Picture() {
             rest();
             stop();
             hands.end();
+            outlines.end();
             hide();
             editor.setPicture(null);
         };

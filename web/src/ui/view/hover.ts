@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What the pointer rests on in the picture, for the tree to show: asked for only while nothing else
- * is, so that a click never waits for it. */
+/* What is under the pointer in the picture, for the tree and the outline to show: known at once where
+ * there is a guide. Else it is asked for when the pointer rests, and only while nothing else is, so
+ * that a click never waits for it. */
+import { guideAt } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
 
 /* The pointer rests when it has not moved for this long. */
@@ -40,6 +42,12 @@ export function watchHover(editor: Editor, element: HTMLElement): () => void {
             }
             const box = element.getBoundingClientRect();
             const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+            const known = guideAt(editor.stores, element, { x, y });
+            if (known !== undefined) {
+                asked++;
+                show(known);
+                return;
+            }
             timer = setTimeout(() => void ask(x, y), REST_MS);
         },
         options,

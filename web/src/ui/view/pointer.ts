@@ -10,6 +10,7 @@ import { type SelectMode, select } from "../../model/view.ts";
 import type { Hands } from "../../overlay/hands.ts";
 import type { Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
+import { guideAt } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
 import type { MenuPlace } from "../widgets/Menu.tsx";
@@ -37,6 +38,12 @@ export function pointerActions(
     const pick = questions(editor, element);
     let last: Click | null = null;
 
+    /* Undefined: there is no answer. */
+    const nodeUnder = async (x: number, y: number): Promise<string | null | undefined> => {
+        const known = guideAt(stores, element, { x, y });
+        return known === undefined ? (await pick(x, y))?.node : known;
+    };
+
     const choose = (node: string | null, mode: SelectMode): void =>
         stores.view.setState(({ selection }) => ({
             selection: select(selection, node, mode),
@@ -54,11 +61,10 @@ export function pointerActions(
             await aim(x, y);
             return;
         }
-        const picked = await pick(x, y);
-        if (picked === null) {
+        const node = await nodeUnder(x, y);
+        if (node === undefined) {
             return;
         }
-        const { node } = picked;
         const { document } = stores.document.getState();
         const { selection } = stores.view.getState();
         const near = last !== null && Math.hypot(x - last.x, y - last.y) < SAME_PLACE;
@@ -72,9 +78,8 @@ export function pointerActions(
     const menu = async (x: number, y: number): Promise<void> => {
         const box = element.getBoundingClientRect();
         const settle = onMenu({ x: box.left + x, y: box.top + y });
-        const picked = await pick(x, y);
+        const node = (await nodeUnder(x, y)) ?? null;
         settle(() => {
-            const node = picked?.node ?? null;
             if (node !== null && !stores.view.getState().selection.includes(node)) {
                 choose(node, "replace");
             }
@@ -88,7 +93,7 @@ export function pointerActions(
         click: (x, y, mode) => void click(x, y, mode),
         menu: (x, y) => void menu(x, y),
         frame: async (x, y) => {
-            const node = (await pick(x, y))?.node ?? null;
+            const node = (await nodeUnder(x, y)) ?? null;
             const command = commandById("camera.frame");
             if (node !== null && command) {
                 choose(node, "replace");

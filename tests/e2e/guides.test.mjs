@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// What is under the pointer is known to the page, and outlined: at once, without a question, also
+// while the server stands still.
+import assert from 'node:assert/strict';
+import { after, afterEach, before, test } from 'node:test';
+import { until } from '../support/daemon.mjs';
+import { Live } from '../support/live.mjs';
+import { closePage, field, openStage, picture, row, settled } from './stage.mjs';
+
+const CAMERA = { position: [0, 1, 12], target: [0, 0, 0], fov: 45 };
+const ball = (id, x, y, radius) => ({ id, type: 'sphere', params: { radius }, transform: { translation: [x, y, 0] } });
+const DOCUMENT = {
+    format: 'fieldcast/1',
+    camera: CAMERA,
+    render: { samples: 1 },
+    root: {
+        id: 'root',
+        type: 'union',
+        children: [
+            { id: 'bitten', type: 'difference', children: [ball('body', -2, 0, 1.4), ball('bite', -1.3, 0.6, 1)] },
+            { id: 'soft', type: 'smooth_union', params: { k: 0.6 }, children: [ball('left', 0.8, -0.4, 0.9), ball('right', 2, 0.4, 0.8)] },
+            ball('alone', 0.4, 2, 0.7),
+        ],
+    },
+};
+
+let stage;
+let page;
+let scene;
+before(async () => {
+    stage = await openStage();
+});
+after(() => stage.close());
+afterEach(() => closePage(page));
+
+async function open() {
+    scene = await stage.scene(DOCUMENT);
+    page = await stage.page({ scene });
+    await settled(page);
+    await until(async () => (await shown()).guided, 'a guide');
+}
+
+const outlines = () => page.getByTestId('outlines');
+const shown = () => outlines().evaluate(({ dataset }) => ({ ...dataset, guided: dataset.guide === 'shown' }));
+const chosen = async (node) => (await row(page, node).getAttribute('aria-selected')) === 'true';
+
+/** A point of the scene in CSS pixels of the window. */
+async function spotOf([x, y, z]) {
+    const box = await picture(page).boundingBox();
+    const far = Math.hypot(1, 12);
+    const [right, up] = [[1, 0, 0], [0, 12 / far, -1 / far]];
+    const ahead = [0, -1 / far, -12 / far];
+    const to = [x, y - 1, z - 12];
+    const along = (axis) => axis.reduce((sum, a, i) => sum + a * to[i], 0);
+    const scale = box.height / 2 / Math.tan(Math.PI / 8) / along(ahead);
+    return { x: box.x + box.width / 2 + scale * along(right), y: box.y + box.height / 2 - scale * along(up), scale };
+}
+
+test('hover and click are answered within a frame while the server stands still', async () => {
+    await open();
+    const pids = [stage.daemon.worker(), stage.daemon.pid];
+    pids.forEach((pid) => process.kill(pid, 'SIGSTOP'));
+    try {
+        await page.evaluate(() => {
+            window.frames = [];
+            const watch = () => {
+                const { hovered } = document.querySelector('[data-testid=outlines]').dataset;
+                requestAnimationFrame(() => window.frames.push([hovered, document.querySelector('[data-testid=outlines]').dataset.hovered]));
+            };
+            document.querySelector('[data-testid=picture]').addEventListener('pointermove', watch, true);
+        });
+        for (const [node, at] of [['alone', [0.4, 2, 0.5]], ['body', [-2.6, -0.5, 1]], ['right', [2.3, 0.6, 0.5]]]) {
+            const { x, y } = await spotOf(at);
+            await page.mouse.move(x, y);
+            await until(() => page.evaluate((wanted) => window.frames.some(([, hovered]) => hovered === wanted), node), `${node} outlined`);
+            await page.mouse.click(x, y);
+            await until(() => chosen(node), `${node} selected`);
+            assert.equal((await shown()).selected, node);
+        }
+        const late = await page.evaluate(() => window.frames.at(-1));
+        assert.equal(late[1], '', 'what is selected is outlined as that alone');
+    } finally {
+        pids.forEach((pid) => process.kill(pid, 'SIGCONT'));
+    }
+});
+
+test('40 pixels on blends and cuts select what the C evaluator names', async () => {
+    await open();
+    const box = await picture(page).boundingBox();
+    const live = await Live.open(stage.daemon, scene);
+    live.look({ width: box.width, height: box.height });
+    let state = 20261;
+    const next = () => (state = (state * 48271) % 2147483647) / 2147483647;
+    const wrong = [];
+    let asked = 0;
+    for (let number = 1; asked < 40; number += 1) {
+        const [x, y] = [0.15 + 0.7 * next(), 0.2 + 0.6 * next()].map((part, i) => Math.floor(part * [box.width, box.height][i]));
+        live.say({ type: 'pick', pick: number, x: x + 0.5, y: y + 0.5, seq: live.seq });
+        const { node } = await live.next('picked', { pick: number });
+        if (node === null) {
+            continue;
+        }
+        asked += 1;
+        await page.mouse.move(box.x + x + 0.5, box.y + y + 0.5);
+        const hovered = (await shown()).hovered || null;
+        if (hovered !== node) {
+            wrong.push({ x, y, node, hovered });
+        }
+    }
+    await live.close();
+    assert.ok(wrong.length <= 1, `${JSON.stringify(wrong)}: an edge may run through one pixel`);
+});
+
+/** Pixels of the outlines' canvas: [x, y] in CSS pixels of the picture, of at least half opacity. */
+const drawn = () =>
+    outlines().evaluate((canvas) => {
+        const copy = document.createElement('canvas');
+        Object.assign(copy, { width: canvas.width, height: canvas.height });
+        const brush = copy.getContext('2d', { willReadFrequently: true });
+        brush.drawImage(canvas, 0, 0);
+        const { data, width } = brush.getImageData(0, 0, canvas.width, canvas.height);
+        const spots = [];
+        for (let i = 3; i < data.length; i += 4) {
+            if (data[i] > 127) {
+                spots.push([((i - 3) / 4) % width, Math.floor((i - 3) / 4 / width)]);
+            }
+        }
+        return spots;
+    });
+
+test('the outline of a ball is around its circle, and goes while the view moves', async () => {
+    await open();
+    await row(page, 'alone').click();
+    await until(async () => (await shown()).selected === 'alone', 'its outline');
+    const box = await picture(page).boundingBox();
+    const centre = await spotOf([0.4, 2, 0]);
+    const spots = (await drawn()).map(([x, y]) => [box.x + x + 0.5 - centre.x, box.y + y + 0.5 - centre.y]);
+    // A ball off the middle of a picture is an ellipse, longer by a little.
+    const radius = 0.7 * centre.scale;
+    const far = spots.map(([x, y]) => Math.hypot(x, y));
+    assert.ok(Math.min(...far) > radius - 2 && Math.max(...far) < radius * 1.05 + 6, `${radius}: ${Math.min(...far)} to ${Math.max(...far)}`);
+    const sectors = new Set(spots.map(([x, y]) => Math.floor((18 * Math.atan2(y, x)) / Math.PI)));
+    assert.ok(sectors.size >= 36, `${sectors.size} of 36 directions`);
+
+    await page.mouse.move(box.x + 200, box.y + box.height - 150);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 260, box.y + box.height - 150, { steps: 3 });
+    await until(async () => (await shown()).selected === '', 'no outline of an older picture');
+    await page.mouse.up();
+    await until(async () => (await shown()).selected === 'alone', 'the outline in the new view');
+    assert.notDeepEqual(await drawn(), spots);
+});
+
+test('a group is outlined by all that is in it; a command takes outlines away', async () => {
+    await open();
+    await row(page, 'soft').click();
+    await until(async () => (await shown()).selected.split(' ').includes('right'), 'the outline of a blend');
+    assert.deepEqual((await shown()).selected.split(' ').sort(), ['left', 'right', 'soft']);
+    assert.ok((await drawn()).length > 100);
+    await page.keyboard.press('Control+k');
+    await page.getByRole('combobox').fill('outlines');
+    await page.keyboard.press('Enter');
+    await until(async () => (await drawn()).length === 0, 'no outline');
+    assert.ok(await chosen('soft'));
+});
+
+test('an edit takes the outline along', async () => {
+    await open();
+    await row(page, 'alone').click();
+    await until(async () => (await shown()).selected === 'alone', 'its outline');
+    const before = await drawn();
+    await field(page, 'radius').fill('0.3');
+    await page.keyboard.press('Enter');
+    await settled(page);
+    await until(async () => {
+        const now = await drawn();
+        return now.length > 0 && now.length < 0.7 * before.length;
+    }, 'a smaller outline');
+});

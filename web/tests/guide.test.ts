@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* Guides: from bytes to nodes under a point and masks, and when they belong to what is shown. */
+import { deflateSync } from "node:zlib";
+import { expect, test } from "vitest";
+import type { Frame } from "../src/link/decode.ts";
+import { decodeGuide } from "../src/link/guide.ts";
+import { type FrameHeader, packFrame, readPacket } from "../src/link/protocol.ts";
+import { type Guide, maskOf, nodeAt, shownGuide } from "../src/model/guide.ts";
+import { IDLE_LINK, NO_FRAME } from "../src/model/stores.ts";
+import { random } from "./fixture.ts";
+
+const HEADER: FrameHeader = {
+    codec: "guide",
+    key: true,
+    still: true,
+    lossless: false,
+    stale: false,
+    number: 7,
+    payloadBytes: 0,
+    revision: 12,
+    input: 5,
+    width: 6,
+    height: 4,
+    viewWidth: 12,
+    viewHeight: 8,
+    round: 1,
+    rounds: 1,
+    stages: [],
+};
+
+/* As the server writes it, in parts of `size` bytes. */
+function frameOf(ids: readonly string[], indices: readonly number[], size = 1000): Frame {
+    const names = ids.map((id) => Buffer.from(id));
+    const head = Buffer.alloc(2);
+    head.writeUInt16LE(ids.length);
+    const pixels = Buffer.alloc(2 * indices.length);
+    indices.forEach((index, i) => {
+        pixels.writeUInt16LE(index, 2 * i);
+    });
+    const payload = Buffer.concat([
+        head,
+        ...names.flatMap((name) => [Buffer.from([name.length]), name]),
+        deflateSync(pixels),
+    ]);
+    const parts: Uint8Array<ArrayBuffer>[] = [];
+    for (let at = 0; at < payload.length; at += size) {
+        parts.push(Uint8Array.from(payload.subarray(at, at + size)));
+    }
+    return { header: HEADER, parts, firstAt: 0, lastAt: 0 };
+}
+
+const INDICES = [
+    ...[0, 0, 0, 0, 0, 0],
+    ...[0, 1, 1, 2, 0, 0],
+    ...[0, 1, 3, 2, 2, 0],
+    ...[0, 0, 0, 0, 0, 3],
+];
+const IDS = ["ball", "Küche", "box"];
+
+test("the bytes of a frame become ids and indices, in whatever parts they come", async () => {
+    for (const size of [1, 3, 1000]) {
+        const guide = await decodeGuide(frameOf(IDS, INDICES, size));
+        expect(guide).toMatchObject({ input: 5, revision: 12, width: 6, height: 4, ids: IDS });
+        expect([...guide.indices]).toEqual(INDICES);
+    }
+});
+
+test("the header of a guide is read as one", () => {
+    const packet = readPacket(packFrame(HEADER, new Uint8Array([1, 2])));
+    expect(packet).toMatchObject({ kind: "head", header: { codec: "guide", revision: 12 } });
+});
+
+test("damaged bytes are refused", async () => {
+    const short = frameOf(IDS, INDICES.slice(1));
+    await expect(decodeGuide(short)).rejects.toThrow();
+    const torn = frameOf(IDS, INDICES);
+    const parts = torn.parts.map((part) => part.slice(0, -8));
+    await expect(decodeGuide({ ...torn, parts })).rejects.toThrow();
+    await expect(decodeGuide({ ...torn, parts: [] })).rejects.toThrow();
+});
+
+test("the node under a point is that of its pixel; outside, that of the nearest", async () => {
+    const guide = await decodeGuide(frameOf(IDS, INDICES));
+    INDICES.forEach((index, i) => {
+        const [u, v] = [((i % 6) + 0.5) / 6, (Math.floor(i / 6) + 0.5) / 4];
+        expect(nodeAt(guide, u, v)).toBe(IDS[index - 1] ?? null);
+    });
+    expect(nodeAt(guide, 1.5, 1)).toBe("box");
+    expect(nodeAt(guide, -0.1, 0)).toBe(null);
+});
+
+test("a mask has the pixels of its nodes, in the smallest box", async () => {
+    const guide = await decodeGuide(frameOf(IDS, INDICES));
+    const mask = maskOf(guide, new Set(["ball", "nobody"]));
+    expect(mask).toMatchObject({ left: 1, top: 1, width: 2, height: 2 });
+    expect([3, 7, 11, 15].map((i) => mask?.pixels[i])).toEqual([255, 255, 255, 0]);
+    expect(maskOf(guide, new Set(["nobody"]))).toBe(null);
+    expect(maskOf(guide, new Set())).toBe(null);
+});
+
+test("masks of random guides have the pixels that were asked for, and no others", () => {
+    const next = random(5);
+    for (let round = 0; round < 200; round++) {
+        const [width, height] = [1 + Math.floor(next() * 9), 1 + Math.floor(next() * 9)];
+        const indices = Uint16Array.from({ length: width * height }, () => Math.floor(next() * 4));
+        const guide: Guide = { input: 1, revision: 1, width, height, ids: IDS, indices };
+        const nodes = new Set(IDS.filter(() => next() < 0.5));
+        const mask = maskOf(guide, nodes);
+        const wanted = [...indices].map((index) => nodes.has(IDS[index - 1] ?? ""));
+        const seen = wanted.map((_, i) => {
+            const [x, y] = [
+                (i % width) - (mask?.left ?? 0),
+                Math.floor(i / width) - (mask?.top ?? 0),
+            ];
+            const inside = mask && x >= 0 && y >= 0 && x < mask.width && y < mask.height;
+            return inside ? mask.pixels[4 * (y * mask.width + x) + 3] === 255 : false;
+        });
+        expect(seen).toEqual(wanted);
+    }
+});
+
+test("a guide is shown with its own picture alone", () => {
+    const guide: Guide = {
+        input: 5,
+        revision: 12,
+        width: 0,
+        height: 0,
+        ids: [],
+        indices: new Uint16Array(),
+    };
+    const frame = { ...NO_FRAME, input: 5, revision: 12 };
+    const shown = (change: object): Guide | null =>
+        shownGuide({ ...IDLE_LINK, guide, frame: { ...frame, ...change } });
+    expect(shown({})).toBe(guide);
+    expect(shown({ input: 6 })).toBe(null);
+    expect(shown({ revision: 13 })).toBe(null);
+    expect(shown({ outdated: true })).toBe(null);
+    expect(shownGuide({ ...IDLE_LINK, frame })).toBe(null);
+});
