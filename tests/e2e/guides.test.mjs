@@ -164,6 +164,33 @@ test('a group is outlined by all that is in it; a command takes outlines away', 
     assert.ok(await chosen('soft'));
 });
 
+test('Shift and a drag select what is seen in a rectangle, beside what is selected', async () => {
+    await open();
+    const drag = async (from, to, keys = []) => {
+        const [a, b] = [await spotOf(from), await spotOf(to)];
+        await page.keyboard.down('Shift');
+        await page.mouse.move(a.x, a.y);
+        await page.mouse.down();
+        await page.mouse.move(b.x, b.y, { steps: 4 });
+        for (const key of keys) {
+            await page.keyboard.press(key);
+        }
+        await page.mouse.up();
+        await page.keyboard.up('Shift');
+    };
+    const selected = () => page.locator('[role=treeitem][aria-selected=true]').evaluateAll((all) => all.map((one) => one.dataset.node).sort().join());
+    const before = await page.getByTestId('state').getAttribute('data-revision');
+    await drag([0, -1.6, 0], [3, 1, 0]);
+    await until(async () => (await selected()) === 'left,right', 'both parts of the blend');
+    await drag([-0.1, 1.5, 0], [0.9, 2.5, 0]);
+    await until(async () => (await selected()) === 'alone,left,right', 'a third');
+    await drag([-4, -2, 0], [3, 3, 0], ['Escape']);
+    await page.getByTestId('picture').press('Shift');
+    assert.equal(await selected(), 'alone,left,right');
+    assert.equal(await page.locator('.view-box').count(), 0);
+    assert.equal(await page.getByTestId('state').getAttribute('data-revision'), before);
+});
+
 test('an edit takes the outline along', async () => {
     await open();
     await row(page, 'alone').click();

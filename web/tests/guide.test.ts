@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import type { Frame } from "../src/link/decode.ts";
 import { decodeGuide } from "../src/link/guide.ts";
 import { type FrameHeader, packFrame, readPacket } from "../src/link/protocol.ts";
-import { type Guide, maskOf, nodeAt, shownGuide } from "../src/model/guide.ts";
+import { type Guide, maskOf, nodeAt, nodesIn, shownGuide } from "../src/model/guide.ts";
 import { IDLE_LINK, NO_FRAME } from "../src/model/stores.ts";
 import { random } from "./fixture.ts";
 
@@ -87,6 +87,16 @@ test("the node under a point is that of its pixel; outside, that of the nearest"
     });
     expect(nodeAt(guide, 1.5, 1)).toBe("box");
     expect(nodeAt(guide, -0.1, 0)).toBe(null);
+});
+
+test("a rectangle names what is seen in it, each once", async () => {
+    const twice = await decodeGuide(frameOf(["ball", "ball", "box"], INDICES));
+    const guide = await decodeGuide(frameOf(IDS, INDICES));
+    expect(nodesIn(guide, 0, 0, 1, 1)).toEqual(IDS);
+    expect(nodesIn(twice, 0, 0, 1, 1)).toEqual(["ball", "box"]);
+    expect(nodesIn(guide, 0, 0, 0.99, 0.24)).toEqual([]);
+    expect(nodesIn(guide, 1.5 / 6, 1.5 / 4, 2.5 / 6, 1.5 / 4)).toEqual(["ball"]);
+    expect(nodesIn(guide, 3.5 / 6, 2.5 / 4, 7, 7)).toEqual(["Küche", "box"]);
 });
 
 test("a mask has the pixels of its nodes, in the smallest box", async () => {

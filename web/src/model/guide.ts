@@ -31,6 +31,26 @@ export function nodeAt(guide: Guide, u: number, v: number): string | null {
     return guide.ids[(guide.indices[y * guide.width + x] ?? 0) - 1] ?? null;
 }
 
+/* The nodes that are seen in a rectangle, from its left top to its right bottom, in parts of the
+ * picture's width and height. */
+export function nodesIn(
+    guide: Guide,
+    left: number,
+    top: number,
+    right: number,
+    bottom: number,
+): readonly string[] {
+    const pixel = (part: number, side: number): number =>
+        Math.min(side - 1, Math.max(0, Math.floor(part * side)));
+    const seen = new Set<number>();
+    for (let y = pixel(top, guide.height); y <= pixel(bottom, guide.height); y++) {
+        for (let x = pixel(left, guide.width); x <= pixel(right, guide.width); x++) {
+            seen.add(guide.indices[y * guide.width + x] as number);
+        }
+    }
+    return [...new Set(guide.ids.filter((_, i) => seen.has(i + 1)))];
+}
+
 /* The pixels of some nodes: opaque in the smallest box around them, in pixels of the guide. */
 export interface Mask {
     readonly left: number;

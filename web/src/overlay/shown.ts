@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The camera of the picture that is shown, for all that the page draws over it. */
 import type { Camera } from "../model/camera.ts";
-import { nodeAt, shownGuide } from "../model/guide.ts";
+import { type Guide, nodeAt, shownGuide } from "../model/guide.ts";
 import type { Spot } from "../model/projection.ts";
 import type { Stores } from "../model/stores.ts";
 
@@ -22,6 +22,34 @@ export function guideAt(
     return guide === null
         ? undefined
         : nodeAt(guide, x / element.clientWidth, y / element.clientHeight);
+}
+
+/* Calls `take` with the guide of the picture, now or when it is there, unless the camera or the scene
+ * changes first. */
+export function whenGuide(stores: Stores, take: (guide: Guide) => void): void {
+    const { link, camera, document } = stores;
+    const { scene } = document.getState();
+    const now = shownGuide(link.getState());
+    if (now !== null) {
+        take(now);
+        return;
+    }
+    const stop = (): void => {
+        for (const end of ends) {
+            end();
+        }
+    };
+    const ends = [
+        camera.subscribe(stop),
+        document.subscribe((state) => state.scene !== scene && stop()),
+        link.subscribe((state) => {
+            const guide = shownGuide(state);
+            if (guide !== null) {
+                stop();
+                take(guide);
+            }
+        }),
+    ];
 }
 
 /* Runs `draw` now, and in the next animation frame after the picture, its guide, the camera or the document has

@@ -456,6 +456,7 @@ const texts = {
     "keys.view": "View",
     "keys.help": "Help",
     "keys.selectMore": "Select more",
+    "keys.box": "Select in a rectangle",
     "keys.orbit": "Look around",
     "keys.pan": "Move sideways",
     "keys.dolly": "Nearer, farther",

@@ -7,6 +7,7 @@ import { parentOf, topmost } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
+import { holdBox } from "../../overlay/box.ts";
 import type { Hands } from "../../overlay/hands.ts";
 import type { Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
@@ -49,6 +50,11 @@ export function pointerActions(
             selection: select(selection, node, mode),
             subject: { kind: "nodes" },
         }));
+    const chooseAll = (nodes: readonly string[]): void =>
+        stores.view.setState(({ selection }) => ({
+            selection: [...selection.filter((id) => !nodes.includes(id)), ...nodes],
+            subject: { kind: "nodes" },
+        }));
     const aim = async (x: number, y: number): Promise<void> => {
         stores.view.setState({ aiming: false });
         const picked = await pick(x, y);
@@ -87,7 +93,7 @@ export function pointerActions(
         });
     };
     return {
-        grab: (press) => hands.grab(press),
+        grab: (press) => hands.grab(press) ?? holdBox(stores, element, press, chooseAll),
         camera: () => stores.camera.getState().camera,
         moveCamera: (camera) => moveCamera(editor, () => camera),
         click: (x, y, mode) => void click(x, y, mode),
