@@ -23,7 +23,7 @@ let stage;
 let page;
 let id;
 before(async () => {
-    stage = await openStage({ driver: 'null' });
+    stage = await openStage();
 });
 after(() => stage.close());
 afterEach(async () => {
@@ -62,6 +62,13 @@ async function pointOf(x, y) {
     return [box.x + x * box.width, box.y + y * box.height];
 }
 const BALL = [0.335, 0.6];
+
+/** The picture is not that of the view any more: what is under the pointer has to be asked. */
+async function lookAside() {
+    await picture(page).focus();
+    await page.keyboard.press('ArrowRight');
+    await page.locator('[data-testid=outlines][data-guide=""]').waitFor({ state: 'attached' });
+}
 
 /** Holds the server still while `act` runs. */
 async function stopped(act) {
@@ -291,6 +298,7 @@ describe('while the server is slow', () => {
         const box = await picture(page).boundingBox();
         const menu = page.getByRole('menu');
         await stopped(async () => {
+            await lookAside();
             const [x, y] = await pointOf(...BALL);
             await page.mouse.click(x, y, { button: 'right' });
             await menu.getByText('Looking what is here').waitFor();
@@ -361,6 +369,7 @@ describe('while the server is slow', () => {
         const [x, y] = await pointOf(...BALL);
         const [u] = await pointOf(1 - BALL[0], 0);
         await stopped(async () => {
+            await lookAside();
             await page.mouse.click(x, y);
             await page.locator('.view-asked').first().waitFor();
             await page.keyboard.down('Shift');

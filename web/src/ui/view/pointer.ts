@@ -36,13 +36,13 @@ export function pointerActions(
     onMenu: OpenMenu,
 ): PointerActions {
     const { stores } = editor;
-    const pick = questions(editor, element);
+    const { ask, answered } = questions(editor, element);
     let last: Click | null = null;
 
     /* Undefined: there is no answer. */
     const nodeUnder = async (x: number, y: number): Promise<string | null | undefined> => {
         const known = guideAt(stores, element, { x, y });
-        return known === undefined ? (await pick(x, y))?.node : known;
+        return known === undefined ? (await ask(x, y))?.node : answered().then(() => known);
     };
 
     const choose = (node: string | null, mode: SelectMode): void =>
@@ -57,7 +57,7 @@ export function pointerActions(
         }));
     const aim = async (x: number, y: number): Promise<void> => {
         stores.view.setState({ aiming: false });
-        const picked = await pick(x, y);
+        const picked = await ask(x, y);
         if (picked?.position) {
             focusOn(editor, vectorOf(picked.position));
         }

@@ -35,12 +35,14 @@ function mark(element: HTMLElement, x: number, y: number): () => void {
     return () => ring.remove();
 }
 
-/* The function that asks, with CSS pixels from the picture's left top. Null: there is no answer,
- * which a message says. */
-export function questions(
-    { stores, link }: Editor,
-    element: HTMLElement,
-): (x: number, y: number) => Promise<PickedMessage | null> {
+export interface Questions {
+    /* CSS pixels from the picture's left top. Null: there is no answer, which a message says. */
+    ask(x: number, y: number): Promise<PickedMessage | null>;
+    /* All that was asked so far has its answer: what comes now comes after it. */
+    answered(): Promise<unknown>;
+}
+
+export function questions({ stores, link }: Editor, element: HTMLElement): Questions {
     let before: Promise<unknown> = Promise.resolve();
     const ask = async (x: number, y: number): Promise<PickedMessage | null> => {
         const { scene } = stores.document.getState();
@@ -56,10 +58,13 @@ export function questions(
             return null;
         }
     };
-    return (x, y) => {
-        const unmark = mark(element, x, y);
-        const answer = before.then(() => ask(x, y)).finally(unmark);
-        before = answer;
-        return answer;
+    return {
+        ask: (x, y) => {
+            const unmark = mark(element, x, y);
+            const answer = before.then(() => ask(x, y)).finally(unmark);
+            before = answer;
+            return answer;
+        },
+        answered: () => before,
     };
 }
