@@ -191,6 +191,20 @@ test('Shift and a drag select what is seen in a rectangle, beside what is select
     assert.equal(await page.getByTestId('state').getAttribute('data-revision'), before);
 });
 
+test('a row under the pointer is outlined, also when the pointer comes from the picture', async () => {
+    await open();
+    const { x, y } = await spotOf([0.4, 2, 0.5]);
+    await page.mouse.move(x, y);
+    await until(async () => (await shown()).hovered === 'alone', 'the shape under the pointer');
+    await row(page, 'left').hover();
+    await until(async () => (await shown()).hovered === 'left', 'the row under the pointer');
+    await page.mouse.move(x, y);
+    await until(async () => (await shown()).hovered === 'alone', 'the shape again');
+    const box = await picture(page).boundingBox();
+    await page.mouse.move(box.x + box.width / 2, 10);
+    await until(async () => (await shown()).hovered === '', 'nothing');
+});
+
 test('an edit takes the outline along', async () => {
     await open();
     await row(page, 'alone').click();

@@ -595,6 +595,14 @@ export const COMMANDS: readonly Command[] = [
             }),
     }),
     row({
+        id: "view.measure",
+        words: "ruler distance length size dimension tape",
+        title: "Measure distances",
+        group: "view",
+        whyNot: never,
+        run: show(({ measured }) => ({ measured: measured === null ? [] : null })),
+    }),
+    row({
         id: "view.outlines",
         words: "contour edges highlight selection hover show hide",
         title: "Outlines in the picture",

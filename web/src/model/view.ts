@@ -7,6 +7,7 @@ import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
 import type { Preset } from "./presets.ts";
+import type { Vector } from "./transform.ts";
 
 export type Theme = "auto" | "light" | "dark";
 export type Quality = "auto" | "smooth" | "sharp";
@@ -126,6 +127,8 @@ export interface View {
     readonly aov: string;
     /* The next click says what the camera focuses on. */
     readonly aiming: boolean;
+    /* Ends of the distance that clicks measure, at most two; null: clicks select. */
+    readonly measured: readonly Vector[] | null;
     /* What the pointer does to the selection, with no button held; null: nothing. */
     readonly motion: Motion | null;
     readonly preferences: Preferences;
@@ -147,6 +150,7 @@ export const INITIAL_VIEW: View = {
     chromeHidden: false,
     aov: COLOR,
     aiming: false,
+    measured: null,
     motion: null,
     preferences: PREFERENCES,
 };
@@ -205,6 +209,9 @@ export function peel(view: View): Partial<View> | null {
     }
     if (view.aiming) {
         return { aiming: false };
+    }
+    if (view.measured !== null) {
+        return { measured: null };
     }
     if (view.chromeHidden) {
         return { chromeHidden: false };

@@ -110,6 +110,8 @@ export function Row({ item, node, top, height, indent, onMenu }: Props) {
                 }
             }}
             {...takesMaterial(editor, id, props)}
+            onPointerEnter={() => stores.view.setState({ hovered: id })}
+            onPointerLeave={() => stores.view.setState({ hovered: null })}
             onDoubleClick={() => model === null && stores.view.setState({ renaming: id })}
             onContextMenu={(event) => {
                 event.preventDefault();

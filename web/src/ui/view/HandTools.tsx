@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the gizmo does, which way its axes point, and whether it goes in steps. */
-import { ChevronDown, Move3d, Rotate3d, Scale3d } from "lucide-react";
+import { ChevronDown, Move3d, Rotate3d, Ruler as RulerIcon, Scale3d } from "lucide-react";
 import { changeHands } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { MOTIONS } from "../../model/grip.ts";
@@ -36,6 +36,7 @@ export function HandTools() {
                     </Tip>
                 );
             })}
+            <Ruler />
             <Menu
                 align="start"
                 trigger={
@@ -49,6 +50,25 @@ export function HandTools() {
                 <Settings />
             </Menu>
         </div>
+    );
+}
+
+function Ruler() {
+    const editor = useEditor();
+    const measuring = useView((view) => view.measured !== null);
+    const command = commandById("view.measure");
+    return (
+        <Tip text={t("measure.title")}>
+            <button
+                type="button"
+                className="pill"
+                aria-label={t("measure.title")}
+                aria-pressed={measuring}
+                onClick={() => command && runCommand(editor, command)}
+            >
+                <RulerIcon size={16} aria-hidden="true" />
+            </button>
+        </Tip>
     );
 }
 

@@ -18,6 +18,7 @@ import { HandTools } from "./HandTools.tsx";
 import { watchHover } from "./hover.ts";
 import { Isolation } from "./Isolation.tsx";
 import { Marks } from "./Marks.tsx";
+import { Measured, MeasuredLine } from "./Measure.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
@@ -36,6 +37,7 @@ export function View() {
             <Poster />
             <Trial />
             <Marks />
+            <MeasuredLine />
             <Empty />
             <Strip />
             <div className="view-top">
@@ -47,6 +49,7 @@ export function View() {
             <AxesBall />
             <div className="view-bottom">
                 <Aim />
+                <Measured />
                 <Isolation />
                 <Hint />
                 <div className="view-pills">
@@ -63,7 +66,7 @@ export function View() {
 function Picture() {
     const editor = useEditor();
     const place = useRef<HTMLDivElement>(null);
-    const aiming = useView((view) => view.aiming);
+    const aiming = useView((view) => view.aiming || view.measured !== null);
     const empty = useLink(({ frame }) => frame.state === "none");
     const { menu, open, close } = usePictureMenu();
     useEffect(() => {

@@ -15,7 +15,9 @@ export function watchHover(editor: Editor, element: HTMLElement): () => void {
     const options = { signal: listening.signal };
     let timer: ReturnType<typeof setTimeout> | undefined;
     let asked = 0;
+    let shown: string | null = null;
     const show = (node: string | null): void => {
+        shown = node;
         if (view.getState().hovered !== node) {
             view.setState({ hovered: node });
         }
@@ -31,7 +33,10 @@ export function watchHover(editor: Editor, element: HTMLElement): () => void {
     const leave = (): void => {
         clearTimeout(timer);
         asked++;
-        show(null);
+        /* React tells a row that the pointer enters it before this is told that it leaves. */
+        if (view.getState().hovered === shown) {
+            show(null);
+        }
     };
     element.addEventListener(
         "pointermove",

@@ -62,7 +62,23 @@ export function pointerActions(
             focusOn(editor, vectorOf(picked.position));
         }
     };
+    /* The third click begins anew. */
+    const measure = async (x: number, y: number): Promise<void> => {
+        const position = (await ask(x, y))?.position;
+        if (position) {
+            stores.view.setState(({ measured }) => ({
+                measured: measured && [
+                    ...(measured.length < 2 ? measured : []),
+                    vectorOf(position),
+                ],
+            }));
+        }
+    };
     const click = async (x: number, y: number, mode: SelectMode): Promise<void> => {
+        if (stores.view.getState().measured !== null) {
+            await measure(x, y);
+            return;
+        }
         if (stores.view.getState().aiming) {
             await aim(x, y);
             return;
