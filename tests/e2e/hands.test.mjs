@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, SCENE, settled } from './stage.mjs';
+import { closePage, documentWhen, field, nodeIn, openStage, picture, row, SCENE, settled, waitForSaved } from './stage.mjs';
 
 let stage;
 let page;
@@ -101,6 +101,33 @@ describe('the gizmo', () => {
         const steps = Math.hypot(...turned) / (Math.PI / 12);
         assert.ok(steps > 0.9, `${turned}`);
         assert.deepEqual(nodeIn(document, 'crate').transform.translation, [1.5, 0, 0]);
+    });
+
+    test('with Ctrl, a move is drawn to the middle of another shape, or goes in steps', async () => {
+        await open();
+        await select('crate');
+        await field(page, 'translation x').fill('1.537');
+        await page.keyboard.press('Enter');
+        await settled(page);
+        const crate = await place('move', null);
+        await select('ball');
+        const ball = await place('move', null);
+        const arrow = await place('move', 0);
+        const [dx, dy] = [crate.x - ball.x, crate.y - ball.y];
+        await page.keyboard.down('Control');
+        await drag(arrow, dx + 5, dy);
+        await when((d) => placeOf(d, 'ball')[0] !== -1.5, 'the move');
+        await waitForSaved(page);
+        assert.deepEqual(placeOf(JSON.parse(await stage.document(id)), 'ball'), [1.537, 0, 0]);
+        await page.keyboard.up('Control');
+        await page.keyboard.press('Control+z');
+        await when((d) => placeOf(d, 'ball')[0] === -1.5, 'the place before');
+        await page.keyboard.down('Control');
+        await drag(await place('move', 0), 0.6 * dx, 0.6 * dy);
+        await page.keyboard.up('Control');
+        const stepped = await when((d) => placeOf(d, 'ball')[0] > 0, 'the steps');
+        const [x] = placeOf(stepped, 'ball');
+        assert.ok(Math.abs(10 * x - Math.round(10 * x)) < 1e-9, `${x} is no step`);
     });
 
     test('Esc in a drag brings back what was, and leaves no step', async () => {

@@ -27,6 +27,7 @@ import {
 } from "../src/model/movables.ts";
 import { apply as applyOperations } from "../src/model/operations.ts";
 import { projectionOf } from "../src/model/projection.ts";
+import { snapTo, targetsOf } from "../src/model/snapping.ts";
 import {
     add,
     apply,
@@ -302,4 +303,51 @@ test("an arrow that points at the viewer cannot be held", () => {
     const parts = gizmoParts({ pivot: [0, 0, 0], frame: IDENTITY, projection }, "move");
     const axes = parts.filter(({ kind }) => kind === "arrow").map((part) => part.constraint.axis);
     expect(axes).toEqual([0, 1]);
+});
+
+test("a move that snaps is drawn to the middle of a shape, as far as its constraint goes", () => {
+    const camera = { ...DEFAULT_CAMERA, position: [0, 0, 10], target: [0, 0, 0], fov: 45 } as const;
+    const projection = projectionOf(camera, SIZE);
+    const grip = (axis: Axis | null, plane = false): Grip => ({
+        constraint: { motion: "move", axis, plane },
+        pivot: [0, 0, 0],
+        frame: IDENTITY,
+        projection,
+        from: { x: 450, y: 300 },
+    });
+    const targets = [
+        { name: "far", at: [4, 4, 0] as Vector },
+        { name: "near", at: [1.03, 0.02, -0.7] as Vector },
+    ];
+    const snapped = (axis: Axis | null, by: Vector, plane = false) =>
+        snapTo(grip(axis, plane), by, targets);
+    expect(snapped(null, [1, 0, 0])).toMatchObject({ target: { name: "near" } });
+    close(snapped(null, [1, 0, 0])?.by ?? [9, 9, 9], [1.03, 0.02, -0.7]);
+    close(snapped(0, [1, 0, 0])?.by ?? [9, 9, 9], [1.03, 0, 0]);
+    close(snapped(2, [1, 0, 0], true)?.by ?? [9, 9, 9], [1.03, 0.02, 0]);
+    /* Beside what is far along another axis. */
+    close(snapped(1, [0, 3.98, 0])?.by ?? [9, 9, 9], [0, 4, 0]);
+    expect(snapped(null, [1.5, 0, 0])).toBe(null);
+    expect(snapTo(grip(null), [1, 0, 0], [])).toBe(null);
+});
+
+test("what is drawn to is every shape that does not move along", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        root: {
+            id: "root",
+            type: "union",
+            transform: { translation: [1, 0, 0] },
+            children: [
+                { id: "a", type: "sphere", name: "A", transform: { translation: [0, 2, 0] } },
+                { id: "pair", type: "group", children: [{ id: "b", type: "sphere" }] },
+            ],
+        },
+    });
+    const names = (moved: string[]) => targetsOf(document, SCHEMA, moved).map(({ name }) => name);
+    expect(names([])).toEqual(["A", "b"]);
+    expect(names(["pair"])).toEqual(["A"]);
+    expect(names(["a"])).toEqual(["b"]);
+    expect(names(["root"])).toEqual([]);
+    close(targetsOf(document, SCHEMA, ["pair"])[0]?.at ?? [9, 9, 9], [1, 2, 0]);
 });

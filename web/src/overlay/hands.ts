@@ -7,10 +7,11 @@ import { type Axis, axisOf, type Motion } from "../model/grip.ts";
 import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
+import { type Target, targetsOf } from "../model/snapping.ts";
 import type { Stores } from "../model/stores.ts";
 import { add, scale } from "../model/transform.ts";
 import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
-import { colorOf, line, paintGizmo, paintHandles, paintLabel, stroke } from "./paint.ts";
+import { colorOf, line, paintGizmo, paintHandles, paintLabel, ringAt, stroke } from "./paint.ts";
 import type { Holding, Press } from "./pointer.ts";
 import { shownCamera } from "./shown.ts";
 
@@ -123,7 +124,11 @@ export class Hands {
         }
         const pivot = pivotOf(movables, mode);
         const step = this.#page.begin(STEP_NAMES[constraint.motion]);
-        this.#hold = new Hold({ movables, pivot, mode, space, projection, from, constraint, step });
+        const targets = (): readonly Target[] => this.#targets();
+        this.#hold = new Hold({
+            ...{ movables, pivot, mode, space, projection },
+            ...{ from, constraint, step, targets },
+        });
         this.#redraw();
     }
 
@@ -229,6 +234,13 @@ export class Hands {
         return document ? movablesOf(document, schema, selection, subject) : [];
     }
 
+    #targets(): readonly Target[] {
+        const { document, schema } = this.#page.stores.document.getState();
+        const { selection, subject } = this.#page.stores.view.getState();
+        const moved = subject.kind === "nodes" ? selection : [];
+        return document ? targetsOf(document, schema, moved) : [];
+    }
+
     #projection(): Projection | null {
         const camera = shownCamera(this.#page.stores);
         return camera && projectionOf(camera, this.#size);
@@ -323,6 +335,10 @@ export class Hands {
         const at = hold.delta?.motion === "move" ? add(pivot, hold.delta.by) : pivot;
         const parts = gizmoParts({ pivot: at, frame, projection }, constraint.motion);
         paintGizmo(brush, parts, constraint);
+        const target = hold.target && projection.spotOf(hold.target.at);
+        if (target) {
+            ringAt(brush, target);
+        }
         paintLabel(brush, hold.label, hold.pointer, this.#size.width);
         this.#tell(parts);
     }

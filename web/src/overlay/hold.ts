@@ -7,6 +7,7 @@ import type { Pivot, Space } from "../model/hands.ts";
 import { frameOf, type Movable, motionOps } from "../model/movables.ts";
 import type { Operation } from "../model/operation.ts";
 import type { Projection, Spot } from "../model/projection.ts";
+import { snapTo, type Target } from "../model/snapping.ts";
 import { length, type Matrix, type Vector } from "../model/transform.ts";
 import { fromShown, parseNumber, printNumber, toShown } from "../model/units.ts";
 
@@ -32,6 +33,8 @@ export interface HoldStart {
     readonly from: Spot;
     readonly constraint: Constraint;
     readonly step: Step;
+    /* What a move may be drawn to while it snaps. */
+    readonly targets: () => readonly Target[];
 }
 
 const FINE = 0.1;
@@ -49,6 +52,8 @@ export class Hold {
     #turned = 0;
     #typed = "";
     #delta: Delta | null = null;
+    #targets: readonly Target[] | null = null;
+    #target: Target | null = null;
 
     constructor(start: HoldStart) {
         this.#start = start;
@@ -81,6 +86,11 @@ export class Hold {
 
     get delta(): Delta | null {
         return this.#delta;
+    }
+
+    /* What it was drawn to. */
+    get target(): Target | null {
+        return this.#target;
     }
 
     to(spot: Spot, keys: HoldKeys): void {
@@ -135,10 +145,12 @@ export class Hold {
         const letters =
             axis === null ? "" : plane ? "XYZ".replace("XYZ"[axis] ?? "", "") : "XYZ"[axis];
         const amount = this.#typed === "" ? amountOf(this.#delta, this.grip) : `${this.#typed}▏`;
-        return [letters, amount].filter(Boolean).join(" ");
+        const target = this.#target ? `· ${this.#target.name}` : "";
+        return [letters, amount, target].filter(Boolean).join(" ");
     }
 
     #apply(): void {
+        this.#target = null;
         const delta = this.#typed === "" ? this.#byHand() : this.#byNumber();
         if (delta === null) {
             return;
@@ -155,7 +167,16 @@ export class Hold {
         const step = this.#keys.snap ? SNAP[this.#constraint.motion] : 0;
         const delta = deltaTo(this.grip, this.#hand, step, this.#turned);
         this.#turned = delta.motion === "turn" ? delta.angle : 0;
-        return delta;
+        return step > 0 && delta.motion === "move" ? this.#drawn(delta) : delta;
+    }
+
+    /* To the middle of another shape where that is near, else in steps. */
+    #drawn(stepped: Delta): Delta {
+        const free = deltaTo(this.grip, this.#hand, 0, 0);
+        this.#targets ??= this.#start.targets();
+        const snapped = free.motion === "move" ? snapTo(this.grip, free.by, this.#targets) : null;
+        this.#target = snapped?.target ?? null;
+        return snapped ? { motion: "move", by: snapped.by } : stepped;
     }
 
     /* Null while what was typed is no number yet. */

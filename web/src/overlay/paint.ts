@@ -54,6 +54,12 @@ export function dot(brush: Brush, at: Spot, radius: number, color: string): void
     fill(brush, color, () => brush.arc(at.x, at.y, radius, 0, 2 * Math.PI));
 }
 
+/* Around what something was drawn to. */
+export function ringAt(brush: Brush, { x, y }: Spot): void {
+    brush.globalAlpha = 1;
+    stroke(brush, HOT, 2, () => brush.arc(x, y, 9, 0, 2 * Math.PI));
+}
+
 /* --- parts of the gizmo --- */
 
 function arrowHead(brush: Brush, foot: Spot, tip: Spot): void {
