@@ -185,6 +185,7 @@ describe('two pages', () => {
 test('a dragged number changes its own field and nothing else of the page', async () => {
     const page = await open(await stage.scene());
     await row(page, 'ball').click();
+    await field(page, 'radius').hover();
     await settled(page);
     await page.evaluate(() => {
         window.touched = new Set();

@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import type { Frame } from "../src/link/decode.ts";
 import { decodeGuide } from "../src/link/guide.ts";
 import { type FrameHeader, packFrame, readPacket } from "../src/link/protocol.ts";
-import { type Guide, maskOf, nodeAt, nodesIn, shownGuide } from "../src/model/guide.ts";
+import { contourOf, type Guide, nodeAt, nodesIn, shownGuide } from "../src/model/guide.ts";
 import { IDLE_LINK, NO_FRAME } from "../src/model/stores.ts";
 import { random } from "./fixture.ts";
 
@@ -29,7 +29,13 @@ const HEADER: FrameHeader = {
 };
 
 /* As the server writes it, in parts of `size` bytes. */
-function frameOf(ids: readonly string[], indices: readonly number[], size = 1000): Frame {
+function frameOf(
+    ids: readonly string[],
+    indices: readonly number[],
+    size = 1000,
+    width = 6,
+    height = 4,
+): Frame {
     const names = ids.map((id) => Buffer.from(id));
     const head = Buffer.alloc(2);
     head.writeUInt16LE(ids.length);
@@ -46,7 +52,27 @@ function frameOf(ids: readonly string[], indices: readonly number[], size = 1000
     for (let at = 0; at < payload.length; at += size) {
         parts.push(Uint8Array.from(payload.subarray(at, at + size)));
     }
-    return { header: HEADER, parts, firstAt: 0, lastAt: 0 };
+    return { header: { ...HEADER, width, height }, parts, firstAt: 0, lastAt: 0 };
+}
+
+/* Segments as texts, their ends in order. */
+function pairs(segments: readonly number[]): string[] {
+    const texts: string[] = [];
+    for (let i = 0; i < segments.length; i += 4) {
+        const [a, b, c, d] = segments.slice(i, i + 4);
+        texts.push([`${a},${b}`, `${c},${d}`].sort().join(" "));
+    }
+    return texts.sort();
+}
+
+/* How many segments end at a point. */
+function endsOf(segments: readonly number[]): Map<string, number> {
+    const ends = new Map<string, number>();
+    for (let i = 0; i < segments.length; i += 2) {
+        const key = `${segments[i]},${segments[i + 1]}`;
+        ends.set(key, (ends.get(key) ?? 0) + 1);
+    }
+    return ends;
 }
 
 const INDICES = [
@@ -99,33 +125,44 @@ test("a rectangle names what is seen in it, each once", async () => {
     expect(nodesIn(guide, 3.5 / 6, 2.5 / 4, 7, 7)).toEqual(["Küche", "box"]);
 });
 
-test("a mask has the pixels of its nodes, in the smallest box", async () => {
-    const guide = await decodeGuide(frameOf(IDS, INDICES));
-    const mask = maskOf(guide, new Set(["ball", "nobody"]));
-    expect(mask).toMatchObject({ left: 1, top: 1, width: 2, height: 2 });
-    expect([3, 7, 11, 15].map((i) => mask?.pixels[i])).toEqual([255, 255, 255, 0]);
-    expect(maskOf(guide, new Set(["nobody"]))).toBe(null);
-    expect(maskOf(guide, new Set())).toBe(null);
+test("a contour goes around the pixels of its nodes", async () => {
+    const guide = await decodeGuide(frameOf(["a", "b", "c"], [0, 0, 0, 0, 1, 0, 0, 0, 0], 9, 3, 3));
+    const segments = contourOf(guide, new Set(["a", "nobody"]));
+    expect(pairs(segments)).toEqual(["1,1.5 1.5,1", "1,1.5 1.5,2", "1.5,1 2,1.5", "1.5,2 2,1.5"]);
+    expect(contourOf(guide, new Set(["b"]))).toEqual([]);
+    expect(contourOf(guide, new Set())).toEqual([]);
 });
 
-test("masks of random guides have the pixels that were asked for, and no others", () => {
+test("the border of the picture is no contour", async () => {
+    const guide = await decodeGuide(frameOf(["a"], [1, 1, 1, 1, 1, 1], 9, 3, 2));
+    expect(contourOf(guide, new Set(["a"]))).toEqual([]);
+});
+
+/* A line through the middles of pixels crosses the contour as often as it goes in or out. */
+test("contours of random guides part what is inside from what is not", () => {
     const next = random(5);
     for (let round = 0; round < 200; round++) {
-        const [width, height] = [1 + Math.floor(next() * 9), 1 + Math.floor(next() * 9)];
+        const [width, height] = [2 + Math.floor(next() * 9), 2 + Math.floor(next() * 9)];
         const indices = Uint16Array.from({ length: width * height }, () => Math.floor(next() * 4));
         const guide: Guide = { input: 1, revision: 1, width, height, ids: IDS, indices };
         const nodes = new Set(IDS.filter(() => next() < 0.5));
-        const mask = maskOf(guide, nodes);
-        const wanted = [...indices].map((index) => nodes.has(IDS[index - 1] ?? ""));
-        const seen = wanted.map((_, i) => {
-            const [x, y] = [
-                (i % width) - (mask?.left ?? 0),
-                Math.floor(i / width) - (mask?.top ?? 0),
-            ];
-            const inside = mask && x >= 0 && y >= 0 && x < mask.width && y < mask.height;
-            return inside ? mask.pixels[4 * (y * mask.width + x) + 3] === 255 : false;
-        });
-        expect(seen).toEqual(wanted);
+        const ends = endsOf(contourOf(guide, nodes));
+        const inside = (x: number, y: number): boolean =>
+            nodes.has(IDS[(indices[y * width + x] ?? 0) - 1] ?? "");
+        for (let y = 0; y < height; y++) {
+            for (let x = 0; x < width - 1; x++) {
+                const changes = inside(x, y) !== inside(x + 1, y);
+                const squares = Number(y > 0) + Number(y < height - 1);
+                expect(ends.get(`${x + 1},${y + 0.5}`) ?? 0).toBe(changes ? squares : 0);
+            }
+        }
+        for (let y = 0; y < height - 1; y++) {
+            for (let x = 0; x < width; x++) {
+                const changes = inside(x, y) !== inside(x, y + 1);
+                const squares = Number(x > 0) + Number(x < width - 1);
+                expect(ends.get(`${x + 0.5},${y + 1}`) ?? 0).toBe(changes ? squares : 0);
+            }
+        }
     }
 });
 

@@ -51,55 +51,61 @@ export function nodesIn(
     return [...new Set(guide.ids.filter((_, i) => seen.has(i + 1)))];
 }
 
-/* The pixels of some nodes: opaque in the smallest box around them, in pixels of the guide. */
-export interface Mask {
-    readonly left: number;
-    readonly top: number;
-    readonly width: number;
-    readonly height: number;
-    /* Red, green, blue, alpha. */
-    readonly pixels: Uint8ClampedArray<ArrayBuffer>;
-}
+/* Ends of the segment that separates the corners of a square of four pixels, by which of them are
+ * inside (1 left top, 2 right top, 4 right bottom, 8 left bottom); each end is the middle of a side:
+ * 0 top, 1 right, 2 bottom, 3 left. Opposite corners have two (marching squares; Lorensen and Cline,
+ * Marching Cubes, SIGGRAPH 1987, in the plane). */
+const SEGMENTS: readonly (readonly number[])[] = [
+    [],
+    [3, 0],
+    [0, 1],
+    [3, 1],
+    [1, 2],
+    [3, 0, 1, 2],
+    [0, 2],
+    [3, 2],
+    [2, 3],
+    [2, 0],
+    [0, 1, 2, 3],
+    [2, 1],
+    [1, 3],
+    [1, 0],
+    [0, 3],
+    [],
+];
+const SIDES = [
+    [0.5, 0],
+    [1, 0.5],
+    [0.5, 1],
+    [0, 0.5],
+] as const;
 
-interface Box {
-    left: number;
-    top: number;
-    right: number;
-    bottom: number;
-}
-
-function boxOf({ width, height, indices }: Guide, wanted: Uint8Array): Box {
-    const box = { left: width, top: height, right: -1, bottom: -1 };
-    for (let y = 0, i = 0; y < height; y++) {
-        for (let x = 0; x < width; x++, i++) {
-            if (wanted[indices[i] as number]) {
-                box.left = Math.min(box.left, x);
-                box.right = Math.max(box.right, x);
-                box.top = Math.min(box.top, y);
-                box.bottom = y;
-            }
+/* What separates the pixels of some nodes from all others: x, y, x, y of each segment, in pixels of
+ * the guide. The border of the picture separates nothing. */
+export function contourOf(guide: Guide, nodes: ReadonlySet<string>): readonly number[] {
+    const inside = Uint8Array.from([0, ...guide.ids.map((id) => Number(nodes.has(id)))]);
+    const segments: number[] = [];
+    if (!inside.includes(1)) {
+        return segments;
+    }
+    const { width, height, indices } = guide;
+    const at = (i: number): number => inside[indices[i] as number] as number;
+    for (let y = 0; y < height - 1; y++) {
+        let row = y * width;
+        let left = at(row) | (at(row + width) << 3);
+        for (let x = 0; x < width - 1; x++, row++) {
+            const right = (at(row + 1) << 1) | (at(row + width + 1) << 2);
+            addSegments(segments, SEGMENTS[left | right] as readonly number[], x + 0.5, y + 0.5);
+            left = ((right >> 1) & 1) | ((right << 1) & 8);
         }
     }
-    return box;
+    return segments;
 }
 
-/* Null: none of them is seen. */
-export function maskOf(guide: Guide, nodes: ReadonlySet<string>): Mask | null {
-    const wanted = Uint8Array.from([0, ...guide.ids.map((id) => Number(nodes.has(id)))]);
-    if (!wanted.includes(1)) {
-        return null;
+/* From the middle of the left top pixel. */
+function addSegments(to: number[], sides: readonly number[], x: number, y: number): void {
+    for (const side of sides) {
+        const [dx, dy] = SIDES[side] as readonly [number, number];
+        to.push(x + dx, y + dy);
     }
-    const { left, top, right, bottom } = boxOf(guide, wanted);
-    const [width, height] = [right - left + 1, bottom - top + 1];
-    if (width <= 0) {
-        return null;
-    }
-    const pixels = new Uint8ClampedArray(4 * width * height);
-    for (let y = 0, to = 3; y < height; y++) {
-        let from = (top + y) * guide.width + left;
-        for (let x = 0; x < width; x++, to += 4) {
-            pixels[to] = wanted[guide.indices[from++] as number] ? 255 : 0;
-        }
-    }
-    return { left, top, width, height, pixels };
 }

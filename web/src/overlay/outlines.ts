@@ -2,10 +2,10 @@
 /* Outlines of what is selected and of what is under the pointer, from the guide of the picture shown:
  * they are drawn while the picture rests, and cost the server nothing. */
 import { preorder } from "../model/document.ts";
-import { type Guide, type Mask, maskOf, shownGuide } from "../model/guide.ts";
+import { contourOf, type Guide, shownGuide } from "../model/guide.ts";
 import type { Stores } from "../model/stores.ts";
 import type { View } from "../model/view.ts";
-import type { Brush } from "./paint.ts";
+import { type Brush, stroke } from "./paint.ts";
 import { drawOver } from "./shown.ts";
 
 interface Look {
@@ -15,69 +15,23 @@ interface Look {
 }
 
 const SELECTED: Look = { color: "#ffb454", width: 2 };
-const HOVERED: Look = { color: "rgb(255 255 255 / 85%)", width: 1 };
-const HALO: Look = { color: "rgb(0 0 0 / 50%)", width: 1.25 };
-/* A mask that is drawn around itself in so many directions is one with a round edge. */
-const DIRECTIONS = 16;
-
-/* A canvas that nobody sees. */
-function sheet(width: number, height: number): { canvas: OffscreenCanvas; brush: Painter } | null {
-    const canvas = new OffscreenCanvas(Math.max(1, width), Math.max(1, height));
-    const brush = canvas.getContext("2d");
-    return brush && { canvas, brush };
-}
-type Painter = OffscreenCanvasRenderingContext2D;
-
-function stencilOf(mask: Mask): OffscreenCanvas | null {
-    const made = sheet(mask.width, mask.height);
-    made?.brush.putImageData(new ImageData(mask.pixels, mask.width, mask.height), 0, 0);
-    return made?.canvas ?? null;
-}
-
-/* Where a mask is on the canvas, in its pixels. */
-interface Place {
-    readonly x: number;
-    readonly y: number;
-    readonly width: number;
-    readonly height: number;
-}
-
-/* A band of a colour around the mask, none of it inside. */
-function band(brush: Painter, stencil: OffscreenCanvas, at: Place, color: string, wide: number) {
-    brush.globalCompositeOperation = "source-over";
-    for (let i = 0; i < DIRECTIONS; i++) {
-        const angle = (2 * Math.PI * i) / DIRECTIONS;
-        const [dx, dy] = [wide * Math.cos(angle), wide * Math.sin(angle)];
-        brush.drawImage(stencil, at.x + dx, at.y + dy, at.width, at.height);
-    }
-    brush.globalCompositeOperation = "source-in";
-    brush.fillStyle = color;
-    brush.fillRect(0, 0, brush.canvas.width, brush.canvas.height);
-    brush.globalCompositeOperation = "destination-out";
-    brush.drawImage(stencil, at.x, at.y, at.width, at.height);
-}
+const HOVERED: Look = { color: "#fff", width: 1.25 };
 
 function outline(brush: Brush, guide: Guide, nodes: ReadonlySet<string>, look: Look): void {
-    const mask = maskOf(guide, nodes);
-    const stencil = mask && stencilOf(mask);
-    if (!mask || !stencil) {
-        return;
-    }
-    const { width, height } = brush.canvas;
-    const [sx, sy] = [width / guide.width, height / guide.height];
+    const segments = contourOf(guide, nodes);
     const ratio = window.devicePixelRatio;
-    const margin = Math.ceil((look.width + HALO.width) * ratio) + 1;
-    const at = { x: margin, y: margin, width: mask.width * sx, height: mask.height * sy };
-    for (const [color, wide] of [
-        [HALO.color, look.width + HALO.width],
-        [look.color, look.width],
-    ] as const) {
-        const made = sheet(Math.ceil(at.width) + 2 * margin, Math.ceil(at.height) + 2 * margin);
-        if (made) {
-            band(made.brush, stencil, at, color, wide * ratio);
-            brush.drawImage(made.canvas, mask.left * sx - margin, mask.top * sy - margin);
+    const scale = [
+        brush.canvas.width / ratio / guide.width,
+        brush.canvas.height / ratio / guide.height,
+    ] as const;
+    brush.setTransform(ratio, 0, 0, ratio, 0, 0);
+    stroke(brush, look.color, look.width, () => {
+        for (let i = 0; i < segments.length; i += 2) {
+            const x = (segments[i] as number) * scale[0];
+            const y = (segments[i + 1] as number) * scale[1];
+            brush[i % 4 === 0 ? "moveTo" : "lineTo"](x, y);
         }
-    }
+    });
 }
 
 /* What is drawn, so that nothing is drawn twice. */

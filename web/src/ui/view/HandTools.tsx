@@ -41,7 +41,7 @@ export function HandTools() {
                 align="start"
                 trigger={
                     <button type="button" className="pill" aria-label={t("hands.settings")}>
-                        <span>{t(`hands.space.${space}`)}</span>
+                        <span className="hand-tools-space">{t(`hands.space.${space}`)}</span>
                         {snap && <span className="hand-tools-snap">0.1</span>}
                         <ChevronDown size={13} aria-hidden="true" />
                     </button>
