@@ -7,8 +7,10 @@
 #include <microhttpd.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/epoll.h>
 #include <unistd.h>
 
@@ -26,34 +28,38 @@
 
 enum { BODY_PATIENCE = 3 }; /* times the limit that are read before the connection is cut */
 
-/* A header's value without the white space behind it. */
-struct trimmed {
-    struct trimmed *next;
-    char text[];
+/* A header; the value is without the white space behind it. */
+struct header {
+    struct header *next;
+    const char *value; /* in `name`, behind it */
+    char name[];
 };
 
-/* One request and its reply. Lives from the request line to libmicrohttpd's completed callback. */
+/* One request and its reply. Lives from the request line to libmicrohttpd's completed callback, and
+ * where that comes first, until it is replied and not handled any more. */
 struct exchange {
     struct request request; /* first: handlers know only this */
     struct http *http;
     struct MHD_Connection *connection;
     const struct route *route;
     char *target;
-    bool begun, counted; /* admitted; among http->pending */
-    bool handled;        /* was given to its handler */
+    char method[24];                       /* cut off where it is none of ours */
+    struct header *headers, **headers_end; /* copies, in their order */
+    bool begun, counted;                   /* admitted; among http->pending */
+    bool handled;                          /* was given to its handler */
     struct body body;
     size_t body_bytes; /* seen, kept or not */
     int64_t deadline;
     struct MHD_Response *response; /* under http->lock until replied */
     int status;
-    bool replied;   /* under http->lock, as the next two */
+    bool replied;   /* under http->lock, as the next three */
     bool handling;  /* a thread of the tasks has it */
     bool suspended; /* until it is replied and not handled any more */
+    bool completed; /* `connection` is gone */
     void (*gone)(void *data);
     void *gone_data;
     struct presence presence; /* while there is a `gone` */
     int64_t started_us;
-    struct trimmed *trimmed;
 };
 
 struct http {
@@ -130,11 +136,42 @@ static void unwatch(struct exchange *exchange)
     }
 }
 
-/* Under the lock. A handler may use the request until it returns. */
-static void resume_if_ready(struct exchange *exchange)
+static void exchange_destroy(struct exchange *exchange)
 {
-    if (exchange->replied && exchange->suspended && !exchange->handling) {
+    if (exchange->response) {
+        MHD_destroy_response(exchange->response);
+    }
+    body_finish(&exchange->body);
+    request_finish(&exchange->request);
+    while (exchange->headers) {
+        struct header *next = exchange->headers->next;
+
+        free(exchange->headers);
+        exchange->headers = next;
+    }
+    free(exchange->target);
+    free(exchange);
+}
+
+/* Who still has it replies or returns: under the lock. */
+static bool is_in_hands(const struct exchange *exchange)
+{
+    return exchange->handling || (exchange->handled && !exchange->replied);
+}
+
+/* After a reply, or the return of a handler, which may use the request until then. Unlocks. The
+ * library may complete a request at any time in which its connection is not suspended. */
+static void settle(struct exchange *exchange)
+{
+    struct http *http = exchange->http;
+    const bool over = exchange->completed && !is_in_hands(exchange);
+
+    if (exchange->replied && exchange->suspended && !exchange->handling && !exchange->completed) {
         MHD_resume_connection(exchange->connection);
+    }
+    pthread_mutex_unlock(&http->lock);
+    if (over) {
+        exchange_destroy(exchange);
     }
 }
 
@@ -149,22 +186,23 @@ void request_reply(struct request *request, const struct response *response)
     exchange->status = response->status;
     exchange->replied = true;
     unwatch(exchange);
-    resume_if_ready(exchange);
-    pthread_mutex_unlock(&http->lock);
+    settle(exchange);
 }
 
 void request_on_gone(struct request *request, void (*gone)(void *data), void *data)
 {
     struct exchange *exchange = (struct exchange *)request;
-    const union MHD_ConnectionInfo *info =
-        MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
 
     pthread_mutex_lock(&exchange->http->lock);
-    exchange->presence.fd = info->connect_fd;
-    if (!exchange->replied &&
-        presence_watch(exchange->http->gone_epoll, &exchange->presence, exchange)) {
-        exchange->gone = gone;
-        exchange->gone_data = data;
+    if (!exchange->replied && !exchange->completed) {
+        const union MHD_ConnectionInfo *info =
+            MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+
+        exchange->presence.fd = info->connect_fd;
+        if (presence_watch(exchange->http->gone_epoll, &exchange->presence, exchange)) {
+            exchange->gone = gone;
+            exchange->gone_data = data;
+        }
     }
     pthread_mutex_unlock(&exchange->http->lock);
 }
@@ -174,11 +212,14 @@ int http_gone_fd(const struct http *http)
     return http->gone_epoll;
 }
 
-/* The hub's lock keeps the exchanges alive: those with a `gone` are answered under it only. */
+/* The hub's lock keeps what is behind `gone` alive: such requests are answered under it only. */
 void http_check_gone(struct http *http)
 {
     struct epoll_event events[16];
-    struct exchange *gone[16];
+    struct {
+        void (*call)(void *data);
+        void *data;
+    } gone[16];
     int count = 0;
 
     http->app.lock(http->app.hub);
@@ -189,12 +230,13 @@ void http_check_gone(struct http *http)
 
         if (exchange->gone &&
             presence_has_left(http->gone_epoll, &exchange->presence, events[i].events, exchange)) {
-            gone[count++] = exchange;
+            gone[count].call = exchange->gone;
+            gone[count++].data = exchange->gone_data;
         }
     }
     pthread_mutex_unlock(&http->lock);
     for (int i = 0; i < count; i++) {
-        gone[i]->gone(gone[i]->gone_data);
+        gone[i].call(gone[i].data);
     }
     http->app.unlock(http->app.hub);
 }
@@ -202,23 +244,34 @@ void http_check_gone(struct http *http)
 /* --- libmicrohttpd's callbacks --- */
 
 /* White space around a value is no part of it (RFC 9110, 5.5). The library cuts it off in front. */
-static const char *find_header(const struct request *request, const char *name)
+static enum MHD_Result add_header(void *data, enum MHD_ValueKind kind, const char *name,
+                                  const char *value)
 {
-    struct exchange *exchange = (struct exchange *)request;
-    const char *value = MHD_lookup_connection_value(exchange->connection, MHD_HEADER_KIND, name);
+    struct exchange *exchange = data;
+    const size_t name_bytes = strlen(name) + 1;
     size_t length = value ? strlen(value) : 0;
 
+    (void)kind;
     while (length && (value[length - 1] == ' ' || value[length - 1] == '\t')) {
         length--;
     }
-    if (!value || !value[length]) {
-        return value;
+    struct header *header = memory_alloc(1, sizeof *header + name_bytes + length + 1);
+    memcpy(header->name, name, name_bytes);
+    memcpy(header->name + name_bytes, value ? value : "", length);
+    header->value = header->name + name_bytes;
+    *exchange->headers_end = header;
+    exchange->headers_end = &header->next;
+    return MHD_YES;
+}
+
+static const char *find_header(const struct request *request, const char *name)
+{
+    const struct header *header = ((const struct exchange *)request)->headers;
+
+    while (header && strcasecmp(header->name, name) != 0) {
+        header = header->next;
     }
-    struct trimmed *trimmed = memory_alloc(1, sizeof *trimmed + length + 1);
-    memcpy(trimmed->text, value, length);
-    trimmed->next = exchange->trimmed;
-    exchange->trimmed = trimmed;
-    return trimmed->text;
+    return header ? header->value : NULL;
 }
 
 /* "": not known. */
@@ -243,6 +296,7 @@ static void *on_target(void *data, const char *target, struct MHD_Connection *co
 
     exchange->http = http;
     exchange->connection = connection;
+    exchange->headers_end = &exchange->headers;
     exchange->target = target ? memory_text(target) : NULL;
     exchange->body.bodies = &http->bodies;
     exchange->request.hub = http->app.hub;
@@ -330,8 +384,7 @@ static void run_handler(void *data, bool dropped)
     }
     pthread_mutex_lock(&http->lock);
     exchange->handling = false;
-    resume_if_ready(exchange);
-    pthread_mutex_unlock(&http->lock);
+    settle(exchange);
 }
 
 static void hand_over(struct exchange *exchange)
@@ -421,7 +474,9 @@ static enum MHD_Result on_access(void *data, struct MHD_Connection *connection, 
     (void)url;
     if (!exchange->begun) {
         exchange->begun = true;
-        exchange->request.method = method;
+        snprintf(exchange->method, sizeof exchange->method, "%s", method);
+        exchange->request.method = exchange->method;
+        MHD_get_connection_values(connection, MHD_HEADER_KIND, add_header, exchange);
         exchange->presence.reads_interim = strcmp(version, MHD_HTTP_VERSION_1_1) == 0;
         exchange->deadline = clock_ms() + HTTP_BODY_MS;
         return begin(exchange, version);
@@ -456,20 +511,11 @@ static void on_completed(void *data, struct MHD_Connection *connection, void **c
     if (exchange->counted) {
         atomic_fetch_sub(&exchange->http->pending, 1);
     }
-    if (exchange->response) {
-        MHD_destroy_response(exchange->response);
-    }
-    body_finish(&exchange->body);
-    request_finish(&exchange->request);
-    while (exchange->trimmed) {
-        struct trimmed *next = exchange->trimmed->next;
-
-        free(exchange->trimmed);
-        exchange->trimmed = next;
-    }
-    free(exchange->target);
-    free(exchange);
     *connection_data = NULL;
+    pthread_mutex_lock(&exchange->http->lock);
+    unwatch(exchange);
+    exchange->completed = true;
+    settle(exchange);
 }
 
 static void on_connection(void *data, struct MHD_Connection *connection, void **socket_data,
