@@ -94,6 +94,7 @@ test('steps have a legend, in the colours of the scale', async () => {
     await page.keyboard.press('Control+k');
     await page.getByRole('combobox').fill('show steps');
     await page.keyboard.press('Enter');
+    await page.getByRole('combobox').waitFor({ state: 'detached' }); // else it takes the next key
     await legend.getByText(/64/).waitFor();
     const { scale } = schema.outputs.find(({ name }) => name === 'steps');
     assert.equal(scale.greatest, 64);
