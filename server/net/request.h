@@ -63,8 +63,8 @@ void request_reply(struct request *request, const struct response *response);
 void request_reply_error(struct request *request, const struct error *err);
 /* Takes `json`. */
 void request_reply_json(struct request *request, int status, cJSON *json);
-/* `gone` is called under the hub's lock when the client leaves before the answer. Such requests
- * have to be answered under the hub's lock. */
+/* `gone` is called under the hub's lock when the client leaves before the answer, unless its
+ * connection has ended by now. Such requests have to be answered under the hub's lock. */
 void request_on_gone(struct request *request, void (*gone)(void *data), void *data);
 
 void response_add(struct response *response, const char *name, const char *format, ...)

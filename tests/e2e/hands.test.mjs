@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, field, nodeIn, openStage, picture, row, SCENE, settled, waitForSaved } from './stage.mjs';
+import { closePage, documentWhen, field, nodeIn, openStage, picture, row, SCENE, settled } from './stage.mjs';
 
 let stage;
 let page;
@@ -116,9 +116,7 @@ describe('the gizmo', () => {
         const [dx, dy] = [crate.x - ball.x, crate.y - ball.y];
         await page.keyboard.down('Control');
         await drag(arrow, dx + 5, dy);
-        await when((d) => placeOf(d, 'ball')[0] !== -1.5, 'the move');
-        await waitForSaved(page);
-        assert.deepEqual(placeOf(JSON.parse(await stage.document(id)), 'ball'), [1.537, 0, 0]);
+        await when((d) => placeOf(d, 'ball').join() === '1.537,0,0', 'the middle of the crate');
         await page.keyboard.up('Control');
         await page.keyboard.press('Control+z');
         await when((d) => placeOf(d, 'ball')[0] === -1.5, 'the place before');

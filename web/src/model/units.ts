@@ -150,6 +150,13 @@ export function printNumber(x: number): string {
     return String(tidy(x));
 }
 
+const SHORT_DIGITS = 4;
+
+/* For people, beside a picture. */
+export function shortNumber(x: number): string {
+    return printNumber(Number(x.toPrecision(SHORT_DIGITS)));
+}
+
 /* --- units --- */
 
 const DEGREE = Math.PI / 180;

@@ -9,7 +9,7 @@ import type { Operation } from "../model/operation.ts";
 import type { Projection, Spot } from "../model/projection.ts";
 import { snapTo, type Target } from "../model/snapping.ts";
 import { length, type Matrix, type Vector } from "../model/transform.ts";
-import { fromShown, parseNumber, printNumber, toShown } from "../model/units.ts";
+import { fromShown, parseNumber, shortNumber, toShown } from "../model/units.ts";
 
 /* What the link offers for one undo step. */
 export interface Step {
@@ -188,22 +188,21 @@ export class Hold {
     }
 }
 
-const SHOWN_DIGITS = 4;
-const short = (x: number): string => printNumber(Number(x.toPrecision(SHOWN_DIGITS)));
-
 function amountOf(delta: Delta | null, { constraint, frame }: Grip): string {
     switch (delta?.motion) {
         case "move": {
             const { axis, plane } = constraint;
             if (axis === null || plane) {
-                return short(length(delta.by));
+                return shortNumber(length(delta.by));
             }
-            return short(frame.reduce((sum, row, i) => sum + row[axis] * (delta.by[i] ?? 0), 0));
+            return shortNumber(
+                frame.reduce((sum, row, i) => sum + row[axis] * (delta.by[i] ?? 0), 0),
+            );
         }
         case "turn":
-            return `${short(toShown(delta.angle, "angle"))}°`;
+            return `${shortNumber(toShown(delta.angle, "angle"))}°`;
         case "scale":
-            return `× ${short(delta.factors.find((factor) => factor !== 1) ?? 1)}`;
+            return `× ${shortNumber(delta.factors.find((factor) => factor !== 1) ?? 1)}`;
         default:
             return "";
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Outlines of what is selected and of what is under the pointer, from the guide of the picture shown:
- * they are drawn while the picture rests, and cost the server nothing. */
+/* Outlines of what is selected and of what is under the pointer, while the picture
+ * rests: its guide tells where they are, without a question. */
 import { preorder } from "../model/document.ts";
 import { contourOf, type Guide, shownGuide } from "../model/guide.ts";
 import type { Stores } from "../model/stores.ts";
@@ -33,6 +33,12 @@ function outline(brush: Brush, guide: Guide, nodes: ReadonlySet<string>, look: L
         }
     });
 }
+
+interface Sets {
+    readonly selected: ReadonlySet<string>;
+    readonly hovered: ReadonlySet<string>;
+}
+const NOTHING: Sets = { selected: new Set(), hovered: new Set() };
 
 /* What is drawn, so that nothing is drawn twice. */
 interface Drawn {
@@ -73,7 +79,7 @@ export class Outlines {
     }
 
     /* Leaves below what is selected, and below what is hovered unless that is selected too. */
-    #sets(): { selected: ReadonlySet<string>; hovered: ReadonlySet<string> } {
+    #sets(): Sets {
         const { document } = this.#stores.document.getState();
         const { selection, hovered, preferences, chromeHidden } = this.#stores.view.getState();
         const below = (id: string): readonly string[] =>
@@ -90,7 +96,7 @@ export class Outlines {
         const height = Math.max(1, Math.round(element.clientHeight * ratio));
         const guide = shownGuide(this.#stores.link.getState());
         this.#canvas.dataset.guide = guide ? "shown" : "";
-        const { selected, hovered } = this.#sets();
+        const { selected, hovered } = guide ? this.#sets() : NOTHING;
         const next: Drawn = {
             guide: selected.size + hovered.size > 0 ? guide : null,
             selected: [...selected].join(" "),

@@ -52,8 +52,8 @@ export function whenGuide(stores: Stores, take: (guide: Guide) => void): void {
     ];
 }
 
-/* Runs `draw` now, and in the next animation frame after the picture, its guide, the camera or the document has
- * changed. Answers the function that ends it. */
+/* Runs `draw` now, and in the next animation frame after the picture, its guide, the camera or the
+ * document has changed. Answers the function that ends it. */
 export function drawOver(stores: Stores, draw: () => void): () => void {
     let asked = 0;
     const ask = (): void => {

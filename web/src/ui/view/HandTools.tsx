@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the gizmo does, which way its axes point, and whether it goes in steps. */
-import { ChevronDown, Move3d, Rotate3d, Ruler as RulerIcon, Scale3d } from "lucide-react";
+import { ChevronDown, type LucideIcon, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
 import { changeHands } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { MOTIONS } from "../../model/grip.ts";
@@ -15,28 +15,25 @@ import "./view.css";
 const ICONS = { move: Move3d, turn: Rotate3d, scale: Scale3d };
 
 export function HandTools() {
-    const editor = useEditor();
     const { tool, space, snap } = useView((view) => view.preferences.hands);
+    const measuring = useView((view) => view.measured !== null);
     return (
         <div className="glass hand-tools" role="toolbar" aria-label={t("hands.tools")}>
-            {MOTIONS.map((motion) => {
-                const Icon = ICONS[motion];
-                const command = commandById(`hands.tool.${motion}`);
-                return (
-                    <Tip key={motion} text={t(`hands.${motion}`)} keys={keyText(command?.keys[0])}>
-                        <button
-                            type="button"
-                            className="pill"
-                            aria-label={t(`hands.${motion}`)}
-                            aria-pressed={tool === motion}
-                            onClick={() => command && runCommand(editor, command)}
-                        >
-                            <Icon size={16} aria-hidden="true" />
-                        </button>
-                    </Tip>
-                );
-            })}
-            <Ruler />
+            {MOTIONS.map((motion) => (
+                <Tool
+                    key={motion}
+                    command={`hands.tool.${motion}`}
+                    text={t(`hands.${motion}`)}
+                    pressed={tool === motion}
+                    Icon={ICONS[motion]}
+                />
+            ))}
+            <Tool
+                command="view.measure"
+                text={t("measure.title")}
+                pressed={measuring}
+                Icon={Ruler}
+            />
             <Menu
                 align="start"
                 trigger={
@@ -53,20 +50,26 @@ export function HandTools() {
     );
 }
 
-function Ruler() {
+interface ToolProps {
+    command: string;
+    text: string;
+    pressed: boolean;
+    Icon: LucideIcon;
+}
+
+function Tool({ command: id, text, pressed, Icon }: ToolProps) {
     const editor = useEditor();
-    const measuring = useView((view) => view.measured !== null);
-    const command = commandById("view.measure");
+    const command = commandById(id);
     return (
-        <Tip text={t("measure.title")}>
+        <Tip text={text} keys={keyText(command?.keys[0])}>
             <button
                 type="button"
                 className="pill"
-                aria-label={t("measure.title")}
-                aria-pressed={measuring}
+                aria-label={text}
+                aria-pressed={pressed}
                 onClick={() => command && runCommand(editor, command)}
             >
-                <RulerIcon size={16} aria-hidden="true" />
+                <Icon size={16} aria-hidden="true" />
             </button>
         </Tip>
     );

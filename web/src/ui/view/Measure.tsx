@@ -5,7 +5,7 @@ import { useEffect, useRef } from "react";
 import { projectionOf } from "../../model/projection.ts";
 import type { Stores } from "../../model/stores.ts";
 import { length, subtract, type Vector } from "../../model/transform.ts";
-import { printNumber } from "../../model/units.ts";
+import { shortNumber } from "../../model/units.ts";
 import { drawOver, shownCamera } from "../../overlay/shown.ts";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -29,15 +29,13 @@ export function Measured() {
     );
 }
 
-const figure = (x: number): string => printNumber(Number(x.toPrecision(4)));
-
 function Figures({ by }: { by: Vector }) {
     return (
         <>
-            <strong>{figure(length(by))}</strong>
+            <strong>{shortNumber(length(by))}</strong>
             {["x", "y", "z"].map((axis, i) => (
                 <span key={axis} data-axis={axis}>
-                    {axis} {figure(by[i] ?? 0)}
+                    {axis} {shortNumber(by[i] ?? 0)}
                 </span>
             ))}
         </>
