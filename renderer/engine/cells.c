@@ -182,7 +182,7 @@ static vb choose_space(struct lanes *c, vb m, int lane)
 /* `through`: of the lanes that ask. */
 static void cell_split(struct lanes *c, int32_t index, float through)
 {
-    struct machine v;
+    struct machine *const v = c->machine;
     const vf asked = c->through_0;
     const int32_t children = (int32_t)c->cells->count;
     const struct cell parent = c->cells->at[index];
@@ -208,13 +208,13 @@ static void cell_split(struct lanes *c, int32_t index, float through)
                 centre[i][k] = c->cells->at[children + first + (k & 7)].centre[i];
             }
         }
-        machine_of(&v, c, vb_all(true), centre);
-        v.drops = c->cells->drops + c->cells->at[index].drops;
-        v.child = first;
-        v.radius = LOOSE * half * 1.7320508f;
-        run(&v, c->cells->tapes + parent.tape, parent.count);
+        machine_of(v, c, vb_all(true), centre);
+        v->drops = c->cells->drops + c->cells->at[index].drops;
+        v->child = first;
+        v->radius = LOOSE * half * 1.7320508f;
+        run(v, c->cells->tapes + parent.tape, parent.count);
         for (int k = 0; k < LANES && first + k < 8; k++) {
-            c->cells->at[children + first + k].distance = v.d[0][k];
+            c->cells->at[children + first + k].distance = v->d[0][k];
         }
     }
     c->through_0 = asked;
@@ -246,21 +246,6 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
         cell->splits = is_worth_splitting(c, cell);
     }
     return cell;
-}
-
-static uint32_t lanes_count(vb m)
-{
-    int count = 0;
-    for (int i = 0; i < LANES; i++) {
-        count -= m[i];
-    }
-    return (uint32_t)count;
-}
-
-/* What its tape takes for each of these lanes. */
-static float cell_cost(const struct cell *cell, vb held)
-{
-    return (float)(cell->count + CELL_RUN) / (float)lanes_count(held);
 }
 
 /* The child, of a cube that splits, that a lane is in. */
@@ -298,15 +283,17 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
     }
     held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
     int32_t best = at;
-    float least = cell_cost(cell_ready(c, at), held);
+    /* What a tape takes, and how many lanes share it, of the best. */
+    uint64_t least = cell_ready(c, at)->count + CELL_RUN, sharing = lanes_count(held);
     *out_lanes = held;
     while (cells->at[at].splits) {
         at = child_at(c, at, p, lane);
         held = cell_lanes(&cells->at[at], held, p);
-        const float cost = cell_cost(cell_ready(c, at), held);
-        if (cost <= least) {
+        const uint64_t takes = cell_ready(c, at)->count + CELL_RUN, lanes = lanes_count(held);
+        if (takes * sharing <= least * lanes) {
             best = at;
-            least = cost;
+            least = takes;
+            sharing = lanes;
             *out_lanes = held;
         }
     }

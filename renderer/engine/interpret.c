@@ -25,6 +25,7 @@ struct open {
     vf first[3], last[3], cell[3], left;
 };
 
+/* A thread has one (c->machine): to make its room again for each run took longer than short runs. */
 struct machine {
     struct lanes *c;
     vb m;
@@ -40,6 +41,7 @@ struct machine {
     int child;
     struct open open[OPEN_MAX];
     int depth;
+    vf room[FIELD_SLOTS_MAX][MIXTURE]; /* for mixtures */
 };
 
 static void place(const float *n, const vf p[3], vf out[3])
@@ -275,13 +277,13 @@ static struct machine *machine_of(struct machine *v, struct lanes *c, vb m, cons
 
 static vf spmd_map(struct lanes *c, vb m, const vf *p)
 {
-    struct machine v;
+    struct machine *const v = c->machine;
     vf d = vf_zero;
     while (lanes_any(m)) {
         vb held;
         const struct cell *cell = cell_at(c, m, p, lanes_first(m), &held);
-        run(machine_of(&v, c, held, p), c->cells->tapes + cell->tape, cell->count);
-        d = vf_select(held, v.d[0], d);
+        run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
+        d = vf_select(held, v->d[0], d);
         m &= ~held;
     }
     return d;
@@ -291,22 +293,18 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
 
 static int nearest_lane(vb m, vf way)
 {
-    int nearest = lanes_first(m);
-    for (int i = nearest + 1; i < LANES; i++) {
-        nearest = m[i] && way[i] < way[nearest] ? i : nearest;
-    }
-    return nearest;
+    return lanes_first(m & ~(way > lanes_least(vf_select(m, way, vf_all(WAITING)))));
 }
 
 /* One cube's: of the ray that is least far. Others wait until it is where they are, and share its
  * tapes from there. */
 static vf turn(struct lanes *c, vb m, const vf *p, vf way, vf d)
 {
-    struct machine v;
+    struct machine *const v = c->machine;
     vb held;
     const struct cell *cell = cell_at(c, m, p, nearest_lane(m, way), &held);
-    run(machine_of(&v, c, held, p), c->cells->tapes + cell->tape, cell->count);
-    return vf_select(held, v.d[0], d);
+    run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
+    return vf_select(held, v->d[0], d);
 }
 
 static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf way, bool exact)
@@ -339,16 +337,15 @@ static vb spmd_field_waits(struct lanes *c, vb m, vf d)
 
 static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *out)
 {
-    struct machine v;
-    vf mixtures[FIELD_SLOTS_MAX][MIXTURE], whole[MIXTURE] = {0};
+    struct machine *const v = c->machine;
+    vf whole[MIXTURE] = {0};
     vb left = m;
     while (lanes_any(left)) {
         vb held;
         const struct cell *cell = cell_at(c, left, p, lanes_first(left), &held);
-        machine_of(&v, c, held, p);
-        v.mixtures = mixtures;
-        run(&v, c->cells->tapes + cell->tape, cell->count);
-        select_all(held, mixtures[0], whole, MIXTURE);
+        machine_of(v, c, held, p)->mixtures = v->room;
+        run(v, c->cells->tapes + cell->tape, cell->count);
+        select_all(held, v->room[0], whole, MIXTURE);
         left &= ~held;
     }
     spmd_paint(c, m, whole, at, out);

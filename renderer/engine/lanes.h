@@ -170,11 +170,24 @@ LANES_INLINE uint32_t lanes_bits(vb m)
 /* The first that is on; the last where none is. */
 LANES_INLINE int lanes_first(vb m)
 {
-    int lane = 0;
-    while (lane < LANES - 1 && !m[lane]) {
-        lane++;
+    return __builtin_ctz(lanes_bits(m) | 1u << (LANES - 1));
+}
+LANES_INLINE uint32_t lanes_count(vb m)
+{
+    return (uint32_t)__builtin_popcount(lanes_bits(m));
+}
+/* The least of them; any where some are no numbers. */
+LANES_INLINE float lanes_least(vf x)
+{
+#if defined __AVX512F__ && LANES == 16
+    return _mm512_reduce_min_ps((__m512)x);
+#else
+    float least = x[0];
+    for (int i = 1; i < LANES; i++) {
+        least = x[i] < least ? x[i] : least;
     }
-    return lane;
+    return least;
+#endif
 }
 
 LANES_INLINE vf vf_ceil(vf x)

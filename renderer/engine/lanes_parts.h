@@ -141,6 +141,7 @@ extern const struct engine_width engine_16, engine_8, engine_4;
 const struct engine_width *engine_widest(void);
 
 struct lanes;
+struct machine;
 struct scene_block {
     int material_base, material_stride;
 };
@@ -157,6 +158,7 @@ struct dispatch_block {
     const float *numbers, *own;                                                                    \
     struct lanes_tile tile;                                                                        \
     struct cells *spaces, *cells;                                                                  \
+    struct machine *machine;                                                                       \
     vf **frames;
 
 #ifdef LANES

@@ -16,13 +16,20 @@ struct crew {
     cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
 };
 
+/* For vectors. */
+static void *aligned_room(size_t bytes)
+{
+    void *room = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    if (!room) {
+        abort();
+    }
+    return room;
+}
+
 static struct hand *hand_create(struct crew *crew)
 {
     const struct engine_picture *picture = &crew->canvas->picture;
-    struct hand *hand = aligned_alloc(64, (sizeof *hand + 63) / 64 * 64);
-    if (!hand) {
-        abort();
-    }
+    struct hand *hand = aligned_room(sizeof *hand);
     memset(hand, 0, sizeof *hand);
     hand->canvas = crew->canvas;
     hand->work = crew->work;
@@ -37,6 +44,7 @@ static struct hand *hand_create(struct crew *crew)
     c->numbers = picture->numbers;
     c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
     c->frames = frames_create(c->program);
+    c->machine = aligned_room(sizeof *c->machine);
     c->spaces = crew->canvas->cells[atomic_fetch_add(&crew->next_thread, 1)];
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
@@ -49,6 +57,7 @@ static struct hand *hand_create(struct crew *crew)
 static void hand_destroy(struct hand *hand)
 {
     frames_destroy(hand->lanes.program, hand->lanes.frames);
+    free(hand->lanes.machine);
     free(hand);
 }
 
