@@ -2,7 +2,7 @@
 /* Space in cubes, each with a tape: the operations that matter within it. A cube's tape is made of
  * its parent's when a ray comes there; all eight of a parent at once, a lane for each. What a tape
  * leaves out changes no bit of the field in the cube, so cubes may be any, and each thread has its
- * own. */
+ * own. Cubes are those of a grid, by whose whole numbers they are found. */
 
 #define LOOSE 1.1f            /* of its half: the points of a vector need not be in one cube */
 #define CELL_PIXELS 4         /* half of the smallest, in footprints */
@@ -13,6 +13,7 @@
 #define TAPES_LIMIT (1 << 24) /* or words of tapes, all are made anew */
 #define BOUND_NEAR 2          /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96         /* operations that take longer than more steps by a bound */
+#define GRID_BITS 24          /* of the root's side: as many as a float has */
 
 static struct cell *cell_add(struct cells *cells)
 {
@@ -32,7 +33,7 @@ static void tape_room(struct cells *cells, size_t count)
 }
 
 /* The index of so many, 0. */
-static size_t drops_add(struct cells *cells, size_t count)
+static uint32_t drops_add(struct cells *cells, size_t count)
 {
     const size_t at = cells->drops_used;
     if (cells->drops_room - at < count) {
@@ -41,10 +42,22 @@ static size_t drops_add(struct cells *cells, size_t count)
     }
     memset(cells->drops + at, 0, count * sizeof *cells->drops);
     cells->drops_used += count;
-    return at;
+    return (uint32_t)at;
 }
 
-/* The root holds all that rays reach: their last step may lead as far again as they go. */
+/* All that rays reach: their last step may lead as far again as they go. A power of two, so that
+ * the cubes' middles are exact. */
+static float root_half(const struct frame_block *frame)
+{
+    float reach = frame->max_distance;
+    int exponent;
+    for (int i = 0; i < 3; i++) {
+        reach = f_max(reach, 2.0f * fabsf(frame->eye[i]));
+    }
+    frexpf(4.0f * reach, &exponent);
+    return ldexpf(1.0f, exponent);
+}
+
 static void cells_begin(struct lanes *c)
 {
     struct cells *cells = c->cells;
@@ -58,19 +71,13 @@ static void cells_begin(struct lanes *c)
         cells->tapes[cells->used++] = (uint32_t)i;
     }
     struct cell *root = cell_add(cells);
-    *root = (struct cell){.half = c->frame->max_distance,
+    *root = (struct cell){.bits = GRID_BITS,
+                          .half = root_half(c->frame),
                           .count = (uint32_t)c->program->count,
                           .parent = -1,
                           .made = true,
                           .splits = c->program->count > CELL_SHORT};
-    for (int i = 0; i < 3; i++) {
-        root->half = f_max(root->half, 2.0f * fabsf(c->frame->eye[i]));
-    }
-    root->half *= 4.0f;
-    for (int i = 0; i < 3; i++) {
-        root->low[i] = -root->half;
-        root->high[i] = root->half;
-    }
+    cells->grid = (float)(1 << (GRID_BITS - 1)) / root->half;
 }
 
 /* Where they are too many they are made anew. Not while one of them is used. */
@@ -91,23 +98,37 @@ static vb cell_lanes(const struct cell *cell, vb m, const vf *p)
            (vf_abs(p[1] - cell->centre[1]) <= reach) & (vf_abs(p[2] - cell->centre[2]) <= reach);
 }
 
-/* Each point is in one child of its cube. */
-static vb cell_holds(const struct cell *cell, vb m, const vf *p)
+/* Points on the grid; `in`: those that the root has. Each is in one child of its cube. */
+struct spots {
+    vi at[3];
+    vb in;
+};
+
+static struct spots spots_of(const struct cells *cells, const vf *p)
 {
+    struct spots s = {.in = vb_all(true)};
     for (int i = 0; i < 3; i++) {
-        m &= (p[i] > cell->low[i]) & (p[i] <= cell->high[i]);
+        const vf at = vf_floor(p[i] * cells->grid) + (float)(1 << (GRID_BITS - 1));
+        const vb in = (at >= 0.0f) & (at < (float)(1 << GRID_BITS));
+        s.at[i] = vi_of_f(vf_select(in, at, vf_zero));
+        s.in &= in;
     }
-    return m;
+    return s;
 }
 
-static bool cell_has(const struct cell *cell, const vf *p, int lane)
+/* Those that are in the cube. */
+static vb cell_holds(const struct cell *cell, vb m, const struct spots *s)
 {
-    for (int i = 0; i < 3; i++) {
-        if (!(p[i][lane] > cell->low[i] && p[i][lane] <= cell->high[i])) {
-            return false;
-        }
-    }
-    return true;
+    const vi apart =
+        (s->at[0] ^ cell->corner[0]) | (s->at[1] ^ cell->corner[1]) | (s->at[2] ^ cell->corner[2]);
+    return m & s->in & (apart < 1 << cell->bits);
+}
+
+static bool cell_has(const struct cell *cell, const struct spots *s, int lane)
+{
+    const int apart = (s->at[0][lane] ^ cell->corner[0]) | (s->at[1][lane] ^ cell->corner[1]) |
+                      (s->at[2][lane] ^ cell->corner[2]);
+    return apart < 1 << cell->bits;
 }
 
 /* The tape of one child, from behind: only what a result is made of. */
@@ -187,17 +208,20 @@ static void cell_split(struct lanes *c, int32_t index, float through)
     const int32_t children = (int32_t)c->cells->count;
     const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
+    const uint8_t bits = parent.bits - 1;
     c->cells->at[index].children = children;
     c->cells->at[index].drops = drops_add(c->cells, parent.count);
     for (int k = 0; k < 8; k++) {
         struct cell *child = cell_add(c->cells);
-        *child = (struct cell){
-            .half = half, .tape = parent.tape, .count = parent.count, .parent = index};
+        *child = (struct cell){.bits = bits,
+                               .half = half,
+                               .tape = parent.tape,
+                               .count = parent.count,
+                               .parent = index};
         for (int i = 0; i < 3; i++) {
             const bool upper = k >> i & 1;
             child->centre[i] = parent.centre[i] + (upper ? half : -half);
-            child->low[i] = upper ? parent.centre[i] : parent.low[i];
-            child->high[i] = upper ? parent.high[i] : parent.centre[i];
+            child->corner[i] = parent.corner[i] + (upper << bits);
         }
     }
     c->through_0 = vf_all(through);
@@ -224,7 +248,7 @@ static void cell_split(struct lanes *c, int32_t index, float through)
 static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
 {
     float square = 0;
-    if (cell->count <= CELL_SHORT) {
+    if (cell->count <= CELL_SHORT || cell->bits == 0) {
         return false;
     }
     for (int i = 0; i < 3; i++) {
@@ -249,17 +273,25 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
 }
 
 /* The child, of a cube that splits, that a lane is in. */
-static int32_t child_at(struct lanes *c, int32_t at, const vf *p, int lane)
+static int32_t child_at(struct lanes *c, int32_t at, const struct spots *s, int lane)
 {
     if (!c->cells->at[at].children) {
         cell_split(c, at, c->through_0[lane]);
     }
     const struct cell *cell = &c->cells->at[at];
-    int number = 0;
-    for (int i = 0; i < 3; i++) {
-        number += (p[i][lane] > cell->centre[i]) << i;
+    const int bit = cell->bits - 1;
+    return cell->children + ((s->at[0][lane] >> bit & 1) | (s->at[1][lane] >> bit & 1) << 1 |
+                             (s->at[2][lane] >> bit & 1) << 2);
+}
+
+/* The smallest cube around the last one that a lane is in. */
+static int32_t cell_around(const struct cells *cells, const struct spots *s, int lane)
+{
+    int32_t at = s->in[lane] ? cells->last : 0;
+    while (at > 0 && !cell_has(&cells->at[at], s, lane)) {
+        at = cells->at[at].parent;
     }
-    return cell->children + number;
+    return at;
 }
 
 /* A cube for one of these lanes, and those that it holds: of the cubes around that lane, the one
@@ -268,26 +300,20 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
 {
     m = choose_space(c, m, lane);
     struct cells *cells = c->cells;
-    int32_t at = cells->last;
-    vb held = cell_lanes(&cells->at[at], m, p);
-    const struct cell *last = cell_ready(c, at);
-    if (!lanes_any(m & ~held) &&
-        ((last->count <= BOUND_TAPE && !cell_has(last, p, lane)) || !last->splits)) {
+    vb held = cell_lanes(&cells->at[cells->last], m, p);
+    const struct cell *last = cell_ready(c, cells->last);
+    if (!lanes_any(m & ~held) && !last->splits) {
         *out_lanes = held;
         return last;
     }
-    /* The cube that the lane is in without what is around it, so that it is in one of its
-     * children as well. */
-    while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
-        at = cells->at[at].parent;
-    }
+    const struct spots spots = spots_of(cells, p);
+    int32_t at = cell_around(cells, &spots, lane), best = at;
     held = at > 0 ? cell_lanes(&cells->at[at], m, p) : m;
-    int32_t best = at;
     /* What a tape takes, and how many lanes share it, of the best. */
     uint64_t least = cell_ready(c, at)->count + CELL_RUN, sharing = lanes_count(held);
     *out_lanes = held;
-    while (cells->at[at].splits) {
-        at = child_at(c, at, p, lane);
+    while (cells->at[at].splits && spots.in[lane]) {
+        at = child_at(c, at, &spots, lane);
         held = cell_lanes(&cells->at[at], held, p);
         const uint64_t takes = cell_ready(c, at)->count + CELL_RUN, lanes = lanes_count(held);
         if (takes * sharing <= least * lanes) {
@@ -328,19 +354,15 @@ static vf cell_bound(const struct cell *cell, const vf *p)
 
 /* The largest cube that bounds the field at a lane's point, or else the smallest that it is in.
  * Which one it is depends on the point alone, so pictures do not depend on cubes. */
-static const struct cell *bound_at(struct lanes *c, const vf *p, int lane)
+static const struct cell *bound_at(struct lanes *c, const struct spots *s, int lane)
 {
     struct cells *cells = c->cells;
-    int32_t at = cells->last;
-    while (at > 0 && !cell_has(&cells->at[at], p, lane)) {
-        at = cells->at[at].parent;
-    }
+    int32_t at = cell_around(cells, s, lane);
     while (at > 0 && cell_is_far(&cells->at[cells->at[at].parent])) {
         at = cells->at[at].parent;
     }
-    while ((at > 0 || cell_has(&cells->at[at], p, lane)) && !cell_bounds(cells, &cells->at[at]) &&
-           cell_ready(c, at)->splits) {
-        at = child_at(c, at, p, lane);
+    while (s->in[lane] && !cell_bounds(cells, &cells->at[at]) && cell_ready(c, at)->splits) {
+        at = child_at(c, at, s, lane);
     }
     cells->last = at;
     return &cells->at[at];

@@ -314,12 +314,12 @@ static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf way, bool exac
         return spmd_map(c, m, p);
     }
     vb ask = exact ? vb_zero : m;
+    const struct spots spots = spots_of(&c->spaces[0], p); /* the same in all spaces */
     while (lanes_any(ask)) {
         const int first = lanes_first(ask);
         const vb same = choose_space(c, ask, first);
-        const struct cell *cell = bound_at(c, p, first);
-        vb held = cell_holds(cell, same, p);
-        held[first] = -1; /* also where its place is no number */
+        const struct cell *cell = bound_at(c, &spots, first);
+        const vb held = cell_holds(cell, same, &spots) | (lanes_number == first);
         if (cell_bounds(c->cells, cell)) {
             d = vf_select(held, cell_bound(cell, p), d);
             m &= ~held;

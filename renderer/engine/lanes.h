@@ -26,6 +26,19 @@ static const vi vi_zero __attribute__((unused)) = {0};
 static const vu vu_zero __attribute__((unused)) = {0};
 static const vb vb_zero __attribute__((unused)) = {0};
 
+/* Of each lane, its number. */
+static const vi lanes_number __attribute__((unused)) = {
+#if LANES >= 4
+    0, 1, 2,  3,
+#endif
+#if LANES >= 8
+    4, 5, 6,  7,
+#endif
+#if LANES >= 16
+    8, 9, 10, 11, 12, 13, 14, 15,
+#endif
+};
+
 LANES_INLINE vf vf_all(float x)
 {
     return vf_zero + x;

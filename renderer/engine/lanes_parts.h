@@ -30,17 +30,19 @@ enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
 
 /* A cube, and what of the program matters in it. */
 struct cell {
-    float centre[3], half;    /* the tape holds for LOOSE times this */
-    float low[3], high[3];    /* what is in it is above, and not above */
-    float distance;           /* of the field in its centre */
-    uint32_t tape, count;     /* among the tapes */
-    int32_t parent, children; /* the first of eight; 0: not made yet */
-    size_t drops;             /* what its children's tapes leave out, for each word of its own */
+    int32_t corner[3];        /* its least coordinates, in units of the grid */
+    uint8_t bits;             /* its side is 2 to so many of these */
     bool made;                /* its tape; else it is its parent's */
     bool splits;              /* smaller ones are worth it; of one with a tape */
+    int32_t parent, children; /* the first of eight; 0: not made yet */
+    float distance;           /* of the field in its centre */
+    float centre[3], half;    /* the tape holds for LOOSE times this */
+    uint32_t tape, count;     /* among the tapes */
+    uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
 };
 
 struct cells {
+    float grid; /* units of the grid in one of length, a power of two */
     struct cell *at;
     size_t count, capacity;
     uint32_t *tapes;
