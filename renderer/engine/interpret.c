@@ -25,7 +25,8 @@ struct open {
     vf first[3], last[3], cell[3], left;
 };
 
-/* A thread has one (c->machine): to make its room again for each run took longer than short runs. */
+/* A thread has one, as large as the deepest field needs: to make room for each run took longer than
+ * short runs. */
 struct machine {
     struct lanes *c;
     vb m;
