@@ -143,7 +143,7 @@ $(OUT)/generated/engine.i: $(spmd) $(engine_glsl)
 	$(Q)$(spmd) text $(engine_glsl) | grep -v '^#line' >$@.glsl
 	$(Q)$(CC) -E -P -x c $@.glsl -o $@
 
-$(OUT)/generated/spmd.c $(OUT)/generated/spmd.h &: $(OUT)/generated/engine.i
+$(OUT)/generated/spmd.c $(OUT)/generated/spmd.h &: $(OUT)/generated/engine.i $(OUT)/spmd-names
 	$(Q)$(spmd) c $< $(spmd_entries) >$(OUT)/generated/spmd.c
 	$(Q)$(spmd) h $< $(spmd_entries) >$(OUT)/generated/spmd.h
 
@@ -177,6 +177,7 @@ $(eval $(call stamp,flags,$$(compile)))
 $(eval $(call stamp,link-flags,$$(link) $$(packages_libs) $$(objects)))
 $(eval $(call stamp,glsl-names,$$(glsl)))
 $(eval $(call stamp,embedded-names,$$(page) $$(examples)))
+$(eval $(call stamp,spmd-names,$$(spmd_entries)))
 
 # --- the page ---
 
