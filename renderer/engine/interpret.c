@@ -45,6 +45,16 @@ struct machine {
     vf room[FIELD_SLOTS_MAX][MIXTURE]; /* for mixtures */
 };
 
+/* For vectors. */
+static void *aligned_room(size_t bytes)
+{
+    void *room = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    if (!room) {
+        abort();
+    }
+    return room;
+}
+
 static void place(const float *n, const vf p[3], vf out[3])
 {
     for (int i = 0; i < 3; i++, n += 4) {

@@ -28,9 +28,7 @@ static const vb vb_zero __attribute__((unused)) = {0};
 
 /* Of each lane, its number. */
 static const vi lanes_number __attribute__((unused)) = {
-#if LANES >= 4
     0, 1, 2,  3,
-#endif
 #if LANES >= 8
     4, 5, 6,  7,
 #endif

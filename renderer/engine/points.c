@@ -12,13 +12,13 @@ static void distances(const struct engine_program *program, const float *numbers
                       .dispatch = &no_dispatch,
                       .scene = &scene,
                       .numbers = numbers,
-                      .frames = frames_create(program)};
+                      .frames = frames_create(program),
+                      .machine = aligned_room(sizeof *c.machine)};
     uint32_t *const tape = memory_alloc(program->count, sizeof *tape);
     for (size_t i = 0; i < program->count; i++) {
         tape[i] = (uint32_t)i;
     }
     for (size_t first = 0; first < count; first += LANES) {
-        struct machine v;
         vf p[3];
         for (int lane = 0; lane < LANES; lane++) {
             const size_t at = first + (size_t)lane < count ? first + (size_t)lane : count - 1;
@@ -26,11 +26,12 @@ static void distances(const struct engine_program *program, const float *numbers
                 p[i][lane] = points[at][i];
             }
         }
-        run(machine_of(&v, &c, vb_all(true), p), tape, program->count);
+        run(machine_of(c.machine, &c, vb_all(true), p), tape, program->count);
         for (int lane = 0; lane < LANES && first + (size_t)lane < count; lane++) {
-            out[first + (size_t)lane] = v.d[0][lane];
+            out[first + (size_t)lane] = c.machine->d[0][lane];
         }
     }
     free(tape);
+    free(c.machine);
     frames_destroy(program, c.frames);
 }

@@ -22,7 +22,7 @@ static void make_level(struct lanes *c, struct engine_sky *sky, int level, sky_t
     const vf size[2] = {(vf)vi_all(width), (vf)vi_all(height)};
     uint16_t *to = sky->texels[level];
     for (int first = 0; first < width * height; first += LANES) {
-        const vi at = first + count_up();
+        const vi at = first + lanes_number;
         const vf here[2] = {(vf)(at % width), (vf)(at / width)};
         vf color[3];
         texel(c, at < width * height, here, size, level, color);

@@ -16,16 +16,6 @@ struct crew {
     cpu_set_t anywhere, elsewhere; /* processors: this process's; all but that of the caller */
 };
 
-/* For vectors. */
-static void *aligned_room(size_t bytes)
-{
-    void *room = aligned_alloc(64, (bytes + 63) / 64 * 64);
-    if (!room) {
-        abort();
-    }
-    return room;
-}
-
 static struct hand *hand_create(struct crew *crew)
 {
     const struct engine_picture *picture = &crew->canvas->picture;

@@ -23,15 +23,6 @@ struct hand {
     uint64_t rays; /* that followed others */
 };
 
-static vi count_up(void)
-{
-    vi lane = vi_zero;
-    for (int i = 0; i < LANES; i++) {
-        lane[i] = i;
-    }
-    return lane;
-}
-
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */
 static vi block_of(const struct hand *hand, vi x, vi y)
 {
@@ -42,9 +33,8 @@ static vi block_of(const struct hand *hand, vi x, vi y)
 
 static void find_starts(struct hand *hand)
 {
-    const vi lane = count_up();
     for (int i = 0; i < BLOCKS * BLOCKS; i += LANES) {
-        const vi at = i + lane;
+        const vi at = i + lanes_number;
         const vf block[2] = {(vf)(at % BLOCKS + (hand->left >> BLOCK_BITS)),
                              (vf)(at / BLOCKS + (hand->top >> BLOCK_BITS))};
         const vf start = spmd_block_start(&hand->lanes, at < BLOCKS * BLOCKS, block);
@@ -136,10 +126,9 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
 
 static void add_to_all(struct hand *hand, int index)
 {
-    const vi lane = count_up();
     for (int y = 0; y < hand->height; y += LANES / ACROSS) {
         for (int x = 0; x < hand->width; x += ACROSS) {
-            const vi left = x + lane % ACROSS, top = y + lane / ACROSS;
+            const vi left = x + lanes_number % ACROSS, top = y + lanes_number / ACROSS;
             add_sample(hand, (left < hand->width) & (top < hand->height), left, top, index);
         }
     }
@@ -147,24 +136,22 @@ static void add_to_all(struct hand *hand, int index)
 
 static void add_to_listed(struct hand *hand, int index)
 {
-    const vi lane = count_up();
     for (int i = 0; i < hand->listed_count; i += LANES) {
         vi at = vi_zero;
         for (int k = 0; k < LANES && i + k < hand->listed_count; k++) {
             at[k] = hand->listed[i + k];
         }
-        add_sample(hand, i + lane < hand->listed_count, at % SIDE, at / SIDE, index);
+        add_sample(hand, i + lanes_number < hand->listed_count, at % SIDE, at / SIDE, index);
     }
 }
 
 /* Pixels that are worth more samples, of those that had one. */
 static void list_edges(struct hand *hand)
 {
-    const vi lane = count_up();
     hand->listed_count = 0;
     for (int y = 1; y < hand->height - 1; y++) {
         for (int x = 1; x < hand->width - 1; x += LANES) {
-            const vi left = x + lane;
+            const vi left = x + lanes_number;
             const vb m = left < hand->width - 1;
             const vf here[2] = {(vf)vi_select(m, left, vi_all(1)), (vf)vi_all(y)};
             const vb edge = m & spmd_is_edge(&hand->lanes, m, here);
@@ -215,13 +202,12 @@ static void list_again(struct hand *hand, int samples)
 
 static void write_light(struct hand *hand, const struct engine_output *output)
 {
-    const vi lane = count_up();
     const bool blend = hand->canvas->picture.smoothing == ENGINE_BLEND;
     const int right = hand->width - hand->margin;
     for (int y = hand->margin; y < hand->height - hand->margin; y++) {
         for (int x = hand->margin; x < right; x += LANES) {
-            const vb m = x + lane < right;
-            const vi column = vi_select(m, x + lane, vi_all(x));
+            const vb m = x + lanes_number < right;
+            const vi column = vi_select(m, x + lanes_number, vi_all(x));
             const vf here[2] = {(vf)column, (vf)vi_all(y)};
             const vf pixel[2] = {(vf)(column + hand->left), (vf)vi_all(y + hand->top)};
             vf light[4], color[4];
