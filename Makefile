@@ -86,7 +86,8 @@ object = $(patsubst $(S)/%.c,$(OUT)/%.o,$(1))
 main := $(OUT)/server/main.o
 glsl := $(sort $(wildcard $(S)/renderer/glsl/*.glsl))
 examples := $(sort $(wildcard $(S)/protocol/examples/*.json $(S)/protocol/examples/*.jpg \
-                               $(S)/protocol/examples/assets/* $(S)/protocol/reference/*.jpg))
+                               $(S)/protocol/examples/assets/* $(S)/protocol/reference/*.jpg \
+                               $(S)/server/cli/*.html))
 page := $(sort $(shell find $(S)/web/dist -type f ! -name .built 2>/dev/null))
 # What is embedded: C by deploy/embed.sh, for renderer/glsl/files.h and server/embedded.h.
 embedded := $(if $(wildcard $(S)/renderer/glsl/files.h),$(OUT)/generated/glsl.o) \

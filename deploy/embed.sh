@@ -6,7 +6,8 @@
 #   embed.sh glsl FILE...          glsl_files[] of renderer/glsl/files.h
 #   embed.sh embedded SOURCE WORK  page_table[] (SOURCE/web/dist), examples_table[] and
 #                                  cards_table[] (SOURCE/protocol/examples), example_files_table[]
-#                                  (SOURCE/protocol/examples/assets), references_table[]
+#                                  (SOURCE/protocol/examples/assets), templates_table[]
+#                                  (SOURCE/server/cli), references_table[]
 #                                  (SOURCE/protocol/reference) of embedded.h; WORK takes the
 #                                  compressed files. Without web/dist the page's table is empty
 set -eu
@@ -107,6 +108,7 @@ embedded() {
     files "$1/protocol/examples" json | LC_ALL=C sort | table examples example_
     digests "$1/protocol/examples/assets" | LC_ALL=C sort | table example_files example_file_
     files "$1/protocol/examples" jpg | LC_ALL=C sort | table cards card_
+    files "$1/server/cli" html | LC_ALL=C sort | table templates template_
     files "$1/protocol/reference" jpg | LC_ALL=C sort | table references reference_
 }
 

@@ -120,6 +120,12 @@ const char *renderer_pass_name(size_t pass);
  * NULL and `err` where the scene cannot be drawn. */
 char *renderer_shader(const struct scene *scene, size_t pass, struct error *err);
 
+/* A picture of a scene as one fragment shader of WebGL 2 (GLSL ES 3.00), which needs no more than
+ * its text: uniforms `resolution` and `orbit` (glsl/webgl_pass.glsl). `level`: enum quality_level,
+ * -1: the scene's. A picture of the environment is left out. Any thread, no renderer. Caller frees;
+ * NULL and `err` where the scene cannot be drawn. */
+char *renderer_webgl(const struct scene *scene, int level, struct error *err);
+
 /* --- scenes --- */
 
 /* Takes `scene`. Compiling starts in the background. */

@@ -34,6 +34,11 @@ const struct embedded *cards_find(const char *id)
     return find(cards_table, cards_count, id);
 }
 
+const struct embedded *templates_find(const char *name)
+{
+    return find(templates_table, templates_count, name);
+}
+
 const struct embedded *references_find(const char *type)
 {
     return find(references_table, references_count, type);

@@ -30,6 +30,11 @@ extern const size_t cards_count;
 extern const struct embedded example_files_table[];
 extern const size_t example_files_count;
 
+/* Pages that commands write, from the .html files of server/cli: path is the file name without
+ * ".html". Text that ends with a NUL. */
+extern const struct embedded templates_table[];
+extern const size_t templates_count;
+
 /* Pictures of the node types, from protocol/reference: path is the type. */
 extern const struct embedded references_table[];
 extern const size_t references_count;
@@ -39,6 +44,7 @@ const struct embedded *page_find(const char *path);
 const struct embedded *examples_find(const char *id);
 const struct embedded *example_files_find(const char *id);
 const struct embedded *cards_find(const char *id);
+const struct embedded *templates_find(const char *name);
 const struct embedded *references_find(const char *type);
 
 #endif

@@ -216,14 +216,16 @@ void frame_set_scene(struct frame_block *block, const struct scene *scene,
 
 void frame_set_camera(struct frame_block *block, const struct camera *camera, int width, int height)
 {
-    set3(block->eye, camera->eye, 1);
-    set3(block->forward, camera->forward, 1);
-    set3(block->right, camera->right, 1);
-    set3(block->up, camera->up, 1);
-    block->orthographic = camera->orthographic;
-    block->pixel_radius = (float)camera->pixel_radius;
-    block->lens_radius = (float)camera->lens;
-    block->focus_distance = (float)camera->focus;
-    block->size[0] = width;
-    block->size[1] = height;
+    struct frame_camera *out = &block->camera;
+
+    set3(out->eye, camera->eye, 1);
+    set3(out->forward, camera->forward, 1);
+    set3(out->right, camera->right, 1);
+    set3(out->up, camera->up, 1);
+    out->orthographic = camera->orthographic;
+    out->pixel_radius = (float)camera->pixel_radius;
+    out->lens_radius = (float)camera->lens;
+    out->focus_distance = (float)camera->focus;
+    out->size[0] = width;
+    out->size[1] = height;
 }

@@ -94,8 +94,8 @@ static void set_samples(struct draw_plan *plan, struct frame_block *block,
     plan->antialiasing = choose_antialiasing(render, q, level, n);
     plan->samples = plan->antialiasing > ANTIALIASING_EDGES ? n * n : 1;
     if (q->lens_samples == 0) {
-        block->lens_radius = 0; /* no lens */
-    } else if (block->lens_radius > 0) {
+        block->camera.lens_radius = 0; /* no lens */
+    } else if (block->camera.lens_radius > 0) {
         plan->antialiasing = ANTIALIASING_FULL;
         plan->samples = plan->samples > q->lens_samples ? plan->samples : q->lens_samples;
     }

@@ -156,8 +156,8 @@ static bool has_mirrors(const struct field *field)
 }
 
 /* `limit_loops`: the driver ends long ones. */
-static struct frame_extent extent_of(const struct field *field, const struct record *camera,
-                                     bool limit_loops)
+struct frame_extent snapshot_extent(const struct field *field, const struct record *camera,
+                                    bool limit_loops)
 {
     struct frame_extent extent = {.scale = scene_scale(camera),
                                   .clear = field->clear,
@@ -323,7 +323,7 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent =
-        extent_of(field, &scene->camera, renderer->info.software && !snapshot->engine);
+        snapshot_extent(field, &scene->camera, renderer->info.software && !snapshot->engine);
     look_around(renderer, snapshot, scene);
     return snapshot;
 }

@@ -45,6 +45,9 @@ struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct
                                          uint64_t revision, const struct snapshot *before,
                                          struct upload *upload, uint64_t *out_refused,
                                          struct error *err);
+/* What a field says of where it is. `limit_loops`: as of struct frame_extent. */
+struct frame_extent snapshot_extent(const struct field *field, const struct record *camera,
+                                    bool limit_loops);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* Of its program, of users' code, and of the picture that its environment is made of. */
 enum program_state snapshot_state(const struct snapshot *snapshot);

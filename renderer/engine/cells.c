@@ -52,7 +52,7 @@ static float root_half(const struct frame_block *frame)
     float reach = frame->max_distance;
     int exponent;
     for (int i = 0; i < 3; i++) {
-        reach = f_max(reach, 2.0f * fabsf(frame->eye[i]));
+        reach = f_max(reach, 2.0f * fabsf(frame->camera.eye[i]));
     }
     frexpf(4.0f * reach, &exponent);
     return ldexpf(1.0f, exponent);
@@ -252,11 +252,12 @@ static bool is_worth_splitting(const struct lanes *c, const struct cell *cell)
         return false;
     }
     for (int i = 0; i < 3; i++) {
-        const float way = cell->centre[i] - c->frame->eye[i];
+        const float way = cell->centre[i] - c->frame->camera.eye[i];
         square += way * way;
     }
     const float way = f_max(sqrtf(square) - 1.7320508f * cell->half, 0.0f);
-    const float print = c->frame->pixel_radius * (c->frame->orthographic ? 1.0f : way);
+    const float print =
+        c->frame->camera.pixel_radius * (c->frame->camera.orthographic ? 1.0f : way);
     return cell->half > f_max(2.0f * CELL_PIXELS * print, CELL_NEAR * fabsf(cell->distance));
 }
 

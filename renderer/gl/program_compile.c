@@ -104,7 +104,7 @@ static void warm_up(const struct program_cache *cache, const struct warm_targets
 {
     const struct gl *gl = cache->gl;
     const struct frame_block block = {
-        .size = {1, 1}, .max_steps = 1, .bounds_max = {1, 1, 1}, .max_distance = 1};
+        .camera.size = {1, 1}, .max_steps = 1, .bounds_max = {1, 1, 1}, .max_distance = 1};
     struct numbers numbers;
     GLuint frame = 0;
 

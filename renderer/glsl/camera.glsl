@@ -8,12 +8,12 @@
 /* The pinhole's ray through a place of the picture, in pixels from its left top. */
 Ray camera_ray(vec2 at)
 {
-    vec2 place = at / vec2(frame.size);
-    vec3 aside = frame.right * (2.0 * place.x - 1.0) + frame.up * (1.0 - 2.0 * place.y);
-    if (frame.orthographic != 0) {
-        return Ray(frame.eye + aside, frame.forward, 0.0, false, 0.0);
+    vec2 place = at / vec2(camera.size);
+    vec3 aside = camera.right * (2.0 * place.x - 1.0) + camera.up * (1.0 - 2.0 * place.y);
+    if (camera.orthographic != 0) {
+        return Ray(camera.eye + aside, camera.forward, 0.0, false, 0.0);
     }
-    return Ray(frame.eye, normalize(frame.forward + aside), 0.0, false, 0.0);
+    return Ray(camera.eye, normalize(camera.forward + aside), 0.0, false, 0.0);
 }
 
 /* Radius of a block's cone in footprints, which are half a pixel: from the block's middle to its
@@ -56,11 +56,11 @@ vec2 lens_place(ivec2 pixel, int i, int count)
 Ray camera_sample(ivec2 pixel, int i)
 {
     Ray ray = camera_ray(vec2(pixel) + sample_place(i));
-    if (frame.lens_radius > 0.0) {
-        float way = frame.focus_distance / dot(ray.direction, frame.forward);
+    if (camera.lens_radius > 0.0) {
+        float way = camera.focus_distance / dot(ray.direction, camera.forward);
         vec3 sharp = ray.origin + ray.direction * way;
-        vec2 lens = frame.lens_radius * lens_place(pixel, i, frame.samples);
-        ray.origin += normalize(frame.right) * lens.x + normalize(frame.up) * lens.y;
+        vec2 lens = camera.lens_radius * lens_place(pixel, i, frame.samples);
+        ray.origin += normalize(camera.right) * lens.x + normalize(camera.up) * lens.y;
         ray.direction = normalize(sharp - ray.origin);
     }
     return ray;

@@ -14,7 +14,7 @@ float edge_between(ivec2 here, ivec2 there, vec4 g)
     bool a = g.w < INFINITY, b = h.w < INFINITY;
     float bent = (1.0 - dot(g.xyz, h.xyz)) / 0.08;
     float slope = max(-dot(g.xyz, camera_ray(vec2(dispatch.origin + here) + 0.5).direction), 0.05);
-    float radius = frame.pixel_radius * (frame.orthographic != 0 ? 1.0 : g.w);
+    float radius = camera.pixel_radius * (camera.orthographic != 0 ? 1.0 : g.w);
     float apart = abs(h.w - g.w) * slope / (6.0 * radius);
     return a && b ? max(bent, apart) : a == b ? 0.0 : 2.0;
 }

@@ -1,51 +1,74 @@
 /* SPDX-License-Identifier: MIT */
 #include "interface.h"
 
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "protocol/picture.h"
 
 #define CONSTANT(name, ...) {#name, name},
 #define MEMBER(type, name) "    " #type " " #name ";\n"
 #define ARG(name) "    int " #name ";\n"
 
-/* clang-format off */
-static const struct {
+struct constant {
     const char *name;
     int value;
-} constants[] = {
+};
+
+/* clang-format off */
+static const struct constant kinds[] = {
     SKY_KINDS(CONSTANT) SHADOW_KINDS(CONSTANT) DENSITY_KINDS(CONSTANT) TONE_MAPS(CONSTANT)
     LIGHT_KINDS(CONSTANT) VOLUME_KINDS(CONSTANT) SURFACE_MODELS(CONSTANT) FRAME_EFFECTS(CONSTANT)
     PASS_MODES(CONSTANT) CLEAR_PHASES(CONSTANT) OUTPUTS(CONSTANT)
+    CONSTANT(BLOCK_BITS) CONSTANT(BLOCK_SIDE) CONSTANT(STACK_DEPTH) CONSTANT(MIRROR_LEVELS)
+    CONSTANT(STEPS_WHITE) CONSTANT(STEPS_COLORS)
+    {0},
+};
+
+/* Of a program that is a part of ours. */
+static const struct constant places[] = {
     UNIFORM_BLOCKS(CONSTANT) STORAGE_BLOCKS(CONSTANT) TEXTURE_UNITS(CONSTANT)
     FIELD_IMAGES(CONSTANT) COMMON_IMAGES(CONSTANT) SAMPLE_TEXTURES(CONSTANT)
-    CONSTANT(LIMIT_LIGHTS) CONSTANT(LIMIT_VOLUMES)
-    CONSTANT(GROUP_SIDE) CONSTANT(GROUP_SIZE) CONSTANT(BLOCK_BITS) CONSTANT(BLOCK_SIDE)
-    CONSTANT(STACK_DEPTH) CONSTANT(MIRROR_LEVELS) CONSTANT(ARGS_LOCATION)
-    CONSTANT(STEPS_WHITE) CONSTANT(STEPS_COLORS)
+    CONSTANT(GROUP_SIDE) CONSTANT(GROUP_SIZE) CONSTANT(ARGS_LOCATION)
+    {0},
 };
 
 static const char structs[] =
     "struct Light {\n" LIGHT_MEMBERS(MEMBER) "};\n"
     "struct Volume {\n" VOLUME_MEMBERS(MEMBER) "};\n"
-    "struct Dispatch {\n" DISPATCH_MEMBERS(MEMBER) "};\n"
+    "struct Camera {\n" CAMERA_MEMBERS(MEMBER) "};\n"
+    "struct Dispatch {\n" DISPATCH_MEMBERS(MEMBER) "};\n";
+
+static const char args[] =
     "struct SampleArgs {\n" SAMPLE_ARGS(ARG) "};\n"
     "struct ClearArgs {\n" CLEAR_ARGS(ARG) "};\n"
     "struct ShadeArgs {\n" SHADE_ARGS(ARG) "};\n"
     "struct GatherArgs {\n" GATHER_ARGS(ARG) "};\n"
     "struct ListingArgs {\n" LISTING_ARGS(ARG) "};\n"
     "struct ResolveArgs {\n" RESOLVE_ARGS(ARG) "};\n"
-    "struct TraceArgs {\n" TRACE_ARGS(ARG) "};\n"
-    "layout(std140, binding = BINDING_FRAME) uniform Frame {\n" FRAME_MEMBERS(MEMBER)
+    "struct TraceArgs {\n" TRACE_ARGS(ARG) "};\n";
+
+static const char frame[] =
+    FRAME_MEMBERS(MEMBER)
     "    Light lights[LIMIT_LIGHTS];\n"
-    "    Volume volumes[LIMIT_VOLUMES];\n"
-    "} frame;\n"
-    "layout(location = 0) uniform Dispatch dispatch;\n";
+    "    Volume volumes[LIMIT_VOLUMES];\n";
 /* clang-format on */
 
-void interface_write(FILE *out)
+static void write_constants(FILE *out, const struct constant *rows)
 {
-    for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
-        fprintf(out, "#define %s %d\n", constants[i].name, constants[i].value);
+    for (; rows->name; rows++) {
+        fprintf(out, "#define %s %d\n", rows->name, rows->value);
     }
+}
+
+/* What both kinds of programs know. */
+static void write_common(FILE *out, int lights, int volumes)
+{
+    write_constants(out, kinds);
+    fprintf(out, "#define LIMIT_LIGHTS %d\n#define LIMIT_VOLUMES %d\n", lights, volumes);
     fprintf(out, "vec3 steps_color_at(int i)\n{\n    return ");
     for (int i = 0; i < STEPS_COLORS; i++) {
         const unsigned char *c = steps_colors[i];
@@ -56,4 +79,110 @@ void interface_write(FILE *out)
         fprintf(out, i < STEPS_COLORS - 1 ? " : " : ";\n}\n");
     }
     fputs(structs, out);
+}
+
+void interface_write(FILE *out)
+{
+    write_common(out, LIMIT_LIGHTS, LIMIT_VOLUMES);
+    write_constants(out, places);
+    fprintf(out,
+            "%slayout(std140, binding = BINDING_FRAME) uniform Frame {\n    Camera camera;\n%s} "
+            "frame;\n"
+            "#define camera frame.camera\n"
+            "layout(location = 0) uniform Dispatch dispatch;\n",
+            args, frame);
+}
+
+/* --- as constants --- */
+
+void interface_write_float(FILE *out, float value)
+{
+    char text[32];
+    int digits = FLT_DIG;
+
+    if (isinf(value)) {
+        fputs(value > 0 ? "INFINITY" : "-INFINITY", out);
+        return;
+    }
+    do {
+        snprintf(text, sizeof text, "%.*g", digits, (double)value);
+    } while (strtof(text, NULL) != value && ++digits <= FLT_DECIMAL_DIG);
+    fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
+}
+
+void interface_write_floats(FILE *out, const char *type, const float *values, int count)
+{
+    fprintf(out, "%s(", type);
+    for (int i = 0; i < count; i++) {
+        interface_write_float(out, values[i]);
+        fputs(i + 1 < count ? ", " : ")", out);
+    }
+}
+
+#define WRITE_float(value) interface_write_float(out, value);
+#define WRITE_vec2(value) interface_write_floats(out, "vec2", value, 2);
+#define WRITE_vec3(value) interface_write_floats(out, "vec3", value, 3);
+#define WRITE_int(value) fprintf(out, "%d", value);
+#define WRITE_ivec2(value) fprintf(out, "ivec2(%d, %d)", (value)[0], (value)[1]);
+#define WRITE_MEMBER(type, name)                                                                   \
+    fputs(first ? "" : ", ", out);                                                                 \
+    first = false;                                                                                 \
+    WRITE_##type(row->name)
+/* A line for each. */
+#define WRITE_NAMED(type, name)                                                                    \
+    fputs("    ", out);                                                                            \
+    WRITE_##type(row->name) fputs(", /* " #name " */\n", out);
+
+static void write_light(FILE *out, const struct frame_light *row)
+{
+    bool first = true;
+
+    fputs("Light(", out);
+    LIGHT_MEMBERS(WRITE_MEMBER)
+    fputs(")", out);
+}
+
+static void write_volume(FILE *out, const struct frame_volume *row)
+{
+    bool first = true;
+
+    fputs("Volume(", out);
+    VOLUME_MEMBERS(WRITE_MEMBER)
+    fputs(")", out);
+}
+
+static void write_camera(FILE *out, const struct frame_camera *row)
+{
+    bool first = true;
+
+    fputs("Camera camera = Camera(", out);
+    CAMERA_MEMBERS(WRITE_MEMBER)
+    fputs(");\n", out);
+}
+
+static int at_least_one(int count)
+{
+    return count > 0 ? count : 1;
+}
+
+void interface_write_constant(FILE *out, const struct frame_block *row)
+{
+    const int lights = at_least_one(row->light_count), volumes = at_least_one(row->volume_count);
+
+    write_common(out, lights, volumes);
+    fprintf(out, "struct Frame {\n%s};\nconst Frame frame = Frame(\n", frame);
+    FRAME_MEMBERS(WRITE_NAMED)
+    fputs("    Light[](", out);
+    for (int i = 0; i < lights; i++) {
+        fputs(i > 0 ? ",\n            " : "", out);
+        write_light(out, &row->lights[i]);
+    }
+    fputs("),\n    Volume[](", out);
+    for (int i = 0; i < volumes; i++) {
+        fputs(i > 0 ? ",\n             " : "", out);
+        write_volume(out, &row->volumes[i]);
+    }
+    fputs("));\n", out);
+    write_camera(out, &row->camera);
+    fputs("Dispatch dispatch = Dispatch(ivec2(0), PASS_TILE, 0);\n", out);
 }

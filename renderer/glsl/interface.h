@@ -150,7 +150,7 @@
     X(float, threshold) /* height of waves above which noise fills it */                           \
     X(float, reach)     /* of a density by the field */
 
-#define FRAME_MEMBERS(X)                                                                           \
+#define CAMERA_MEMBERS(X)                                                                          \
     X(vec3, eye)                                                                                   \
     X(int, orthographic)                                                                           \
     X(vec3, forward)                                                                               \
@@ -159,6 +159,9 @@
     X(float, lens_radius)                                                                          \
     X(vec3, up) /* half the picture's height */                                                    \
     X(float, focus_distance)                                                                       \
+    X(ivec2, size) /* of the picture, in pixels */
+
+#define FRAME_MEMBERS(X)                                                                           \
     X(vec3, bounds_min) /* nothing is outside of these */                                          \
     X(float, exposure)                                                                             \
     X(vec3, bounds_max)                                                                            \
@@ -178,7 +181,6 @@
     X(vec2, sky_turn) /* cosine and sine of the picture's rotation */                              \
     X(float, sky_brightness)                                                                       \
     X(float, fog_thinning) /* 1 / height; 0: it does not thin */                                   \
-    X(ivec2, size)         /* of the picture, in pixels */                                         \
     X(float, fog_base)                                                                             \
     X(int, samples) /* of a pixel */                                                               \
     X(int, max_steps)                                                                              \
@@ -270,7 +272,11 @@ struct frame_light {
 struct frame_volume {
     VOLUME_MEMBERS(INTERFACE_MEMBER)
 };
+struct frame_camera {
+    CAMERA_MEMBERS(INTERFACE_MEMBER)
+};
 struct frame_block {
+    struct frame_camera camera;
     FRAME_MEMBERS(INTERFACE_MEMBER)
     struct frame_light lights[LIMIT_LIGHTS];
     struct frame_volume volumes[LIMIT_VOLUMES];
@@ -300,5 +306,11 @@ struct trace_args {
 
 /* The text of "interface.glsl". */
 void interface_write(FILE *out);
+/* The same for a program that nobody gives anything: `frame` is a constant, `camera` and `dispatch`
+ * are variables that begin with this picture's values. */
+void interface_write_constant(FILE *out, const struct frame_block *row);
+/* A number as GLSL writes it; TYPE(a, b, ...). */
+void interface_write_float(FILE *out, float value);
+void interface_write_floats(FILE *out, const char *type, const float *values, int count);
 
 #endif

@@ -72,7 +72,7 @@ Hit march(Ray ray, float start, float cone, int most)
     bool single = cone == 0.0;
     float t = max(single ? span.x : 0.0, start);
     float end = single ? min(span.y, frame.max_distance) : frame.max_distance;
-    float widening = frame.orthographic != 0 ? 0.0 : cone * frame.pixel_radius;
+    float widening = camera.orthographic != 0 ? 0.0 : cone * camera.pixel_radius;
     float far_off = greatest(ray.origin);
     float ahead = 0.0; /* length of the step being tried */
     float radius = 0.0, root = 0.0, slope = -1.0, grade = -1.0;

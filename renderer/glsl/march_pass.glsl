@@ -14,7 +14,8 @@ void main()
 {
     preload();
     ivec2 here = group_place();
-    bool coarse = dispatch.mode == PASS_COARSE, first = args.first == 1 && frame.lens_radius == 0.0;
+    bool coarse = dispatch.mode == PASS_COARSE;
+    bool first = args.first == 1 && camera.lens_radius == 0.0;
     ivec2 block = ((dispatch.origin + here) >> BLOCK_BITS) - (dispatch.origin >> BLOCK_BITS);
     Ray ray = ray_load(here);
     float start = first && !coarse ? imageLoad(starts, block).x : 0.0;

@@ -36,9 +36,12 @@ vec3 go_on(ivec2 here, Waiting mirror, bool has_mirror, Waiting passing, bool ha
     int count = first ? 0 : stack_count(here);
     bool own = has_mirror || has_passing, both = has_mirror && has_passing;
     bool room = count < STACK_DEPTH && !last;
-    Waiting next = has_passing ? passing : mirror;
+    Waiting next = mirror;
     vec3 guessed = vec3(0.0);
 
+    if (has_passing) {
+        next = passing;
+    }
     if (both && room) {
         stack_put(here, count, mirror);
         count++;

@@ -2,7 +2,7 @@
 /* What the samples of a pixel make together. */
 
 #include "edges.glsl"
-#include "tone.glsl"
+#include "screen.glsl"
 
 layout(binding = UNIT_COUNTED) uniform sampler2D counted;
 
@@ -33,16 +33,4 @@ vec4 pixel_light(ivec2 here, bool blend)
 {
     vec4 c = blend ? blended(here) : average(here);
     return vec4(c.rgb, (frame.effects & EFFECT_TRANSPARENT) != 0 ? c.a : 1.0);
-}
-
-vec3 color_of(vec4 c, float coverage)
-{
-    return srgb(coverage > 0.0 ? c.rgb / coverage : vec3(0.0));
-}
-
-/* The same as a screen shows it, with noise below its steps. */
-vec4 pixel_color(vec4 light, ivec2 pixel)
-{
-    float dither = (pixel_noise(pixel) - 0.5) * 0.98 / 255.0;
-    return vec4(color_of(light, light.a) + dither, light.a);
 }

@@ -37,7 +37,7 @@ vec4 ray_along(Ray ray)
 /* Radius of a pixel's footprint at distance t along the ray. */
 float footprint(Ray ray, float t)
 {
-    return frame.pixel_radius * (frame.orthographic != 0 ? 1.0 : ray.way + t);
+    return camera.pixel_radius * (camera.orthographic != 0 ? 1.0 : ray.way + t);
 }
 
 /* A ray stands for a cone: `spread` is how much wider it gets, in diameter, over a unit of way;
@@ -45,7 +45,7 @@ float footprint(Ray ray, float t)
  * tracing, Ray Tracing Gems, 2019, ch. 20). That of the eye's rays is a pixel's. */
 float eye_spread()
 {
-    return frame.orthographic != 0 ? 0.0 : 2.0 * frame.pixel_radius;
+    return camera.orthographic != 0 ? 0.0 : 2.0 * camera.pixel_radius;
 }
 
 /* Diameter of the cone at t, as if it had been the eye's until the ray's origin. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A whole sample of a pixel, from the camera to its light, where one program does all: a fragment
- * shader, or the engine. VOLUMES: there may be some. */
+ * shader, or the engine. VOLUMES: there may be some. OPAQUE: light goes through nothing. */
 
 #include "camera.glsl"
 #include "clear.glsl"
@@ -32,6 +32,7 @@ void find(Ray ray, float start, out Hit found, out vec4 g, out Surface s)
     }
 }
 
+#ifndef OPAQUE
 /* What comes to a light's ray through clear things, `depth` surfaces at most. */
 void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
 {
@@ -46,6 +47,7 @@ void colour_light(int light, Ray ray, vec4 g, bool painted, int depth)
     }
     seen_lights[light] *= beam.weight;
 }
+#endif
 
 /* Sample `index` of a pixel, with all rays that follow, `rays` at most: its light and coverage, and
  * what its first ray met, which is free up to `start`, and where the last one ended. `depth`: of
@@ -66,13 +68,15 @@ int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, 
         Hit found;
         vec4 g, smoke = vec4(0.0, 0.0, 0.0, 1.0);
         Surface s;
-        find(ray, i == 0 && frame.lens_radius == 0.0 ? start : 0.0, found, g, s);
+        find(ray, i == 0 && camera.lens_radius == 0.0 ? start : 0.0, found, g, s);
         vec3 p = ray.origin + ray.direction * (found.hit ? found.t : 0.0);
         if (looks) {
             look(p, found.normal, footprint(ray, found.hit ? found.t : 0.0), found.hit);
+#ifndef OPAQUE
             for (int light = 0; light < frame.light_count && depth > 0; light++) {
                 colour_light(light, ray, g, s.painted, depth);
             }
+#endif
         }
         geometry_of = g; /* of the last ray, so that edges in mirrors are edges */
         if (i == 0) {

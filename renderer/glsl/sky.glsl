@@ -1,17 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The environment: what a ray that hits nothing sees, and the light that comes from there.
- *
- * It lies in pictures by longitude and latitude: the middle looks along -Z, +X is right of it, the
- * first row is straight up. In those that environment.glsl makes, first and last row are the poles
- * themselves, so that nothing is pinched there. */
+/* The environment: what a ray that hits nothing sees, and the light that comes from there. */
 
 #include "frame.glsl"
-
-/* What is around the scene; what mirrors show of it, mip level i for the roughness
- * (i + 1) / MIRROR_LEVELS; and its irradiance / pi. */
-layout(binding = UNIT_PANORAMA) uniform sampler2D sky_picture;
-layout(binding = UNIT_MIRRORED) uniform sampler2D sky_mirror;
-layout(binding = UNIT_IRRADIANCE) uniform sampler2D sky_matt;
+#include "sky_maps.glsl"
 
 /* From the ground's colour below through the horizon's to the zenith's. */
 vec3 sky_gradient(vec3 direction)
@@ -51,32 +42,13 @@ vec3 sky_turned(vec3 d)
     return vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
 }
 
-/* Longitude and latitude, 0 to 1. */
-vec2 sky_place(vec3 d)
-{
-    float side = abs(d.x) + abs(d.z) > 0.0 ? atan(d.x, -d.z) : 0.0;
-    return vec2(0.5 + side / (2.0 * PI), acos(clamp(d.y, -1.0, 1.0)) / PI);
-}
-
-/* One mip level of a picture with a row at each pole. Its size is not asked of the driver: llvmpipe
- * would answer all lanes for the level of the first. */
-vec3 sky_made(sampler2D made, vec3 d, float level)
-{
-    vec2 place = sky_place(d);
-    float rows = float(max(textureSize(made, 0).y >> int(level), 1));
-    return textureLod(made, vec2(place.x, (place.y * (rows - 1.0) + 0.5) / rows), level).rgb;
-}
-
 /* Without the sun's disc; `blur`: over about this angle, where there is a picture. */
 vec3 sky_blurred(vec3 direction, float blur)
 {
     if (frame.sky_kind != SKY_IMAGE) {
         return sky_plain(direction, 0.0);
     }
-    float texel = PI / float(textureSize(sky_picture, 0).y);
-    vec2 place = sky_place(sky_turned(direction));
-    float level = log2(max(abs(blur) / texel, 1.0));
-    return frame.sky_brightness * textureLod(sky_picture, place, level).rgb;
+    return frame.sky_brightness * sky_pictured(sky_turned(direction), blur);
 }
 
 /* What a ray sees that hits nothing. */
@@ -88,7 +60,7 @@ vec3 sky(vec3 direction, float spread)
 /* Light that falls on a matt surface, over pi. */
 vec3 sky_irradiance(vec3 n)
 {
-    return frame.ambient * frame.sky_brightness * sky_made(sky_matt, sky_turned(n), 0.0);
+    return frame.ambient * frame.sky_brightness * sky_matt_map(sky_turned(n));
 }
 
 /* Spread of a cone that something rough mirrored: ray.glsl. */
@@ -105,7 +77,7 @@ vec3 sky_mirrored(vec3 direction, float roughness, float spread)
     float low = max(floor(level), 0.0), high = min(low + 1.0, float(MIRROR_LEVELS - 1));
     vec3 turned = sky_turned(direction);
     vec3 sharp = sky_blurred(direction, rough_spread(spread, roughness));
-    vec3 a = frame.sky_brightness * sky_made(sky_mirror, turned, low);
-    vec3 b = frame.sky_brightness * sky_made(sky_mirror, turned, high);
+    vec3 a = frame.sky_brightness * sky_mirror_map(turned, low);
+    vec3 b = frame.sky_brightness * sky_mirror_map(turned, high);
     return frame.ambient * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));
 }

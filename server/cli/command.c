@@ -22,7 +22,8 @@ static const struct command table[COMMAND_COUNT] = {
     [COMMAND_SHADER] = {"shader", .operands = "SCENE.json", .run = command_shader,
         .doc = "Print the GLSL that a scene is drawn with.",
         .more = "All of one pass as a GPU gets it, with every file that it includes; numbers of "
-                "the scene stand in a buffer, N(i). Needs no GPU."},
+                "the scene stand in a buffer, N(i). Or the whole picture as a shader of its own, "
+                "for other programs. Needs no GPU."},
     [COMMAND_IMPORT] = {"import", .operands = "DIR", .run = command_import,
         .doc = "Make a scene document of a folder in the JSON format of Schneider's thesis.",
         .more = "Reads all *.json files in and below DIR: primitives, shaders, materials, models, "

@@ -168,7 +168,7 @@ static const struct option_row table[OPTION_COUNT] = {
         .doc = "Format of the picture. By default the output's extension says it: also .zip "
                "(png) and .npz (npy)."},
     [OPTION_LEVEL] = {"level", 0, "LEVEL", OPTION_CHOICE, .choice = level_choice,
-        .commands = FOR(RENDER),
+        .commands = FOR(RENDER) | FOR(SHADER),
         .doc = "Quality level; by default the scene's."},
     [OPTION_ASSET] = {"asset", 0, "FILE", OPTION_FILES, .commands = FOR(RENDER),
         .doc = "A file that the scene names by its SHA-256; may be given several times."},
@@ -226,6 +226,11 @@ static const struct option_row table[OPTION_COUNT] = {
         .fallback = "march", .commands = FOR(SHADER),
         .doc = "Which pass: where rays meet the scene, its materials, its shadows, its volumes; of "
                "`--stage fragment`: where rays start, a whole sample."},
+    [OPTION_WEBGL] = {"webgl", 0, NULL, OPTION_FLAG, .commands = FOR(SHADER),
+        .doc = "Print the whole picture as one fragment shader of WebGL 2 instead, which needs "
+               "nothing but its uniforms `resolution`, in pixels, and `orbit`, which may stay 0."},
+    [OPTION_PAGE] = {"page", 0, NULL, OPTION_FLAG, .commands = FOR(SHADER),
+        .doc = "Print a page with that shader, to be opened by a browser: drag to orbit."},
     [OPTION_CONFIG] = {"config", 0, "FILE", OPTION_PATH, .base = BASE_CONFIG,
         .fallback = "fieldcast/fieldcast.conf", .commands = DRAWING,
         .doc = "The config file; the default one may be absent."},

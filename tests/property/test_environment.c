@@ -422,7 +422,7 @@ static void test_kept(void **state)
     (void)state;
     first = get(&block, file, &us);
     block.sky_turn[1] = 0.5f;
-    block.eye[0] = 7;
+    block.camera.eye[0] = 7;
     second = get(&block, file, &us);
     assert_ptr_equal(first, second);
     assert_int_equal(us, 0);

@@ -25,6 +25,8 @@ struct member {
 };
 
 #define FRAME_ROW(type, member) {"Frame." #member, offsetof(struct frame_block, member)},
+#define CAMERA_ROW(type, member)                                                                   \
+    {"Frame.camera." #member, offsetof(struct frame_block, camera.member)},
 #define LIGHT_ROW(type, member)                                                                    \
     {"Frame.lights[0]." #member, offsetof(struct frame_block, lights[0].member)},                  \
         {"Frame.lights[3]." #member, offsetof(struct frame_block, lights[3].member)},
@@ -32,8 +34,8 @@ struct member {
     {"Frame.volumes[0]." #member, offsetof(struct frame_block, volumes[0].member)},                \
         {"Frame.volumes[1]." #member, offsetof(struct frame_block, volumes[1].member)},
 
-static const struct member members[] = {FRAME_MEMBERS(FRAME_ROW) LIGHT_MEMBERS(LIGHT_ROW)
-                                            VOLUME_MEMBERS(VOLUME_ROW)};
+static const struct member members[] = {CAMERA_MEMBERS(CAMERA_ROW) FRAME_MEMBERS(FRAME_ROW)
+                                            LIGHT_MEMBERS(LIGHT_ROW) VOLUME_MEMBERS(VOLUME_ROW)};
 
 static GLint driver_offset(GLuint program, const char *name)
 {

@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT */
+/* The shaders' own files, with texts in place of those that read textures and buffers. */
+#include "webgl.h"
+
+#include <stdlib.h>
+
+#include "environment.h"
+#include "renderer/engine/engine.h"
+#include "renderer/field/shader.h"
+#include "renderer/glsl/include.h"
+#include "renderer/glsl/reach.h"
+#include "renderer/image/half.h"
+#include "renderer/renderer.h"
+#include "snapshot.h"
+
+/* A text that is being written. */
+struct text {
+    char *bytes;
+    size_t length;
+    FILE *out;
+};
+
+static void text_begin(struct text *text)
+{
+    *text = (struct text){0};
+    text->out = open_memstream(&text->bytes, &text->length);
+    if (!text->out) {
+        abort();
+    }
+}
+
+static char *text_end(struct text *text)
+{
+    if (fclose(text->out) != 0) {
+        abort();
+    }
+    return text->bytes;
+}
+
+static char *write_interface(const struct frame_block *frame)
+{
+    struct text text;
+
+    text_begin(&text);
+    interface_write_constant(text.out, frame);
+    return text_end(&text);
+}
+
+static char *write_numbers(const struct field *field)
+{
+    struct text text;
+
+    text_begin(&text);
+    fputs("#define N(i) numbers[i]\n#define N_ANY(i) numbers[i]\nvoid preload() {}\n"
+          "const vec4 numbers[] = vec4[](\n    ",
+          text.out);
+    for (size_t i = 0; i < field->vec4_count; i++) {
+        interface_write_floats(text.out, "vec4", field->numbers + 4 * i, 4);
+        fputs(i + 1 < field->vec4_count ? ",\n    " : ");\n", text.out);
+    }
+    return text_end(&text);
+}
+
+/* --- the environment's maps --- */
+
+/* What a directional light makes of a black sky. */
+static struct frame_block sun_alone(const struct frame_block *frame)
+{
+    struct frame_block block = {.sky_kind = SKY_GRADIENT, .effects = EFFECT_SUN, .light_count = 1};
+
+    block.max_steps = frame->max_steps;
+    block.lights[0] =
+        (struct frame_light){.kind = LIGHT_DIRECTIONAL, .position = {0, 1, 0}, .color = {1, 1, 1}};
+    return block;
+}
+
+/* A column of a map that is the same all around: `count` rows. */
+static void write_column(FILE *out, const struct engine_sky *sky, int level, bool last)
+{
+    const int width = engine_sky_side(sky->width, level);
+    const int height = engine_sky_side(sky->height, level);
+
+    for (int y = 0; y < height; y++) {
+        const uint16_t *texel = sky->texels[level] + (size_t)4 * (size_t)y * (size_t)width;
+        const float color[3] = {half_value(texel[0]), half_value(texel[1]), half_value(texel[2])};
+
+        fputs("    ", out);
+        interface_write_floats(out, "vec3", color, 3);
+        fputs(last && y == height - 1 ? ");\n" : ",\n", out);
+    }
+}
+
+/* Mirrored for each roughness, then matt. */
+static void write_columns(FILE *out, const char *name, const struct frame_block *frame)
+{
+    struct engine_sky skies[ENGINE_SKIES];
+
+    engine_skies_make(frame, NULL, 0, 0, skies);
+    fprintf(out, "#define MIRROR_ROWS %d\n#define MATT_ROWS %d\nconst vec3 %s[] = vec3[](\n",
+            skies[1].height, skies[2].height, name);
+    for (int level = 0; level < MIRROR_LEVELS; level++) {
+        write_column(out, &skies[1], level, false);
+    }
+    write_column(out, &skies[2], 0, true);
+    engine_skies_finish(skies);
+}
+
+static const struct frame_light *sun_of(const struct frame_block *frame)
+{
+    for (int i = 0; i < frame->light_count && (frame->effects & EFFECT_SUN); i++) {
+        if (frame->lights[i].kind == LIGHT_DIRECTIONAL) {
+            return &frame->lights[i];
+        }
+    }
+    return NULL;
+}
+
+/* A gradient is the same all around the vertical, the sun's glow around its direction, and so are
+ * their means over lobes: a column of each is enough. */
+static void write_gradient(FILE *out, const struct frame_block *frame)
+{
+    const struct frame_light *sun = sun_of(frame);
+    struct frame_block plain = *frame;
+
+    plain.effects &= ~EFFECT_SUN;
+    write_columns(out, "sky_column", &plain);
+    if (sun) {
+        const struct frame_block alone = sun_alone(frame);
+        write_columns(out, "sun_column", &alone);
+        fputs("#define SUN ", out);
+        interface_write_floats(out, "vec3", sun->position, 3);
+        fputs("\n#define SUN_COLOR ", out);
+        interface_write_floats(out, "vec3", sun->color, 3);
+        fputs("\n", out);
+    }
+    fputs("#include \"webgl_sky.glsl\"\n", out);
+}
+
+static char *write_maps(const struct frame_block *frame)
+{
+    static const char one_color[] = "vec3 sky_mirror_map(vec3 d, float level)\n{\n"
+                                    "    return frame.zenith;\n}\n"
+                                    "vec3 sky_matt_map(vec3 n)\n{\n    return frame.zenith;\n}\n";
+    struct text text;
+
+    text_begin(&text);
+    fputs("vec3 sky_pictured(vec3 d, float blur)\n{\n    return frame.zenith;\n}\n", text.out);
+    if (frame->sky_kind == SKY_GRADIENT) {
+        write_gradient(text.out, frame);
+    } else {
+        fputs(one_color, text.out);
+    }
+    return text_end(&text);
+}
+
+/* --- the whole text --- */
+
+static void define_if(FILE *out, const char *name, bool wanted)
+{
+    if (wanted) {
+        fprintf(out, "#define %s\n", name);
+    }
+}
+
+static char *write_head(const struct field *field, const struct frame_block *frame,
+                        const struct draw_plan *plan, const double target[3])
+{
+    struct text text;
+
+    const int clear_depth = frame->has_clear ? plan->clear_depth : 0;
+
+    text_begin(&text);
+    fputs("#version 300 es\nprecision highp float;\nprecision highp int;\n\n"
+          "/* A picture of a scene of fieldcast. Draw one triangle over all pixels, after setting\n"
+          " * `resolution`; `orbit` may stay 0. */\n",
+          text.out);
+    fprintf(text.out, "#define SAMPLES %d\n#define RAYS %d\n#define CLEAR_DEPTH %d\n",
+            plan->samples, plan->rays, clear_depth);
+    define_if(text.out, "OPAQUE", clear_depth == 0);
+    define_if(text.out, "PLAIN", !plan->mirrors);
+    define_if(text.out, "USER_SHADERS", field->shader_count > 0);
+    define_if(text.out, "VOLUMES", plan->volumes);
+    fputs("#define TARGET ", text.out);
+    interface_write_floats(
+        text.out, "vec3", (const float[]){(float)target[0], (float)target[1], (float)target[2]}, 3);
+    fputs("\n", text.out);
+    return text_end(&text);
+}
+
+char *webgl_text(const struct field *field, const struct frame_block *frame,
+                 const struct draw_plan *plan, const double target[3], struct error *err)
+{
+    char *head = write_head(field, frame, plan, target), *map = shader_map(field);
+    char *surface = shader_surface(field), *numbers = write_numbers(field);
+    char *interface = write_interface(frame), *maps = write_maps(frame);
+    const struct glsl_file own[] = {
+        {"field_map.glsl", map}, {"field_surface.glsl", surface}, {"numbers.glsl", numbers},
+        {"sky_maps.glsl", maps}, {"interface.glsl", interface},   {NULL, NULL},
+    };
+    struct shader_text whole;
+    struct text text;
+    const bool ok = include_resolve(&whole, head, "webgl_pass.glsl", own, err);
+
+    if (ok) {
+        text_begin(&text);
+        glsl_write_reached(text.out, whole.text);
+        include_finish(&whole);
+    }
+    free(head);
+    free(map);
+    free(surface);
+    free(numbers);
+    free(interface);
+    free(maps);
+    return ok ? text_end(&text) : NULL;
+}
+
+char *renderer_webgl(const struct scene *scene, int level, struct error *err)
+{
+    struct field *field = field_compile(scene, err);
+    struct error warning;
+    char *text = NULL;
+
+    if (field && field_try(field, &warning, err)) {
+        const struct frame_extent extent = snapshot_extent(field, &scene->camera, false);
+        /* Of any size: the shader is told which. */
+        const struct camera camera = camera_from_record(&scene->camera, 1, 1);
+        struct frame_block frame;
+        struct draw_plan plan;
+
+        frame_set_scene(&frame, scene, &extent);
+        frame_set_camera(&frame, &camera, 1, 1);
+        if (frame.sky_kind == SKY_IMAGE) {
+            environment_leave_out(&frame);
+        }
+        plan_make(&plan, &frame, &scene->render,
+                  &(struct plan_wish){.level = level, .transparent = 0}, &extent);
+        text = webgl_text(field, &frame, &plan, record_vector(&scene->camera, "target"), err);
+    }
+    field_unref(field);
+    return text;
+}
