@@ -155,3 +155,19 @@ for (const name of SCENES) {
         assert.ok(off < 0.005, `${off} of the pixels differ`);
     });
 }
+
+test('the page orbits as the camera of a document does', async () => {
+    const angle = 0.6;
+    const source = path.join(root, 'protocol/examples/csg.json');
+    const turned = plainCopy(source, (scene) => {
+        const [x, y, z] = scene.camera.position.map((value, i) => value - scene.camera.target[i]);
+        const [c, s] = [Math.cos(angle), Math.sin(angle)];
+        const place = [c * x + s * z, y, c * z - s * x];
+        scene.camera.position = place.map((value, i) => value + scene.camera.target[i]);
+    });
+    const expected = drawnByEngine(turned);
+    const file = plainCopy(source);
+
+    assert.ok(difference(await drawnByPage(file, [angle, 0, 0]), expected) < 0.005);
+    assert.ok(difference(await drawnByPage(file, [0, 0, 0]), expected) > 0.1);
+});
