@@ -128,6 +128,7 @@ describe('the library', () => {
         await row(page, 'root').click();
         await page.keyboard.press('Shift+A');
         const tile = page.locator('[data-type="library"]');
+        await tile.scrollIntoViewIfNeeded();
         await tile.locator('img').waitFor();
         assert.equal(await tile.getAttribute('data-named'), saved.id);
         await page.keyboard.type('mug');
@@ -193,7 +194,7 @@ describe('the library', () => {
         const table = await open(TABLE);
         await row(page, 'top').click();
         await openLibrary();
-        await library().getByRole('textbox').fill('rim');
+        await library().getByRole('textbox').fill('material');
         await until(async () => (await library().locator('.card').count()) === 1, 'one card');
         await page.getByRole('button', { name: 'Add rim to the scene' }).click();
         const given = await documentWhen(stage, table, (d) => nodeIn(d, 'top').material === 'rim', 'the material');
