@@ -155,6 +155,10 @@ describe('the library', () => {
         await open(KITCHEN);
         await choose('mug', 'Save to My library');
         await notice('“Mug” is in My library.').waitFor();
+        await choose('breakfast', 'Save to My library');
+        await until(async () => (await entries()).length === 2, 'two entries');
+        await notice('“breakfast” is in My library.').getByRole('button', { name: 'Undo' }).click();
+        await until(async () => (await entries()).length === 1, 'one entry again');
         await openLibrary();
         const { width, height, channels, pixels } = await pictureOf('Mug');
         let clay = 0;

@@ -198,7 +198,11 @@ test("a union that cuts gets an id beside that of its place", () => {
             ],
         },
     });
-    const both = entry(scene(), "root");
+    const pair = readDocument({
+        format: "fieldcast/1",
+        root: { id: "union-1", type: "union", children: [{ id: "c", type: "sphere" }] },
+    });
+    const both = entry(pair, "union-1");
     const { document, id } = taken(two, both, { selection: ["b"], way: "union" });
     expect(document.nodes.get(id)?.type).toBe("union");
 });
