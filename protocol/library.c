@@ -212,18 +212,3 @@ void library_entries_destroy(struct library_entry *entries, size_t count)
     }
     free(entries);
 }
-
-void library_entry_print(FILE *out, const char *id, enum library_kind kind, const char *text)
-{
-    fprintf(out, "{\"id\":\"%s\",\"kind\":\"%s\",\"document\":%s}", id, kind_names[kind], text);
-}
-
-void library_file_begin(FILE *out)
-{
-    fputs("{\"format\":\"" LIBRARY_FORMAT "\",\"entries\":[", out);
-}
-
-void library_file_end(FILE *out)
-{
-    fputs("]}", out);
-}

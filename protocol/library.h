@@ -38,9 +38,4 @@ void library_entry_finish(struct library_entry *entry);
 struct library_entry *library_entries_read(const cJSON *json, size_t *out_count, struct error *err);
 void library_entries_destroy(struct library_entry *entries, size_t count);
 
-/* An entry and a file as they are read. `text` is a printed scene. */
-void library_entry_print(FILE *out, const char *id, enum library_kind kind, const char *text);
-void library_file_begin(FILE *out);
-void library_file_end(FILE *out);
-
 #endif

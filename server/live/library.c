@@ -187,6 +187,47 @@ struct store_write *library_remove(struct library *library, const char *id)
     return write;
 }
 
+static FILE *open_text(char **out, size_t *out_length)
+{
+    FILE *file = open_memstream(out, out_length);
+
+    if (!file) {
+        abort();
+    }
+    return file;
+}
+
+static void print_item(FILE *out, const struct library_item *item)
+{
+    fprintf(out, "{\"id\":\"%s\",\"kind\":\"%s\",\"document\":%s}", item->id,
+            library_kind_name(item->kind), item->text);
+}
+
+char *library_print_item(const struct library_item *item, size_t *out_length)
+{
+    char *text = NULL;
+    FILE *out = open_text(&text, out_length);
+
+    print_item(out, item);
+    fclose(out);
+    return text;
+}
+
+char *library_print_file(const struct library *library, size_t *out_length)
+{
+    char *text = NULL;
+    FILE *out = open_text(&text, out_length);
+
+    fputs("{\"format\":\"" LIBRARY_FORMAT "\",\"entries\":[", out);
+    for (size_t i = 0; i < library->count; i++) {
+        fputs(i > 0 ? ",\n" : "", out);
+        print_item(out, &library->items[i]);
+    }
+    fputs("]}\n", out);
+    fclose(out);
+    return text;
+}
+
 bool library_is_same(const struct library_item *item, const struct library_entry *entry)
 {
     return item->kind == entry->kind && strcmp(item->text, entry->text) == 0;

@@ -38,6 +38,9 @@ void library_free_id(const struct library *library, const struct library_entry *
 struct store_write *library_set(struct library *library, const char *id,
                                 const struct library_entry *entry);
 struct store_write *library_remove(struct library *library, const char *id);
+/* JSON that library_entry_read and library_entries_read take. Caller frees. */
+char *library_print_item(const struct library_item *item, size_t *out_length);
+char *library_print_file(const struct library *library, size_t *out_length);
 bool library_is_same(const struct library_item *item, const struct library_entry *entry);
 
 #endif

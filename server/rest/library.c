@@ -79,30 +79,6 @@ void library_list(struct request *request)
     request_reply_json(request, 200, json);
 }
 
-static struct response text_of(const struct library_item *items, size_t count, bool file)
-{
-    struct response response = {.status = 200, .type = "application/json"};
-    char *text = NULL;
-    FILE *out = open_memstream(&text, &response.length);
-
-    if (!out) {
-        abort();
-    }
-    if (file) {
-        library_file_begin(out);
-    }
-    for (size_t i = 0; i < count; i++) {
-        fputs(i > 0 ? ",\n" : "", out);
-        library_entry_print(out, items[i].id, items[i].kind, items[i].text);
-    }
-    if (file) {
-        library_file_end(out);
-    }
-    fclose(out);
-    response.body = text;
-    return response;
-}
-
 void library_read(struct request *request)
 {
     struct response response = {.status = 304, .body = "", .borrowed = true};
@@ -112,7 +88,8 @@ void library_read(struct request *request)
     const struct library_item *item = find(request, &err);
     if (item) {
         if (!request_tag_listed(request_header(request, "If-None-Match"), item->tag)) {
-            response = text_of(item, 1, false);
+            response = (struct response){.status = 200, .type = "application/json"};
+            response.body = library_print_item(item, &response.length);
         }
         response_add(&response, "ETag", "%s", item->tag);
     }
@@ -126,10 +103,10 @@ void library_read(struct request *request)
 
 void library_export(struct request *request)
 {
-    const struct library *library = request->hub->library;
+    struct response response = {.status = 200, .type = "application/json"};
 
     hub_lock(request->hub);
-    struct response response = text_of(library->items, library->count, true);
+    response.body = library_print_file(request->hub->library, &response.length);
     hub_unlock(request->hub);
     response_add(&response, "Content-Disposition", "attachment; filename=\"library.json\"");
     request_reply(request, &response);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The store: scenes, uploaded files and the library on disk. A scene has a snapshot of its document, the log of
- * later edits with their inverses, and the authors of these edits. One thread commits the queued
- * writes in order; all waiting writes share a transaction. A write that was told durable survives
- * kill -9 and loss of power. A failed commit ends the program with STORE_EXIT_STATUS, because a
- * repeated fsync after a failed one proves nothing. Only store_sqlite.c knows the database. */
+/* The store: scenes, uploaded files and the library on disk. A scene has a snapshot of its
+ * document, the log of later edits with their inverses, and the authors of these edits. One thread
+ * commits the queued writes in order; all waiting writes share a transaction. A write that was told
+ * durable survives kill -9 and loss of power. A failed commit ends the program with
+ * STORE_EXIT_STATUS, because a repeated fsync after a failed one proves nothing. Only
+ * store_sqlite.c knows the database. */
 #ifndef SERVER_STORE_H
 #define SERVER_STORE_H
 

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "protocol/json.h"
-#include "protocol/memory.h"
 #include "server/live/library.h"
 #include "tests/support/json_text.h"
 
@@ -44,33 +43,41 @@ static struct library_entry named(const char *name)
     return entry;
 }
 
+static void free_write(struct store_write *write)
+{
+    free(write->text);
+    free(write->name);
+    free(write);
+}
+
 static void a_printed_file_reads_back_the_same(void **state)
 {
     static const char text[] =
         "{'id': 'brass', 'kind': 'material', 'document': {'format': 'fieldcast/1',"
         " 'name': 'Brass \\u2713', 'materials': {'brass': {'shader': 'standard'}},"
         " 'root': {'type': 'sphere', 'material': 'brass'}}}";
+    struct library library = {0};
     struct error err = {0};
     size_t length = 0, count = 0;
-    char *file = NULL;
     cJSON *json;
-    struct library_entry entry = read_entry(text, &json);
-    FILE *out = open_memstream(&file, &length);
+    struct library_entry entry = read_entry(text, &json), other = named("Other");
 
     (void)state;
-    library_file_begin(out);
-    library_entry_print(out, entry.id, entry.kind, entry.text);
-    library_file_end(out);
-    fclose(out);
+    free_write(library_set(&library, entry.id, &entry));
+    free_write(library_set(&library, "other", &other));
+    char *file = library_print_file(&library, &length);
     cJSON *again = json_parse(file, length, &err);
     struct library_entry *entries = library_entries_read(again, &count, &err);
     assert_non_null(entries);
-    assert_int_equal(count, 1);
+    assert_int_equal(count, 2);
     assert_string_equal(entries[0].id, "brass");
     assert_int_equal(entries[0].kind, LIBRARY_MATERIAL);
     assert_string_equal(entries[0].text, entry.text);
+    assert_string_equal(entries[1].text, other.text);
     library_entries_destroy(entries, count);
     library_entry_finish(&entry);
+    library_entry_finish(&other);
+    library_finish(&library);
     cJSON_Delete(again);
     cJSON_Delete(json);
     free(file);
@@ -85,9 +92,7 @@ static void put(struct library *library, const char *id, const char *name)
     assert_string_equal(write->scene, id);
     assert_string_equal(write->text, entry.text);
     assert_true(library_is_same(library_find(library, id), &entry));
-    free(write->text);
-    free(write->name);
-    free(write);
+    free_write(write);
     library_entry_finish(&entry);
 }
 

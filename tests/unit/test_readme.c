@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The JSON examples of protocol/README.md: scenes and files of the library are read, edits are applied
- * to the scene before them. And every file of protocol/examples is a valid scene. */
+/* The JSON examples of protocol/README.md: scenes and files of the library are read, edits are
+ * applied to the scene before them. And every file of protocol/examples is a valid scene. */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
