@@ -90,7 +90,7 @@ describe('limits', () => {
         await empty();
     });
 
-    test('entries', async () => {
+    test('entries', async (t) => {
         const most = (await limits())('library_entries');
         const full = file(many(most, (i) => ({ id: `n-${i}`, ...entry('N') })));
         const long = await answerOf(daemon, 'POST', '/v1/library', file([...full.entries, entry('M')]));
@@ -109,9 +109,9 @@ describe('limits', () => {
         // A full library can be moved elsewhere.
         const all = await ask(daemon, 'GET', '/v1/library.json');
         const other = await startDaemon({ ready: false });
+        t.after(() => other.stop());
         assert.equal((await answerOf(other, 'POST', '/v1/library', all)).status, 201);
         assert.deepEqual(await ask(other, 'GET', '/v1/library.json'), all);
-        await other.stop();
         await empty();
     });
 
@@ -178,8 +178,9 @@ describe('pictures and copies', () => {
         assert.deepEqual(await ask(daemon, 'GET', '/v1/scenes/taker'), copy);
     });
 
-    test('without code none is taken, and the rest is', async () => {
+    test('without code none is taken, and the rest is', async (t) => {
         const other = await startDaemon({ ready: false, args: ['--code', 'off'] });
+        t.after(() => other.stop());
         const code = { type: 'field', params: { code: 'float sdf(vec3 p) { return length(p) - 1.0; }' } };
         const refused = await answerOf(other, 'PUT', '/v1/library/code', { kind: 'primitive', document: document('Code', code) });
         assert.equal(refused.status, 403);
@@ -187,14 +188,17 @@ describe('pictures and copies', () => {
         assert.equal(inFile.status, 403);
         assert.deepEqual(await ids(other), []);
         assert.equal((await answerOf(other, 'PUT', '/v1/library/plain', entry('Plain'))).status, 201);
-        await other.stop();
     });
 
-    test('with a token nobody gets in without it', async () => {
+    test('with a token nobody gets in without it', async (t) => {
         const data = makeDirectory();
         const { writeFileSync } = await import('node:fs');
         writeFileSync(`${data}/token`, 'secret-of-this-test\n');
         const other = await startDaemon({ ready: false, args: ['--token-file', `${data}/token`] });
+        t.after(async () => {
+            await other.stop();
+            removeDirectory(data);
+        });
         for (const [method, path] of [
             ['GET', '/v1/library'],
             ['GET', '/v1/library.json'],
@@ -207,7 +211,5 @@ describe('pictures and copies', () => {
             const body = method === 'PUT' || method === 'POST' ? entry('X') : null;
             assert.equal((await answerOf(other, method, path, body)).status, 401, `${method} ${path}`);
         }
-        await other.stop();
-        removeDirectory(data);
     });
 });
