@@ -73,6 +73,9 @@
     X(RETRY_FACTOR, "retry_factor", 5, "times", "time for what is tried again")                    \
     X(RETRY_TIMES, "retry_times", 125, "times", "the same, after several retries")                 \
     X(TILE_MS, "tile_ms", 10000, "milliseconds", "drawing the smallest part of a picture")         \
+    X(LIBRARY_ENTRIES, "library_entries", 1024, "entries", "the library")                          \
+    X(LIBRARY_BYTES, "library_bytes", 4194304, "bytes", "documents of the library, together")      \
+    X(LIBRARY_NODES, "library_nodes", 4096, "nodes", "an entry of the library")                    \
     X(ID_BYTES, "id_bytes", 64, "characters", "an id or a resource name")                          \
     X(NAME_BYTES, "name_bytes", 200, "bytes", "a display name")                                    \
     X(COORDINATE, "coordinate", 1000000, "scene units", "magnitude of any number in a document")   \

@@ -39,7 +39,8 @@ struct message_type {
 #define COUNT PARAM_INT, .min = 0, .max = EXACT_MAX
 #define SMALL PARAM_INT, .min = 0, .max = 4294967295.0
 #define SIDE PARAM_INT, .min = 1, .max = LIMIT_VIEW_SIDE
-#define TILE PARAM_INT, .min = 12, .max = LIMIT_THUMBNAIL_WIDTH, .def = {THUMBNAIL_WIDTH}
+#define TILE                                                                                       \
+    PARAM_INT, .min = THUMBNAIL_LEAST, .max = LIMIT_THUMBNAIL_WIDTH, .def = {THUMBNAIL_WIDTH}
 #define AT PARAM_FLOAT, .min = 0, .max = LIMIT_VIEW_SIDE
 
 static const char *const qualities[] = {"auto", "smooth", "sharp", NULL};

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "codec.h"
+#include "limits.h"
 #include "picture.h"
 #include "record.h"
 
@@ -73,7 +74,13 @@ void frame_part_pack(uint32_t number, uint8_t out[FRAME_PART_HEADER_BYTES]);
 
 /* --- thumbnails --- */
 
-enum { THUMBNAIL_WIDTH = 96, THUMBNAIL_HEADER_BYTES = 24, THUMBNAIL_ROW_BYTES = 12 };
+enum {
+    THUMBNAIL_WIDTH = 96,
+    THUMBNAIL_LEAST = 12, /* width of the smallest */
+    THUMBNAIL_LARGEST = 8 * LIMIT_THUMBNAIL_WIDTH / 3,
+    THUMBNAIL_HEADER_BYTES = 24,
+    THUMBNAIL_ROW_BYTES = 12
+};
 
 enum thumbnail_kind { THUMBNAIL_NODE, THUMBNAIL_MATERIAL };
 

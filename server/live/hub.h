@@ -28,6 +28,7 @@ struct quarantine;
 struct render_queue;
 struct room;
 struct asset_index;
+struct library;
 struct thumbnails;
 struct ws;
 
@@ -49,6 +50,7 @@ struct hub {
 
     struct catalog *catalog;
     struct asset_index *assets;
+    struct library *library;
     struct room *rooms;
     struct render_queue *render_queue;
     struct quarantine *quarantine;

@@ -12,6 +12,7 @@
 #include "hub_rooms.h"
 #include "image_cache.h"
 #include "last_good.h"
+#include "library.h"
 #include "picker.h"
 #include "poster.h"
 #include "protocol/json.h"
@@ -287,6 +288,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     pthread_cond_init(&hub->released, NULL);
     hub->catalog = memory_alloc(1, sizeof *hub->catalog);
     hub->assets = memory_alloc(1, sizeof *hub->assets);
+    hub->library = memory_alloc(1, sizeof *hub->library);
     hub->render_queue = memory_alloc(1, sizeof *hub->render_queue);
     hub->quarantine = memory_alloc(1, sizeof *hub->quarantine);
     hub->compiles = memory_alloc(1, sizeof *hub->compiles);
@@ -302,6 +304,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
     asset_index_add_embedded(hub->assets);
     if (!hub->store || !store_list(hub->store, add_to_catalog, hub->catalog, err) ||
         !store_list_assets(hub->store, asset_index_add, hub->assets, err) ||
+        !store_list_library(hub->store, library_add, hub->library, err) ||
         !(hub->picker = picker_create(hub, err)) ||
         !(hub->tasks = tasks_create(&hub->metrics, err)) || !(hub->algebra = algebra_create(err))) {
         hub_destroy(hub);
@@ -374,8 +377,10 @@ void hub_destroy(struct hub *hub)
     thumbnails_destroy(hub->thumbnails);
     catalog_finish(hub->catalog);
     asset_index_finish(hub->assets);
+    library_finish(hub->library);
     free(hub->catalog);
     free(hub->assets);
+    free(hub->library);
     free(hub->render_queue);
     free(hub->quarantine);
     free(hub->compiles);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures over HTTP: of a scene, of an example, of a document sent along. All become the same
- * order to the worker. */
+/* Pictures over HTTP: of a scene, of an example, of an entry of the library, of a document sent
+ * along. All become the same order to the worker. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +14,7 @@
 #include "server/live/hub_rooms.h"
 #include "server/live/image_cache.h"
 #include "server/live/image_queue.h"
+#include "server/live/library.h"
 #include "server/live/render_queue.h"
 #include "server/live/room.h"
 
@@ -33,10 +34,18 @@ static void waiting_destroy(struct waiting *waiting)
     free(waiting);
 }
 
+/* What is to be drawn: one of `room` and `document` is given. */
+struct subject {
+    struct room *room;
+    const char *document;
+    bool portrait; /* of the document only the tree counts (renderer/portrait.h) */
+};
+
 /* The scene's state and the request, as text. */
 static char *make_key(const struct hub *hub, const struct render_request *asked,
-                      const struct room *room, const char *document)
+                      const struct subject *subject)
 {
+    const struct room *room = subject->room;
     cJSON *members = render_request_print(asked);
     char *text = json_print(members, false), *key = NULL;
     size_t length = 0;
@@ -47,7 +56,7 @@ static char *make_key(const struct hub *hub, const struct render_request *asked,
     if (room) {
         fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
     } else {
-        fputs(document, out);
+        fprintf(out, "%s%s", subject->portrait ? "portrait " : "", subject->document);
     }
     fclose(out);
     free(text);
@@ -134,14 +143,15 @@ static bool reply_at_once(const struct waiting *waiting)
     return picture != NULL;
 }
 
-/* Under the hub's lock. Takes what is in `asked`. One of `room` and `document` is given. */
-static void order(struct request *request, struct render_request *asked, struct room *room,
-                  const char *document)
+/* Under the hub's lock. Takes what is in `asked`. */
+static void order(struct request *request, struct render_request *asked,
+                  const struct subject *subject)
 {
     struct error err = {0};
     struct waiting *waiting = memory_alloc(1, sizeof *waiting);
-    struct render_order order = {.room = room,
-                                 .document = document,
+    struct render_order order = {.room = subject->room,
+                                 .document = subject->document,
+                                 .portrait = subject->portrait,
                                  .request = *asked,
                                  .priority = RENDER_IMAGE,
                                  .account = request->client,
@@ -153,8 +163,8 @@ static void order(struct request *request, struct render_request *asked, struct 
     waiting->request = request;
     waiting->hub = request->hub;
     render_request_size(&order.request, &waiting->width, &waiting->height);
-    waiting->revision = room ? room->revision : 1;
-    waiting->key = make_key(request->hub, &order.request, room, document);
+    waiting->revision = subject->room ? subject->room->revision : 1;
+    waiting->key = make_key(request->hub, &order.request, subject);
     if (reply_at_once(waiting)) {
         render_request_finish(&order.request);
         waiting_destroy(waiting);
@@ -179,7 +189,7 @@ static void order_of_room(struct request *request, struct render_request *asked,
         return;
     }
     render_request_see_from(asked, &room->scene->camera);
-    order(request, asked, room, NULL);
+    order(request, asked, &(struct subject){.room = room});
     hub_unlock(request->hub);
 }
 
@@ -194,7 +204,7 @@ static void order_of_document(struct request *request, struct render_request *as
 
         render_request_see_from(asked, &scene->camera);
         hub_lock(request->hub);
-        order(request, asked, NULL, document);
+        order(request, asked, &(struct subject){.document = document});
         hub_unlock(request->hub);
         free(document);
     }
@@ -269,6 +279,69 @@ void images_of_example(struct request *request)
     } else {
         request_reply_error(request, &err);
     }
+    render_request_finish(&asked);
+}
+
+/* The width in pixels; the height is that of a thumbnail. */
+static bool read_width(const struct request *request, struct render_request *out, struct error *err)
+{
+    static const char *const queries[] = {"width", NULL};
+    const char *text = request_query(request, "width");
+
+    record_put(&out->picture, "width", THUMBNAIL_WIDTH);
+    if (!request_check_query(request, queries, err) ||
+        (text && !render_request_set_text(out, REQUEST_QUERY, "width", text, err))) {
+        return false;
+    }
+    const int width = render_request_int(out, "width");
+    if (width < THUMBNAIL_LEAST || width > THUMBNAIL_LARGEST) {
+        return error_set(err, ERROR_INVALID, "?width", "%d is not within %d and %d", width,
+                         THUMBNAIL_LEAST, THUMBNAIL_LARGEST);
+    }
+    record_put(&out->picture, "height", thumbnail_height(width));
+    record_put(&out->delivery, "exact", true);
+    out->codec = codec_find("png");
+    return true;
+}
+
+/* Takes `text`. */
+static void order_portrait(struct request *request, struct render_request *asked, char *text)
+{
+    struct error err = {0};
+    struct scene *scene = scene_parse(text, strlen(text), &err);
+
+    if (scene && hub_accepts_scene(request->hub, scene, &err)) {
+        hub_lock(request->hub);
+        order(request, asked, &(struct subject){.document = text, .portrait = true});
+        hub_unlock(request->hub);
+    } else {
+        request_reply_error(request, &err);
+    }
+    scene_destroy(scene);
+    free(text);
+}
+
+void images_of_entry(struct request *request)
+{
+    struct hub *hub = request->hub;
+    struct error err = {0};
+    struct render_request asked;
+
+    hub_lock(hub);
+    const struct library_item *item = library_find(hub->library, request->capture[0]);
+    char *text = item ? memory_text(item->text) : NULL;
+    hub_unlock(hub);
+    render_request_init(&asked);
+    if (!text) {
+        error_set(&err, ERROR_NOT_FOUND, "", "the library has no entry %s", request->capture[0]);
+    } else if (read_width(request, &asked, &err)) {
+        order_portrait(request, &asked, text);
+        text = NULL;
+    }
+    if (err.kind != ERROR_NONE) {
+        request_reply_error(request, &err);
+    }
+    free(text);
     render_request_finish(&asked);
 }
 

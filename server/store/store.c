@@ -270,17 +270,31 @@ bool store_load_poster(struct store *store, const char *scene, void **out_bytes,
     return store_sqlite_load_poster(store->db, scene, out_bytes, out_length, err);
 }
 
+bool store_list_library(struct store *store,
+                        void (*each)(void *data, const struct store_entry *entry), void *data,
+                        struct error *err)
+{
+    return store_sqlite_list_library(store->db, each, data, err);
+}
+
 void store_push(struct store *store, struct store_write *write)
+{
+    write->next = NULL;
+    store_push_all(store, write);
+}
+
+void store_push_all(struct store *store, struct store_write *first)
 {
     struct timespec now;
 
     clock_gettime(CLOCK_REALTIME, &now);
-    write->time_ms = (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-    write->next = NULL;
     pthread_mutex_lock(&store->lock);
-    *store->end = write;
-    store->end = &write->next;
-    store->pushed++;
+    *store->end = first;
+    for (struct store_write *write = first; write; write = write->next) {
+        write->time_ms = (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+        store->end = &write->next;
+        store->pushed++;
+    }
     pthread_cond_broadcast(&store->changed);
     pthread_mutex_unlock(&store->lock);
 }

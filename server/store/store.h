@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The store: scenes and uploaded files on disk. A scene has a snapshot of its document, the log of
- * later edits with their inverses, and the authors of these edits. One thread commits the queued
- * writes in order; all waiting writes share a transaction. A write that was told durable survives
- * kill -9 and loss of power. A failed commit ends the program with STORE_EXIT_STATUS, because a
- * repeated fsync after a failed one proves nothing. Only store_sqlite.c knows the database. */
+/* The store: scenes, uploaded files and the library on disk. A scene has a snapshot of its
+ * document, the log of later edits with their inverses, and the authors of these edits. One thread
+ * commits the queued writes in order; all waiting writes share a transaction. A write that was told
+ * durable survives kill -9 and loss of power. A failed commit ends the program with
+ * STORE_EXIT_STATUS, because a repeated fsync after a failed one proves nothing. Only
+ * store_sqlite.c knows the database. */
 #ifndef SERVER_STORE_H
 #define SERVER_STORE_H
 
@@ -33,6 +34,8 @@ enum store_kind {
     STORE_ASSET,        /* a new file */
     STORE_ASSET_DELETE, /* `asset` has its id and no bytes */
     STORE_POSTER,       /* the scene's last picture, in `asset`; replaces the old one */
+    STORE_LIBRARY,      /* an entry of the library, `scene` is its id; replaces the old one */
+    STORE_LIBRARY_DELETE,
 };
 
 /* A file that scenes name by its SHA-256. */
@@ -64,6 +67,7 @@ struct store_write {
     char *name; /* owned: the scene's new name; NULL for STORE_SNAPSHOT and STORE_DELETE */
     size_t nodes;
     struct store_asset *asset; /* owned, with its bytes: for STORE_ASSET and STORE_POSTER */
+    const char *sort;          /* static: the kind of an entry of the library */
     int64_t time_ms;           /* since 1970 */
     /* Called on the writer's thread after the commit; may be NULL. */
     void (*on_durable)(void *data);
@@ -75,6 +79,13 @@ struct store_write {
 struct store_scene {
     const char *id, *name;
     uint64_t revision;
+    size_t nodes;
+    int64_t modified_ms;
+};
+
+/* An entry of the library. */
+struct store_entry {
+    const char *id, *kind, *name, *document;
     size_t nodes;
     int64_t modified_ms;
 };
@@ -141,8 +152,14 @@ bool store_load_asset(struct store *store, const char *id, void **out_bytes, siz
 /* The scene's last picture, a JPEG; as store_load_asset. */
 bool store_load_poster(struct store *store, const char *scene, void **out_bytes, size_t *out_length,
                        struct error *err);
+/* Calls `each` for every entry of the library, in the order of ids. */
+bool store_list_library(struct store *store,
+                        void (*each)(void *data, const struct store_entry *entry), void *data,
+                        struct error *err);
 /* Queues a write. Any thread; never waits. Takes `write`, which is on the heap, with its texts. */
 void store_push(struct store *store, struct store_write *write);
+/* The same for writes that are linked by `next`: all or none of them are committed. */
+void store_push_all(struct store *store, struct store_write *first);
 /* Waits until all earlier writes are committed and their on_durable has run. */
 void store_flush(struct store *store);
 

@@ -45,12 +45,15 @@ static const char *const schema[] = {
     " WHERE e.scene=authors.scene AND e.author=authors.author AND e.edit>0), 0);"
     "DELETE FROM authors WHERE revision=0;"
     "PRAGMA user_version = 5;",
+    "CREATE TABLE library(id TEXT PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL,"
+    " nodes INTEGER NOT NULL, modified INTEGER NOT NULL, document TEXT NOT NULL) WITHOUT ROWID;"
+    "PRAGMA user_version = 6;",
 };
 enum { SCHEMA_VERSION = sizeof schema / sizeof schema[0] };
 
 /* Parameters of every statement: 1 scene, 2 revision, 3 author, 4 edit, 5 text, 6 name, 7 nodes,
  * 8 time, 9 edits kept; of an asset 10 id, 11 type, 12 width, 13 height, 14 bytes; of an edit's
- * step 15 kind, 16 undo, 17 redo, 18 group, 19 label, 20 inverse; 21 key. */
+ * step 15 kind, 16 undo, 17 redo, 18 group, 19 label, 20 inverse; 21 key; 22 kind of an entry. */
 enum statement {
     CREATE_SCENE,
     UPDATE_SCENE,
@@ -70,6 +73,8 @@ enum statement {
     DELETE_ASSET,
     SET_POSTER,
     DELETE_POSTER,
+    SET_ENTRY,
+    DELETE_ENTRY,
     STATEMENT_COUNT
 };
 
@@ -99,6 +104,9 @@ static const char *const texts[STATEMENT_COUNT] = {
     [SET_POSTER] = "INSERT OR REPLACE INTO posters(scene, bytes) SELECT id, ?14 FROM scenes"
                    " WHERE id=?1",
     [DELETE_POSTER] = "DELETE FROM posters WHERE scene=?1",
+    [SET_ENTRY] = "INSERT OR REPLACE INTO library(id, kind, name, nodes, modified, document)"
+                  " VALUES(?1, ?22, ?6, ?7, ?8, ?5)",
+    [DELETE_ENTRY] = "DELETE FROM library WHERE id=?1",
     [DELETE_ASSET] = "DELETE FROM assets WHERE id=?10",
     [ADD_ASSET] = "INSERT OR IGNORE INTO assets(id, type, width, height, time, bytes)"
                   " VALUES(?10, ?11, ?12, ?13, ?8, ?14)",
@@ -116,6 +124,8 @@ static const int steps[][6] = {
     [STORE_ASSET] = {ADD_ASSET, -1},
     [STORE_ASSET_DELETE] = {DELETE_ASSET, -1},
     [STORE_POSTER] = {SET_POSTER, -1},
+    [STORE_LIBRARY] = {SET_ENTRY, -1},
+    [STORE_LIBRARY_DELETE] = {DELETE_ENTRY, -1},
 };
 
 struct store_sqlite {
@@ -322,6 +332,7 @@ static bool run_statement(struct store_sqlite *db, int which, const struct store
     sqlite3_bind_int64(statement, 9, STORE_LOG_KEPT);
     bind_step(statement, &write->step);
     bind_text(statement, 21, write->key);
+    bind_text(statement, 22, write->sort);
     if (write->asset) {
         bind_asset(statement, write->asset);
     }
@@ -598,6 +609,41 @@ bool store_sqlite_list_texts(struct store_sqlite *db,
                     " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
                     " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
                     "", 0, text_row, &call, err);
+    pthread_mutex_unlock(&db->read_lock);
+    return ok;
+}
+
+/* --- the library --- */
+
+struct entry_call {
+    void (*each)(void *data, const struct store_entry *entry);
+    void *data;
+};
+
+static void entry_row(void *data, sqlite3_stmt *statement)
+{
+    struct entry_call *call = data;
+    struct store_entry entry = {
+        .id = (const char *)sqlite3_column_text(statement, 0),
+        .kind = (const char *)sqlite3_column_text(statement, 1),
+        .name = (const char *)sqlite3_column_text(statement, 2),
+        .nodes = (size_t)sqlite3_column_int64(statement, 3),
+        .modified_ms = sqlite3_column_int64(statement, 4),
+        .document = (const char *)sqlite3_column_text(statement, 5),
+    };
+
+    call->each(call->data, &entry);
+}
+
+bool store_sqlite_list_library(struct store_sqlite *db,
+                               void (*each)(void *data, const struct store_entry *entry),
+                               void *data, struct error *err)
+{
+    struct entry_call call = {each, data};
+
+    pthread_mutex_lock(&db->read_lock);
+    bool ok = query(db, "SELECT id, kind, name, nodes, modified, document FROM library ORDER BY id",
+                    "", 0, entry_row, &call, err);
     pthread_mutex_unlock(&db->read_lock);
     return ok;
 }

@@ -29,6 +29,9 @@ bool store_sqlite_list_assets(struct store_sqlite *db,
 bool store_sqlite_list_texts(struct store_sqlite *db,
                              void (*each)(void *data, const char *scene, const char *text),
                              void *data, struct error *err);
+bool store_sqlite_list_library(struct store_sqlite *db,
+                               void (*each)(void *data, const struct store_entry *entry),
+                               void *data, struct error *err);
 bool store_sqlite_load_asset(struct store_sqlite *db, const char *id, void **out_bytes,
                              size_t *out_length, struct error *err);
 bool store_sqlite_load_poster(struct store_sqlite *db, const char *scene, void **out_bytes,

@@ -172,7 +172,7 @@ static void write_old_database(void)
     snprintf(path, sizeof path, "%s/scenes.sqlite", directory);
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(sqlite3_exec(db,
-                                  "ALTER TABLE authors DROP COLUMN key;"
+                                  "DROP TABLE library; ALTER TABLE authors DROP COLUMN key;"
                                   "ALTER TABLE authors DROP COLUMN revision;"
                                   "INSERT INTO authors VALUES('old', 'nothing-in-the-log', 3);"
                                   "PRAGMA user_version = 4",

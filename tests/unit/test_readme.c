@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The JSON examples of protocol/README.md: scenes are read, edits are applied to the scene before
- * them. And every file of protocol/examples is a valid scene. */
+/* The JSON examples of protocol/README.md: scenes and files of the library are read, edits are
+ * applied to the scene before them. And every file of protocol/examples is a valid scene. */
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,6 +13,7 @@
 
 #include "protocol/edit.h"
 #include "protocol/json.h"
+#include "protocol/library.h"
 #include "tests/support/text_file.h"
 
 static struct error err;
@@ -42,6 +43,18 @@ static void apply(struct scene *scene, const char *text, size_t length)
     cJSON_Delete(inverse);
 }
 
+static void read_library(const char *text, size_t length)
+{
+    cJSON *json = json_parse(text, length, &err);
+    size_t count = 0;
+    struct library_entry *entries = library_entries_read(json, &count, &err);
+    if (!entries) {
+        fail_msg("%s: %s", err.place, err.message);
+    }
+    library_entries_destroy(entries, count);
+    cJSON_Delete(json);
+}
+
 static void test_examples_of_the_readme(void **state)
 {
     (void)state;
@@ -61,6 +74,8 @@ static void test_examples_of_the_readme(void **state)
             assert_non_null(scene);
             apply(scene, start, (size_t)(end - start));
             edits++;
+        } else if (strncmp(kind, "library\n", 8) == 0) {
+            read_library(start, (size_t)(end - start));
         } else {
             fail_msg("protocol/README.md: unknown kind of example: %.20s", kind);
         }

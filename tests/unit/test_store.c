@@ -278,6 +278,50 @@ static void gives_back_files(void **state)
     store_sqlite_close(db);
 }
 
+struct seen_entry {
+    int count;
+    char text[200]; /* of the last one */
+};
+
+static void see_entry(void *data, const struct store_entry *entry)
+{
+    struct seen_entry *seen = data;
+
+    seen->count++;
+    snprintf(seen->text, sizeof seen->text, "%s %s %s %d %s %d", entry->id, entry->kind,
+             entry->name, (int)entry->nodes, entry->document, entry->modified_ms > 0);
+}
+
+static struct store_write entry_of(enum store_kind kind, const char *id, const char *text)
+{
+    struct store_write write = write_of(kind, id, 0, "", 0, text);
+
+    write.sort = "model";
+    write.time_ms = 1;
+    return write;
+}
+
+/* The newest under an id; none that was deleted; nothing of a scene of that id. */
+static void gives_back_the_library(void **state)
+{
+    struct store_sqlite *db = open_database("l.sqlite");
+    struct seen_entry seen = {0};
+
+    (void)state;
+    assert_true(commit_one(db, write_of(STORE_CREATE, "mug", 1, "", 0, "scene")));
+    assert_true(commit_one(db, entry_of(STORE_LIBRARY, "mug", "first")));
+    assert_true(commit_one(db, entry_of(STORE_LIBRARY, "mug", "second")));
+    assert_true(commit_one(db, entry_of(STORE_LIBRARY, "cup", "cup")));
+    assert_true(commit_one(db, entry_of(STORE_LIBRARY_DELETE, "cup", NULL)));
+    assert_true(commit_one(db, write_of(STORE_DELETE, "mug", 2, "", 0, NULL)));
+    store_sqlite_close(db);
+    db = open_database("l.sqlite");
+    assert_true(store_sqlite_list_library(db, see_entry, &seen, NULL));
+    assert_int_equal(seen.count, 1);
+    assert_string_equal(seen.text, "mug model name 3 second 1");
+    store_sqlite_close(db);
+}
+
 /* Runs SQL on a database that no store has open. */
 static void run_sql(const char *name, const char *sql)
 {
@@ -301,7 +345,8 @@ static void knows_older_databases(void **state)
     (void)state;
     assert_true(commit_one(db, write_of(STORE_CREATE, "s", 1, "", 0, "first")));
     store_sqlite_close(db);
-    run_sql("d.sqlite", "DROP TABLE assets; DROP TABLE posters; ALTER TABLE edits DROP COLUMN kind;"
+    run_sql("d.sqlite", "DROP TABLE assets; DROP TABLE posters; DROP TABLE library;"
+                        "ALTER TABLE edits DROP COLUMN kind;"
                         "ALTER TABLE edits DROP COLUMN undo;"
                         "ALTER TABLE edits DROP COLUMN redo;"
                         "ALTER TABLE edits DROP COLUMN step;"
@@ -379,6 +424,7 @@ int main(void)
         cmocka_unit_test(finds_single_edits),
         cmocka_unit_test(keeps_the_authors_of_the_log),
         cmocka_unit_test(gives_back_files),
+        cmocka_unit_test(gives_back_the_library),
         cmocka_unit_test(knows_older_databases),
         cmocka_unit_test(flush_waits_until_all_is_told),
     };

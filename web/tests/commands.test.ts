@@ -52,6 +52,7 @@ function page(selection: readonly string[] = []) {
         readClipboard: async () => clipboard.text,
         download: () => void done.push("download"),
         upload: () => void done.push("upload"),
+        saveToLibrary: (node) => void done.push(`save ${node}`),
     };
     const run = (id: string): string | null => {
         const command = commandById(id);

@@ -257,7 +257,86 @@ const CODED_FORMS = [
     ['shader', (page) => resource(page, 'marble')],
 ];
 
+const MATTER = { shader: 'standard', properties: { base_color: [0.6, 0.24, 0.13], roughness: 0.6 } };
+const GOLD = { shader: 'standard', properties: { base_color: [1, 0.77, 0.34], metallic: 1, roughness: 0.2 } };
+const made = (name, kind, root, materials = { clay: MATTER }) => ({
+    kind,
+    document: { format: 'fieldcast/1', name, materials, root: { material: Object.keys(materials)[0], ...root } },
+});
+const MUG = {
+    type: 'difference',
+    children: [
+        { type: 'smooth_union', params: { k: 0.1 }, children: [
+            { type: 'round_cylinder' },
+            { type: 'torus', transform: { translation: [0.6, 0, 0], rotation: [1.57, 0, 0], scale: 0.45 } },
+        ] },
+        { type: 'cylinder', params: { radius: 0.4 }, transform: { translation: [0, 0.2, 0] } },
+    ],
+};
+const LIBRARY = [
+    made('Mug', 'model', MUG),
+    made('Ring of beads', 'model', { type: 'torus' }, { gold: GOLD }),
+    made('A model with quite a long name for a narrow card', 'model', { type: 'box' }),
+    made('Gold leaf', 'material', { type: 'sphere' }, { gold: GOLD }),
+    made('Old clay', 'material', { type: 'sphere' }),
+    made('Heart', 'primitive', { type: 'implicit', params: { equation: '(x^2 + 9/4*y^2 + z^2 - 1)^3 - x^2*z^3 - 9/80*y^2*z^3 = 0' } }),
+];
+
+/** Puts things into the library, all of which are drawn before they are looked at. */
+async function fillLibrary(page) {
+    await page.evaluate(async (entries) => {
+        const { entries: old } = await (await fetch('/v1/library')).json();
+        const headers = { 'Content-Type': 'application/json' };
+        const body = JSON.stringify({ format: 'fieldcast-library/1', entries });
+        if (old.length === 0) {
+            await fetch('/v1/library', { method: 'POST', headers, body });
+        }
+    }, LIBRARY);
+}
+
+async function library(page) {
+    await fillLibrary(page);
+    await page.locator('.bar-name .button').click();
+    await page.getByRole('menuitem', { name: 'My library' }).click();
+    await page.getByTestId('library').waitFor();
+    await page.locator('[data-testid=library] img:not([hidden])').nth(3).waitFor();
+}
+
 const DIALOGS = [
+    ['library', library],
+    ['library, search', async (page) => {
+        await library(page);
+        await page.getByTestId('library').getByRole('textbox').fill('gold');
+    }],
+    ['library, menu', async (page) => {
+        await library(page);
+        await page.getByRole('button', { name: 'Actions for Mug' }).click();
+        await popup(page);
+    }],
+    ['library, empty', async (page) => {
+        await page.route('**/v1/library', (route) => route.fulfill({ json: { entries: [] } }));
+        await page.locator('.bar-name .button').click();
+        await page.getByRole('menuitem', { name: 'My library' }).click();
+        await page.getByText('Nothing here yet.').waitFor();
+    }, { alone: true }],
+    ['library, saved', async (page) => {
+        await tab(page, 'Nodes');
+        await row(page, 'pillar').click({ button: 'right' });
+        await page.getByRole('menuitem', { name: 'Save to My library' }).click();
+        await page.locator('.notice[data-code="library"]').waitFor();
+    }, { clean: (page) => page.locator('.notice[data-code="library"]').getByRole('button', { name: 'Undo' }).click() }],
+    ['library, add', async (page) => {
+        await fillLibrary(page);
+        await page.keyboard.press('Shift+A');
+        await page.locator('[data-type="library"]').last().scrollIntoViewIfNeeded();
+        await page.locator('[data-type="library"] img:not([hidden])').nth(2).waitFor();
+    }],
+    ['library, materials', async (page) => {
+        await fillLibrary(page);
+        await tab(page, 'Looks');
+        await page.getByRole('button', { name: 'Add a material', exact: true }).first().click();
+        await page.locator('.gallery [data-entry] img:not([hidden])').first().waitFor();
+    }],
     ['add', key('Shift+A'), {}],
     ['add, search', (page) => search(page, 'Shift+A', 'donut')],
     ['add, nothing found', (page) => search(page, 'Shift+A', 'xyzzy')],

@@ -4,6 +4,7 @@ import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "
 import type { Operation } from "../model/operation.ts";
 import type { Format } from "../model/picture.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
+import { createLibraryRest, type LibraryRest } from "./libraryRest.ts";
 
 export interface SceneEntry {
     readonly id: string;
@@ -141,6 +142,7 @@ export interface Rest {
     /* A picture of a document that is stored nowhere; the object URL is revoked by the caller. */
     renderImage(document: Json, wish: PictureWish, signal: AbortSignal): Promise<string>;
     readonly token: string | null;
+    readonly library: LibraryRest;
 }
 
 async function problemOf(response: Response): Promise<RestError> {
@@ -238,6 +240,7 @@ export function createRest(base: string, token: string | null): Rest {
     };
     return {
         token,
+        library: createLibraryRest(base, request),
         listScenes: async () =>
             (await list("/v1/scenes", "scenes")).map((scene) => ({
                 id: textOf(scene.id),

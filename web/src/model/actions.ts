@@ -40,6 +40,8 @@ export interface App {
     /* Saves the document as a file; opens the chooser for one. */
     download(): void;
     upload(): void;
+    /* Puts a copy of a node into the library. */
+    saveToLibrary(node: string): void;
 }
 
 /* --- what commands look at --- */

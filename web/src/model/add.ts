@@ -40,7 +40,12 @@ function paramsOf(row: NodeType | null, named: string | undefined): JsonObject {
 }
 
 /* Does a shape of the plane need something around it to become a solid here? */
-function needsSolid(document: SceneDocument, schema: Schema, row: NodeType | null, into: string) {
+export function needsSolid(
+    document: SceneDocument,
+    schema: Schema,
+    row: NodeType | null,
+    into: string,
+): string | null {
     const above = pathTo(document, into).some((node) => SOLID_MAKERS.includes(node.type));
     const maker = SOLID_MAKERS.find((type) => nodeType(schema, type) !== null);
     return row?.group === "shape" && !above ? (maker ?? null) : null;

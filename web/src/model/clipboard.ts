@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Nodes as text, with what they name, so that they can be pasted into another scene too. */
-import { findResource, type SceneDocument, type SceneNode } from "./document.ts";
+import { findResource, type SceneDocument } from "./document.ts";
 import { printNode, printResource } from "./documentJson.ts";
 import { copyInto, type Edit, freshIds, movable, renamed } from "./edits.ts";
 import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName } from "./places.ts";
 import { placing } from "./placing.ts";
-import { nodeType, type Schema } from "./schema.ts";
+import { nodeType, type Param, type Schema } from "./schema.ts";
 import { listNamedBy } from "./usage.ts";
 
 interface Named {
@@ -32,8 +32,12 @@ function namesOf(schema: Schema, common: JsonObject, type: string, params: JsonO
     });
 }
 
-/* Resources that nodes need, each after those that it needs itself. */
-function needed(schema: Schema, document: SceneDocument, ids: readonly string[]): Named[] {
+/* Resources that nodes need, given as JSON, each after those that it needs itself. */
+export function needed(
+    schema: Schema,
+    document: SceneDocument,
+    nodes: readonly JsonObject[],
+): Named[] {
     const found = new Map<string, Named>();
     const seen = new Set<string>();
     const need = (named: Named): void => {
@@ -46,33 +50,70 @@ function needed(schema: Schema, document: SceneDocument, ids: readonly string[])
         if (named.list === "materials") {
             need({ list: "shaders", name: resource.type });
         }
-        visit(document.nodes.get(resource.root));
+        if (named.list === "models") {
+            visit(printNode(document, resource.root));
+        }
         found.set(key, named);
     };
-    const visit = (node: SceneNode | undefined): void => {
-        if (node) {
-            for (const named of namesOf(schema, node.common, node.type, node.params)) {
-                need(named);
-            }
-            for (const child of node.children) {
-                visit(document.nodes.get(child));
-            }
+    const visit = (node: JsonObject): void => {
+        const params = isObject(node.params) ? node.params : {};
+        for (const named of namesOf(schema, node, textOf(node.type), params)) {
+            need(named);
+        }
+        for (const child of listOf(node.children).filter(isObject)) {
+            visit(child);
         }
     };
-    for (const id of ids) {
-        visit(document.nodes.get(id));
-    }
+    nodes.forEach(visit);
     return [...found.values()];
+}
+
+/* The JSON of a node with its subtree, or of a resource, with other names of what it names: by
+ * "/LIST/NAME". */
+export function withNames(
+    schema: Schema,
+    of: ListName | "root",
+    json: JsonObject,
+    names: ReadonlyMap<string, string>,
+): JsonObject {
+    if (of === "materials") {
+        const shader = names.get(`/shaders/${textOf(json.shader)}`);
+        return shader === undefined ? json : { ...json, shader };
+    }
+    return of === "models" || of === "root" ? nodeWithNames(schema, json, names) : json;
+}
+
+function nodeWithNames(
+    schema: Schema,
+    node: JsonObject,
+    names: ReadonlyMap<string, string>,
+): JsonObject {
+    const put = (rows: readonly Param[], values: JsonObject): JsonObject => {
+        const changed = rows.flatMap(({ name, type }) => {
+            const list = listNamedBy(type);
+            const own = list && names.get(`/${list}/${textOf(values[name])}`);
+            return own == null ? [] : [[name, own]];
+        });
+        return { ...values, ...Object.fromEntries(changed) };
+    };
+    const rows = nodeType(schema, textOf(node.type))?.params ?? [];
+    const inner = listOf(node.children).filter(isObject);
+    return {
+        ...put(schema.node, node),
+        ...(isObject(node.params) ? { params: put(rows, node.params) } : {}),
+        ...(inner.length > 0
+            ? { children: inner.map((child) => nodeWithNames(schema, child, names)) }
+            : {}),
+    };
 }
 
 /* What the clipboard holds: nodes as scene JSON, and the resources that they name. */
 export function clip(schema: Schema, document: SceneDocument, ids: readonly string[]): string {
-    const own = movable(document, ids);
-    const resources = needed(schema, document, own).flatMap(({ list, name }) => {
+    const nodes = movable(document, ids).map((id) => printNode(document, id));
+    const resources = needed(schema, document, nodes).flatMap(({ list, name }) => {
         const resource = findResource(document, list, name);
         return resource ? [{ list, name, value: printResource(document, list, resource) }] : [];
     });
-    const nodes = own.map((id) => printNode(document, id));
     return JSON.stringify({ format: "fieldcast/1", nodes, resources }, null, 1);
 }
 

@@ -332,7 +332,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "model.make",
-        words: "component symbol prefab reuse library save",
+        words: "component symbol prefab reuse",
         title: "Make a model of it",
         group: "edit",
         keys: ["Ctrl+Alt+K"],
@@ -352,6 +352,22 @@ export const COMMANDS: readonly Command[] = [
         group: "edit",
         whyNot: needsInstance,
         run: onDocument((document, ids, schema) => unpackModel(document, schema, ids[0] ?? "")),
+    }),
+    row({
+        id: "library.save",
+        words: "store keep reuse preset primitive collection asset",
+        title: "Save to My library",
+        group: "edit",
+        whyNot: needsOne,
+        run: (app) => app.saveToLibrary(selectionOf(app)[0] ?? ""),
+    }),
+    row({
+        id: "library.open",
+        words: "collection presets reuse assets primitives materials models import export",
+        title: "My library",
+        group: "scene",
+        whyNot: never,
+        run: show({ popup: "library" }),
     }),
     row({
         id: "node.up",

@@ -7,6 +7,7 @@ import { DEFAULT_CAMERA } from "./camera.ts";
 import type { SceneDocument } from "./document.ts";
 import type { Guide } from "./guide.ts";
 import { EMPTY_HISTORY, type History } from "./history.ts";
+import type { EntryRow } from "./library.ts";
 import type { Operation } from "./operation.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
@@ -176,7 +177,9 @@ export type NoticeAct =
     /* Does all the same what was left out. */
     | { readonly kind: "edit"; readonly label: string; readonly ops: readonly Operation[] }
     /* What was given up there is tried again; `slow`: with more time. */
-    | { readonly kind: "retry"; readonly place: string; readonly slow: boolean };
+    | { readonly kind: "retry"; readonly place: string; readonly slow: boolean }
+    /* Takes back what is no edit of the scene. */
+    | { readonly kind: "back"; readonly run: () => void };
 
 export interface NoticeState {
     readonly notices: readonly Notice[];
@@ -226,6 +229,13 @@ export interface CameraState {
     readonly own: boolean;
 }
 
+/* --- the library --- */
+
+export interface LibraryState {
+    /* By name; null: not read yet. */
+    readonly entries: readonly EntryRow[] | null;
+}
+
 /* --- all of them --- */
 
 export interface Stores {
@@ -234,6 +244,7 @@ export interface Stores {
     readonly link: StoreApi<LinkState>;
     readonly notices: StoreApi<NoticeState>;
     readonly camera: StoreApi<CameraState>;
+    readonly library: StoreApi<LibraryState>;
 }
 
 /* Where preferences live; the browser's localStorage fits. */
@@ -264,6 +275,7 @@ export function createStores(storage: Storage | null, tab: Storage | null = null
         link: createStore<LinkState>(() => IDLE_LINK),
         notices: createStore<NoticeState>(() => ({ notices: [] })),
         camera: createStore<CameraState>(() => ({ camera: DEFAULT_CAMERA, own: false })),
+        library: createStore<LibraryState>(() => ({ entries: null })),
     };
 }
 

@@ -24,6 +24,7 @@ export type Popup =
     | "reference"
     | "statistics"
     | "picture"
+    | "library"
     | null;
 
 /* What can be shown below the picture. */

@@ -42,6 +42,8 @@ export function createEditor(): Editor {
         download: () => void saveDocument(editor),
         upload: () =>
             chooseFiles(SCENE_FILES, async (files) => openFiles(editor, await readFiles(files))),
+        saveToLibrary: (node) =>
+            void import("./library/acts.ts").then(({ saveNode }) => saveNode(editor, node)),
         open: (scene) => void openScene(editor, scene, author),
         show: (subject) =>
             stores.view.setState(

@@ -3,7 +3,7 @@
  * for what it shows. */
 import { createContext, useContext } from "react";
 import { useStore } from "zustand";
-import type { DocumentState, LinkState, NoticeState } from "../model/stores.ts";
+import type { DocumentState, LibraryState, LinkState, NoticeState } from "../model/stores.ts";
 import type { View } from "../model/view.ts";
 import type { Editor } from "./editor.ts";
 
@@ -31,4 +31,8 @@ export function useLink<T>(selector: (state: LinkState) => T): T {
 
 export function useNotices<T>(selector: (state: NoticeState) => T): T {
     return useStore(useEditor().stores.notices, selector);
+}
+
+export function useLibrary<T>(selector: (state: LibraryState) => T): T {
+    return useStore(useEditor().stores.library, selector);
 }

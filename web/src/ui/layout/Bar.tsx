@@ -142,6 +142,7 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
             </MenuItem>
             <MenuLine />
             <ActItem id="scene.open" />
+            <ActItem id="library.open" />
             <ActItem id="view.theme" />
             <ActItem id="help.keys" />
         </>

@@ -42,6 +42,8 @@ function ActButton({ act, id }: { act: NoticeAct; id: number }) {
     const run = (): void => {
         if (act.kind === "undo") {
             editor.undo();
+        } else if (act.kind === "back") {
+            act.run();
         } else if (act.kind === "retry") {
             editor.link.tryAgain(act.place);
         } else {

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The preset materials as balls: what is active is shown on the node, without an edit; a click takes
- * it, a drag puts it on something. */
+/* The preset materials as balls, and those of the library: what is active is shown on the node,
+ * without an edit; a click takes it, a drag puts it on something. */
 import { useCallback, useEffect, useRef } from "react";
+import type { EntryRow } from "../../model/library.ts";
 import { PRESET_GROUPS, PRESETS, type Preset } from "../../model/presets.ts";
 import { search } from "../../model/search.ts";
 import { addResource } from "../insertions.ts";
+import { take } from "../library/acts.ts";
+import { EntryPicture } from "../library/EntryPicture.tsx";
+import { useEntries } from "../library/entries.ts";
 import { typeTitle } from "../names.ts";
 import { type Face, type Group, PaletteBody } from "../palettes/Palette.tsx";
 import { useEditor } from "../state.ts";
@@ -20,6 +24,11 @@ interface Props {
     onClose: () => void;
 }
 
+/* A preset, or a material of the library. */
+type Choice = Preset | EntryRow;
+
+const isEntry = (choice: Choice): choice is EntryRow => "id" in choice;
+
 export default function Gallery({ use, onClose }: Props) {
     const editor = useEditor();
     const { view } = editor.stores;
@@ -28,9 +37,20 @@ export default function Gallery({ use, onClose }: Props) {
         field.current?.focus({ preventScroll: true });
         return () => view.setState({ trial: null });
     }, [view]);
+    const entries = useEntries(true);
+    const find = useCallback(
+        (query: string) =>
+            findIn(
+                entries.filter(({ kind }) => kind === "material"),
+                query,
+            ),
+        [entries],
+    );
     const tryOut = useCallback(
-        (preset: Preset | null) =>
-            view.setState({ trial: preset && use !== null ? { preset, use } : null }),
+        (choice: Choice | null) => {
+            const preset = choice && !isEntry(choice) ? choice : null;
+            view.setState({ trial: preset && use !== null ? { preset, use } : null });
+        },
         [view, use],
     );
     return (
@@ -44,36 +64,60 @@ export default function Gallery({ use, onClose }: Props) {
                 faceOf={faceOf}
                 footOf={() => <Foot use={use} onClose={onClose} />}
                 onActive={tryOut}
-                onTake={(preset) => addResource(editor, "materials", use, preset)}
+                onTake={(choice) =>
+                    isEntry(choice)
+                        ? take(editor, choice, { use, selection: [] })
+                        : addResource(editor, "materials", use, choice)
+                }
                 onClose={onClose}
             />
         </div>
     );
 }
 
-function find(query: string): readonly Group<Preset>[] {
+function findIn(entries: readonly EntryRow[], query: string): readonly Group<Choice>[] {
     if (query.trim() !== "") {
-        const items = search(PRESETS, query, ({ name, group }) => ({
-            name: typeTitle(name),
-            words: t(`gallery.${group}`),
-            doc: "",
-        }));
+        const items = search<Choice>([...entries, ...PRESETS], query, (choice) =>
+            isEntry(choice)
+                ? { name: choice.name, words: t("library.title") }
+                : { name: typeTitle(choice.name), words: t(`gallery.${choice.group}`), doc: "" },
+        );
         return [{ title: t("add.results"), items }];
     }
-    return PRESET_GROUPS.map((group) => ({
+    const presets = PRESET_GROUPS.map((group) => ({
         title: t(`gallery.${group}`),
         items: PRESETS.filter((preset) => preset.group === group),
     }));
+    return [{ title: t("library.title"), items: entries }, ...presets];
 }
 
-function faceOf(preset: Preset): Face {
-    return {
-        key: preset.name,
-        className: "gallery-tile",
-        data: { "data-preset": preset.name },
-        onDragStart: dragPreset(preset.name),
-        content: <Tile preset={preset} />,
-    };
+function faceOf(choice: Choice): Face {
+    const className = "gallery-tile";
+    return isEntry(choice)
+        ? {
+              key: `library/${choice.id}`,
+              className,
+              data: { "data-entry": choice.id },
+              content: <EntryTile entry={choice} />,
+          }
+        : {
+              key: choice.name,
+              className,
+              data: { "data-preset": choice.name },
+              onDragStart: dragPreset(choice.name),
+              content: <Tile preset={choice} />,
+          };
+}
+
+function EntryTile({ entry }: { entry: EntryRow }) {
+    return (
+        <>
+            <span className="gallery-ball">
+                <EntryPicture entry={entry} />
+            </span>
+            <span className="ellipsis">{entry.name}</span>
+        </>
+    );
 }
 
 function Tile({ preset }: { preset: Preset }) {

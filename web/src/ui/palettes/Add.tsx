@@ -10,12 +10,16 @@ import { WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { addInput, addNode } from "../insertions.ts";
+import { take } from "../library/acts.ts";
+import { EntryPicture } from "../library/EntryPicture.tsx";
+import { useEntries } from "../library/entries.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import {
     groupTitle,
     inputsOf,
+    libraryOffers,
     type Offer,
     offersOf,
     searchOffers,
@@ -51,12 +55,15 @@ export function Add() {
     const schema = useDocument((state) => state.schema);
     const document = useNames();
     const recent = useView((view) => view.preferences.recent);
+    const entries = useEntries(open && !wrapping);
     const find = useCallback(
         (query: string): readonly Group<Offer>[] => {
             if (document === null || !open) {
                 return [];
             }
-            const all = wrapping ? wrappersOf(schema) : offersOf(schema, document);
+            const all = wrapping
+                ? wrappersOf(schema)
+                : [...offersOf(schema, document), ...libraryOffers(entries)];
             const offers = into === null ? all : inputsOf(schema, document, into, all);
             if (query.trim() !== "") {
                 return [{ title: t("add.results"), items: searchOffers(offers, query) }];
@@ -69,7 +76,7 @@ export function Add() {
                 ? [{ title: t("add.recent"), items: last }, ...groups]
                 : groups;
         },
-        [schema, document, recent, wrapping, into, open],
+        [schema, document, recent, wrapping, into, open, entries],
     );
     const footOf = (offer: Offer) =>
         into === null ? <AddFoot offer={offer} /> : <InputFoot into={into} />;
@@ -82,9 +89,15 @@ export function Add() {
             find={find}
             faceOf={faceOf}
             footOf={footOf}
-            onTake={(offer) =>
-                into === null ? addNode(editor, offer) : addInput(editor, offer, into)
-            }
+            onTake={(offer) => {
+                if (offer.entry) {
+                    take(editor, offer.entry, { into });
+                } else if (into === null) {
+                    addNode(editor, offer);
+                } else {
+                    addInput(editor, offer, into);
+                }
+            }}
             onClose={() => editor.stores.view.setState({ popup: null })}
         />
     );
@@ -102,6 +115,10 @@ function AddFoot({ offer }: { offer: Offer }) {
     const selection = useView((view) => view.selection);
     const way = useView((view) => view.preferences.way);
     const what = document && whatAdding(document, schema, offer, selection, way);
+    if (offer.entry?.kind === "material") {
+        const words = t(selection.length > 0 ? "library.gives" : "library.brings");
+        return <span className="palette-what ellipsis">{words}</span>;
+    }
     return (
         <>
             {what?.way && (
@@ -148,8 +165,11 @@ function faceOf(offer: Offer): Face {
     };
 }
 
-function TilePicture({ offer: { type, group, named } }: { offer: Offer }) {
+function TilePicture({ offer: { type, group, named, entry } }: { offer: Offer }) {
     const row = useDocument((state) => nodeType(state.schema, type));
+    if (entry) {
+        return <EntryPicture entry={entry} />;
+    }
     if (named !== undefined) {
         return (
             <span className="type-picture">

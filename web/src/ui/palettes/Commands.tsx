@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The command palette: commands, what can be added, nodes by name, resources, outputs, scenes. */
-import { Box, ChevronRight, Info, Layers2 } from "lucide-react";
+import { Bookmark, Box, ChevronRight, Info, Layers2 } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useState } from "react";
 import type { SceneEntry } from "../../link/rest.ts";
 import { runCommand, searchAbsent, searchCommands } from "../../model/commandLookup.ts";
 import { nodeLabel, type SceneDocument, typesOf } from "../../model/document.ts";
+import type { EntryRow } from "../../model/library.ts";
 import { LIST_NAMES, LISTS } from "../../model/places.ts";
 import { nodeType, outputsShown, type Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
@@ -12,13 +13,15 @@ import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { addNode, addTyped, selectNode } from "../insertions.ts";
 import { keyText } from "../layout/keys.ts";
+import { take } from "../library/acts.ts";
+import { useEntries } from "../library/entries.ts";
 import { outputTitle, typeTitle } from "../names.ts";
 import { goTo } from "../route.ts";
 import { ResourceIcon, TypeIcon } from "../scene/ResourceIcon.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
 import { Glyph } from "../widgets/Glyph.tsx";
-import { offersOf, searchOffers } from "./additions.ts";
+import { libraryOffers, offersOf, searchOffers } from "./additions.ts";
 import { type Face, type Group, Palette } from "./Palette.tsx";
 
 interface Entry {
@@ -64,16 +67,29 @@ function absentEntries(query: string): Entry[] {
     }));
 }
 
-function offerEntries(editor: Editor, schema: Schema, document: SceneDocument, query: string) {
-    return searchOffers(offersOf(schema, document), query)
+function offerEntries(
+    editor: Editor,
+    schema: Schema,
+    document: SceneDocument,
+    entries: readonly EntryRow[],
+    query: string,
+) {
+    return searchOffers([...offersOf(schema, document), ...libraryOffers(entries)], query)
         .slice(0, MOST_OTHERS)
         .map(
             (offer): Entry => ({
                 id: `add-${offer.named ?? offer.type}`,
                 title: offer.title,
-                note: offer.named === undefined ? undefined : typeTitle(offer.type),
-                icon: <Glyph type={offer.type} group={offer.group} />,
-                run: () => addNode(editor, offer),
+                ...(offer.entry
+                    ? {
+                          note: t("library.title"),
+                          icon: <Bookmark size={15} aria-hidden="true" />,
+                      }
+                    : {
+                          note: offer.named === undefined ? undefined : typeTitle(offer.type),
+                          icon: <Glyph type={offer.type} group={offer.group} />,
+                      }),
+                run: () => (offer.entry ? take(editor, offer.entry) : addNode(editor, offer)),
             }),
         );
 }
@@ -177,6 +193,7 @@ export function CommandPalette() {
     const document = useDocument((state) => (open ? state.document : null));
     const schema = useDocument((state) => state.schema);
     const scenes = useScenes(open);
+    const entries = useEntries(open);
     const find = useCallback(
         (query: string): readonly Group<Entry>[] => {
             const searched = query.trim() !== "";
@@ -196,7 +213,7 @@ export function CommandPalette() {
                 title: t("commands.add"),
                 items: searched
                     ? [
-                          ...offerEntries(editor, schema, document, query),
+                          ...offerEntries(editor, schema, document, entries, query),
                           ...typedEntries(editor, schema, query),
                       ]
                     : [],
@@ -215,7 +232,7 @@ export function CommandPalette() {
                 : [commands, nodes, others];
             return groups.filter(({ items }) => items.length > 0);
         },
-        [editor, document, schema, scenes],
+        [editor, document, schema, scenes, entries],
     );
     return (
         <Palette

@@ -3,6 +3,7 @@
  * document. Shared by both palettes. */
 import { type Addition, typeNaming } from "../../model/add.ts";
 import { pathTo, type SceneDocument } from "../../model/document.ts";
+import type { EntryRow } from "../../model/library.ts";
 import { isContainer, SOLID_MAKERS } from "../../model/placing.ts";
 import type { NodeType, Schema } from "../../model/schema.ts";
 import { search } from "../../model/search.ts";
@@ -15,6 +16,8 @@ export interface Offer extends Addition {
     group: string;
     doc: string;
     words: string;
+    /* Of the library; absent: of the registry or the document. */
+    entry?: EntryRow;
 }
 
 function ofType(row: NodeType): Offer {
@@ -49,6 +52,19 @@ export function offersOf(schema: Schema, document: SceneDocument): readonly Offe
     ];
 }
 
+/* What the library has. */
+export function libraryOffers(entries: readonly EntryRow[]): readonly Offer[] {
+    return entries.map((entry) => ({
+        type: "library",
+        named: entry.id,
+        title: entry.name,
+        group: "library",
+        doc: t(`library.offer.${entry.kind}`),
+        words: entry.kind,
+        entry,
+    }));
+}
+
 /* Only what can go around others. */
 export function wrappersOf(schema: Schema): readonly Offer[] {
     return schema.nodes.filter((row) => isContainer(row) && row.group !== "primitive").map(ofType);
@@ -65,8 +81,9 @@ export function inputsOf(
     const flat = pathTo(document, into).some(({ type }) => SOLID_MAKERS.includes(type));
     const models = modelsFor(schema, document, into);
     return offers.filter(
-        ({ group, named }) =>
+        ({ group, named, entry }) =>
             !(flat && group === "primitive") &&
+            entry?.kind !== "material" &&
             (group !== "models" || models.includes(named ?? "")),
     );
 }

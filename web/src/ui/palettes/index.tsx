@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Everything that floats over the page: palettes, keys, the picture as a file, the reference. One part, loaded later. */
+/* Everything that floats over the page: palettes, keys, the picture as a file, the reference,
+ * the library. One part, loaded later. */
+import { LibraryDialog } from "../library/LibraryDialog.tsx";
 import { ReferenceDialog } from "../reference/ReferenceDialog.tsx";
 import { Add } from "./Add.tsx";
 import { CommandPalette } from "./Commands.tsx";
@@ -14,6 +16,7 @@ export default function Palettes() {
             <Keys />
             <PictureDialog />
             <ReferenceDialog />
+            <LibraryDialog />
         </>
     );
 }

@@ -27,7 +27,7 @@ const parts: readonly (readonly string[])[] = [
         "node.wrap",
         "node.dissolve",
     ],
-    ["model.edit", "model.make", "model.unpack"],
+    ["model.edit", "model.make", "model.unpack", "library.save"],
     ["node.up", "node.down", "node.park", "node.unpark"],
     ["node.hide", "node.isolate", "node.showAll", "camera.frame"],
     ["node.delete"],

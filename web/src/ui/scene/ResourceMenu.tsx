@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What can be done with a resource, where its row and its form stand. */
-import { Copy, Ellipsis, PackagePlus, SquareCode, Trash2 } from "lucide-react";
+import { BookmarkPlus, Copy, Ellipsis, PackagePlus, SquareCode, Trash2 } from "lucide-react";
 import type { Resource } from "../../model/document.ts";
+import { isSavable } from "../../model/library.ts";
 import type { ListName } from "../../model/places.ts";
 import { whyNotRemoved } from "../../model/usage.ts";
 import { addInstance, codePlace, duplicate, openCode, remove } from "../insertions.ts";
@@ -69,6 +70,18 @@ function Common({ list, resource }: Props) {
             <MenuItem icon={<Copy size={14} />} onSelect={() => duplicate(editor, list, resource)}>
                 {t("resource.duplicate")}
             </MenuItem>
+            {isSavable(list) && (
+                <MenuItem
+                    icon={<BookmarkPlus size={14} />}
+                    onSelect={() =>
+                        void import("../library/acts.ts").then(({ saveResource }) =>
+                            saveResource(editor, list, resource),
+                        )
+                    }
+                >
+                    {t("library.save")}
+                </MenuItem>
+            )}
             <MenuItem
                 icon={<Trash2 size={14} />}
                 danger

@@ -130,7 +130,7 @@ interface RenameProps {
     onCancel: () => void;
 }
 
-function RenameField({ name, onDone, onCancel }: RenameProps) {
+export function RenameField({ name, onDone, onCancel }: RenameProps) {
     return (
         <input
             className="text-field"

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: MIT */
+/* The library: what a scene gives to it, as a small document with all that it uses, and the edit that
+ * takes it into another scene. */
+import { needsSolid } from "./add.ts";
+import { needed, withNames } from "./clipboard.ts";
+import {
+    findResource,
+    freeName,
+    modelOf,
+    nodeLabel,
+    pathTo,
+    type Resource,
+    type SceneDocument,
+} from "./document.ts";
+import { printNode, printResource, readDocument } from "./documentJson.ts";
+import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
+import { equalJson, isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import type { Operation } from "./operation.ts";
+import type { ListName } from "./places.ts";
+import { placing, type Way } from "./placing.ts";
+import { type NodeType, nodeType, type Schema } from "./schema.ts";
+
+export const LIBRARY_FORMAT = "fieldcast-library/1";
+
+export const ENTRY_KINDS = ["primitive", "material", "model"] as const;
+export type EntryKind = (typeof ENTRY_KINDS)[number];
+
+/* As the server lists it. */
+export interface EntryRow {
+    readonly id: string;
+    readonly kind: EntryKind;
+    readonly name: string;
+    readonly nodes: number;
+}
+
+export interface Entry {
+    readonly kind: EntryKind;
+    readonly document: JsonObject;
+}
+
+/* Lists whose items an entry can hold, each after those that it names. */
+const LISTS_HELD = ["shaders", "primitives", "materials", "models"] as const;
+type Held = (typeof LISTS_HELD)[number];
+
+/* Lists whose items can be saved. */
+export type SavedList = Exclude<Held, "shaders">;
+
+export const isSavable = (list: ListName): list is SavedList =>
+    list !== "shaders" && LISTS_HELD.includes(list as Held);
+
+/* --- giving --- */
+
+/* Is it somebody's own shape: code, an equation, or the name of a distance function? */
+function isWritten(row: NodeType | null): boolean {
+    return row?.params.some(({ type }) => ["code", "equation", "function"].includes(type)) ?? false;
+}
+
+/* The material that applies to a node: its own or the nearest above. */
+function materialOf(document: SceneDocument, id: string): string {
+    const named = pathTo(document, id).map(({ common }) => textOf(common.material as Json));
+    return named.filter((name) => name !== "").at(-1) ?? "";
+}
+
+function documentOf(
+    schema: Schema,
+    document: SceneDocument,
+    name: string,
+    root: JsonObject,
+): JsonObject {
+    const resources: Partial<Record<ListName, JsonObject>> = {};
+    for (const { list, name: own } of needed(schema, document, [root])) {
+        const resource = findResource(document, list, own);
+        if (resource) {
+            resources[list] = {
+                ...resources[list],
+                [own]: printResource(document, list, resource),
+            };
+        }
+    }
+    return { format: "fieldcast/1", name, ...resources, root };
+}
+
+/* A node with all below it, as it looks, where it stands at the origin. */
+export function entryOfNode(schema: Schema, document: SceneDocument, id: string): Entry | null {
+    const node = document.nodes.get(id);
+    if (!node) {
+        return null;
+    }
+    const { visible: _visible, transform, ...own } = printNode(document, id);
+    const { translation: _translation, ...turned } = isObject(transform) ? transform : {};
+    const material = materialOf(document, id);
+    const root: JsonObject = {
+        ...own,
+        ...(Object.keys(turned).length > 0 ? { transform: turned } : {}),
+        ...(material === "" ? {} : { material }),
+    };
+    const written = node.children.length === 0 && isWritten(nodeType(schema, node.type));
+    return {
+        kind: written ? "primitive" : "model",
+        document: documentOf(schema, document, nodeLabel(node), root),
+    };
+}
+
+export function entryOfResource(
+    schema: Schema,
+    document: SceneDocument,
+    list: SavedList,
+    resource: Resource,
+): Entry | null {
+    const { name } = resource;
+    const entry = (kind: EntryKind, root: JsonObject): Entry => ({
+        kind,
+        document: documentOf(schema, document, name, root),
+    });
+    switch (list) {
+        case "materials":
+            return entry("material", { type: "sphere", material: name });
+        case "models":
+            return entry("model", printNode(document, resource.root));
+        case "primitives": {
+            const row = schema.nodes.find((one) => one.params.some(isFunction));
+            const param = row?.params.find(isFunction);
+            return row && param
+                ? entry("primitive", { type: row.type, params: { [param.name]: name } })
+                : null;
+        }
+    }
+}
+
+const isFunction = ({ type }: { type: string }): boolean => type === "function";
+
+/* --- taking --- */
+
+/* Without the ids of nodes, which are new in each scene. */
+function withoutIds({ id: _id, children, ...own }: JsonObject): JsonObject {
+    const inner = listOf(children).filter(isObject).map(withoutIds);
+    return inner.length > 0 ? { ...own, children: inner } : own;
+}
+
+function isSame(list: Held, a: JsonObject, b: JsonObject): boolean {
+    return list === "models" ? equalJson(withoutIds(a), withoutIds(b)) : equalJson(a, b);
+}
+
+/* What the document has already, under the same name or one that was made of it. */
+function knownAs(
+    document: SceneDocument,
+    list: Held,
+    name: string,
+    value: JsonObject,
+): string | null {
+    const stem = `${name}-`;
+    const same = document[list].find(
+        (one) =>
+            (one.name === name ||
+                (one.name.startsWith(stem) && /^\d+$/.test(one.name.slice(stem.length)))) &&
+            isSame(list, printResource(document, list, one), value),
+    );
+    return same?.name ?? null;
+}
+
+interface Taken {
+    readonly ops: readonly Operation[];
+    /* The names that its resources have here, by "/LIST/NAME". */
+    readonly names: ReadonlyMap<string, string>;
+}
+
+/* Brings in what an entry uses. What is here already is shared, but no models inside a model: one
+ * could come to hold itself. */
+function takeResources(
+    schema: Schema,
+    document: SceneDocument,
+    entry: SceneDocument,
+    fresh: (stem: string) => string,
+    above: string,
+): Taken {
+    const names = new Map<string, string>();
+    const ops: Operation[] = [];
+    const insideModel = modelOf(document, above) !== null;
+    for (const list of LISTS_HELD) {
+        for (const resource of inOrder(schema, entry, list)) {
+            const { name } = resource;
+            const json = withNames(schema, list, printResource(entry, list, resource), names);
+            const shared = list !== "models" || !insideModel;
+            const known = shared ? knownAs(document, list, name, json) : null;
+            const free = findResource(document, list, name) === null;
+            const own = known ?? (free ? name : freeName(document, list, name));
+            names.set(`/${list}/${name}`, own);
+            if (known === null) {
+                const value = list === "models" ? renamed(json, fresh) : json;
+                ops.push({ op: "insert", into: `/${list}`, before: null, name: own, value });
+            }
+        }
+    }
+    return { ops, names };
+}
+
+/* Models behind those of which they hold instances. */
+function inOrder(schema: Schema, entry: SceneDocument, list: Held): readonly Resource[] {
+    if (list !== "models") {
+        return entry[list];
+    }
+    const roots = entry.models.map(({ root }) => printNode(entry, root));
+    const names = needed(schema, entry, roots).filter((one) => one.list === "models");
+    const inner = names.flatMap(({ name }) => findResource(entry, "models", name) ?? []);
+    return [...inner, ...entry.models.filter((model) => !inner.includes(model))];
+}
+
+/* Where an entry goes. */
+export interface Target {
+    readonly selection: readonly string[];
+    readonly way: Way;
+    /* The node whose last input it becomes. */
+    readonly into?: string | null;
+    /* The place that names the material. */
+    readonly use?: string | null;
+}
+
+function takeMaterial(
+    schema: Schema,
+    document: SceneDocument,
+    entry: SceneDocument,
+    { selection, use }: Target,
+): Edit | null {
+    const [material] = entry.materials;
+    if (!material) {
+        return null;
+    }
+    const { ops, names } = takeResources(schema, document, entry, freshIds(document), "");
+    const name = names.get(`/materials/${material.name}`) ?? material.name;
+    const users = use ? [use] : selection.map((id) => `/nodes/${id}/material`);
+    return {
+        ops: [...ops, ...users.map((at): Operation => ({ op: "set", at, value: name }))],
+        label: `add ${name}`,
+        select: selection,
+    };
+}
+
+function takeTree(
+    schema: Schema,
+    document: SceneDocument,
+    entry: SceneDocument,
+    { selection, way, into }: Target,
+): Edit {
+    const root = printNode(entry, entry.root);
+    const name = textOf(entry.info.name as Json, "entry");
+    const row = nodeType(schema, textOf(root.type));
+    const place = into
+        ? { ops: [], spot: { into, before: null }, above: into }
+        : placing(document, schema, selection, row, way);
+    const fresh = freshIds(document);
+    const freshName = freshNames(document);
+    for (const op of place.ops) {
+        /* The place has taken an id and a name of this type. */
+        const type = op.op === "insert" ? textOf(op.value.type) : "";
+        if (type !== "") {
+            fresh(type);
+            freshName(type);
+        }
+    }
+    const { ops, names } = takeResources(schema, document, entry, fresh, place.above);
+    const own = renamed({ ...withNames(schema, "root", root, names), name }, fresh, freshName);
+    const maker = needsSolid(document, schema, row, place.above);
+    const value = maker
+        ? { id: fresh(maker), type: maker, name: freshName(maker), children: [own] }
+        : own;
+    const { into: parent, before } = place.spot;
+    return {
+        ops: [...ops, ...place.ops, { op: "insert", into: `/nodes/${parent}`, before, value }],
+        label: `add ${name}`,
+        select: [String(own.id)],
+    };
+}
+
+/* A copy of an entry in a scene; null: there is nothing in it. */
+export function takeEntry(
+    schema: Schema,
+    document: SceneDocument,
+    { kind, document: json }: Entry,
+    target: Target,
+): Edit | null {
+    const entry = readDocument(json);
+    return kind === "material"
+        ? takeMaterial(schema, document, entry, target)
+        : takeTree(schema, document, entry, target);
+}
+
+/* The entry under another name. */
+export const renameEntry = ({ kind, document }: Entry, name: string): Entry => ({
+    kind,
+    document: { ...document, name },
+});
+
+export function readEntryRows(json: Json): readonly EntryRow[] {
+    return listOf(isObject(json) ? json.entries : [])
+        .filter(isObject)
+        .map(({ id, kind, name, nodes }) => ({
+            id: textOf(id),
+            kind: ENTRY_KINDS.find((one) => one === kind) ?? "model",
+            name: textOf(name),
+            nodes: typeof nodes === "number" ? nodes : 0,
+        }));
+}
+
+export function readEntry(json: Json): Entry {
+    const object = isObject(json) ? json : {};
+    return {
+        kind: ENTRY_KINDS.find((one) => one === object.kind) ?? "model",
+        document: isObject(object.document) ? object.document : {},
+    };
+}
