@@ -584,6 +584,15 @@ export const COMMANDS: readonly Command[] = [
         run: show(toggleGraph),
     }),
     row({
+        id: "view.grid",
+        words: "floor ground plane lines axes raster show hide",
+        title: "Ground grid in the picture",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, { grid: !stores.view.getState().preferences.grid }),
+    }),
+    row({
         id: "view.marks",
         words: "icons overlay gizmos show hide",
         title: "Lights, volumes and camera in the picture",

@@ -59,6 +59,8 @@ export interface Preferences {
     readonly marks: boolean;
     /* What is selected, and what is under the pointer, is outlined. */
     readonly outlines: boolean;
+    /* The ground has lines. */
+    readonly grid: boolean;
 }
 
 /* How hands in the picture act. */
@@ -86,6 +88,7 @@ export const PREFERENCES: Preferences = {
     hands: HANDS,
     marks: true,
     outlines: true,
+    grid: true,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -260,5 +263,6 @@ export function readPreferences(text: string | null): Preferences {
         },
         marks: stored.marks !== false,
         outlines: stored.outlines !== false,
+        grid: stored.grid !== false,
     };
 }

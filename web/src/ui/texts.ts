@@ -156,6 +156,7 @@ const texts = {
 
     "material.shared": "Also on {count} others.",
     "material.shared.one": "Also on 1 other.",
+    "grid.title": "Ground grid",
     "axes.title": "Views along the axes",
     "marks.camera": "Camera of the scene",
     "output.value": "Value under the pointer",
