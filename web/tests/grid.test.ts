@@ -53,11 +53,13 @@ const isMultiple = (x: number, step: number): boolean =>
 test("each piece lies on the ground, on a line of the world, in the picture", () => {
     const next = random(3);
     let seen = 0;
+    const places = new Set<string>();
     for (let round = 0; round < 60; round++) {
         const camera = randomCamera(next);
         const [least] = levelsOf(camera);
         for (const { axis, ends } of piecesOf(gridStrokes(camera, SIZE, null))) {
             seen++;
+            places.add(`${round} ${ends.map(({ x, y }) => `${x.toFixed(3)} ${y.toFixed(3)}`)}`);
             const [a, b] = ends.map((spot) => groundAt(camera, spot)) as [Vector, Vector];
             for (const { x, y } of ends) {
                 expect(x > -1e-6 && x < SIZE.width + 1e-6).toBe(true);
@@ -71,6 +73,8 @@ test("each piece lies on the ground, on a line of the world, in the picture", ()
         }
     }
     expect(seen).toBeGreaterThan(3000);
+    /* Each once. */
+    expect(places.size).toBe(seen);
 });
 
 test("lines are 1 and 10 units apart, stronger near the target than far from it", () => {

@@ -27,7 +27,7 @@ import {
 } from "../src/model/movables.ts";
 import { apply as applyOperations } from "../src/model/operations.ts";
 import { projectionOf } from "../src/model/projection.ts";
-import { snapTo, targetsOf } from "../src/model/snapping.ts";
+import { snapTo, surfaceUnder, targetsOf } from "../src/model/snapping.ts";
 import {
     add,
     apply,
@@ -350,4 +350,37 @@ test("what is drawn to is every shape that does not move along", () => {
     expect(names(["a"])).toEqual(["b"]);
     expect(names(["root"])).toEqual([]);
     close(targetsOf(document, SCHEMA, ["pair"])[0]?.at ?? [9, 9, 9], [1, 2, 0]);
+});
+
+test("the surface under a spot is that of what does not move along", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                { id: "a", type: "sphere", name: "A" },
+                { id: "pair", type: "group", children: [{ id: "b", type: "sphere" }] },
+            ],
+        },
+    });
+    const camera = { ...DEFAULT_CAMERA, position: [0, 0, 10], target: [0, 0, 0] } as const;
+    const size = { width: 8, height: 4 };
+    const projection = projectionOf(camera, size);
+    /* From the left: a at 5, b at 6, the floor at 7, nothing. */
+    const guide = {
+        ...{ input: 1, revision: 1, width: 16, height: 1, ids: ["a", "b"] },
+        indices: Uint16Array.from({ length: 16 }, (_, x) => [1, 2, 0, 0][x >> 2] ?? 0),
+        distances: Float32Array.of(5, 6, 7, Number.POSITIVE_INFINITY),
+    };
+    const under = (x: number, ...moved: string[]) =>
+        surfaceUnder(document, guide, projection, moved, { x, y: 2 });
+    expect(under(0.5)?.name).toBe("A");
+    expect(length(subtract(under(0.5)?.at ?? [0, 0, 0], camera.position))).toBeCloseTo(5, 5);
+    expect(under(0.5, "a")).toBe(null);
+    expect(under(0.5, "root")).toBe(null);
+    expect(under(2.5, "pair")).toBe(null);
+    expect(under(2.5, "a")?.name).toBe("b");
+    expect(under(4.2, "a", "pair")?.name).toBe("floor");
+    expect(under(7.9)).toBe(null);
 });

@@ -4,36 +4,41 @@ import { DISTANCE_STEP, type Guide, pixelOf } from "./guide.ts";
 import type { Projection, Spot } from "./projection.ts";
 import { add, scale, type Vector } from "./transform.ts";
 
-/* A pixel that has a distance. */
-interface Sample {
-    readonly far: number;
-    /* Of four around a place: 1 at it, 0 where the next one is. */
-    readonly weight: number;
-    /* It shows the node of the place. */
-    readonly same: boolean;
-}
+/* The four pixels around a place that have a distance. Written anew for each place: a grid asks for
+ * thousands of them. */
+const far = new Float64Array(4);
+/* 1 at the place, 0 where the next one is; -1 outside of the picture. */
+const weight = new Float64Array(4);
+/* It shows the node of the place. */
+const same = new Uint8Array(4);
 
-function samplesAround(guide: Guide, u: number, v: number): readonly Sample[] {
-    const { width, height, indices, distances } = guide;
+function lookAround({ width, height, indices, distances }: Guide, u: number, v: number): void {
     const node = indices[pixelOf(v, height) * width + pixelOf(u, width)];
-    const [across, down] = [width, height].map((side) => Math.ceil(side / DISTANCE_STEP));
+    const across = Math.ceil(width / DISTANCE_STEP);
+    const down = Math.ceil(height / DISTANCE_STEP);
     /* Both are from the middle of the first pixel. */
-    const x = within((u * width - 0.5) / DISTANCE_STEP, across as number);
-    const y = within((v * height - 0.5) / DISTANCE_STEP, down as number);
-    const samples: Sample[] = [];
-    for (let j = Math.floor(y); j < Math.min(y + 1, down as number); j++) {
-        for (let i = Math.floor(x); i < Math.min(x + 1, across as number); i++) {
-            samples.push({
-                far: distances[j * (across as number) + i] as number,
-                weight: (1 - Math.abs(x - i)) * (1 - Math.abs(y - j)),
-                same: indices[(j * width + i) * DISTANCE_STEP] === node,
-            });
-        }
+    const x = Math.max(0, Math.min(across - 1, (u * width - 0.5) / DISTANCE_STEP));
+    const y = Math.max(0, Math.min(down - 1, (v * height - 0.5) / DISTANCE_STEP));
+    for (let corner = 0; corner < 4; corner++) {
+        const i = Math.floor(x) + (corner & 1);
+        const j = Math.floor(y) + (corner >> 1);
+        const inside = i < across && j < down;
+        far[corner] = distances[j * across + i] ?? 0;
+        weight[corner] = inside ? (1 - Math.abs(x - i)) * (1 - Math.abs(y - j)) : -1;
+        same[corner] = Number(inside && indices[(j * width + i) * DISTANCE_STEP] === node);
     }
-    return samples;
 }
 
-const within = (at: number, count: number): number => Math.max(0, Math.min(count - 1, at));
+/* Which of them is nearest; one of the same node goes before all others. */
+function nearest(): number {
+    let best = 0;
+    for (let corner = 1; corner < 4; corner++) {
+        const alike = (same[corner] as number) - (same[best] as number);
+        const nearer = (weight[corner] as number) > (weight[best] as number);
+        best = alike > 0 || (alike === 0 && nearer) ? corner : best;
+    }
+    return best;
+}
 
 /* Distances whose ratio is smaller are of one surface. */
 const ONE_SURFACE = 1.1;
@@ -42,27 +47,28 @@ const ONE_SURFACE = 1.1;
  * pixels around that have a distance, those of the same node and surface say it together, in parts
  * of the inverse, which is nearly even over a plane. */
 export function distanceAt(guide: Guide, u: number, v: number): number {
-    const all = samplesAround(guide, u, v);
-    const alike = all.filter(({ same }) => same);
-    const asked = alike.length > 0 ? alike : all;
-    const nearest = asked.reduce((a, b) => (b.weight > a.weight ? b : a));
-    if (alike.length === 0 || nearest.far === Number.POSITIVE_INFINITY) {
-        return nearest.far;
+    lookAround(guide, u, v);
+    const best = nearest();
+    const here = far[best] as number;
+    if (same[best] === 0 || here === Number.POSITIVE_INFINITY) {
+        return here;
     }
     let [sum, weights] = [0, 0];
-    for (const { far, weight } of alike) {
-        if (far < nearest.far * ONE_SURFACE && nearest.far < far * ONE_SURFACE) {
-            sum += weight / far;
-            weights += weight;
+    for (let corner = 0; corner < 4; corner++) {
+        const there = far[corner] as number;
+        const alike = there < here * ONE_SURFACE && here < there * ONE_SURFACE;
+        if (same[corner] === 1 && alike) {
+            sum += (weight[corner] as number) / there;
+            weights += weight[corner] as number;
         }
     }
-    return weights > 0 ? weights / sum : nearest.far;
+    return weights > 0 ? weights / sum : here;
 }
 
 /* The point of the surface that is seen at a spot, in the world; null: none is there. */
 export function surfaceAt(guide: Guide, projection: Projection, spot: Spot): Vector | null {
     const { width, height } = projection.size;
-    const far = distanceAt(guide, spot.x / width, spot.y / height);
+    const distance = distanceAt(guide, spot.x / width, spot.y / height);
     const { from, along } = projection.rayAt(spot);
-    return Number.isFinite(far) ? add(from, scale(along, far)) : null;
+    return Number.isFinite(distance) ? add(from, scale(along, distance)) : null;
 }

@@ -28,7 +28,7 @@ const MINOR = 0.55;
 export function levelsOf(camera: Camera): readonly Level[] {
     const far = Math.log10(reachOf(camera) / FULL);
     const least = Math.floor(far);
-    const gone = far - least;
+    const gone = (far - least) ** 2;
     return [
         { step: 10 ** least, strength: MINOR * (1 - gone) },
         { step: 10 ** (least + 1), strength: 1 - (1 - MINOR) * gone },
@@ -167,7 +167,7 @@ function strengthAt(lens: Lens, step: number, radius: number, middle: Vector, at
 export type Visible = (x: number, y: number, far: number) => boolean;
 
 /* Pixels between two looks along a line; where they differ, the edge is found to a part of that. */
-const LOOK = 3;
+const LOOK = 4;
 const HALVINGS = 3;
 
 function addVisible(

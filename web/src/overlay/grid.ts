@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The ground grid over the picture. Where its guide tells how far surfaces are, they hide what is
  * behind them; while the picture moves, the grid is faint and whole. */
+import { type Camera, equalCamera } from "../model/camera.ts";
 import { distanceAt } from "../model/distances.ts";
 import { type GridStroke, gridStrokes, type Visible } from "../model/grid.ts";
 import { type Guide, shownGuide } from "../model/guide.ts";
@@ -42,11 +43,24 @@ function paint(brush: Brush, strokes: readonly GridStroke[], opacity: number): v
     brush.globalAlpha = 1;
 }
 
+/* What is drawn, so that nothing is drawn twice: looking where surfaces hide lines takes longest. */
+interface Drawn {
+    readonly camera: Camera | null;
+    readonly guide: Guide | null;
+    readonly size: string;
+}
+
+const sameDrawn = (a: Drawn, b: Drawn): boolean =>
+    a.guide === b.guide &&
+    a.size === b.size &&
+    (a.camera === b.camera || (!!a.camera && !!b.camera && equalCamera(a.camera, b.camera)));
+
 export class Grid {
     readonly #stores: Stores;
     readonly #element: HTMLElement;
     readonly #canvas: HTMLCanvasElement;
     readonly #stops: (() => void)[] = [];
+    #drawn: Drawn | null = null;
 
     constructor(stores: Stores, element: HTMLElement) {
         this.#stores = stores;
@@ -73,26 +87,33 @@ export class Grid {
         this.#canvas.remove();
     }
 
-    #draw(): void {
-        const ratio = window.devicePixelRatio;
-        const size = {
-            width: Math.max(1, this.#element.clientWidth),
-            height: Math.max(1, this.#element.clientHeight),
-        };
-        this.#canvas.width = Math.round(size.width * ratio); /* clears it */
-        this.#canvas.height = Math.round(size.height * ratio);
-        const brush = this.#canvas.getContext("2d");
-        const camera = shownCamera(this.#stores);
+    /* The camera of the picture, where the grid is to be shown. */
+    get #camera(): Camera | null {
         const { preferences, chromeHidden, aov } = this.#stores.view.getState();
         const shown = preferences.grid && !chromeHidden && aov === COLOR;
-        const guide = shownGuide(this.#stores.link.getState());
-        this.#canvas.dataset.shown = !shown || !camera ? "" : guide ? "hidden" : "whole";
-        if (!shown || !brush || !camera) {
+        return shown ? shownCamera(this.#stores) : null;
+    }
+
+    #draw(): void {
+        const ratio = window.devicePixelRatio;
+        const { clientWidth, clientHeight } = this.#element;
+        const size = { width: Math.max(1, clientWidth), height: Math.max(1, clientHeight) };
+        const camera = this.#camera;
+        const guide = camera && shownGuide(this.#stores.link.getState());
+        const next = { camera, guide, size: `${size.width} ${size.height} ${ratio}` };
+        if (this.#drawn && sameDrawn(this.#drawn, next)) {
             return;
         }
-        brush.setTransform(ratio, 0, 0, ratio, 0, 0);
-        const strokes = gridStrokes(camera, size, guide && seenBeside(guide, size));
-        paint(brush, strokes, guide ? 1 : MOVING);
+        this.#drawn = next;
+        this.#canvas.width = Math.round(size.width * ratio); /* clears it */
+        this.#canvas.height = Math.round(size.height * ratio);
+        this.#canvas.dataset.shown = !camera ? "" : guide ? "hidden" : "whole";
+        const brush = this.#canvas.getContext("2d");
+        if (brush && camera) {
+            brush.setTransform(ratio, 0, 0, ratio, 0, 0);
+            const strokes = gridStrokes(camera, size, guide && seenBeside(guide, size));
+            paint(brush, strokes, guide ? 1 : MOVING);
+        }
     }
 }
 

@@ -4,10 +4,11 @@
  * a click goes through. */
 import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
+import { shownGuide } from "../model/guide.ts";
 import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
-import { type Target, targetsOf } from "../model/snapping.ts";
+import { surfaceUnder, type Target, targetsOf } from "../model/snapping.ts";
 import type { Stores } from "../model/stores.ts";
 import { add, scale } from "../model/transform.ts";
 import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
@@ -125,9 +126,10 @@ export class Hands {
         const pivot = pivotOf(movables, mode);
         const step = this.#page.begin(STEP_NAMES[constraint.motion]);
         const targets = (): readonly Target[] => this.#targets();
+        const surface = this.#surface(projection);
         this.#hold = new Hold({
             ...{ movables, pivot, mode, space, projection },
-            ...{ from, constraint, step, targets },
+            ...{ from, constraint, step, targets, surface },
         });
         this.#redraw();
     }
@@ -234,11 +236,24 @@ export class Hands {
         return document ? movablesOf(document, schema, selection, subject) : [];
     }
 
+    /* Ids of what is moved, or nothing of the tree. */
+    get #moved(): readonly string[] {
+        const { selection, subject } = this.#page.stores.view.getState();
+        return subject.kind === "nodes" ? selection : [];
+    }
+
     #targets(): readonly Target[] {
         const { document, schema } = this.#page.stores.document.getState();
-        const { selection, subject } = this.#page.stores.view.getState();
-        const moved = subject.kind === "nodes" ? selection : [];
-        return document ? targetsOf(document, schema, moved) : [];
+        return document ? targetsOf(document, schema, this.#moved) : [];
+    }
+
+    /* As the picture shows it now: what moves hides nothing of it later. */
+    #surface(projection: Projection): (spot: Spot) => Target | null {
+        const { document } = this.#page.stores.document.getState();
+        const guide = shownGuide(this.#page.stores.link.getState());
+        const moved = this.#moved;
+        return (spot) =>
+            document && guide && surfaceUnder(document, guide, projection, moved, spot);
     }
 
     #projection(): Projection | null {
