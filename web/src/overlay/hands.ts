@@ -361,7 +361,11 @@ export class Hands {
     /* Where its parts are, for those who cannot see the pixels. */
     #tell(parts: readonly Part[], handles: readonly Handle[] = []): void {
         const places = parts.map((part) => ({ ...part.constraint, at: reachOf(part) }));
-        const dots = handles.map(({ key, spot }) => ({ handle: key, at: spot }));
+        const dots = handles.map(({ key, spot, look }) => ({
+            handle: key,
+            at: spot,
+            look: look.kind,
+        }));
         this.#canvas.dataset.parts = JSON.stringify([...places, ...dots]);
     }
 
