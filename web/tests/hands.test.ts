@@ -2,7 +2,8 @@
 /* Hands in the picture, without a browser: projections, what a drag means in the world, and what it
  * makes of a document. */
 import { expect, test } from "vitest";
-import { type Camera, DEFAULT_CAMERA } from "../src/model/camera.ts";
+import { axes, type Camera, cameraOf, DEFAULT_CAMERA } from "../src/model/camera.ts";
+import type { SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import { gizmoParts, partAt } from "../src/model/gizmo.ts";
 import {
@@ -25,6 +26,7 @@ import {
     pivotOf,
     turnMatrix,
 } from "../src/model/movables.ts";
+import type { Operation } from "../src/model/operation.ts";
 import { apply as applyOperations } from "../src/model/operations.ts";
 import { projectionOf } from "../src/model/projection.ts";
 import { snapTo, surfaceUnder, targetsOf } from "../src/model/snapping.ts";
@@ -39,6 +41,7 @@ import {
     scale,
     subtract,
     toWorld,
+    turnAbout,
     type Vector,
 } from "../src/model/transform.ts";
 import { random, SCHEMA } from "./fixture.ts";
@@ -204,8 +207,11 @@ function after(
     mode: Pivot = "center",
 ) {
     const movables = movablesOf(DOCUMENT, SCHEMA, ids, { kind: "nodes" });
-    const ops = motionOps(movables, delta, pivot, frame, mode);
-    const applied = applyOperations(DOCUMENT, ops, SCHEMA);
+    return documentAfter(DOCUMENT, motionOps(movables, delta, pivot, frame, mode));
+}
+
+function documentAfter(document: SceneDocument, ops: readonly Operation[]): SceneDocument {
+    const applied = applyOperations(document, ops, SCHEMA);
     if (!applied.ok) {
         throw new Error(applied.problem.message);
     }
@@ -383,4 +389,35 @@ test("the surface under a spot is that of what does not move along", () => {
     expect(under(2.5, "a")?.name).toBe("b");
     expect(under(4.2, "a", "pair")?.name).toBe("floor");
     expect(under(7.9)).toBe(null);
+});
+
+test("the document's camera moves with its target, and keeps its up unless it rolls", () => {
+    const next = random(11);
+    for (let round = 0; round < 200; round++) {
+        const [position, target, axis] = Array.from({ length: 3 }, () =>
+            [0, 1, 2].map(() => 6 * next() - 3),
+        ) as [Vector, Vector, Vector];
+        const document = readDocument({
+            camera: { position: [...position], target: [...target] },
+            root: { id: "root", type: "union" },
+        });
+        const [held] = movablesOf(document, SCHEMA, [], { kind: "camera" });
+        const before = axes(cameraOf(document.camera));
+        const after = (delta: Delta): Camera =>
+            cameraOf(documentAfter(document, held?.ops(delta, held.origin, IDENTITY) ?? []).camera);
+        close(held?.origin ?? [9, 9, 9], position);
+
+        const shifted = after({ motion: "move", by: axis });
+        close(shifted.position, add(position, axis), 1e-4);
+        close(axes(shifted).forward, before.forward, 1e-4);
+
+        const turn = { motion: "turn", axis: normalize(axis), angle: next() } as const;
+        const turned = axes(after(turn));
+        for (const way of ["right", "up", "forward"] as const) {
+            close(turned[way], turnAbout(before[way], turn.axis, turn.angle), 2e-4);
+        }
+        /* About the world's up, nothing rolls. */
+        const around = after({ motion: "turn", axis: [0, 1, 0], angle: next() });
+        expect(around.up).toEqual([0, 1, 0]);
+    }
 });

@@ -137,8 +137,7 @@ export function gizmoParts(stand: Stand, motion: Motion): readonly Part[] {
 
 /* --- what is under the pointer --- */
 
-/* Pixels from a spot to the straight line between two. */
-export function toSegment(p: Spot, a: Spot, b: Spot): number {
+function toSegment(p: Spot, a: Spot, b: Spot): number {
     const [dx, dy] = [b.x - a.x, b.y - a.y];
     const span = dx * dx + dy * dy;
     const t = span > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / span : 0;

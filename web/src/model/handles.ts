@@ -9,7 +9,6 @@ import {
     resourceParams,
     type SceneDocument,
 } from "./document.ts";
-import { toSegment } from "./gizmo.ts";
 import type { Operation } from "./operation.ts";
 import { valuesPlace } from "./places.ts";
 import { alongLine, onPlane, type Projection, type Spot } from "./projection.ts";
@@ -51,8 +50,8 @@ interface Owner {
 export type HandleLook =
     /* A place, or a radius on its surface. */
     | { readonly kind: "place" | "dot" }
-    /* A length: the way that it grows. */
-    | { readonly kind: "arrow"; readonly tip: Spot }
+    /* A length: from its tail to the point is the way that it grows. */
+    | { readonly kind: "arrow"; readonly tail: Spot }
     /* An angle: the way of the point from where there is none. */
     | { readonly kind: "arc"; readonly spots: readonly Spot[] }
     /* The reach of a blend: pixels around the middle of what it joins. */
@@ -100,8 +99,9 @@ function pointOf(
 
 /* --- looks --- */
 
-/* Pixels from the point to the tip of an arrow; where it points at the viewer, there is none. */
-const ARROW = 24;
+/* Pixels from the tail of an arrow to the point; where it points at the viewer, there is none. It is
+ * on the inner side, where it takes no place from the tips of the gizmo. */
+const ARROW = 20;
 const HEAD_ON = 0.25;
 const ARC_STEPS = 16;
 const TURN = 2 * Math.PI;
@@ -123,9 +123,9 @@ function arrowOf({ value, projection, at }: Curve): HandleLook {
         return { kind: "dot" };
     }
     const pixels = ARROW * projection.unitsAt(here);
-    const [spot, tip] = [here, add(here, scale(way, pixels / speed))].map(projection.spotOf);
-    const seen = spot && tip ? Math.hypot(tip.x - spot.x, tip.y - spot.y) : 0;
-    return tip && seen > HEAD_ON * ARROW ? { kind: "arrow", tip } : { kind: "dot" };
+    const [spot, tail] = [here, add(here, scale(way, -pixels / speed))].map(projection.spotOf);
+    const seen = spot && tail ? Math.hypot(tail.x - spot.x, tail.y - spot.y) : 0;
+    return tail && seen > HEAD_ON * ARROW ? { kind: "arrow", tail } : { kind: "dot" };
 }
 
 /* At most one turn of it. */
@@ -259,10 +259,9 @@ export function handleLabel(handle: Handle): string {
     return labelOf(handle, numbersOf(valueIn(owner.values, param), components(param.type)));
 }
 
-/* The nearest within `slop` pixels; an arrow is held all along. */
-export function handleAt(handles: readonly Handle[], at: Spot, slop: number): Handle | null {
-    const far = ({ spot, look }: Handle): number =>
-        toSegment(at, spot, look.kind === "arrow" ? look.tip : spot);
+/* The nearest within `slop` pixels. */
+export function handleAt(handles: readonly Handle[], { x, y }: Spot, slop: number): Handle | null {
+    const far = ({ spot }: Handle): number => Math.hypot(spot.x - x, spot.y - y);
     const near = handles.filter((handle) => far(handle) <= slop);
     return near.reduce<Handle | null>((a, b) => (a && far(a) <= far(b) ? a : b), null);
 }

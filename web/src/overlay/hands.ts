@@ -6,6 +6,7 @@ import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
 import { shownGuide } from "../model/guide.ts";
 import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
+import { looksThrough } from "../model/marks.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
 import { surfaceUnder, type Target, targetsOf } from "../model/snapping.ts";
@@ -233,7 +234,11 @@ export class Hands {
     #movables(): readonly Movable[] {
         const { document, schema } = this.#page.stores.document.getState();
         const { selection, subject } = this.#page.stores.view.getState();
-        return document ? movablesOf(document, schema, selection, subject) : [];
+        const seen = shownCamera(this.#page.stores);
+        /* Who looks through the camera moves it by looking. */
+        const inside =
+            subject.kind === "camera" && document && seen && looksThrough(document, seen);
+        return document && !inside ? movablesOf(document, schema, selection, subject) : [];
     }
 
     /* Ids of what is moved, or nothing of the tree. */

@@ -141,9 +141,8 @@ function paintLook(brush: Brush, { spot, look }: Handle, color: string, hot: boo
     const width = hot ? LINE + 1 : LINE;
     switch (look.kind) {
         case "arrow":
-            stroke(brush, color, width, () => line(brush, [spot, look.tip]));
-            fill(brush, color, () => arrowHead(brush, spot, look.tip));
-            dot(brush, spot, radius - 2, color);
+            stroke(brush, color, width, () => line(brush, [look.tail, spot]));
+            fill(brush, color, () => arrowHead(brush, look.tail, spot));
             break;
         case "arc":
             stroke(brush, color, width - 0.5, () => line(brush, look.spots));

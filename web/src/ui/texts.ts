@@ -300,6 +300,7 @@ const texts = {
     "edit.code": "write code",
 
     "hands.tools": "Gizmo",
+    "hands.camera": "camera",
     "hands.move": "Move",
     "hands.turn": "Rotate",
     "hands.scale": "Scale",
