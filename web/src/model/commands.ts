@@ -623,6 +623,15 @@ export const COMMANDS: readonly Command[] = [
             }),
     }),
     row({
+        id: "view.probe",
+        words: "value colour depth distance position coordinates pointer pick inspect",
+        title: "Tell what is under the pointer",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, { probe: !stores.view.getState().preferences.probe }),
+    }),
+    row({
         id: "view.statistics",
         words: "performance fps speed timing",
         title: "Statistics",

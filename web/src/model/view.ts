@@ -61,6 +61,8 @@ export interface Preferences {
     readonly outlines: boolean;
     /* The ground has lines. */
     readonly grid: boolean;
+    /* What the pixel under the pointer shows is told. */
+    readonly probe: boolean;
 }
 
 /* How hands in the picture act. */
@@ -89,6 +91,7 @@ export const PREFERENCES: Preferences = {
     marks: true,
     outlines: true,
     grid: true,
+    probe: false,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -264,5 +267,6 @@ export function readPreferences(text: string | null): Preferences {
         marks: stored.marks !== false,
         outlines: stored.outlines !== false,
         grid: stored.grid !== false,
+        probe: stored.probe === true,
     };
 }
