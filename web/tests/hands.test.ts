@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import { axes, type Camera, cameraOf, DEFAULT_CAMERA } from "../src/model/camera.ts";
 import type { SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
-import { gizmoParts, partAt } from "../src/model/gizmo.ts";
+import { clearOf, gizmoParts, type Part, partAt } from "../src/model/gizmo.ts";
 import {
     AXES,
     type Axis,
@@ -28,7 +28,7 @@ import {
 } from "../src/model/movables.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply as applyOperations } from "../src/model/operations.ts";
-import { projectionOf } from "../src/model/projection.ts";
+import { projectionOf, type Spot } from "../src/model/projection.ts";
 import { snapTo, surfaceUnder, targetsOf } from "../src/model/snapping.ts";
 import {
     add,
@@ -420,4 +420,21 @@ test("the document's camera moves with its target, and keeps its up unless it ro
         const around = after({ motion: "turn", axis: [0, 1, 0], angle: next() });
         expect(around.up).toEqual([0, 1, 0]);
     }
+});
+
+test("an arrow ends before what else is held near its tip", () => {
+    const arrow: Part = {
+        ...{ kind: "arrow", constraint: { motion: "move", axis: 0, plane: false } },
+        ...{ foot: { x: 120, y: 200 }, tip: { x: 192, y: 200 } },
+    };
+    const tipOf = (...spots: Spot[]) => {
+        const [part] = clearOf([arrow], spots);
+        return part?.kind === "arrow" ? part.tip : null;
+    };
+    expect(tipOf()).toEqual({ x: 192, y: 200 });
+    expect(tipOf({ x: 225, y: 200 }, { x: 192, y: 240 })).toEqual({ x: 192, y: 200 });
+    expect(tipOf({ x: 200, y: 203 })).toEqual({ x: 168, y: 200 });
+    expect(tipOf({ x: 210, y: 200 }, { x: 190, y: 200 })).toEqual({ x: 158, y: 200 });
+    /* Too little would be left of it. */
+    expect(tipOf({ x: 164, y: 200 }, { x: 190, y: 200 })).toEqual({ x: 222, y: 200 });
 });

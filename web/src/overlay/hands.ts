@@ -2,7 +2,7 @@
 /* Hands in the picture: the gizmo, the drag or the keys that move what is selected. Drawn by the page
  * with the camera of the picture shown, so that it stands where its object is. Acts on a drag only;
  * a click goes through. */
-import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
+import { clearOf, gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
 import { shownGuide } from "../model/guide.ts";
 import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
@@ -271,7 +271,7 @@ export class Hands {
         const { document, schema } = this.#page.stores.document.getState();
         const { selection, subject } = this.#page.stores.view.getState();
         const projection = this.#projection();
-        const middle = this.#parts().find(({ kind }) => kind === "middle");
+        const middle = this.#wholeParts().find(({ kind }) => kind === "middle");
         const all =
             document && projection
                 ? handlesOf(document, schema, selection, subject, projection)
@@ -284,7 +284,15 @@ export class Hands {
             : all;
     }
 
+    /* Beside the handles. */
     #parts(): readonly Part[] {
+        return clearOf(
+            this.#wholeParts(),
+            this.#handles().map(({ spot }) => spot),
+        );
+    }
+
+    #wholeParts(): readonly Part[] {
         const { tool, space, pivot } = this.#page.stores.view.getState().preferences.hands;
         const movables = this.#movables();
         const projection = this.#projection();
