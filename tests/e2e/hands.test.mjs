@@ -169,7 +169,25 @@ describe('handles of parameters', () => {
         await drag({ x: box.x + at.x, y: box.y + at.y }, 60, 0);
         const document = await when((d) => nodeIn(d, 'ball').params.radius > 1.2, 'a greater ball');
         assert.deepEqual(placeOf(document, 'ball'), [-1.5, 0, 0]);
-, () => {
+        await page.keyboard.press('Control+z');
+        await until(async () => (await stage.document(id)) === start, 'the document as it was');
+    });
+
+    test('a length is an arrow, and the arrows of the gizmo leave it room', async () => {
+        await open();
+        await select('crate');
+        await until(async () => (await parts()).filter(({ handle }) => handle).length === 3, 'three handles');
+        const all = await parts();
+        const size = all.find(({ handle }) => handle === 'size.y');
+        assert.equal(size.look, 'arrow');
+        const tip = all.find(isPart('move', 1)).at;
+        assert.ok(Math.hypot(tip.x - size.at.x, tip.y - size.at.y) > 20, `${JSON.stringify([tip, size.at])}`);
+        await select('ball');
+        await until(async () => (await parts()).some(({ handle, look }) => handle === 'radius' && look === 'dot'), 'a dot');
+    });
+});
+
+describe('keys', () => {
     test('G X .5 Enter moves by exactly a half', async () => {
         await open();
         await select('ball');
@@ -261,7 +279,7 @@ describe('what stands in the scene and is not seen', () => {
         assert.equal(await mark.isVisible(), false);
         await page.locator('[data-view="right"]').click();
         await picture(page).focus();
-        for (let i = 0; i < 8; i += 1) {
+        for (let i = 0; i < 24; i += 1) {
             await page.keyboard.press('-');
         }
         await settled(page);
