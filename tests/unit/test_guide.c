@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A guide, read back: ids, pixels and depths are those that went in, in any bands, twice in a row. */
+/* A guide, read back: ids, pixels and depths are those that went in, in any bands, twice in a
+ * row. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
