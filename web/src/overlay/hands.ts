@@ -285,11 +285,9 @@ export class Hands {
     }
 
     /* Beside the handles. */
-    #parts(): readonly Part[] {
-        return clearOf(
-            this.#wholeParts(),
-            this.#handles().map(({ spot }) => spot),
-        );
+    #parts(handles = this.#handles()): readonly Part[] {
+        const spots = handles.map(({ spot }) => spot);
+        return clearOf(this.#wholeParts(), spots);
     }
 
     #wholeParts(): readonly Part[] {
@@ -337,8 +335,8 @@ export class Hands {
     }
 
     #drawRest(brush: CanvasRenderingContext2D): void {
-        const parts = this.#handle === null ? this.#parts() : [];
         const handles = this.#handles();
+        const parts = this.#handle === null ? this.#parts(handles) : [];
         paintGizmo(brush, parts, this.#hot?.constraint ?? null);
         paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
         const hot = handles.find(({ key }) => key === this.#hotHandle);
