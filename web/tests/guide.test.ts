@@ -17,7 +17,7 @@ import {
 } from "../src/model/guide.ts";
 import { projectionOf } from "../src/model/projection.ts";
 import { IDLE_LINK, NO_FRAME } from "../src/model/stores.ts";
-import { length, subtract, type Vector } from "../src/model/transform.ts";
+import { add, length, scale, subtract, type Vector } from "../src/model/transform.ts";
 import { random } from "./fixture.ts";
 
 const HEADER: FrameHeader = {
@@ -181,8 +181,7 @@ function wallGuide(width: number, height: number) {
     const projection = projectionOf(camera, { width, height });
     const meet = (x: number, y: number): { node: number; at: Vector | null } => {
         const { from, along } = projection.rayAt({ x: x + 0.5, y: y + 0.5 });
-        const on = (z: number): Vector =>
-            [0, 1, 2].map((i) => from[i] + (along[i] * (z - from[2])) / along[2]) as never;
+        const on = (z: number): Vector => add(from, scale(along, (z - from[2]) / along[2]));
         const [near, far] = [on(1), on(0)];
         const front = Math.max(Math.abs(near[0]), Math.abs(near[1])) < 0.5;
         return front

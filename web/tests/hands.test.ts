@@ -396,7 +396,7 @@ test("the document's camera moves with its target, and keeps its up unless it ro
     for (let round = 0; round < 200; round++) {
         const [position, target, axis] = Array.from({ length: 3 }, () =>
             [0, 1, 2].map(() => 6 * next() - 3),
-        ) as [Vector, Vector, Vector];
+        ) as unknown as [Vector, Vector, Vector];
         const document = readDocument({
             camera: { position: [...position], target: [...target] },
             root: { id: "root", type: "union" },
