@@ -11,7 +11,7 @@ enum codec {
     CODEC_PNG = 2,
     CODEC_NPY,
     CODEC_ZIP,   /* several of them, or one that shall be in a ZIP */
-    CODEC_GUIDE, /* which node each pixel shows: README.md, Guides; in frames alone */
+    CODEC_GUIDE, /* which node each pixel shows, how far: README.md, Guides; in frames alone */
     CODEC_COUNT
 };
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Guides: which node each pixel of a picture shows, small enough to go with pictures of a stream.
- * Made of the output `id` as raw values. The bytes are listed in protocol/README.md, Guides. */
+/* Guides: which node each pixel of a picture shows, and how far it is, small enough to go with
+ * pictures of a stream. Made of the outputs `id` and `depth` as raw values. The bytes are listed in
+ * protocol/README.md, Guides. */
 #ifndef RENDERER_GUIDE_H
 #define RENDERER_GUIDE_H
 

@@ -443,6 +443,15 @@ static bool may_be_jpeg(const struct session *session, const struct record *pict
            record_number(&session->room->scene->render, "transparent") == 0;
 }
 
+static void put_guide_outputs(struct record *picture)
+{
+    const bool outputs[AOV_COUNT] = {[AOV_ID] = true, [AOV_DEPTH] = true};
+    char text[AOVS_TEXT_BYTES];
+
+    aovs_print(outputs, text);
+    record_put_text(picture, "aov", text);
+}
+
 /* The view as a picture of this stage. */
 static void make_request(struct session *session, const struct stream_view *view,
                          enum stream_stage stage, struct render_request *out)
@@ -466,7 +475,7 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
     record_put(delivery, "guide", stage == STREAM_GUIDE);
     if (stage == STREAM_GUIDE) {
-        record_put_text(picture, "aov", aov_name(AOV_ID));
+        put_guide_outputs(picture);
     }
     out->codec =
         rule->codec == CODEC_JPEG && !may_be_jpeg(session, picture) ? CODEC_PNG : rule->codec;

@@ -48,7 +48,7 @@ struct stream_view {
     struct render_request picture; /* the whole view: its size, camera, output, what it isolates */
     enum stream_preference preference;
     bool visible;
-    bool guides; /* wants to know which node each pixel shows */
+    bool guides; /* wants to know which node each pixel shows, and how far */
 };
 
 struct stream {

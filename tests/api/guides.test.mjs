@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Guides: which node each pixel of a view at rest shows, for those clients alone that want to know.
+// Guides: which node each pixel of a view at rest shows, and how far it is, for those clients alone that want to know.
 import assert from 'node:assert/strict';
 import zlib from 'node:zlib';
 import { after, before, test } from 'node:test';
@@ -32,7 +32,21 @@ before(async () => {
 });
 after(() => daemon.stop());
 
-/** {ids, indices}: 0 is no node, else the index into `ids` plus one. */
+const STEP = 4;
+
+/** The distances of every fourth pixel of every fourth row, as protocol/README.md tells. */
+function readDepths(bytes, nearest, farthest, width) {
+    const count = bytes.length / 2;
+    const depths = new Uint16Array(count);
+    for (let i = 0; i < count; i += 1) {
+        const folded = bytes[i] + 256 * bytes[count + i];
+        const at = (dx, dy) => ((i % width) + dx < 0 ? 0 : (depths[i + dx + dy * width] ?? 0));
+        depths[i] = at(-1, 0) + at(0, -1) - at(-1, -1) + (folded % 2 ? -(folded + 1) / 2 : folded / 2);
+    }
+    return Array.from(depths, (depth) => (depth === 0 ? Infinity : farthest * (nearest / farthest) ** ((depth - 1) / 65534)));
+}
+
+/** {ids, indices, distances}: of indices 0 is no node, else the index into `ids` plus one. */
 function readGuide({ payload, width, height }) {
     const ids = [];
     let at = 2;
@@ -41,11 +55,14 @@ function readGuide({ payload, width, height }) {
         ids.push(payload.subarray(at + 1, end).toString());
         at = end;
     }
-    const bytes = zlib.inflateSync(payload.subarray(at));
-    assert.equal(bytes.length, 2 * width * height);
+    const [nearest, farthest] = [payload.readFloatLE(at), payload.readFloatLE(at + 4)];
+    const bytes = zlib.inflateSync(payload.subarray(at + 8));
+    const [across, down] = [width, height].map((side) => Math.ceil(side / STEP));
+    assert.equal(bytes.length, 2 * (width * height + across * down));
+    const distances = readDepths(bytes.subarray(2 * width * height), nearest, farthest, across);
     const indices = Array.from({ length: width * height }, (_, i) => bytes.readUInt16LE(2 * i));
     assert.ok(indices.every((index) => index <= ids.length));
-    return { ids, indices, nodeAt: (x, y) => ids[indices[y * width + x] - 1] ?? null };
+    return { ids, indices, distances, across, nodeAt: (x, y) => ids[indices[y * width + x] - 1] ?? null };
 }
 
 const guideOf = (live, seq, from = 0) => live.nextFrame((frame) => frame.codec === 'guide' && frame.seq === seq, from);
@@ -91,6 +108,39 @@ test('a guide has the ids of the output of that name, and names what a pick name
     await live.close();
 });
 
+test('the distances of a guide are those of the output of that name, and of a pick', async () => {
+    const live = await Live.open(daemon, 's');
+    const seq = live.look({ ...SIZE, camera: CAMERA, guides: true });
+    const frame = await guideOf(live, seq);
+    const { distances, across } = readGuide(frame);
+    await settled(live, seq);
+    const answer = await fetch(
+        `${daemon.url}/v1/scenes/s/image.npy?aov=depth&width=96&height=64&camera.position=1,2,6&camera.target=0,0,0`,
+    );
+    const { values } = readNpy(Buffer.from(await answer.arrayBuffer()));
+    const [hit, missed] = [distances.filter(Number.isFinite), distances.filter((far) => far === Infinity)];
+    assert.ok(hit.length > 150 && missed.length > 30, `${hit.length} hit, ${missed.length} missed`);
+    /* A half step of the logarithm, and what floats make of it. */
+    const room = Math.log(Math.max(...hit) / Math.min(...hit)) / 65534 / 2 + 1e-5;
+    const seldom = [];
+    for (const [i, far] of distances.entries()) {
+        const [x, y] = [STEP * (i % across), STEP * Math.floor(i / across)];
+        const wanted = values[y * 96 + x];
+        assert.equal(Number.isFinite(far), Number.isFinite(wanted), `at ${x}, ${y}`);
+        if (!Number.isFinite(far)) {
+            continue;
+        }
+        assert.ok(Math.abs(Math.log(far / wanted)) <= room, `${far}, not ${wanted}, at ${x}, ${y}`);
+        live.say({ type: 'pick', pick: i + 1, x: x + 0.5, y: y + 0.5, seq });
+        const { distance } = await live.next('picked', { pick: i + 1 });
+        if (distance === null || Math.abs(Math.log(far / distance)) > 2e-3) {
+            seldom.push({ x, y, far, distance });
+        }
+    }
+    assert.ok(seldom.length <= hit.length / 50, `${JSON.stringify(seldom)}: an edge may run through a pixel`);
+    await live.close();
+});
+
 test('who does not ask gets none, and who stops asking no more', async () => {
     const live = await Live.open(daemon, 's');
     await settled(live, live.look({ ...SIZE }));
@@ -130,7 +180,7 @@ test('the guide of a large view is smaller than that, and small in bytes', async
     assert.deepEqual([frame.viewWidth, frame.viewHeight], [2048, 1024]);
     assert.ok(frame.width * frame.height <= 1048576 * 1.01 && frame.width * frame.height > 1000000);
     assert.equal(Math.round(frame.width / 2048 * 1024), frame.height);
-    assert.ok(frame.bytes < 40000, `${frame.bytes} bytes`);
+    assert.ok(frame.bytes < 60000, `${frame.bytes} bytes`);
     console.log(`a guide of ${frame.width} x ${frame.height}: ${frame.bytes} bytes`);
     await live.close();
 });

@@ -172,6 +172,19 @@ describe('handles of parameters', () => {
         await page.keyboard.press('Control+z');
         await until(async () => (await stage.document(id)) === start, 'the document as it was');
     });
+
+    test('a length is an arrow, and the arrows of the gizmo leave it room', async () => {
+        await open();
+        await select('crate');
+        await until(async () => (await parts()).filter(({ handle }) => handle).length === 3, 'three handles');
+        const all = await parts();
+        const size = all.find(({ handle }) => handle === 'size.y');
+        assert.equal(size.look, 'arrow');
+        const tip = all.find(isPart('move', 1)).at;
+        assert.ok(Math.hypot(tip.x - size.at.x, tip.y - size.at.y) > 20, `${JSON.stringify([tip, size.at])}`);
+        await select('ball');
+        await until(async () => (await parts()).some(({ handle, look }) => handle === 'radius' && look === 'dot'), 'a dot');
+    });
 });
 
 describe('keys', () => {
@@ -256,6 +269,28 @@ describe('what stands in the scene and is not seen', () => {
         await page.keyboard.type('lights, volumes and camera');
         await page.keyboard.press('Enter');
         await mark.waitFor({ state: 'detached' });
+    });
+
+    test('the camera has an icon once the view is another, and a gizmo that moves it with its target', async () => {
+        id = await stage.scene({ ...SCENE, camera: { position: [0, 1, 3], target: [0, 0, 0] } });
+        page = await stage.page({ scene: id });
+        await settled(page);
+        const mark = page.locator('[data-mark="camera"]');
+        assert.equal(await mark.isVisible(), false);
+        await page.locator('[data-view="right"]').click();
+        await picture(page).focus();
+        for (let i = 0; i < 24; i += 1) {
+            await page.keyboard.press('-');
+        }
+        await settled(page);
+        await mark.click();
+        const before = await stage.document(id);
+        await drag(await place('move', 1), 0, -50);
+        const { camera } = await when((d) => d.camera.position[1] > 1.1, 'a raised camera');
+        assert.deepEqual([camera.position[0], camera.position[2]], [0, 3]);
+        assert.ok(Math.abs(camera.position[1] - 1 - camera.target[1]) < 1e-5, `${camera.target}`);
+        await page.getByRole('button', { name: 'Undo move camera' }).click();
+        await until(async () => (await stage.document(id)) === before, 'the camera where it was');
     });
 
     test('a click on an end of the axes looks from there', async () => {

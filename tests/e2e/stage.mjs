@@ -202,10 +202,10 @@ export async function rows(page) {
     return found;
 }
 
-/** Pixels of the picture alone, without what lies over it: pills, hands, outlines, the ring of a click, the focus. */
+/** Pixels of the picture alone, without what lies over it: pills, grid, hands, outlines, the ring of a click, the focus. */
 export async function pixels(page) {
     const style = await page.addStyleTag({
-        content: `.view > :not(.view-picture), .view-picture > :not(canvas), .view-hands, .view-outlines,
+        content: `.view > :not(.view-picture), .view-picture > :not(canvas), .view-grid, .view-hands, .view-outlines,
             .view-picture::after,
             .notices { visibility: hidden !important; }`,
     });

@@ -5,7 +5,7 @@ import { DEFAULT_CAMERA } from "../src/model/camera.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import { dragHandle, type Handle, handleAt, handlesOf } from "../src/model/handles.ts";
 import type { JsonObject } from "../src/model/json.ts";
-import { projectionOf } from "../src/model/projection.ts";
+import { projectionOf, type Spot } from "../src/model/projection.ts";
 import { readSchema } from "../src/model/schema.ts";
 import { subtract, toWorld, type Vector } from "../src/model/transform.ts";
 import { evaluateNamed } from "../src/model/units.ts";
@@ -45,6 +45,12 @@ const SCHEMA = readSchema({
                 }),
                 param("open", "float", 0, "radius/open, 0, 0"),
             ]),
+            shape("tower", [param("height", "float", 1, "0, height/2, 0")]),
+            {
+                ...shape("blend", [param("k", "float", 0.4, "k, 0, 0")]),
+                group: "operation",
+                children: "many",
+            },
         ],
     },
 });
@@ -57,6 +63,8 @@ const DOCUMENT = readDocument({
             { id: "ball", type: "sphere", transform: { translation: [0.5, 0.2, 0] } },
             { id: "crate", type: "box", transform: { rotation: [0, 0.4, 0], scale: [1, 2, 1] } },
             { id: "rod", type: "rod" },
+            { id: "tower", type: "tower", transform: { rotation: [0.3, 0, 0.4], scale: 2 } },
+            { id: "blend", type: "blend", children: [{ id: "in", type: "sphere" }] },
         ],
     },
 });
@@ -164,4 +172,59 @@ test("the nearest handle within reach is taken", () => {
     const wanted = named("crate", "size.z");
     expect(handleAt(handles, { x: wanted.spot.x + 3, y: wanted.spot.y }, 8)?.key).toBe("size.z");
     expect(handleAt(handles, { x: 5, y: 5 }, 8)).toBeNull();
+});
+
+/* --- looks --- */
+
+const angleOf = (a: Spot, b: Spot): number => Math.atan2(b.y - a.y, b.x - a.x);
+
+test("a length is an arrow along the way that it grows, a radius a dot, a place a place", () => {
+    expect(named("ball", "radius").look).toEqual({ kind: "dot" });
+    expect(named("rod", "b").look).toEqual({ kind: "place" });
+    for (const [id, key, more] of [
+        ["tower", "height", [0, 0.6, 0]],
+        ["crate", "size.y", [0, 0.6, 0]],
+        ["crate", "size.x", [0.6, 0, 0]],
+    ] as const) {
+        const { look, spot } = named(id, key);
+        const tail = look.kind === "arrow" ? look.tail : spot;
+        expect(angleOf(tail, spot)).toBeCloseTo(angleOf(spot, seen(id, more as Vector)), 1);
+        const far = Math.hypot(tail.x - spot.x, tail.y - spot.y);
+        expect(far > 5 && far < 21).toBe(true);
+    }
+});
+
+test("an arrow that points at the viewer is a dot", () => {
+    const projection = projectionOf(
+        { ...DEFAULT_CAMERA, position: [0, 0, 6], target: [0, 0, 0] },
+        { width: 900, height: 600 },
+    );
+    const plain = readDocument({ root: { id: "root", type: "box" } });
+    const looks = handlesOf(plain, SCHEMA, ["root"], { kind: "nodes" }, projection);
+    expect(looks.map(({ key, look }) => [key, look.kind])).toEqual([
+        ["size.x", "arrow"],
+        ["size.y", "arrow"],
+        ["size.z", "dot"],
+    ]);
+});
+
+test("an angle is the arc from where there is none", () => {
+    const { look, spot } = named("rod", "angle");
+    const spots = look.kind === "arc" ? look.spots : [];
+    expect(spots[0]).toEqual(spot);
+    expect(spots.length).toBeGreaterThan(8);
+    spots.forEach((at, i) => {
+        const angle = 0.5 * (1 - i / (spots.length - 1));
+        const wanted = seen("rod", [Math.sin(angle), Math.cos(angle), 0]);
+        expect(Math.hypot(at.x - wanted.x, at.y - wanted.y)).toBeLessThan(1e-6);
+    });
+});
+
+test("a blend's width is a band of that radius around the middle of what it joins", () => {
+    const { look } = named("blend", "k");
+    const middle = toWorld(DOCUMENT, "blend", [0, 0, 0]);
+    const spot = PROJECTION.spotOf(middle);
+    /* The root is half as large again. */
+    const radius = (0.4 * 1.5) / PROJECTION.unitsAt(middle);
+    expect(look).toEqual({ kind: "band", middle: spot, radius: expect.closeTo(radius, 6) });
 });

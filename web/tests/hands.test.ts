@@ -2,9 +2,10 @@
 /* Hands in the picture, without a browser: projections, what a drag means in the world, and what it
  * makes of a document. */
 import { expect, test } from "vitest";
-import { type Camera, DEFAULT_CAMERA } from "../src/model/camera.ts";
+import { axes, type Camera, cameraOf, DEFAULT_CAMERA } from "../src/model/camera.ts";
+import type { SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
-import { gizmoParts, partAt } from "../src/model/gizmo.ts";
+import { clearOf, gizmoParts, type Part, partAt } from "../src/model/gizmo.ts";
 import {
     AXES,
     type Axis,
@@ -25,9 +26,10 @@ import {
     pivotOf,
     turnMatrix,
 } from "../src/model/movables.ts";
+import type { Operation } from "../src/model/operation.ts";
 import { apply as applyOperations } from "../src/model/operations.ts";
-import { projectionOf } from "../src/model/projection.ts";
-import { snapTo, targetsOf } from "../src/model/snapping.ts";
+import { projectionOf, type Spot } from "../src/model/projection.ts";
+import { snapTo, surfaceUnder, targetsOf } from "../src/model/snapping.ts";
 import {
     add,
     apply,
@@ -39,6 +41,7 @@ import {
     scale,
     subtract,
     toWorld,
+    turnAbout,
     type Vector,
 } from "../src/model/transform.ts";
 import { random, SCHEMA } from "./fixture.ts";
@@ -204,8 +207,11 @@ function after(
     mode: Pivot = "center",
 ) {
     const movables = movablesOf(DOCUMENT, SCHEMA, ids, { kind: "nodes" });
-    const ops = motionOps(movables, delta, pivot, frame, mode);
-    const applied = applyOperations(DOCUMENT, ops, SCHEMA);
+    return documentAfter(DOCUMENT, motionOps(movables, delta, pivot, frame, mode));
+}
+
+function documentAfter(document: SceneDocument, ops: readonly Operation[]): SceneDocument {
+    const applied = applyOperations(document, ops, SCHEMA);
     if (!applied.ok) {
         throw new Error(applied.problem.message);
     }
@@ -350,4 +356,85 @@ test("what is drawn to is every shape that does not move along", () => {
     expect(names(["a"])).toEqual(["b"]);
     expect(names(["root"])).toEqual([]);
     close(targetsOf(document, SCHEMA, ["pair"])[0]?.at ?? [9, 9, 9], [1, 2, 0]);
+});
+
+test("the surface under a spot is that of what does not move along", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                { id: "a", type: "sphere", name: "A" },
+                { id: "pair", type: "group", children: [{ id: "b", type: "sphere" }] },
+            ],
+        },
+    });
+    const camera = { ...DEFAULT_CAMERA, position: [0, 0, 10], target: [0, 0, 0] } as const;
+    const size = { width: 8, height: 4 };
+    const projection = projectionOf(camera, size);
+    /* From the left: a at 5, b at 6, the floor at 7, nothing. */
+    const guide = {
+        ...{ input: 1, revision: 1, width: 16, height: 1, ids: ["a", "b"] },
+        indices: Uint16Array.from({ length: 16 }, (_, x) => [1, 2, 0, 0][x >> 2] ?? 0),
+        distances: Float32Array.of(5, 6, 7, Number.POSITIVE_INFINITY),
+    };
+    const under = (x: number, ...moved: string[]) =>
+        surfaceUnder(document, guide, projection, moved, { x, y: 2 });
+    expect(under(0.5)?.name).toBe("A");
+    expect(length(subtract(under(0.5)?.at ?? [0, 0, 0], camera.position))).toBeCloseTo(5, 5);
+    expect(under(0.5, "a")).toBe(null);
+    expect(under(0.5, "root")).toBe(null);
+    expect(under(2.5, "pair")).toBe(null);
+    expect(under(2.5, "a")?.name).toBe("b");
+    expect(under(4.2, "a", "pair")?.name).toBe("floor");
+    expect(under(7.9)).toBe(null);
+});
+
+test("the document's camera moves with its target, and keeps its up unless it rolls", () => {
+    const next = random(11);
+    for (let round = 0; round < 200; round++) {
+        const [position, target, axis] = Array.from({ length: 3 }, () =>
+            [0, 1, 2].map(() => 6 * next() - 3),
+        ) as unknown as [Vector, Vector, Vector];
+        const document = readDocument({
+            camera: { position: [...position], target: [...target] },
+            root: { id: "root", type: "union" },
+        });
+        const [held] = movablesOf(document, SCHEMA, [], { kind: "camera" });
+        const before = axes(cameraOf(document.camera));
+        const after = (delta: Delta): Camera =>
+            cameraOf(documentAfter(document, held?.ops(delta, held.origin, IDENTITY) ?? []).camera);
+        close(held?.origin ?? [9, 9, 9], position);
+
+        const shifted = after({ motion: "move", by: axis });
+        close(shifted.position, add(position, axis), 1e-4);
+        close(axes(shifted).forward, before.forward, 1e-4);
+
+        const turn = { motion: "turn", axis: normalize(axis), angle: next() } as const;
+        const turned = axes(after(turn));
+        for (const way of ["right", "up", "forward"] as const) {
+            close(turned[way], turnAbout(before[way], turn.axis, turn.angle), 2e-4);
+        }
+        /* About the world's up, nothing rolls. */
+        const around = after({ motion: "turn", axis: [0, 1, 0], angle: next() });
+        expect(around.up).toEqual([0, 1, 0]);
+    }
+});
+
+test("an arrow ends before what else is held near its tip", () => {
+    const arrow: Part = {
+        ...{ kind: "arrow", constraint: { motion: "move", axis: 0, plane: false } },
+        ...{ foot: { x: 120, y: 200 }, tip: { x: 192, y: 200 } },
+    };
+    const tipOf = (...spots: Spot[]) => {
+        const [part] = clearOf([arrow], spots);
+        return part?.kind === "arrow" ? part.tip : null;
+    };
+    expect(tipOf()).toEqual({ x: 192, y: 200 });
+    expect(tipOf({ x: 225, y: 200 }, { x: 192, y: 240 })).toEqual({ x: 192, y: 200 });
+    expect(tipOf({ x: 200, y: 203 })).toEqual({ x: 168, y: 200 });
+    expect(tipOf({ x: 210, y: 200 }, { x: 190, y: 200 })).toEqual({ x: 158, y: 200 });
+    /* Too little would be left of it. */
+    expect(tipOf({ x: 164, y: 200 }, { x: 190, y: 200 })).toEqual({ x: 222, y: 200 });
 });

@@ -600,6 +600,15 @@ export const COMMANDS: readonly Command[] = [
         run: show(toggleGraph),
     }),
     row({
+        id: "view.grid",
+        words: "floor ground plane lines axes raster show hide",
+        title: "Ground grid in the picture",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, { grid: !stores.view.getState().preferences.grid }),
+    }),
+    row({
         id: "view.marks",
         words: "icons overlay gizmos show hide",
         title: "Lights, volumes and camera in the picture",
@@ -628,6 +637,15 @@ export const COMMANDS: readonly Command[] = [
             setPreferences(stores.view, {
                 outlines: !stores.view.getState().preferences.outlines,
             }),
+    }),
+    row({
+        id: "view.probe",
+        words: "value colour depth distance position coordinates pointer pick inspect",
+        title: "Tell what is under the pointer",
+        group: "view",
+        whyNot: never,
+        run: ({ stores }) =>
+            setPreferences(stores.view, { probe: !stores.view.getState().preferences.probe }),
     }),
     row({
         id: "view.statistics",

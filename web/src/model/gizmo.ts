@@ -135,6 +135,33 @@ export function gizmoParts(stand: Stand, motion: Motion): readonly Part[] {
         : [...squares(drawn, motion), ...shafts(drawn, motion), ...middle(drawn, motion)];
 }
 
+/* A tip that is nearer than this to something else that is held ends so far before it; where that
+ * leaves too little, so far behind it. */
+const ROOM = 32;
+const SHORTEST = 16;
+
+/* The parts with shafts that leave room for what else is held at these spots. */
+export function clearOf(parts: readonly Part[], spots: readonly Spot[]): readonly Part[] {
+    return parts.map((part) =>
+        part.kind === "arrow" || part.kind === "bar" ? clearShaft(part, spots) : part,
+    );
+}
+
+function clearShaft(part: Shaft, spots: readonly Spot[]): Shaft {
+    const { foot, tip } = part;
+    const span = Math.hypot(tip.x - foot.x, tip.y - foot.y);
+    const [dx, dy] = [(tip.x - foot.x) / span, (tip.y - foot.y) / span];
+    const along = spots
+        .filter(({ x, y }) => Math.hypot(x - tip.x, y - tip.y) < ROOM)
+        .map(({ x, y }) => (x - foot.x) * dx + (y - foot.y) * dy);
+    if (along.length === 0 || span === 0) {
+        return part;
+    }
+    const before = Math.min(...along) - ROOM;
+    const far = before < SHORTEST ? Math.max(span, Math.max(...along) + ROOM) : before;
+    return { ...part, tip: { x: foot.x + far * dx, y: foot.y + far * dy } };
+}
+
 /* --- what is under the pointer --- */
 
 function toSegment(p: Spot, a: Spot, b: Spot): number {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which node each pixel of a picture shows: what is under the pointer is known without a question,
- * and outlines are drawn by the page. */
+/* Which node each pixel of a picture shows, and how far it is: what is under the pointer is known
+ * without a question, outlines are drawn by the page, and what else it draws is hidden by surfaces. */
 import type { LinkState } from "./stores.ts";
 
 export interface Guide {
@@ -12,7 +12,12 @@ export interface Guide {
     readonly ids: readonly string[];
     /* For each pixel, rows from the top: 0 no node, else an index into the ids, from 1. */
     readonly indices: Uint16Array;
+    /* From the eye along the ray, in scene units, of every DISTANCE_STEPth pixel of every
+     * DISTANCE_STEPth row from the first ones: infinite where nothing is hit. */
+    readonly distances: Float32Array;
 }
+
+export const DISTANCE_STEP = 4;
 
 /* That of the picture shown; null while there is none. */
 export function shownGuide({ guide, frame }: LinkState): Guide | null {
@@ -24,10 +29,13 @@ export function shownGuide({ guide, frame }: LinkState): Guide | null {
     return fits ? guide : null;
 }
 
+/* Of a side of so many. */
+export const pixelOf = (part: number, side: number): number =>
+    Math.min(side - 1, Math.max(0, Math.floor(part * side)));
+
 /* At parts of the picture's width and height; null: none is there. */
 export function nodeAt(guide: Guide, u: number, v: number): string | null {
-    const x = Math.min(guide.width - 1, Math.max(0, Math.floor(u * guide.width)));
-    const y = Math.min(guide.height - 1, Math.max(0, Math.floor(v * guide.height)));
+    const [x, y] = [pixelOf(u, guide.width), pixelOf(v, guide.height)];
     return guide.ids[(guide.indices[y * guide.width + x] ?? 0) - 1] ?? null;
 }
 
@@ -40,11 +48,9 @@ export function nodesIn(
     right: number,
     bottom: number,
 ): readonly string[] {
-    const pixel = (part: number, side: number): number =>
-        Math.min(side - 1, Math.max(0, Math.floor(part * side)));
     const seen = new Set<number>();
-    for (let y = pixel(top, guide.height); y <= pixel(bottom, guide.height); y++) {
-        for (let x = pixel(left, guide.width); x <= pixel(right, guide.width); x++) {
+    for (let y = pixelOf(top, guide.height); y <= pixelOf(bottom, guide.height); y++) {
+        for (let x = pixelOf(left, guide.width); x <= pixelOf(right, guide.width); x++) {
             seen.add(guide.indices[y * guide.width + x] as number);
         }
     }

@@ -42,7 +42,20 @@ interface Owner {
     readonly values: Values;
     readonly toWorld: (point: Vector) => Vector;
     readonly fromWorld: (point: Vector) => Vector;
+    /* It joins others: its lengths are of no shape. */
+    readonly joins: boolean;
 }
+
+/* What a handle is drawn as, beside the point where it is. */
+export type HandleLook =
+    /* A place, or a radius on its surface. */
+    | { readonly kind: "place" | "dot" }
+    /* A length: from its tail to the point is the way that it grows. */
+    | { readonly kind: "arrow"; readonly tail: Spot }
+    /* An angle: the way of the point from where there is none. */
+    | { readonly kind: "arc"; readonly spots: readonly Spot[] }
+    /* The reach of a blend: pixels around the middle of what it joins. */
+    | { readonly kind: "band"; readonly middle: Spot; readonly radius: number };
 
 export interface Handle {
     /* "radius", "size.x". */
@@ -54,6 +67,7 @@ export interface Handle {
     /* The texts of its three coordinates. */
     readonly texts: readonly string[];
     readonly spot: Spot;
+    readonly look: HandleLook;
 }
 
 const LETTERS = "xyzw";
@@ -83,6 +97,73 @@ function pointOf(
     return point.every(Number.isFinite) ? owner.toWorld(point) : null;
 }
 
+/* --- looks --- */
+
+/* Pixels from the tail of an arrow to the point; where it points at the viewer, there is none. It is
+ * on the inner side, where it takes no place from the tips of the gizmo. */
+const ARROW = 20;
+const HEAD_ON = 0.25;
+const ARC_STEPS = 16;
+const TURN = 2 * Math.PI;
+/* Names of lengths that are measured from a middle: their points are dots on the surface. */
+const RADIUS = /^(radi|tube|round)/;
+
+interface Curve {
+    readonly value: number;
+    readonly projection: Projection;
+    /* In the world, by the value. */
+    readonly at: (value: number) => Vector | null;
+}
+
+function arrowOf({ value, projection, at }: Curve): HandleLook {
+    const [here, there] = [at(value), at(value + NUDGE)];
+    const way = here && there ? subtract(there, here) : ORIGIN;
+    const speed = length(way);
+    if (!here || speed === 0) {
+        return { kind: "dot" };
+    }
+    const pixels = ARROW * projection.unitsAt(here);
+    const [spot, tail] = [here, add(here, scale(way, -pixels / speed))].map(projection.spotOf);
+    const seen = spot && tail ? Math.hypot(tail.x - spot.x, tail.y - spot.y) : 0;
+    return tail && seen > HEAD_ON * ARROW ? { kind: "arrow", tail } : { kind: "dot" };
+}
+
+/* At most one turn of it. */
+function arcOf({ value, projection, at }: Curve, unit: Param["unit"]): HandleLook {
+    const whole = unit === "degrees" ? 360 : TURN;
+    const end = Math.sign(value) * Math.min(Math.abs(value), whole);
+    const spots = Array.from({ length: ARC_STEPS + 1 }, (_, i) => {
+        const point = at(value - (end * i) / ARC_STEPS);
+        return point && projection.spotOf(point);
+    });
+    return { kind: "arc", spots: spots.filter((spot) => spot !== null) };
+}
+
+function bandOf({ value, projection, at }: Curve): HandleLook {
+    const [middle, end] = [at(0), at(value)];
+    const spot = middle && projection.spotOf(middle);
+    return spot && end
+        ? {
+              kind: "band",
+              middle: spot,
+              radius: length(subtract(end, middle)) / projection.unitsAt(middle),
+          }
+        : { kind: "dot" };
+}
+
+function lookOf(owner: Owner, param: Param, component: number | null, curve: Curve): HandleLook {
+    if (component === null) {
+        return { kind: "place" };
+    }
+    if (isAngle(param.unit)) {
+        return arcOf(curve, param.unit);
+    }
+    if (param.unit !== "length" || RADIUS.test(param.name)) {
+        return { kind: "dot" };
+    }
+    return owner.joins ? bandOf(curve) : arrowOf(curve);
+}
+
 function handlesOfParam(owner: Owner, param: Param, projection: Projection): Handle[] {
     const points = param.handle
         .split(";")
@@ -93,7 +174,13 @@ function handlesOfParam(owner: Owner, param: Param, projection: Projection): Han
         const key = count > 1 && component !== null ? `${param.name}.${LETTERS[i]}` : param.name;
         const point = pointOf(owner, texts);
         const spot = point && projection.spotOf(point);
-        return spot ? [{ key, param, component, owner, texts, spot }] : [];
+        const at = (value: number): Vector | null => pointOf(owner, texts, key, value);
+        const look = lookOf(owner, param, component, {
+            value: namesOf(owner)(key),
+            projection,
+            at,
+        });
+        return spot ? [{ key, param, component, owner, texts, spot, look }] : [];
     });
 }
 
@@ -113,6 +200,7 @@ function nodeOwner(document: SceneDocument, schema: Schema, id: string): Owner |
         values: node.params,
         toWorld: (point) => toWorld(document, id, add(point, middle)),
         fromWorld: (point) => subtract(fromWorld(document, id, point), middle),
+        joins: isOperation,
     };
 }
 
@@ -134,6 +222,7 @@ function resourceOwner(
         values: resource.values,
         toWorld: (point) => add(point, position),
         fromWorld: (point) => subtract(point, position),
+        joins: false,
     };
 }
 

@@ -20,6 +20,10 @@ export interface Mark {
 /* Scene units within which the page's camera is the document's. */
 const SAME = 1e-3;
 
+export function looksThrough(document: SceneDocument, seen: Camera): boolean {
+    return length(subtract(cameraOf(document.camera).position, seen.position)) < SAME;
+}
+
 export function marksOf(schema: Schema, document: SceneDocument, seen: Camera): readonly Mark[] {
     const marks: Mark[] = (["lights", "volumes"] as const).flatMap((list) =>
         document[list].flatMap(({ name, type, values }) => {
@@ -38,7 +42,7 @@ export function marksOf(schema: Schema, document: SceneDocument, seen: Camera): 
         }),
     );
     const { position } = cameraOf(document.camera);
-    return length(subtract(position, seen.position)) < SAME
+    return looksThrough(document, seen)
         ? marks
         : [...marks, { key: "camera", list: null, name: "", type: "", at: position }];
 }

@@ -2,6 +2,7 @@
 /* What a hand can move in the picture: nodes, and the lights, volumes and camera that stand in the
  * scene. Each knows where it is, and the operations that a move, turn or scaling of it takes. */
 import { ballOf } from "./bounds.ts";
+import { axes, cameraOf } from "./camera.ts";
 import { findResource, pathTo, resourceParams, type SceneDocument, topmost } from "./document.ts";
 import type { Delta } from "./grip.ts";
 import type { Pivot, Space } from "./hands.ts";
@@ -13,6 +14,7 @@ import {
     anglesOf,
     apply,
     fromWorld,
+    length,
     type Matrix,
     multiply,
     product,
@@ -160,6 +162,41 @@ function resourceMovable(
     };
 }
 
+/* Directions closer than this are the same. */
+const SAME_WAY = 1e-6;
+
+/* The document's camera, as a body: its target goes along. `up` stays as it is, unless the camera
+ * rolls. */
+function cameraMovable(document: SceneDocument): Movable {
+    const camera = cameraOf(document.camera);
+    const { right, up, forward } = axes(camera);
+    const { position } = camera;
+    return {
+        origin: position,
+        center: position,
+        own: transpose([right, up, scale(forward, -1)]),
+        parent: IDENTITY,
+        motions: ["move", "turn"],
+        ops: (delta, pivot, frame) => {
+            const [at, target] = [position, camera.target].map((point) =>
+                moved(point, delta, pivot, frame),
+            ) as [Vector, Vector];
+            const ops = [
+                set("/camera/position", tidyVector(at)),
+                set("/camera/target", tidyVector(target)),
+            ];
+            if (delta.motion === "turn") {
+                const above = turnAbout(up, delta.axis, delta.angle);
+                const now = axes({ ...camera, position: at, target }).up;
+                if (length(subtract(now, above)) > SAME_WAY) {
+                    ops.push(set("/camera/up", tidyVector(above)));
+                }
+            }
+            return ops;
+        },
+    };
+}
+
 /* What the selection or the inspector's subject lets a hand hold; the active one last. */
 export function movablesOf(
     document: SceneDocument,
@@ -170,6 +207,9 @@ export function movablesOf(
     if (subject.kind === "resource") {
         const one = resourceMovable(document, schema, subject.list, subject.name);
         return one === null ? [] : [one];
+    }
+    if (subject.kind === "camera") {
+        return [cameraMovable(document)];
     }
     if (subject.kind !== "nodes") {
         return [];

@@ -32,6 +32,7 @@ const TEXTS = {
     "picture.numbersOnly": "The output {name} has no picture, only numbers: choose NPY.",
     "picture.oneInJpeg": "A JPEG holds one output: choose PNG or NPY for several.",
     "picture.opaqueJpeg": "A JPEG cannot be transparent: choose PNG.",
+    "snap.floor": "floor",
     "edit.deleted": "{name} deleted.",
     "why.pointerBackspace":
         "Backspace resets the value under the pointer. Delete removes the selected nodes.",

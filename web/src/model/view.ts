@@ -60,6 +60,10 @@ export interface Preferences {
     readonly marks: boolean;
     /* What is selected, and what is under the pointer, is outlined. */
     readonly outlines: boolean;
+    /* The ground has lines. */
+    readonly grid: boolean;
+    /* What the pixel under the pointer shows is told. */
+    readonly probe: boolean;
 }
 
 /* How hands in the picture act. */
@@ -87,6 +91,8 @@ export const PREFERENCES: Preferences = {
     hands: HANDS,
     marks: true,
     outlines: true,
+    grid: true,
+    probe: false,
 };
 
 /* What the inspector shows when no node is selected or a resource is. */
@@ -261,5 +267,7 @@ export function readPreferences(text: string | null): Preferences {
         },
         marks: stored.marks !== false,
         outlines: stored.outlines !== false,
+        grid: stored.grid !== false,
+        probe: stored.probe === true,
     };
 }

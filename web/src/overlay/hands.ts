@@ -2,12 +2,14 @@
 /* Hands in the picture: the gizmo, the drag or the keys that move what is selected. Drawn by the page
  * with the camera of the picture shown, so that it stands where its object is. Acts on a drag only;
  * a click goes through. */
-import { gizmoParts, type Part, partAt } from "../model/gizmo.ts";
+import { clearOf, gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
+import { shownGuide } from "../model/guide.ts";
 import { dragHandle, type Handle, handleAt, handleLabel, handlesOf } from "../model/handles.ts";
+import { looksThrough } from "../model/marks.ts";
 import { frameOf, type Movable, movablesOf, pivotOf } from "../model/movables.ts";
 import { type Projection, projectionOf, type Spot } from "../model/projection.ts";
-import { type Target, targetsOf } from "../model/snapping.ts";
+import { surfaceUnder, type Target, targetsOf } from "../model/snapping.ts";
 import type { Stores } from "../model/stores.ts";
 import { add, scale } from "../model/transform.ts";
 import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
@@ -125,9 +127,10 @@ export class Hands {
         const pivot = pivotOf(movables, mode);
         const step = this.#page.begin(STEP_NAMES[constraint.motion]);
         const targets = (): readonly Target[] => this.#targets();
+        const surface = this.#surface(projection);
         this.#hold = new Hold({
             ...{ movables, pivot, mode, space, projection },
-            ...{ from, constraint, step, targets },
+            ...{ from, constraint, step, targets, surface },
         });
         this.#redraw();
     }
@@ -231,14 +234,31 @@ export class Hands {
     #movables(): readonly Movable[] {
         const { document, schema } = this.#page.stores.document.getState();
         const { selection, subject } = this.#page.stores.view.getState();
-        return document ? movablesOf(document, schema, selection, subject) : [];
+        const seen = shownCamera(this.#page.stores);
+        /* Who looks through the camera moves it by looking. */
+        const inside =
+            subject.kind === "camera" && document && seen && looksThrough(document, seen);
+        return document && !inside ? movablesOf(document, schema, selection, subject) : [];
+    }
+
+    /* Ids of what is moved, or nothing of the tree. */
+    get #moved(): readonly string[] {
+        const { selection, subject } = this.#page.stores.view.getState();
+        return subject.kind === "nodes" ? selection : [];
     }
 
     #targets(): readonly Target[] {
         const { document, schema } = this.#page.stores.document.getState();
-        const { selection, subject } = this.#page.stores.view.getState();
-        const moved = subject.kind === "nodes" ? selection : [];
-        return document ? targetsOf(document, schema, moved) : [];
+        return document ? targetsOf(document, schema, this.#moved) : [];
+    }
+
+    /* As the picture shows it now: what moves hides nothing of it later. */
+    #surface(projection: Projection): (spot: Spot) => Target | null {
+        const { document } = this.#page.stores.document.getState();
+        const guide = shownGuide(this.#page.stores.link.getState());
+        const moved = this.#moved;
+        return (spot) =>
+            document && guide && surfaceUnder(document, guide, projection, moved, spot);
     }
 
     #projection(): Projection | null {
@@ -251,7 +271,7 @@ export class Hands {
         const { document, schema } = this.#page.stores.document.getState();
         const { selection, subject } = this.#page.stores.view.getState();
         const projection = this.#projection();
-        const middle = this.#parts().find(({ kind }) => kind === "middle");
+        const middle = this.#wholeParts().find(({ kind }) => kind === "middle");
         const all =
             document && projection
                 ? handlesOf(document, schema, selection, subject, projection)
@@ -264,7 +284,13 @@ export class Hands {
             : all;
     }
 
-    #parts(): readonly Part[] {
+    /* Beside the handles. */
+    #parts(handles = this.#handles()): readonly Part[] {
+        const spots = handles.map(({ spot }) => spot);
+        return clearOf(this.#wholeParts(), spots);
+    }
+
+    #wholeParts(): readonly Part[] {
         const { tool, space, pivot } = this.#page.stores.view.getState().preferences.hands;
         const movables = this.#movables();
         const projection = this.#projection();
@@ -309,8 +335,8 @@ export class Hands {
     }
 
     #drawRest(brush: CanvasRenderingContext2D): void {
-        const parts = this.#handle === null ? this.#parts() : [];
         const handles = this.#handles();
+        const parts = this.#handle === null ? this.#parts(handles) : [];
         paintGizmo(brush, parts, this.#hot?.constraint ?? null);
         paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
         const hot = handles.find(({ key }) => key === this.#hotHandle);
@@ -346,7 +372,11 @@ export class Hands {
     /* Where its parts are, for those who cannot see the pixels. */
     #tell(parts: readonly Part[], handles: readonly Handle[] = []): void {
         const places = parts.map((part) => ({ ...part.constraint, at: reachOf(part) }));
-        const dots = handles.map(({ key, spot }) => ({ handle: key, at: spot }));
+        const dots = handles.map(({ key, spot, look }) => ({
+            handle: key,
+            at: spot,
+            look: look.kind,
+        }));
         this.#canvas.dataset.parts = JSON.stringify([...places, ...dots]);
     }
 

@@ -7,8 +7,8 @@ import type { Pivot, Space } from "../model/hands.ts";
 import { frameOf, type Movable, motionOps } from "../model/movables.ts";
 import type { Operation } from "../model/operation.ts";
 import type { Projection, Spot } from "../model/projection.ts";
-import { snapTo, type Target } from "../model/snapping.ts";
-import { length, type Matrix, type Vector } from "../model/transform.ts";
+import { type Snapped, snapTo, type Target } from "../model/snapping.ts";
+import { length, type Matrix, subtract, type Vector } from "../model/transform.ts";
 import { fromShown, parseNumber, shortNumber, toShown } from "../model/units.ts";
 
 /* What the link offers for one undo step. */
@@ -35,6 +35,8 @@ export interface HoldStart {
     readonly step: Step;
     /* What a move may be drawn to while it snaps. */
     readonly targets: () => readonly Target[];
+    /* The surface at a point of the picture, which a free move may set it on. */
+    readonly surface: (spot: Spot) => Target | null;
 }
 
 const FINE = 0.1;
@@ -170,13 +172,22 @@ export class Hold {
         return step > 0 && delta.motion === "move" ? this.#drawn(delta) : delta;
     }
 
-    /* To the middle of another shape where that is near, else in steps. */
+    /* To the middle of another shape where that is near, else to the surface under the pointer, else
+     * in steps. */
     #drawn(stepped: Delta): Delta {
         const free = deltaTo(this.grip, this.#hand, 0, 0);
         this.#targets ??= this.#start.targets();
-        const snapped = free.motion === "move" ? snapTo(this.grip, free.by, this.#targets) : null;
+        const near = free.motion === "move" ? snapTo(this.grip, free.by, this.#targets) : null;
+        const snapped = near ?? this.#onSurface();
         this.#target = snapped?.target ?? null;
         return snapped ? { motion: "move", by: snapped.by } : stepped;
+    }
+
+    /* The origin of the active one goes there. */
+    #onSurface(): Snapped | null {
+        const origin = this.#start.movables.at(-1)?.origin;
+        const target = this.#constraint.axis === null ? this.#start.surface(this.#pointer) : null;
+        return origin && target ? { target, by: subtract(target.at, origin) } : null;
     }
 
     /* Null while what was typed is no number yet. */

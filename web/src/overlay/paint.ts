@@ -134,16 +134,48 @@ export function paintGizmo(brush: Brush, parts: readonly Part[], hot: Constraint
 
 const HANDLE = "#7ad8d2";
 const HANDLE_RADIUS = 5;
+const DASHES = [5, 5];
+
+function paintLook(brush: Brush, { spot, look }: Handle, color: string, hot: boolean): void {
+    const radius = hot ? HANDLE_RADIUS + 2 : HANDLE_RADIUS;
+    const width = hot ? LINE + 1 : LINE;
+    switch (look.kind) {
+        case "arrow":
+            stroke(brush, color, width, () => line(brush, [look.tail, spot]));
+            fill(brush, color, () => arrowHead(brush, look.tail, spot));
+            break;
+        case "arc":
+            stroke(brush, color, width - 0.5, () => line(brush, look.spots));
+            dot(brush, spot, radius, color);
+            break;
+        case "band":
+            brush.setLineDash(DASHES);
+            stroke(brush, color, width - 1, () => {
+                brush.arc(look.middle.x, look.middle.y, look.radius, 0, 2 * Math.PI);
+                line(brush, [look.middle, spot]);
+            });
+            brush.setLineDash([]);
+            dot(brush, spot, radius, color);
+            break;
+        case "place":
+            fill(brush, color, () => {
+                brush.moveTo(spot.x, spot.y - radius - 1);
+                brush.lineTo(spot.x + radius + 1, spot.y);
+                brush.lineTo(spot.x, spot.y + radius + 1);
+                brush.lineTo(spot.x - radius - 1, spot.y);
+                brush.closePath();
+            });
+            break;
+        case "dot":
+            dot(brush, spot, radius, color);
+            break;
+    }
+}
 
 export function paintHandles(brush: Brush, handles: readonly Handle[], hot: string | null): void {
     brush.globalAlpha = 1;
-    for (const { key, spot } of handles) {
-        dot(
-            brush,
-            spot,
-            key === hot ? HANDLE_RADIUS + 2 : HANDLE_RADIUS,
-            key === hot ? HOT : HANDLE,
-        );
+    for (const handle of handles) {
+        paintLook(brush, handle, handle.key === hot ? HOT : HANDLE, handle.key === hot);
     }
 }
 

@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* What the gizmo does, which way its axes point, and whether it goes in steps. */
-import { ChevronDown, type LucideIcon, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
+/* What the gizmo does, which way its axes point, and whether it goes in steps; measuring, the grid. */
+import {
+    ChevronDown,
+    Grid3x3,
+    type LucideIcon,
+    Move3d,
+    Rotate3d,
+    Ruler,
+    Scale3d,
+} from "lucide-react";
 import { changeHands } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { MOTIONS } from "../../model/grip.ts";
@@ -16,6 +24,7 @@ const ICONS = { move: Move3d, turn: Rotate3d, scale: Scale3d };
 
 export function HandTools() {
     const { tool, space, snap } = useView((view) => view.preferences.hands);
+    const grid = useView((view) => view.preferences.grid);
     const measuring = useView((view) => view.measured !== null);
     return (
         <div className="glass hand-tools" role="toolbar" aria-label={t("hands.tools")}>
@@ -34,6 +43,7 @@ export function HandTools() {
                 pressed={measuring}
                 Icon={Ruler}
             />
+            <Tool command="view.grid" text={t("grid.title")} pressed={grid} Icon={Grid3x3} />
             <Menu
                 align="start"
                 trigger={

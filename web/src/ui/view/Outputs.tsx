@@ -96,6 +96,7 @@ function Choices() {
     const schema = useDocument((state) => state.schema);
     const aov = useView((view) => view.aov);
     const quality = useView((view) => view.preferences.quality);
+    const probe = useView((view) => view.preferences.probe);
     return (
         <>
             {outputsShown(schema).map(({ name, doc }) => (
@@ -108,6 +109,13 @@ function Choices() {
                     {outputTitle(name)}
                 </MenuItem>
             ))}
+            <MenuLine />
+            <MenuItem
+                checked={probe}
+                onSelect={() => setPreferences(stores.view, { probe: !probe })}
+            >
+                {t("probe.title")}
+            </MenuItem>
             <MenuLine />
             {QUALITIES.map((one) => (
                 <MenuItem

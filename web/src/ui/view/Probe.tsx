@@ -1,10 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* The value of the output that is shown, at the pixel under the pointer: one pixel of the same
- * picture that REST gives. */
+ * picture that REST gives. Where it is asked for, also the node, the distance and the place there, at
+ * once from the guide of the picture. */
 import { useEffect, useRef, useState } from "react";
 import { readNpy } from "../../link/npy.ts";
 import { printCamera } from "../../model/camera.ts";
+import { distanceAt, surfaceAt } from "../../model/distances.ts";
+import { nodeLabel } from "../../model/document.ts";
+import { nodeAt, shownGuide } from "../../model/guide.ts";
+import { projectionOf, type Spot } from "../../model/projection.ts";
+import type { Vector } from "../../model/transform.ts";
 import { COLOR } from "../../model/view.ts";
+import { shownCamera } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -87,12 +94,91 @@ function useValues(active: boolean, element: Element | null): Values | null {
 const number = (value: number): string =>
     Number.isFinite(value) ? String(Number(value.toPrecision(4))) : "∞";
 
+interface Pointed {
+    readonly node: string | null;
+    readonly place: Vector | null;
+    readonly distance: number;
+}
+
+/* Null while the picture has no guide. */
+function pointedAt({ stores }: Editor, element: Element, { x, y }: Spot): Pointed | null {
+    const guide = shownGuide(stores.link.getState());
+    const camera = shownCamera(stores);
+    if (!guide || !camera) {
+        return null;
+    }
+    const size = { width: element.clientWidth, height: element.clientHeight };
+    return {
+        node: nodeAt(guide, x / size.width, y / size.height),
+        place: surfaceAt(guide, projectionOf(camera, size), { x, y }),
+        distance: distanceAt(guide, x / size.width, y / size.height),
+    };
+}
+
+/* Null while the pointer is not over the picture. */
+function usePointed(active: boolean, element: Element | null): Pointed | null {
+    const editor = useEditor();
+    const [pointed, setPointed] = useState<Pointed | null>(null);
+    useEffect(() => {
+        if (!active || !(element instanceof HTMLElement)) {
+            setPointed(null);
+            return;
+        }
+        const ended = new AbortController();
+        let last: Spot | null = null;
+        const tell = (): void => setPointed(last && pointedAt(editor, element, last));
+        const move = ({ clientX, clientY }: PointerEvent): void => {
+            const box = element.getBoundingClientRect();
+            last = { x: clientX - box.left, y: clientY - box.top };
+            tell();
+        };
+        const leave = (): void => {
+            last = null;
+            tell();
+        };
+        element.addEventListener("pointermove", move, { signal: ended.signal });
+        element.addEventListener("pointerleave", leave, { signal: ended.signal });
+        const stop = editor.stores.link.subscribe(
+            (now, before) => (now.guide !== before.guide || now.frame !== before.frame) && tell(),
+        );
+        return () => {
+            ended.abort();
+            stop();
+        };
+    }, [editor, active, element]);
+    return pointed;
+}
+
+function Told({ pointed: { node, place, distance } }: { pointed: Pointed }) {
+    const label = useDocument(({ document }) => {
+        const shown = document?.nodes.get(node ?? "");
+        return shown ? nodeLabel(shown) : null;
+    });
+    const rows = [
+        ["probe.node", label ?? t(place ? "probe.floor" : "probe.nothing")],
+        ["probe.distance", number(distance)],
+        ["probe.place", place ? place.map(number).join("  ") : "–"],
+    ] as const;
+    return (
+        <dl className="glass outputs-told" data-testid="pointed">
+            {rows.map(([key, value]) => (
+                <div key={key}>
+                    <dt>{t(key)}</dt>
+                    <dd>{value}</dd>
+                </div>
+            ))}
+        </dl>
+    );
+}
+
 export function Probe() {
     const aov = useView((view) => view.aov);
+    const probing = useView((view) => view.preferences.probe);
     /* What is isolated is drawn for this page alone; REST draws the whole scene. */
     const isolated = useView((view) => view.isolated.length > 0);
     const [element, setElement] = useState<Element | null>(null);
-    const values = useValues(aov !== COLOR && !isolated, element);
+    const values = useValues((aov !== COLOR || probing) && !isolated, element);
+    const pointed = usePointed(probing, element);
     return (
         <div
             className="outputs-probe"
@@ -106,6 +192,7 @@ export function Probe() {
                     {values.map(number).join("  ")}
                 </output>
             )}
+            {pointed && <Told pointed={pointed} />}
         </div>
     );
 }

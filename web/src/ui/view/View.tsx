@@ -2,6 +2,7 @@
 /* The picture's place: the link shows frames in it, the input turns pointers into camera moves and
  * picks; React draws only what lies over it. */
 import { useCallback, useEffect, useRef, useState } from "react";
+import { Grid } from "../../overlay/grid.ts";
 import { Hands } from "../../overlay/hands.ts";
 import { Outlines } from "../../overlay/outlines.ts";
 import { attachPointer } from "../../overlay/pointer.ts";
@@ -76,6 +77,7 @@ function Picture() {
         }
         editor.setPicture(element);
         const hide = editor.link.attach(element);
+        const grid = new Grid(editor.stores, element);
         const outlines = new Outlines(editor.stores, element);
         const hands = new Hands({ stores: editor.stores, begin: beginStep(editor) }, element);
         const stop = attachPointer(element, pointerActions(editor, element, hands, open));
@@ -87,6 +89,7 @@ function Picture() {
             stop();
             hands.end();
             outlines.end();
+            grid.end();
             hide();
             editor.setPicture(null);
         };

@@ -5,6 +5,7 @@ import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf, topmost } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
+import type { Stores } from "../../model/stores.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import { holdBox } from "../../overlay/box.ts";
@@ -14,6 +15,7 @@ import type { PointerActions } from "../../overlay/pointer.ts";
 import { guideAt } from "../../overlay/shown.ts";
 import type { Editor } from "../editor.ts";
 import type { Target } from "../scene/NodeMenu.tsx";
+import { t } from "../texts.ts";
 import type { MenuPlace } from "../widgets/Menu.tsx";
 import { questions } from "./questions.ts";
 
@@ -129,17 +131,19 @@ export function pointerActions(
     };
 }
 
+function nameOfHeld({ document: scene, view }: Stores): string {
+    const { document } = scene.getState();
+    const { selection, subject } = view.getState();
+    if (subject.kind === "resource") {
+        return subject.name;
+    }
+    if (subject.kind === "camera") {
+        return t("hands.camera");
+    }
+    return document ? nameAll(document, topmost(document, selection)) : "";
+}
+
 /* Begins the undo step of what a hand does to what is selected. */
 export function beginStep({ stores, link }: Editor): (what: string) => Step {
-    return (what) => {
-        const { document } = stores.document.getState();
-        const { selection, subject } = stores.view.getState();
-        const name =
-            subject.kind === "resource"
-                ? subject.name
-                : document
-                  ? nameAll(document, topmost(document, selection))
-                  : "";
-        return link.gesture(`${what} ${name}`);
-    };
+    return (what) => link.gesture(`${what} ${nameOfHeld(stores)}`);
 }
