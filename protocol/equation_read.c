@@ -352,8 +352,10 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
 
 static uint16_t read_number(struct reader *r)
 {
-    char *end;
-    const double value = strtod(r->at, &end);
+    /* strtod knows hexadecimal digits, too. */
+    const bool zero = r->at[0] == '0' && (r->at[1] == 'x' || r->at[1] == 'X');
+    char *end = (char *)r->at + 1;
+    const double value = zero ? 0 : strtod(r->at, &end);
     if (!isfinite(value) || fabs(value) > LIMIT_COORDINATE) {
         note(r, r->at, "%.*s is above the maximum %g", (int)(end - r->at < 24 ? end - r->at : 24),
              r->at, (double)LIMIT_COORDINATE);

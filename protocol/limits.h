@@ -56,7 +56,7 @@
     X(EQUATION_DEPTH, "equation_depth", 64, "levels", "nesting of an equation")                    \
     X(EQUATION_EXPONENT, "equation_exponent", 64, "factors", "a whole exponent")                   \
     X(PARAMETRIC_DEGREE, "parametric_degree", 64, "factors",                                       \
-      "a polynomial in the parameters of a surface")                                               \
+      "a polynomial in the parameters of a surface, or made of an equation")                       \
     X(IMPLICIT_DEGREE, "implicit_degree", 18, "factors",                                           \
       "the equation that is found for a parametric surface")                                       \
     X(COEFFICIENT_BITS, "coefficient_bits", 4096, "bits", "a coefficient of such polynomials")     \

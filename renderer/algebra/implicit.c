@@ -15,6 +15,7 @@ enum { EXACT_DIGITS = 15 }; /* decimals that a double gives back as they were */
 
 struct values {
     const struct record *params;
+    const struct equation *equation;
     const fmpz_mpoly_ctx_struct *space;
     struct error *err;
 };
@@ -27,7 +28,7 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
         return true;
     }
     if (node->op != EQUATION_LETTER) {
-        return expression_refuse(node, values->err);
+        return expression_refuse(values->equation, node, values->err);
     }
     fmpq_t number;
     fmpq_init(number);
@@ -70,12 +71,12 @@ bool implicit_read(struct fraction *out, const struct record *params, const fmpz
                    struct error *err)
 {
     const char *text = record_text(params, "equation");
-    struct values values = {params, space, err};
     struct fraction right;
     struct equation *equation = check_digits(text, err) ? read_text(text, err) : NULL;
     if (!equation) {
         return false;
     }
+    struct values values = {params, equation, space, err};
     const struct expression e = {equation, space, leaf, &values, err};
     fraction_init(&right, space);
     bool ok =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The cheap questions come first. A point of the surface where the equation is not 0 says what does
- * not fit. */
+/* The cheap questions come first: what does not fit mostly fails at one of the first points, before
+ * polynomials of a high degree are made. */
 #include "verify.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "protocol/json.h"
 #include "protocol/limits.h"
 
-enum { WITNESS = 6 }; /* parameters from 1 to this are tried */
+enum { WITNESS = 6 }; /* the greatest sum of the parameters that are tried */
 
 struct proof {
     struct patch patch;
@@ -97,17 +97,17 @@ static bool tell_point(struct proof *p, slong i, slong j)
     return found;
 }
 
-static bool find_point(struct proof *p)
+static bool check_points(struct proof *p)
 {
-    misfit(p, "on the surface the equation does not hold");
-    for (slong sum = 3; sum <= 2 * WITNESS; sum++) {
+    for (slong sum = 3; sum <= WITNESS; sum++) {
         for (slong i = 1; i < sum; i++) {
             if (tell_point(p, i, sum - i)) {
+                p->out->verdict = SURFACE_DOES_NOT_FIT;
                 return false;
             }
         }
     }
-    return false;
+    return true;
 }
 
 /* --- the steps --- */
@@ -164,13 +164,9 @@ static bool prove(struct proof *p, const struct surface *surface, const struct r
         snprintf(reason->place, sizeof reason->place, "equation");
         return false;
     }
-    if (!check_equation(p)) {
-        return false;
-    }
-    if (!certificate_is_zero(&p->patch, p->equation.over, p->space)) {
-        return find_point(p);
-    }
-    return check_factors(p);
+    return check_equation(p) && check_points(p) && check_factors(p) &&
+           (certificate_is_zero(&p->patch, p->equation.over, p->space) ||
+            misfit(p, "on the surface the equation does not hold"));
 }
 
 /* --- all of it --- */

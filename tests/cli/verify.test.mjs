@@ -68,7 +68,7 @@ for (const [name, params, why] of DOES_NOT_FIT) {
 
 const NOT_CHECKED = [
     ['a degree above the limit', { equation: 'x^19 = y', parametric: umbrella }, /too large: the equation has degree 19; the limit is 18 \(implicit_degree\)/],
-    ['a degree far above it', { equation: '(x^60)^60 = y', parametric: umbrella }, /equation: degree \d+.*; the limit is 64 \(parametric_degree\)/],
+    ['a degree far above it', { equation: '(x^60)^60 = y', parametric: umbrella }, /equation: a polynomial of degree \d+; the limit is 64 \(parametric_degree\)/],
     ['a long number', { equation: 'x^2 = y^2*z*1.0000000000000001', parametric: umbrella }, /equation: a number has more than 15 digits/],
     ['a sine of x', { equation: 'sin(x) = y', parametric: umbrella }, /equation: sin\(\) makes no polynomial/],
     ['pi', { equation: 'x = pi', parametric: umbrella }, /equation: pi is no rational number/],
