@@ -72,6 +72,12 @@ static bool compute(const struct equation_node *node, const double in[2], double
     case EQUATION_NEGATE:
         *out = -in[0];
         return true;
+    case EQUATION_WHOLE:
+        *out = pow(in[0], node->value);
+        return true;
+    case EQUATION_POWER:
+        *out = pow(in[0], in[1]);
+        return true;
     default:
         return false;
     }

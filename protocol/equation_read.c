@@ -627,6 +627,17 @@ static void check_varies(struct reader *r)
     }
 }
 
+/* Numbers alone that make none; parts of surfaces are computed exactly elsewhere. */
+static void check_finite(struct reader *r)
+{
+    for (size_t i = 0; r->errors->count == 0 && i < r->equation->count; i++) {
+        const struct equation_node *node = &r->equation->nodes[i];
+        if (node->known && !isfinite(node->constant)) {
+            note(r, r->text, "a division by 0, or numbers that make more than a number may be");
+        }
+    }
+}
+
 static struct equation *read_text(const char *text, const char *const *letters, bool plain,
                                   struct equation_errors *out_errors)
 {
@@ -649,6 +660,7 @@ static struct equation *read_text(const char *text, const char *const *letters, 
     check_end(&r);
     if (!plain) {
         check_varies(&r);
+        check_finite(&r);
     }
     if (out_errors->count > 0) {
         free(equation);

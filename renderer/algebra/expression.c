@@ -2,7 +2,6 @@
 /* Values of expressions, from arguments to results: arguments have lower indices. */
 #include "expression.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "affine.h"
@@ -21,18 +20,7 @@ static bool is_leaf(const struct equation_node *node)
     }
 }
 
-static bool refuse_power(const struct equation_node *exponent, struct error *err)
-{
-    const bool whole = exponent->known && exponent->constant == floor(exponent->constant);
-    return whole ? error_set(err, ERROR_LIMIT, "",
-                             "an exponent of %g; the limit is %d (equation_exponent)",
-                             exponent->constant, LIMIT_EQUATION_EXPONENT)
-                 : error_set(err, ERROR_INVALID, "",
-                             "an exponent that is no whole number makes no polynomial");
-}
-
-bool expression_refuse(const struct equation *equation, const struct equation_node *node,
-                       struct error *err)
+bool expression_refuse(const struct equation_node *node, struct error *err)
 {
     switch ((enum equation_op)node->op) {
     case EQUATION_CONSTANT:
@@ -40,7 +28,8 @@ bool expression_refuse(const struct equation *equation, const struct equation_no
                          "%s is no rational number; outside of sin and cos write a decimal",
                          equation_constants[node->which].name);
     case EQUATION_POWER:
-        return refuse_power(&equation->nodes[node->args[1]], err);
+        return error_set(err, ERROR_INVALID, "",
+                         "an exponent that is no whole number makes no polynomial");
     case EQUATION_CALL:
         return error_set(err, ERROR_INVALID, "", "%s() makes no polynomial",
                          equation_functions[node->which].name);

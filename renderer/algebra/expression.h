@@ -19,7 +19,6 @@ struct expression {
 /* Of the node `root`; false: `err` is filled. */
 bool expression_value(const struct expression *e, uint16_t root, struct fraction *out);
 /* Tells why a leaf makes no polynomial; false. */
-bool expression_refuse(const struct equation *equation, const struct equation_node *node,
-                       struct error *err);
+bool expression_refuse(const struct equation_node *node, struct error *err);
 
 #endif

@@ -15,7 +15,6 @@ enum { EXACT_DIGITS = 15 }; /* decimals that a double gives back as they were */
 
 struct values {
     const struct record *params;
-    const struct equation *equation;
     const fmpz_mpoly_ctx_struct *space;
     struct error *err;
 };
@@ -28,7 +27,7 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
         return true;
     }
     if (node->op != EQUATION_LETTER) {
-        return expression_refuse(values->equation, node, values->err);
+        return expression_refuse(node, values->err);
     }
     fmpq_t number;
     fmpq_init(number);
@@ -76,7 +75,7 @@ bool implicit_read(struct fraction *out, const struct record *params, const fmpz
     if (!equation) {
         return false;
     }
-    struct values values = {params, equation, space, err};
+    struct values values = {params, space, err};
     const struct expression e = {equation, space, leaf, &values, err};
     fraction_init(&right, space);
     bool ok =

@@ -74,7 +74,7 @@ static bool survey_call(struct reading *r, const struct equation_node *node)
     struct affine argument;
     bool ok = true;
     if (kind == UNUSED) {
-        return expression_refuse(r->equation, node, r->err);
+        return expression_refuse(node, r->err);
     }
     affine_init(&argument);
     if (!affine_read(&argument, r->equation, node->args[0])) {
@@ -106,7 +106,7 @@ static bool survey(struct reading *r, uint16_t index)
         return use(r, node->which, PLAIN);
     case EQUATION_CONSTANT:
     case EQUATION_POWER:
-        return expression_refuse(r->equation, node, r->err);
+        return expression_refuse(node, r->err);
     default:
         for (int i = 0; i < equation_arguments(node); i++) {
             if (!survey(r, node->args[i])) {
@@ -297,8 +297,7 @@ static bool leaf(void *data, const struct equation_node *node, struct fraction *
         fmpz_mpoly_gen(out->over, r->variables[node->which], r->patch->ring);
         return true;
     }
-    return node->op == EQUATION_CALL ? call_value(r, out, node)
-                                     : expression_refuse(r->equation, node, r->err);
+    return node->op == EQUATION_CALL ? call_value(r, out, node) : expression_refuse(node, r->err);
 }
 
 static bool find_value(struct reading *r, struct fraction *out)

@@ -122,7 +122,7 @@ const REFUSED = [
     ['three parameters', ['s', 't', 'u'], /a surface has two parameters/],
     ['degree 32', ['s^4*t^4+s', 's^4-t^4', 's^3*t^4+t'], /the equation has degree \d+, .* the limit is 18 \(implicit_degree\)/],
     ['a tower', ['((s^60)^60)^60', 't', 's'], /^x: a polynomial of degree \d+; the limit is 64 \(parametric_degree\)/],
-    ['an exponent that is large', ['s^(9^9)', 't', 's'], /^x: an exponent of 3.8742e\+08; the limit is 64 \(equation_exponent\)/],
+    ['an exponent that is large', ['s^(9^9)', 't', 's'], /^x:1:\d: exponent 387420489; the limit is 64 \(equation_exponent\)/],
     ['hexadecimal digits', ['0x10*s', 't', 's'], /^x:1:2: "x10" is no name/],
     ['a long number', ['s*(10^60)^60*(10^60)^60', 't', 's*t'], /^x: a coefficient of \d+ bits; the limit is 4096 \(coefficient_bits\)/],
     ['an unknown name', ['s', 'sn(t)', 't'], /^y:1:1: "sn" is no function/],

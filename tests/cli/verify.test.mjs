@@ -3,6 +3,7 @@
 // not and why, what cannot be checked. The status fails where one does not fit.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
 import { test } from 'node:test';
 
 const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
@@ -124,4 +125,14 @@ test('every equation that implicitize finds is verified', () => {
         assert.deepEqual(certificate.letters, Object.keys(parametric).slice(3));
         assert.match(check({ equation, parametric }).told, /^verified/);
     }
+});
+
+test('every example that tells its surface is verified', () => {
+    const folder = new URL('../../protocol/examples/', import.meta.url).pathname;
+    const names = fs.readdirSync(folder).filter((name) => name.endsWith('.json'));
+    const told = names.filter((name) => fs.readFileSync(folder + name, 'utf8').includes('"parametric"'));
+    const { status, stdout, stderr } = run(['check', ...told.map((name) => folder + name)]);
+    assert.equal(stdout.match(/parametric: verified: /g)?.length, told.length, stdout + stderr);
+    assert.deepEqual(told, ['surface-dingdong.json', 'surface-steiner.json', 'surface-whitney.json']);
+    assert.equal(status, 0);
 });
