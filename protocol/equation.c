@@ -21,6 +21,8 @@ const struct equation_constant equation_constants[] = {
     {"pi", M_PI}, {"tau", 2 * M_PI}, {"e", M_E}, {"phi", 1.6180339887498949}, {NULL, 0},
 };
 
+const char *const equation_letters[] = {"a", "b", "c", "d", NULL};
+
 int equation_arguments(const struct equation_node *node)
 {
     switch ((enum equation_op)node->op) {
@@ -69,6 +71,12 @@ static bool compute(const struct equation_node *node, const double in[2], double
         return true;
     case EQUATION_NEGATE:
         *out = -in[0];
+        return true;
+    case EQUATION_WHOLE:
+        *out = pow(in[0], node->value);
+        return true;
+    case EQUATION_POWER:
+        *out = pow(in[0], in[1]);
         return true;
     default:
         return false;

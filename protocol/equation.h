@@ -112,6 +112,9 @@ struct equation_errors {
     int count; /* of those told */
 };
 
+/* The letters of a node `implicit`, which are numbers of it; NULL at the end. */
+extern const char *const equation_letters[];
+
 /* `letters` are further names that may be used, NULL at the end. The caller frees the result. NULL:
  * at least one error, in the order in which they were found. */
 struct equation *equation_read(const char *text, const char *const *letters,

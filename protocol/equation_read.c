@@ -352,8 +352,10 @@ static uint16_t read_call(struct reader *r, const char *name, const char *at)
 
 static uint16_t read_number(struct reader *r)
 {
-    char *end;
-    const double value = strtod(r->at, &end);
+    /* strtod knows hexadecimal digits, too. */
+    const bool zero = r->at[0] == '0' && (r->at[1] == 'x' || r->at[1] == 'X');
+    char *end = (char *)r->at + 1;
+    const double value = zero ? 0 : strtod(r->at, &end);
     if (!isfinite(value) || fabs(value) > LIMIT_COORDINATE) {
         note(r, r->at, "%.*s is above the maximum %g", (int)(end - r->at < 24 ? end - r->at : 24),
              r->at, (double)LIMIT_COORDINATE);
@@ -625,6 +627,17 @@ static void check_varies(struct reader *r)
     }
 }
 
+/* Numbers alone that make none; parts of surfaces are computed exactly elsewhere. */
+static void check_finite(struct reader *r)
+{
+    for (size_t i = 0; r->errors->count == 0 && i < r->equation->count; i++) {
+        const struct equation_node *node = &r->equation->nodes[i];
+        if (node->known && !isfinite(node->constant)) {
+            note(r, r->text, "a division by 0, or numbers that make more than a number may be");
+        }
+    }
+}
+
 static struct equation *read_text(const char *text, const char *const *letters, bool plain,
                                   struct equation_errors *out_errors)
 {
@@ -647,6 +660,7 @@ static struct equation *read_text(const char *text, const char *const *letters, 
     check_end(&r);
     if (!plain) {
         check_varies(&r);
+        check_finite(&r);
     }
     if (out_errors->count > 0) {
         free(equation);

@@ -56,12 +56,12 @@
     X(EQUATION_DEPTH, "equation_depth", 64, "levels", "nesting of an equation")                    \
     X(EQUATION_EXPONENT, "equation_exponent", 64, "factors", "a whole exponent")                   \
     X(PARAMETRIC_DEGREE, "parametric_degree", 64, "factors",                                       \
-      "a polynomial in the parameters of a surface")                                               \
+      "a polynomial in the parameters of a surface, or made of an equation")                       \
     X(IMPLICIT_DEGREE, "implicit_degree", 18, "factors",                                           \
       "the equation that is found for a parametric surface")                                       \
     X(COEFFICIENT_BITS, "coefficient_bits", 4096, "bits", "a coefficient of such polynomials")     \
-    X(ALGEBRA_SECONDS, "algebra_seconds", 30, "seconds", "processor time of implicitize")          \
-    X(ALGEBRA_BYTES, "algebra_bytes", 1073741824, "bytes", "memory of implicitize")                \
+    X(ALGEBRA_SECONDS, "algebra_seconds", 30, "seconds", "finding or proving an equation")         \
+    X(ALGEBRA_BYTES, "algebra_bytes", 1073741824, "bytes", "memory of the same")                   \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

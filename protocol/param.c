@@ -12,6 +12,7 @@
 #include "memory.h"
 #include "record.h"
 #include "suggest.h"
+#include "surface.h"
 
 static const struct {
     const char *name;
@@ -27,7 +28,7 @@ static const struct {
     [PARAM_MODEL] = {"model", 0},       [PARAM_FUNCTION] = {"function", 0},
     [PARAM_ROWS] = {"rows", 0},         [PARAM_ASSET] = {"asset", 0},
     [PARAM_IVEC2] = {"ivec2", 2},       [PARAM_IVEC4] = {"ivec4", 4},
-    [PARAM_EQUATION] = {"equation", 0},
+    [PARAM_EQUATION] = {"equation", 0}, [PARAM_SURFACE] = {"surface", 0},
 };
 
 int param_components(enum param_type type)
@@ -280,7 +281,10 @@ static bool check_text(const struct param *param, const cJSON *json, const char 
 bool param_read(const struct param *param, const cJSON *json, double out[4], const char *place,
                 struct error *err)
 {
+    struct surface surface;
     switch (param->type) {
+    case PARAM_SURFACE:
+        return surface_read(&surface, json, place, err);
     case PARAM_POINTS:
         return read_points(param, json, &out[0], place, err);
     case PARAM_ROWS:
@@ -311,7 +315,9 @@ void param_value_reset(const struct param *param, struct value *value)
     param_value_finish(value);
     memcpy(value->number, param->def, sizeof value->number);
     if (param_is_text(param->type)) {
-        value->text = memory_text(param->type == PARAM_ROWS ? "[]" : "");
+        value->text = memory_text(param->type == PARAM_ROWS      ? "[]"
+                                  : param->type == PARAM_SURFACE ? "{}"
+                                                                 : "");
     }
     if (param->type == PARAM_POINTS) {
         size_t count = 2 * (size_t)param->def[0];
@@ -362,6 +368,8 @@ bool param_value_set(const struct param *param, struct value *value, const cJSON
         fresh.points = points_of(json, (size_t)fresh.number[0]);
     } else if (param->type == PARAM_ROWS) {
         fresh.text = declared_params_text(json);
+    } else if (param->type == PARAM_SURFACE) {
+        fresh.text = surface_text(json);
     } else if (param_is_text(param->type)) {
         fresh.text = memory_text(json->valuestring);
     }
@@ -403,6 +411,7 @@ cJSON *param_value_json(const struct param *param, const struct value *value)
     case PARAM_POINTS:
         return points_to_json(param, value);
     case PARAM_ROWS:
+    case PARAM_SURFACE:
         return json_parse(value->text, strlen(value->text), NULL);
     case PARAM_ENUM:
         return cJSON_CreateString(param->choices[(int)value->number[0]]);

@@ -31,6 +31,7 @@ enum param_type {
     PARAM_FUNCTION, /* name of a distance function among `primitives`, or "" */
     PARAM_ASSET,    /* an uploaded file: its SHA-256 in 64 small hex digits, or "" */
     PARAM_EQUATION, /* an equation (equation.h) of several lines, at most LIMIT_EQUATION_BYTES */
+    PARAM_SURFACE,  /* a parametric surface (surface.h); `text` is its JSON */
     PARAM_ROWS, /* parameters that a document declares (declared_params.h); `text` is their JSON */
 };
 

@@ -10,6 +10,7 @@
 #include "nodes.h"
 #include "picture.h"
 #include "scene_parts.h"
+#include "surface.h"
 
 #define NAME_PATTERN "^[A-Za-z0-9_.-]{1,64}$"
 
@@ -122,6 +123,28 @@ static cJSON *points_schema(const struct param *param)
     return schema;
 }
 
+/* {}, or all parts and the ranges of two letters. */
+static cJSON *surface_schema(void)
+{
+    static const struct param part = {.type = PARAM_EQUATION}, range = {.type = PARAM_VEC2};
+    cJSON *schema = typed("object");
+    cJSON *properties = cJSON_AddObjectToObject(schema, "properties");
+    for (int i = 0; i < SURFACE_MEMBERS; i++) {
+        cJSON_AddItemToObject(properties, surface_names[i],
+                              i < SURFACE_PARTS ? text_schema(&part) : numbers_schema(&range));
+    }
+    cJSON_AddFalseToObject(schema, "additionalProperties");
+    cJSON *forms = cJSON_AddArrayToObject(schema, "anyOf");
+    cJSON *none = cJSON_CreateObject(), *whole = cJSON_CreateObject();
+    cJSON_AddNumberToObject(none, "maxProperties", 0);
+    cJSON_AddItemToObject(whole, "required", cJSON_CreateStringArray(surface_names, SURFACE_PARTS));
+    cJSON_AddNumberToObject(whole, "minProperties", SURFACE_PARTS + SURFACE_PARAMETERS);
+    cJSON_AddNumberToObject(whole, "maxProperties", SURFACE_PARTS + SURFACE_PARAMETERS);
+    cJSON_AddItemToArray(forms, none);
+    cJSON_AddItemToArray(forms, whole);
+    return schema;
+}
+
 /* Of all resources of a kind; their names are the members. */
 static cJSON *names_schema(const char *definition, double most)
 {
@@ -168,6 +191,9 @@ static cJSON *param_schema(const struct param *param)
         break;
     case PARAM_POINTS:
         schema = points_schema(param);
+        break;
+    case PARAM_SURFACE:
+        schema = surface_schema();
         break;
     case PARAM_ROWS:
         schema = list_schema("declaration", LIMIT_DECLARED);

@@ -107,13 +107,12 @@ static bool explain(int status, struct error *err)
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGXCPU || signal == SIGKILL) {
         return error_set(err, ERROR_TOO_SLOW, "",
-                         "finding the equation took over %d s of processor time "
-                         "(algebra_seconds), or was ended",
+                         "this took over %d s of processor time (algebra_seconds), or was "
+                         "ended",
                          LIMIT_ALGEBRA_SECONDS);
     }
     if (signal) {
-        return error_set(err, ERROR_LIMIT, "",
-                         "finding the equation took over %d MiB of memory (algebra_bytes)",
+        return error_set(err, ERROR_LIMIT, "", "this took over %d MiB of memory (algebra_bytes)",
                          LIMIT_ALGEBRA_BYTES >> 20);
     }
     return error_set(err, ERROR_UNAVAILABLE, "",
@@ -144,8 +143,8 @@ static bool check_answer(const cJSON *answer, struct error *err)
                         text_of(told, "message"));
 }
 
-bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
-                         struct error *err)
+/* Its answer to these arguments, the first of which is left free for its path. */
+static bool ask(struct algebra *algebra, char **argv, cJSON **out, struct error *err)
 {
     char path[PATH_MAX];
     const ssize_t end = readlink("/proc/self/exe", path, sizeof path - sizeof "-algebra");
@@ -153,7 +152,7 @@ bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJ
         return error_set(err, ERROR_INTERNAL, "", "/proc/self/exe: %s", strerror(errno));
     }
     memcpy(path + end, "-algebra", sizeof "-algebra");
-    char *const argv[] = {path, (char *)texts[0], (char *)texts[1], (char *)texts[2], NULL};
+    argv[0] = path;
     const int output = start(algebra, argv);
     if (output < 0) {
         return error_set(err, ERROR_UNAVAILABLE, "", "fieldcast-algebra cannot be started");
@@ -172,6 +171,54 @@ bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJ
         *out = NULL;
     }
     return *out != NULL;
+}
+
+bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
+                         struct error *err)
+{
+    char *argv[] = {NULL, "implicitize", (char *)texts[0], (char *)texts[1], (char *)texts[2],
+                    NULL};
+    return ask(algebra, argv, out, err);
+}
+
+static char *print_params(const struct record *params)
+{
+    cJSON *json = cJSON_CreateObject();
+    record_print(params, json);
+    char *text = json_print(json, false);
+    cJSON_Delete(json);
+    return text;
+}
+
+static void read_proof(const cJSON *answer, struct algebra_proof *out)
+{
+    const char *verdict = text_of(answer, "verdict");
+    out->verdict = SURFACE_NOT_CHECKED;
+    for (int i = 0; i < SURFACE_NOT_CHECKED; i++) {
+        if (strcmp(verdict, surface_verdicts[i]) == 0) {
+            out->verdict = (enum surface_verdict)i;
+        }
+    }
+    snprintf(out->reason, sizeof out->reason, "%s", text_of(answer, "reason"));
+}
+
+bool algebra_verify(struct algebra *algebra, const struct record *params, struct algebra_proof *out,
+                    struct error *err)
+{
+    char *text = print_params(params);
+    char *argv[] = {NULL, "verify", text, NULL};
+    cJSON *answer;
+    bool ok = ask(algebra, argv, &answer, err);
+    free(text);
+    if (ok) {
+        read_proof(answer, out);
+        cJSON_Delete(answer);
+    } else if (err->kind == ERROR_TOO_SLOW || err->kind == ERROR_LIMIT) {
+        *out = (struct algebra_proof){.verdict = SURFACE_NOT_CHECKED};
+        snprintf(out->reason, sizeof out->reason, "too large: %s", err->message);
+        ok = true;
+    }
+    return ok;
 }
 
 /* --- its life --- */

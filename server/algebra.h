@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* The program fieldcast-algebra, which lies beside this one: it finds equations of parametric
- * surfaces in a process of its own, with bounds of processor time and memory (algebra_seconds,
- * algebra_bytes). */
+/* The program fieldcast-algebra, which lies beside this one: it finds and proves equations of
+ * parametric surfaces in a process of its own, with bounds of processor time and memory
+ * (algebra_seconds, algebra_bytes). */
 #ifndef SERVER_ALGEBRA_H
 #define SERVER_ALGEBRA_H
 
 #include <cjson/cJSON.h>
 #include <stdbool.h>
 
-#include "protocol/error.h"
+#include "protocol/record.h"
+#include "protocol/surface.h"
 
 struct algebra;
 
@@ -17,7 +18,16 @@ struct algebra *algebra_create(struct error *err);
  * The place of an error is "x", "y", "z" or "". Any thread, one at a time. */
 bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
                          struct error *err);
-/* Calls `run` once on a thread where it may call algebra_implicitize; clients take turns. `dropped`
+
+struct algebra_proof {
+    enum surface_verdict verdict;
+    char reason[512];
+};
+/* Whether the equation of an `implicit` with these parameters is that of its parametric surface.
+ * Where time or memory end it, it is not checked. Waits, as above. */
+bool algebra_verify(struct algebra *algebra, const struct record *params, struct algebra_proof *out,
+                    struct error *err);
+/* Calls `run` once on a thread where it may call these two; clients take turns. `dropped`
  * and the limits of waiting: tasks.h. */
 bool algebra_add(struct algebra *algebra, const char *account, void (*run)(void *, bool dropped),
                  void *data, struct error *err);

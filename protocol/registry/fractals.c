@@ -63,6 +63,9 @@ const struct node_type node_fractals[] = {
     {.record = {"implicit", "The zero set of an equation in x, y and z.", PARAMS(
         {"equation", PARAM_EQUATION, .main = true,
          .doc = "Such as x^2 + y^2 - z^2 = a. With < or > the solid is where that holds."},
+        {"parametric", PARAM_SURFACE,
+         .doc = "The parametric surface that the equation was found for. It is proved again, "
+                "never trusted, and changes no picture."},
         {"mode", PARAM_ENUM, .choices = (const char *const[]){"solid", "sheet", NULL},
          .doc = "What is behind the surface too, or the surface alone."},
         {"clip", PARAM_ENUM, .choices = (const char *const[]){"box", "ball", NULL},

@@ -7,8 +7,10 @@
 #include <stdbool.h>
 
 #include "protocol/equation.h"
+#include "protocol/surface.h"
 
-enum { AFFINE_LETTERS = 4, AFFINE_ONE = AFFINE_LETTERS, AFFINE_PI, AFFINE_TERMS };
+/* Letters, 1 and pi. */
+enum { AFFINE_ONE = SURFACE_LETTERS, AFFINE_PI, AFFINE_TERMS };
 
 struct affine {
     fmpq_t of[AFFINE_TERMS]; /* multiples of each letter, of 1, of pi */

@@ -9,6 +9,7 @@
 
 bool certificate_is_zero(const struct patch *patch, const fmpz_mpoly_t f,
                          const fmpz_mpoly_ctx_t space);
+/* Over the rationals: a whole factor does not count. */
 bool certificate_is_irreducible(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t space);
 
 #endif

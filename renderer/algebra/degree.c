@@ -167,15 +167,21 @@ static bool count(const struct residues *r, flint_rand_t random, struct patch_de
     return out->surface > 0;
 }
 
+bool patch_is_surface(const struct patch *patch, flint_rand_t random, struct error *err)
+{
+    const slong rank = find_rank(patch, n_nextprime(UWORD(1) << 60, 0), random);
+    return rank == 3 ||
+           error_set(err, ERROR_INVALID, "", "these equations make a %s, not a surface",
+                     rank == 2 ? "curve" : "point");
+}
+
 bool patch_find_degrees(const struct patch *patch, flint_rand_t random, struct patch_degrees *out,
                         struct error *err)
 {
     const mp_limb_t prime = n_nextprime(UWORD(1) << 60, 0);
-    const slong rank = find_rank(patch, prime, random);
     struct residues r;
-    if (rank < 3) {
-        return error_set(err, ERROR_INVALID, "", "these equations make a %s, not a surface",
-                         rank == 2 ? "curve" : "point");
+    if (!patch_is_surface(patch, random, err)) {
+        return false;
     }
     residues_init(&r, patch->part, patch->ring, patch_degree(patch), prime);
     bool ok = false;

@@ -13,6 +13,8 @@ struct patch_degrees {
     slong base;    /* base points with their multiplicity */
 };
 
+/* False: the image is a curve or a point. */
+bool patch_is_surface(const struct patch *patch, flint_rand_t random, struct error *err);
 /* False: the image is a curve or a point, or its degree is over the limit. */
 bool patch_find_degrees(const struct patch *patch, flint_rand_t random, struct patch_degrees *out,
                         struct error *err);

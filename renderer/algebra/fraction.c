@@ -37,8 +37,8 @@ static bool check_limits(const fmpz_mpoly_t f, const fmpz_mpoly_ctx_t ring, stru
     const slong bits = labs(fmpz_mpoly_max_bits(f));
     if (degree > LIMIT_PARAMETRIC_DEGREE) {
         return error_set(err, ERROR_LIMIT, "",
-                         "degree %ld in the parameters; the limit is %d (parametric_degree)",
-                         degree, LIMIT_PARAMETRIC_DEGREE);
+                         "a polynomial of degree %ld; the limit is %d (parametric_degree)", degree,
+                         LIMIT_PARAMETRIC_DEGREE);
     }
     return bits <= LIMIT_COEFFICIENT_BITS ||
            error_set(err, ERROR_LIMIT, "",
@@ -53,7 +53,7 @@ static bool check_product(const fmpz_mpoly_t a, const fmpz_mpoly_t b, const fmpz
     const slong degree = fmpz_mpoly_total_degree_si(a, ring) + fmpz_mpoly_total_degree_si(b, ring);
     return degree <= 2 * LIMIT_PARAMETRIC_DEGREE ||
            error_set(err, ERROR_LIMIT, "",
-                     "degree %ld in the parameters; the limit is %d (parametric_degree)", degree,
+                     "a polynomial of degree %ld; the limit is %d (parametric_degree)", degree,
                      LIMIT_PARAMETRIC_DEGREE);
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast-algebra X Y Z: the equation of a parametric surface and its certificate as JSON, or
- * {"error": {kind, place, line, column, message}}. A program of its own: FLINT ends the process
+/* fieldcast-algebra implicitize X Y Z: the equation of a parametric surface and its certificate as
+ * JSON, or {"error": {kind, place, line, column, message}}.
+ * fieldcast-algebra verify PARAMS: {"verdict", "reason"} of the parameters of an `implicit`, which
+ * are JSON. A program of its own: FLINT ends the process
  * when memory is short, and no other program links it. server/algebra.h starts it, within limits.
  */
 #include <stdlib.h>
@@ -12,6 +14,8 @@
 #include "degree.h"
 #include "protocol/equation.h"
 #include "protocol/json.h"
+#include "protocol/nodes.h"
+#include "verify.h"
 
 struct result {
     struct patch_degrees degrees;
@@ -36,12 +40,25 @@ static bool implicitize(const struct patch *patch, struct result *out, struct er
     return ok;
 }
 
-static cJSON *certificate(const struct result *result, const char *const texts[3])
+static cJSON *letters(const struct patch *patch)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < SURFACE_LETTERS; i++) {
+        if (patch->uses[i]) {
+            cJSON_AddItemToArray(list, cJSON_CreateString(surface_names[SURFACE_PARTS + i]));
+        }
+    }
+    return list;
+}
+
+static cJSON *certificate(const struct result *result, const struct patch *patch,
+                          const char *const texts[3])
 {
     const double seconds = (double)clock() / CLOCKS_PER_SEC;
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "method", "nullspace");
     cJSON_AddItemToObject(json, "parametric", cJSON_CreateStringArray(texts, 3));
+    cJSON_AddItemToObject(json, "letters", letters(patch));
     cJSON_AddNumberToObject(json, "degree", (double)result->degrees.surface);
     cJSON_AddNumberToObject(json, "terms",
                             (double)fmpz_mpoly_length(result->equation, result->space));
@@ -61,10 +78,10 @@ static cJSON *certificate(const struct result *result, const char *const texts[3
 /* What the language of equations says of this text, "" where it can be drawn. */
 static void check_drawable(const char *text, cJSON *json)
 {
-    static const char *const none[] = {NULL};
     struct equation_errors errors = {0};
-    struct equation *equation =
-        strlen(text) <= LIMIT_EQUATION_BYTES ? equation_read(text, none, &errors) : NULL;
+    struct equation *equation = strlen(text) <= LIMIT_EQUATION_BYTES
+                                    ? equation_read(text, equation_letters, &errors)
+                                    : NULL;
     cJSON_AddBoolToObject(json, "drawable", equation != NULL);
     if (!equation) {
         cJSON_AddStringToObject(
@@ -73,13 +90,14 @@ static void check_drawable(const char *text, cJSON *json)
     free(equation);
 }
 
-static cJSON *answer(const struct result *result, const char *const texts[3])
+static cJSON *answer(const struct result *result, const struct patch *patch,
+                     const char *const texts[3])
 {
     static const char *axes[] = {"x", "y", "z"};
     char *equation = fmpz_mpoly_get_str_pretty(result->equation, axes, result->space);
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "equation", equation);
-    cJSON_AddItemToObject(json, "certificate", certificate(result, texts));
+    cJSON_AddItemToObject(json, "certificate", certificate(result, patch, texts));
     check_drawable(equation, json);
     flint_free(equation);
     return json;
@@ -107,21 +125,60 @@ static cJSON *find_equation(const char *const texts[3])
     }
     fmpz_mpoly_ctx_init(result.space, 3, ORD_DEGLEX);
     fmpz_mpoly_init(result.equation, result.space);
-    cJSON *json = implicitize(&patch, &result, &err) ? answer(&result, texts) : answer_error(&err);
+    cJSON *json =
+        implicitize(&patch, &result, &err) ? answer(&result, &patch, texts) : answer_error(&err);
     fmpz_mpoly_clear(result.equation, result.space);
     fmpz_mpoly_ctx_clear(result.space);
     patch_clear(&patch);
     return json;
 }
 
+/* --- proofs --- */
+
+static cJSON *answer_verdict(const struct verdict *verdict)
+{
+    char *reason = NULL;
+    size_t length;
+    FILE *out = open_memstream(&reason, &length);
+    error_print(&verdict->reason, out);
+    fclose(out);
+    reason[strcspn(reason, "\n")] = '\0';
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "verdict", surface_verdicts[verdict->verdict]);
+    cJSON_AddStringToObject(json, "reason", reason);
+    free(reason);
+    return json;
+}
+
+static cJSON *verify_params(const char *text)
+{
+    struct error err = {0};
+    struct record params;
+    struct verdict verdict;
+    cJSON *json = json_parse(text, strlen(text), &err), *answer;
+    record_init(&params, &node_type_find("implicit")->record);
+    if (json && record_read(&params, json, "", &err)) {
+        verify(&params, &verdict);
+        answer = answer_verdict(&verdict);
+    } else {
+        answer = answer_error(&err);
+    }
+    record_finish(&params);
+    cJSON_Delete(json);
+    return answer;
+}
+
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fputs("usage: fieldcast-algebra X Y Z\n", stderr);
+    cJSON *json;
+    if (argc == 5 && strcmp(argv[1], "implicitize") == 0) {
+        json = find_equation((const char *const[]){argv[2], argv[3], argv[4]});
+    } else if (argc == 3 && strcmp(argv[1], "verify") == 0) {
+        json = verify_params(argv[2]);
+    } else {
+        fputs("usage: fieldcast-algebra implicitize X Y Z | verify PARAMS\n", stderr);
         return 2;
     }
-    const char *const texts[] = {argv[1], argv[2], argv[3]};
-    cJSON *json = find_equation(texts);
     char *text = json_print(json, false);
     puts(text);
     free(text);

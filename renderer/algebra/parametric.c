@@ -7,11 +7,10 @@
 #include <string.h>
 
 #include "affine.h"
-#include "fraction.h"
-#include "protocol/equation.h"
+#include "expression.h"
 #include "protocol/limits.h"
 
-static const char *const letters[AFFINE_LETTERS + 1] = {"s", "t", "u", "v", NULL};
+static const char *const *const letters = surface_names + SURFACE_PARTS;
 
 enum letter_kind { UNUSED, PLAIN, ANGLE, GROWTH };
 static const char *const family_of[] = {
@@ -20,11 +19,10 @@ static const char *const family_of[] = {
 struct reading {
     struct patch *patch;
     const struct equation *equation;
-    enum letter_kind kinds[AFFINE_LETTERS];
-    fmpq_t units[AFFINE_LETTERS]; /* all multiples of the letter are whole multiples of this */
-    int variables[AFFINE_LETTERS];
+    enum letter_kind kinds[SURFACE_LETTERS];
+    fmpq_t units[SURFACE_LETTERS]; /* all multiples of the letter are whole multiples of this */
+    int variables[SURFACE_LETTERS];
     bool seen[LIMIT_EQUATION_NODES];
-    struct fraction values[LIMIT_EQUATION_NODES];
     struct error *err;
 };
 
@@ -76,7 +74,7 @@ static bool survey_call(struct reading *r, const struct equation_node *node)
     struct affine argument;
     bool ok = true;
     if (kind == UNUSED) {
-        return error_set(r->err, ERROR_INVALID, "", "%s() makes no polynomial", name);
+        return expression_refuse(node, r->err);
     }
     affine_init(&argument);
     if (!affine_read(&argument, r->equation, node->args[0])) {
@@ -84,7 +82,7 @@ static bool survey_call(struct reading *r, const struct equation_node *node)
                        "the argument of %s() is no sum of rational multiples of letters and pi",
                        name);
     }
-    for (int i = 0; ok && i < AFFINE_LETTERS; i++) {
+    for (int i = 0; ok && i < SURFACE_LETTERS; i++) {
         if (!fmpq_is_zero(argument.of[i])) {
             ok = use(r, i, kind);
             fmpq_gcd(r->units[i], r->units[i], argument.of[i]);
@@ -107,11 +105,8 @@ static bool survey(struct reading *r, uint16_t index)
     case EQUATION_LETTER:
         return use(r, node->which, PLAIN);
     case EQUATION_CONSTANT:
-        return error_set(r->err, ERROR_INVALID, "",
-                         "%s is no rational number; outside of sin and cos write a decimal",
-                         equation_constants[node->which].name);
     case EQUATION_POWER:
-        return refuse(r, "an exponent that is no whole number makes no polynomial");
+        return expression_refuse(node, r->err);
     default:
         for (int i = 0; i < equation_arguments(node); i++) {
             if (!survey(r, node->args[i])) {
@@ -206,7 +201,7 @@ static bool angle_value(struct reading *r, struct fraction *out, const struct eq
     fmpz_mpoly_init(size, ring), fmpz_mpoly_init(sizes, ring);
     fmpz_mpoly_one(re.over, ring), fmpz_mpoly_one(sizes, ring);
     bool ok = quarter_turns(r, argument, &quarters);
-    for (int i = 0; ok && i < AFFINE_LETTERS; i++) {
+    for (int i = 0; ok && i < SURFACE_LETTERS; i++) {
         long times;
         ok = whole_multiple(r, argument, i, &times);
         if (ok && times != 0) {
@@ -241,7 +236,7 @@ static bool exponential(struct reading *r, struct fraction *out, const struct af
     fraction_init(&letter, ring);
     fraction_init(&power, ring);
     fmpz_mpoly_one(out->over, ring);
-    for (int i = 0; ok && i < AFFINE_LETTERS; i++) {
+    for (int i = 0; ok && i < SURFACE_LETTERS; i++) {
         long times;
         ok = whole_multiple(r, argument, i, &times);
         if (ok && times != 0) {
@@ -295,66 +290,20 @@ static bool call_value(struct reading *r, struct fraction *out, const struct equ
     return ok;
 }
 
-static void number_value(struct reading *r, struct fraction *out, double value)
+static bool leaf(void *data, const struct equation_node *node, struct fraction *out)
 {
-    fmpq_t number;
-    fmpq_init(number);
-    affine_number(number, value);
-    fraction_set_fmpq(out, number, r->patch->ring);
-    fmpq_clear(number);
+    struct reading *r = data;
+    if (node->op == EQUATION_LETTER) {
+        fmpz_mpoly_gen(out->over, r->variables[node->which], r->patch->ring);
+        return true;
+    }
+    return node->op == EQUATION_CALL ? call_value(r, out, node) : expression_refuse(node, r->err);
 }
 
-static bool find_value(struct reading *r, uint16_t index)
+static bool find_value(struct reading *r, struct fraction *out)
 {
-    const fmpz_mpoly_ctx_struct *ring = r->patch->ring;
-    const struct equation_node *node = &r->equation->nodes[index];
-    struct fraction *out = &r->values[index], *a = &r->values[node->args[0]],
-                    *b = &r->values[node->args[1]];
-    switch ((enum equation_op)node->op) {
-    case EQUATION_NUMBER:
-        number_value(r, out, node->value);
-        return true;
-    case EQUATION_LETTER:
-        fmpz_mpoly_gen(out->over, r->variables[node->which], ring);
-        return true;
-    case EQUATION_ADD:
-        return fraction_add(out, a, b, ring, r->err);
-    case EQUATION_SUBTRACT:
-        fraction_negate(out, b, ring);
-        return fraction_add(out, a, out, ring, r->err);
-    case EQUATION_MULTIPLY:
-        return fraction_multiply(out, a, b, ring, r->err);
-    case EQUATION_DIVIDE:
-        return fraction_invert(out, b, ring, r->err) &&
-               fraction_multiply(out, a, out, ring, r->err);
-    case EQUATION_NEGATE:
-        fraction_negate(out, a, ring);
-        return true;
-    case EQUATION_WHOLE:
-        return fraction_power(out, a, (long)node->value, ring, r->err);
-    case EQUATION_CALL:
-        return call_value(r, out, node);
-    default:
-        return refuse(r, "this makes no polynomial");
-    }
-}
-
-/* Arguments have lower indices; what the survey did not meet is not needed. */
-static bool find_values(struct reading *r, struct fraction *out)
-{
-    const size_t count = r->equation->left + 1u;
-    bool ok = true;
-    for (size_t i = 0; i < count; i++) {
-        fraction_init(&r->values[i], r->patch->ring);
-        ok = ok && (!r->seen[i] || find_value(r, (uint16_t)i));
-    }
-    if (ok) {
-        fraction_set(out, &r->values[r->equation->left], r->patch->ring);
-    }
-    for (size_t i = 0; i < count; i++) {
-        fraction_clear(&r->values[i], r->patch->ring);
-    }
-    return ok;
+    const struct expression e = {r->equation, r->patch->ring, leaf, r, r->err};
+    return expression_value(&e, r->equation->left, out);
 }
 
 /* --- texts --- */
@@ -385,14 +334,13 @@ static void name_place(struct error *err, const char *place)
 static bool number_letters(struct reading *r)
 {
     int count = 0;
-    for (int i = 0; i < AFFINE_LETTERS; i++) {
+    for (int i = 0; i < SURFACE_LETTERS; i++) {
         r->variables[i] = count;
-        count += r->kinds[i] != UNUSED;
+        r->patch->uses[i] = r->kinds[i] != UNUSED;
+        count += r->patch->uses[i];
     }
     return count <= 2 || refuse(r, "a surface has two parameters, and here are more");
 }
-
-static const char *const places[] = {"x", "y", "z"};
 
 static bool find_fractions(struct reading *r, struct equation *const equations[3],
                            struct fraction out[3])
@@ -403,16 +351,15 @@ static bool find_fractions(struct reading *r, struct equation *const equations[3
         memset(r->seen, 0, sizeof r->seen);
         ok = survey(r, equations[i]->left);
         if (!ok) {
-            name_place(r->err, places[i]);
+            name_place(r->err, surface_names[i]);
         }
     }
     ok = ok && number_letters(r);
     for (int i = 0; ok && i < 3; i++) {
         r->equation = equations[i];
-        memset(r->seen, 0, sizeof r->seen);
-        ok = survey(r, equations[i]->left) && find_values(r, &out[i]);
+        ok = find_value(r, &out[i]);
         if (!ok) {
-            name_place(r->err, places[i]);
+            name_place(r->err, surface_names[i]);
         }
     }
     return ok;
@@ -480,7 +427,7 @@ static bool read_equations(struct patch *out, struct equation *const equations[3
     patch_init(out);
     r->patch = out;
     r->err = err;
-    for (int i = 0; i < AFFINE_LETTERS; i++) {
+    for (int i = 0; i < SURFACE_LETTERS; i++) {
         fmpq_init(r->units[i]);
     }
     for (int i = 0; i < 3; i++) {
@@ -490,7 +437,7 @@ static bool read_equations(struct patch *out, struct equation *const equations[3
     for (int i = 0; i < 3; i++) {
         fraction_clear(&fractions[i], out->ring);
     }
-    for (int i = 0; i < AFFINE_LETTERS; i++) {
+    for (int i = 0; i < SURFACE_LETTERS; i++) {
         fmpq_clear(r->units[i]);
     }
     if (!ok) {
@@ -505,7 +452,7 @@ bool patch_read(struct patch *out, const char *const texts[3], struct error *err
     struct equation *equations[3] = {NULL};
     bool ok = true;
     for (int i = 0; ok && i < 3; i++) {
-        equations[i] = read_text(texts[i], places[i], err);
+        equations[i] = read_text(texts[i], surface_names[i], err);
         ok = equations[i] != NULL;
     }
     ok = ok && read_equations(out, equations, err);

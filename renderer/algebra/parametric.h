@@ -9,13 +9,14 @@
 #include <flint/fmpz_mpoly.h>
 #include <stdbool.h>
 
-#include "protocol/error.h"
+#include "protocol/surface.h"
 
 enum { PATCH_X, PATCH_Y, PATCH_Z, PATCH_W, PATCH_PARTS };
 
 struct patch {
     fmpz_mpoly_ctx_t ring;
     fmpz_mpoly_t part[PATCH_PARTS]; /* without a common divisor */
+    bool uses[SURFACE_LETTERS];     /* letters of the texts */
 };
 
 /* False: `err` names the text ("x", "y", "z" or ""), and where it can the place in it; nothing

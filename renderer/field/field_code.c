@@ -108,14 +108,13 @@ static void fail_equation(struct builder *b, const struct equation_errors *error
 
 static int add_equation(struct builder *b, const struct field_call *call)
 {
-    static const char *const letters[] = {"a", "b", "c", "d", NULL};
     struct equation_errors errors;
-    struct equation *equation = equation_read(call->text, letters, &errors);
+    struct equation *equation = equation_read(call->text, equation_letters, &errors);
     if (!equation) {
         fail_equation(b, &errors, call->place);
         return -1;
     }
-    char *text = equation_code(equation, letters, call->form);
+    char *text = equation_code(equation, equation_letters, call->form);
     const struct code_source source = {CODE_DISTANCE, text, call->params, true};
     const int index = add(b, call->text, &source, call->place);
     free(text);

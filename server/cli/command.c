@@ -16,9 +16,11 @@ static const struct command table[COMMAND_COUNT] = {
         .doc = "Draw a scene into a file: the same pixels as the server's.",
         .more = "SCENE.json may be `-` for stdin, or `example:NAME` for a scene that is built in."},
     [COMMAND_CHECK] = {"check", .operands = "SCENE.json", .many = true, .run = command_check,
-        .doc = "Check documents, with their code and the limits of drawing.",
+        .doc = "Check documents: code, the limits of drawing, equations of surfaces.",
         .more = "Prints `file: place: what is wrong` for each that breaks a rule or cannot be "
-                "drawn, and fails if one does. Needs no GPU."},
+                "drawn, and fails if one does. Each equation with a parametric surface beside it "
+                "is proved: `verified`, `does not fit` (a failure too), or on stderr `not checked` "
+                "(a warning). Needs no GPU."},
     [COMMAND_SHADER] = {"shader", .operands = "SCENE.json", .run = command_shader,
         .doc = "Print the GLSL that a scene is drawn with.",
         .more = "All of one pass as a GPU gets it, with every file that it includes; numbers of "

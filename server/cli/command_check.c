@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast check: are these documents right, and can they be drawn? */
+/* fieldcast check: are these documents right, can they be drawn, and are their equations those of
+ * the parametric surfaces beside them? */
+#include <string.h>
+
 #include "command.h"
 #include "local_render.h"
 #include "renderer/renderer.h"
+#include "server/algebra.h"
 
 /* What is wrong at a place of the document in the file. */
 static void print_at(const char *file, const struct error *err, FILE *out)
@@ -10,6 +14,65 @@ static void print_at(const char *file, const struct error *err, FILE *out)
     fprintf(out, "%s: ", file);
     error_print(err, out);
 }
+
+/* --- certificates --- */
+
+struct proving {
+    const char *file;
+    struct algebra *algebra; /* NULL until one is needed */
+    bool fit;                /* all so far */
+};
+
+static void tell(struct proving *proving, const char *place, const struct algebra_proof *proof)
+{
+    const bool checked = proof->verdict != SURFACE_NOT_CHECKED;
+    FILE *out = checked ? stdout : stderr;
+    fprintf(out, "%s%s: %s: %s: %s\n", checked ? "" : "fieldcast: warning: ", proving->file, place,
+            surface_verdicts[proof->verdict], proof->reason);
+    proving->fit = proving->fit && proof->verdict != SURFACE_DOES_NOT_FIT;
+}
+
+static void prove(struct proving *proving, const struct node *node)
+{
+    struct error err = {0};
+    struct algebra_proof proof = {.verdict = SURFACE_NOT_CHECKED};
+    char place[ERROR_PLACE_BYTES];
+    snprintf(place, sizeof place, "/nodes/%s/params/parametric", node->id);
+    if (!proving->algebra) {
+        proving->algebra = algebra_create(&err);
+    }
+    if (!proving->algebra || !algebra_verify(proving->algebra, &node->params, &proof, &err)) {
+        snprintf(proof.reason, sizeof proof.reason, "%s", err.message);
+    }
+    tell(proving, place, &proof);
+}
+
+static void prove_tree(struct proving *proving, const struct node *top)
+{
+    for (const struct node *node = top; node; node = node_next(node, top)) {
+        if (record_type_find(node->params.type, "parametric") >= 0 &&
+            strcmp(record_text(&node->params, "parametric"), "{}") != 0) {
+            prove(proving, node);
+        }
+    }
+}
+
+/* False where the equation of one is not that of its surface. */
+static bool prove_all(const char *file, const struct scene *scene)
+{
+    struct proving proving = {.file = file, .fit = true};
+    prove_tree(&proving, scene->root);
+    for (size_t i = 0; i < scene->models.count; i++) {
+        prove_tree(&proving, scene->models.items[i]->root);
+    }
+    if (proving.algebra) {
+        algebra_stop(proving.algebra);
+        algebra_destroy(proving.algebra);
+    }
+    return proving.fit;
+}
+
+/* --- documents --- */
 
 static bool check(const char *name)
 {
@@ -24,6 +87,7 @@ static bool check(const char *name)
         fputs("fieldcast: warning: ", stderr);
         print_at(name, &warning, stderr);
     }
+    ok = scene && prove_all(name, scene) && ok;
     scene_destroy(scene);
     return ok;
 }

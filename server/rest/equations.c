@@ -1,41 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* Equations of parametric surfaces over HTTP. */
+/* Equations of parametric surfaces over HTTP: found, and proved. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "protocol/json.h"
 #include "protocol/memory.h"
+#include "protocol/nodes.h"
 #include "routes.h"
 #include "server/algebra.h"
 #include "server/live/hub.h"
 
-static const char *const parts[] = {"x", "y", "z", NULL};
-
 struct question {
     struct request *request;
-    char *texts[3];
+    bool (*ask)(struct algebra *algebra, const struct question *question, cJSON **out,
+                struct error *err);
+    char *texts[SURFACE_PARTS]; /* of implicitize */
+    struct record params;       /* of verify */
 };
 
 static void question_destroy(struct question *question)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < SURFACE_PARTS; i++) {
         free(question->texts[i]);
     }
+    record_finish(&question->params);
     free(question);
-}
-
-static bool read_question(const struct request *request, struct question *out, struct error *err)
-{
-    const cJSON *found[3] = {NULL};
-    cJSON *json = json_parse(request->body, request->body_length, err);
-    bool ok = json && json_sort_members(json, parts, found, "", err);
-    for (int i = 0; ok && i < 3; i++) {
-        const char *text;
-        ok = json_read_text(found[i], &text, "", parts[i], err);
-        out->texts[i] = ok ? memory_text(text) : NULL;
-    }
-    cJSON_Delete(json);
-    return ok;
 }
 
 /* "x" becomes "/x". */
@@ -56,8 +45,7 @@ static void answer(void *data, bool dropped)
     if (dropped) {
         error_set(&err, ERROR_UNAVAILABLE, "", "the server is shutting down");
         request_reply_error(question->request, &err);
-    } else if (algebra_implicitize(question->request->hub->algebra,
-                                   (const char *const *)question->texts, &json, &err)) {
+    } else if (question->ask(question->request->hub->algebra, question, &json, &err)) {
         request_reply_json(question->request, 200, json);
     } else {
         reply_error(question->request, &err);
@@ -65,14 +53,71 @@ static void answer(void *data, bool dropped)
     question_destroy(question);
 }
 
-void equations_implicitize(struct request *request)
+static void wait_in_turn(struct request *request, struct question question,
+                         bool (*read)(struct question *, const cJSON *, struct error *))
 {
     struct error err = {0};
-    struct question *question = memory_alloc(1, sizeof *question);
-    question->request = request;
-    if (!read_question(request, question, &err) ||
-        !algebra_add(request->hub->algebra, request->client, answer, question, &err)) {
+    struct question *kept = memory_alloc(1, sizeof *kept);
+    cJSON *json = json_parse(request->body, request->body_length, &err);
+    *kept = question;
+    kept->request = request;
+    const bool ok = json && read(kept, json, &err) &&
+                    algebra_add(request->hub->algebra, request->client, answer, kept, &err);
+    cJSON_Delete(json);
+    if (!ok) {
         request_reply_error(request, &err);
-        question_destroy(question);
+        question_destroy(kept);
     }
+}
+
+/* --- implicitize --- */
+
+static bool ask_equation(struct algebra *algebra, const struct question *question, cJSON **out,
+                         struct error *err)
+{
+    return algebra_implicitize(algebra, (const char *const *)question->texts, out, err);
+}
+
+static bool read_parts(struct question *out, const cJSON *json, struct error *err)
+{
+    static const char *const parts[] = {"x", "y", "z", NULL};
+    const cJSON *found[SURFACE_PARTS] = {NULL};
+    bool ok = json_sort_members(json, parts, found, "", err);
+    for (int i = 0; ok && i < SURFACE_PARTS; i++) {
+        const char *text;
+        ok = json_read_text(found[i], &text, "", parts[i], err);
+        out->texts[i] = ok ? memory_text(text) : NULL;
+    }
+    return ok;
+}
+
+void equations_implicitize(struct request *request)
+{
+    wait_in_turn(request, (struct question){.ask = ask_equation}, read_parts);
+}
+
+/* --- verify --- */
+
+static bool ask_verdict(struct algebra *algebra, const struct question *question, cJSON **out,
+                        struct error *err)
+{
+    struct algebra_proof proof;
+    if (!algebra_verify(algebra, &question->params, &proof, err)) {
+        return false;
+    }
+    *out = cJSON_CreateObject();
+    cJSON_AddStringToObject(*out, "verdict", surface_verdicts[proof.verdict]);
+    cJSON_AddStringToObject(*out, "reason", proof.reason);
+    return true;
+}
+
+static bool read_params(struct question *out, const cJSON *json, struct error *err)
+{
+    record_init(&out->params, &node_type_find("implicit")->record);
+    return record_read(&out->params, json, "", err);
+}
+
+void equations_verify(struct request *request)
+{
+    wait_in_turn(request, (struct question){.ask = ask_verdict}, read_params);
 }

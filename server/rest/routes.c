@@ -26,6 +26,7 @@ static const struct route table[] = {
     {"POST", "/v1/render", images_render, BODY_JSON, GUARDED, SCENE_NEW},
     {"GET", "/v1/queue", images_queue, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/implicitize", equations_implicitize, BODY_JSON, GUARDED, SCENE_NONE},
+    {"POST", "/v1/verify", equations_verify, BODY_JSON, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples", site_examples, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}", site_example, BODY_NONE, GUARDED, SCENE_NONE},
     {"GET", "/v1/examples/{}/card.jpg", site_card, BODY_NONE, GUARDED, SCENE_NONE},

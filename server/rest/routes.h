@@ -33,6 +33,7 @@ void images_of_entry(struct request *request);
 void images_render(struct request *request);
 void images_queue(struct request *request);
 void equations_implicitize(struct request *request);
+void equations_verify(struct request *request);
 void site_app(struct request *request);
 void site_asset(struct request *request);
 void site_examples(struct request *request);

@@ -164,6 +164,11 @@ cJSON *random_value(struct random *random, const struct param *param, const stru
         return random_code(random);
     case PARAM_EQUATION:
         return cJSON_CreateString(random_chance(random, 0.5) ? "x^2 + y^2 = z + a" : "");
+    case PARAM_SURFACE:
+        return cJSON_Parse(
+            random_chance(random, 0.5)
+                ? "{\"x\":\"s*t\",\"y\":\"s\",\"z\":\"t^2\",\"s\":[-1,1],\"t\":[0,2.5]}"
+                : "{}");
     case PARAM_ROWS:
         return random_rows(random);
     case PARAM_POINTS:

@@ -17,7 +17,7 @@
 #include "tests/support/text_file.h"
 
 static const char folder[] = "tests/invalid";
-enum { CASES = 133 }; /* and base.json */
+enum { CASES = 134 }; /* and base.json */
 
 static struct scene *base;
 static char *base_text;

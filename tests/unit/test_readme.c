@@ -81,7 +81,7 @@ static void test_examples_of_the_readme(void **state)
         }
         block = end;
     }
-    assert_int_equal(scenes, 4);
+    assert_int_equal(scenes, 5);
     assert_int_equal(edits, 3);
     assert_null(strstr(readme, "\n```json\n")); /* every example says what it is */
     scene_destroy(scene);

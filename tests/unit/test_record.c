@@ -42,6 +42,7 @@ static const struct param params[] = {
     {"model", PARAM_MODEL, .doc = "M."},
     {"function", PARAM_FUNCTION, .doc = "F."},
     {"rows", PARAM_ROWS, .doc = "R."},
+    {"surface", PARAM_SURFACE, .doc = "S."},
     {"cell", PARAM_IVEC2, .min = -4, .max = 4, .doc = "C."},
     {"corner", PARAM_IVEC4, .doc = "C."},
     {.name = NULL},
@@ -196,6 +197,42 @@ static void test_long_texts(void **state)
     assert_true(record_set(&record, title, json, "/title", &err));
     assert_int_equal(strlen(record_text(&record, "title")), 200);
     cJSON_Delete(json);
+}
+
+#define SURFACE(members) "{'surface':{" members "}}"
+#define PARTS "'x':'s*t','y':'s','z':'t^2',"
+
+static void test_surfaces(void **state)
+{
+    (void)state;
+    assert_reads(SURFACE(""), SURFACE(""));
+    assert_reads(SURFACE("'t':[-0,2.5],'z':'t^2','s':[-1,1],'y':'s','x':''"),
+                 SURFACE("'x':'','y':'s','z':'t^2','s':[-1,1],'t':[0,2.5]"));
+    static const struct {
+        const char *members, *place, *message;
+    } bad[] = {
+        {"'x':'s','y':'t','s':[0,1],'t':[0,1]", "/z", "is missing"},
+        {"'s':[0,1],'t':[0,1]", "/x", "is missing"},
+        {PARTS "'s':[0,1]", "",
+         "the ranges of 1 letters; a surface has two parameters, of s, t, u, v"},
+        {PARTS "'s':[0,1],'t':[0,1],'u':[0,1]", "",
+         "the ranges of 3 letters; a surface has two parameters, of s, t, u, v"},
+        {PARTS "'s':[0,1],'w':[0,1]", "/w", "there is no member \"w\" here"},
+        {PARTS "'s':[0,1],'t':[1,1]", "/t", "the first number is not below the second"},
+        {PARTS "'s':[2,1],'t':[0,1]", "/s", "the first number is not below the second"},
+        {PARTS "'s':[0,1e7],'t':[0,1]", "/s", "10000000 (y) is above the maximum 1000000"},
+        {PARTS "'s':0,'t':[0,1]", "/s", "expected two numbers"},
+        {"'x':1,'y':'s','z':'t','s':[0,1],'t':[0,1]", "/x", "expected a text"},
+        {"'x':'s\\r','y':'s','z':'t','s':[0,1],'t':[0,1]", "/x",
+         "control character 13 is not allowed"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char text[200], place[64];
+        snprintf(text, sizeof text, SURFACE("%s"), bad[i].members);
+        snprintf(place, sizeof place, "/thing/surface%s", bad[i].place);
+        assert_refuses(text, place, bad[i].message);
+    }
+    assert_refuses("{'surface':'s*t'}", "/thing/surface", "expected an object");
 }
 
 #define ROWS(row) "{'rows':[" row "]}"
@@ -459,6 +496,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_zero_has_one_form, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_long_texts, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_surfaces, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_declared_rows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_names_of_declared_rows, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_definitions, set_up, tear_down),

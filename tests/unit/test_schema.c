@@ -130,6 +130,11 @@ static void test_what_documents_declare(void **state)
     assert_null(cJSON_GetObjectItem(rule_for("field"), "additionalProperties"));
     assert_true(cJSON_IsFalse(at(rule_for("model"), "additionalProperties")));
     assert_float_equal(at(rule_for("polygon"), "properties/points/minItems")->valuedouble, 3, 0);
+    const cJSON *surface = at(rule_for("implicit"), "properties/parametric");
+    assert_int_equal(cJSON_GetArraySize(at(surface, "properties")), 7);
+    assert_true(cJSON_IsFalse(at(surface, "additionalProperties")));
+    assert_float_equal(at(surface, "anyOf")->child->child->valuedouble, 0, 0);
+    assert_float_equal(at(at(surface, "anyOf")->child->next, "minProperties")->valuedouble, 5, 0);
     int forms = cJSON_GetArraySize(at(schema, "$defs/material/oneOf")), built_in = 0;
     while (shader_types[built_in].name) {
         built_in++;

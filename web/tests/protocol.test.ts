@@ -76,7 +76,7 @@ function trimmed(json: Json): Json {
 
 test("the scene of the protocol's page reads and prints", () => {
     const scenes = examples("scene");
-    expect(scenes.length).toBe(4);
+    expect(scenes.length).toBe(5);
     for (const example of scenes) {
         expect(equalJson(trimmed(printDocument(readDocument(example))), trimmed(example))).toBe(
             true,

@@ -164,3 +164,26 @@ export const EMPTY = {
     camera: { position: [1.8, 1.3, 3], fov: 35 },
     root: { id: 'root', type: 'union', children: [] },
 };
+
+/** Whitney's umbrella, beside the surface that it is of: with this equation or another. */
+export const umbrella = (equation) => ({
+    ...EMPTY,
+    name: 'Umbrella',
+    camera: { ...STUDIO.camera, position: [2, 1.6, 3.3], fov: 50 },
+    lights: STUDIO.lights,
+    root: {
+        id: 'root',
+        type: 'union',
+        children: [
+            {
+                id: 'umbrella',
+                type: 'implicit',
+                params: {
+                    equation,
+                    mode: 'sheet',
+                    parametric: { x: 's*t', y: 's', z: 't^2', s: [-1, 1], t: [-1.5, 1.5] },
+                },
+            },
+        ],
+    },
+});

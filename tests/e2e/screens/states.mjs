@@ -3,7 +3,7 @@
 // states come in a row on one page; `alone` has a page and a copy of the scene for itself.
 import path from 'node:path';
 import { field, picture, row } from '../stage.mjs';
-import { CODED, EMPTY, STUDIO } from './scene.mjs';
+import { CODED, EMPTY, STUDIO, umbrella } from './scene.mjs';
 
 const examples = new URL('../../../protocol/examples/', import.meta.url).pathname;
 
@@ -591,7 +591,22 @@ const GRAPH = [
 
 const example = (name) => path.join(examples, `${name}.json`);
 
+const proved = (page) => page.locator('.surface-badge:not([data-proof="busy"])').waitFor();
+
 const OTHERS = [
+    ['equation of a parametric surface', async (page) => {
+        await select(page, 'umbrella');
+        await proved(page);
+    }, { scene: umbrella('x^2 = y^2*z') }],
+    ['equation that does not fit', async (page) => {
+        await select(page, 'umbrella');
+        await proved(page);
+    }, { scene: umbrella('x^2 = y^2*z + 0.1') }],
+    ['parametric surface, dialog', async (page) => {
+        await select(page, 'umbrella');
+        await page.getByRole('button', { name: 'Change…' }).click();
+        await page.getByText('proved to be exact').waitFor();
+    }, { scene: umbrella('x^2 = y^2*z') }],
     ['empty scene', async (page) => page.locator('.view-empty').waitFor(), { scene: EMPTY }],
     ['empty scene, Looks', async (page) => {
         await page.locator('.view-empty').waitFor();

@@ -4,6 +4,7 @@ import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "
 import type { Operation } from "../model/operation.ts";
 import type { Format } from "../model/picture.ts";
 import { readSchema, type Schema } from "../model/schema.ts";
+import type { PartTexts } from "../model/surface.ts";
 import { createLibraryRest, type LibraryRest } from "./libraryRest.ts";
 
 export interface SceneEntry {
@@ -52,13 +53,6 @@ export interface Imported {
     readonly notes: readonly string[];
 }
 
-/* A parametric surface: expressions in two parameters. */
-export interface PartTexts {
-    readonly x: string;
-    readonly y: string;
-    readonly z: string;
-}
-
 /* Its equation, which is proved. */
 export interface Implicit {
     readonly equation: string;
@@ -67,6 +61,14 @@ export interface Implicit {
     readonly why: string;
     readonly degree: number;
     readonly terms: number;
+    /* The two letters that the texts are in. */
+    readonly letters: readonly string[];
+}
+
+/* Whether an equation is that of the parametric surface beside it. */
+export interface Proof {
+    readonly verdict: string;
+    readonly reason: string;
 }
 
 /* A problem+json answer, or a network that did not answer (status 0). */
@@ -104,6 +106,7 @@ function readImplicit(json: Json): Implicit {
         why: textOf(answer.why),
         degree: numberOf(certificate.degree),
         terms: numberOf(certificate.terms),
+        letters: listOf(certificate.letters).map((letter) => textOf(letter)),
     };
 }
 
@@ -116,6 +119,8 @@ export interface Rest {
     /* Of files in the other format, their texts by path; `scene` says which of several. */
     importScene(files: Readonly<Record<string, string>>, scene: string | null): Promise<Imported>;
     implicitize(texts: PartTexts, signal: AbortSignal): Promise<Implicit>;
+    /* `params` of an `implicit`. */
+    verify(params: JsonObject, signal: AbortSignal): Promise<Proof>;
     createFromExample(example: string): Promise<string>;
     createFromScene(scene: string): Promise<string>;
     deleteScene(id: string): Promise<void>;
@@ -259,6 +264,13 @@ export function createRest(base: string, token: string | null): Rest {
             const body = JSON.stringify(texts);
             const response = await request("/v1/implicitize", { method: "POST", body, signal });
             return readImplicit((await response.json()) as Json);
+        },
+        verify: async (params, signal) => {
+            const body = JSON.stringify(params);
+            const response = await request("/v1/verify", { method: "POST", body, signal });
+            const json = (await response.json()) as Json;
+            const answer = isObject(json) ? json : {};
+            return { verdict: textOf(answer.verdict), reason: textOf(answer.reason) };
         },
         createFromExample: (example) => create({ from: `example:${example}` }),
         createFromScene: (scene) => create({ from: `scene:${scene}` }),

@@ -103,7 +103,7 @@ export const ABSENT: readonly Absent[] = [
     {
         words: "equation formula implicit function parametric expression math",
         title: "Equations",
-        answer: "Add the shape Implicit and type an equation in x, y and z. Parametric surfaces are not there.",
+        answer: "Add the shape Implicit and type an equation in x, y and z, or find that of a parametric surface.",
     },
     {
         words: "history versions checkpoint timeline",

@@ -2,6 +2,7 @@
 /* The registry as the server describes it (`x-fieldcast` of schema.json): types, parameters,
  * defaults, limits. What values they accept is in values.ts. */
 import { isObject, type Json, type JsonObject, listOf, numberOf, textOf } from "./json.ts";
+import type { SurfaceValue } from "./surface.ts";
 
 export type ParamType =
     | "float"
@@ -21,6 +22,7 @@ export type ParamType =
     | "points" /* of the plane: [[x, y], …]; min to max of them */
     | "code" /* GLSL, several lines */
     | "equation" /* an equation in x, y and z, several lines */
+    | "surface" /* a parametric surface (surface.ts) */
     | "model" /* the name of a model of the document, or "" */
     | "function" /* the name of one of its primitives, or "" */
     | "asset" /* the id of an uploaded file, or "" */
@@ -36,7 +38,8 @@ export type Value =
     | readonly number[]
     | readonly boolean[]
     | readonly (readonly number[])[]
-    | readonly DeclaredRow[];
+    | readonly DeclaredRow[]
+    | SurfaceValue;
 
 /* A parameter as a document declares it; declared.ts makes a Param of it. */
 export interface DeclaredRow extends JsonObject {
@@ -167,6 +170,7 @@ const COMPONENTS: Record<ParamType, number> = {
     points: 0,
     code: 0,
     equation: 0,
+    surface: 0,
     model: 0,
     function: 0,
     asset: 0,
@@ -196,6 +200,7 @@ const ZERO: Record<ParamType, Value> = {
     points: [],
     code: "",
     equation: "",
+    surface: {},
     model: "",
     function: "",
     asset: "",

@@ -2,6 +2,7 @@
 /* What a row accepts: the checks that a field makes before it sends a value, and the nearest
  * number that passes them. */
 import { declaredParams, whyNotRows } from "./declaredParams.ts";
+import { isObject } from "./json.ts";
 import { components, type Param, type ParamType, type Value } from "./schema.ts";
 
 /* Numbers of a value; a single number where several are wanted stands for all (scale). */
@@ -69,6 +70,8 @@ function checkForm(param: Param, value: Value): string | null {
         }
         case "rows":
             return expected("a list of parameters is", Array.isArray(value));
+        case "surface":
+            return expected("a parametric surface is", isObject(value));
         case "text":
         case "material":
         case "code":

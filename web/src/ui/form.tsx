@@ -16,6 +16,7 @@ import {
     type Value,
     valueIn,
 } from "../model/schema.ts";
+import type { SurfaceValue } from "../model/surface.ts";
 import { CodeField } from "./fields/Code.tsx";
 import { EnumField } from "./fields/Enum.tsx";
 import { EquationField } from "./fields/Equation.tsx";
@@ -48,6 +49,7 @@ const AssetField = lazyPart(() => import("./fields/Asset.tsx"));
 const ColourField = lazyPart(() => import("./fields/Colour.tsx"));
 const PointsField = lazyPart(() => import("./fields/Points.tsx"));
 const RowsField = lazyPart(() => import("./fields/Rows.tsx"));
+const SurfaceField = lazyPart(() => import("./fields/Surface.tsx"));
 
 const fields: Record<string, Make> = {
     float: number,
@@ -69,6 +71,7 @@ const fields: Record<string, Make> = {
     asset: (_param, props) => <AssetField {...as<string>(props)} />,
     code: (_param, props, place) => <CodeField place={place} {...as<string>(props)} />,
     equation: (_param, props, place) => <EquationField place={place} {...as<string>(props)} />,
+    surface: (_param, props, place) => <SurfaceField place={place} {...as<SurfaceValue>(props)} />,
     points: (param, props) => (
         <PointsField param={param} {...as<readonly (readonly number[])[]>(props)} />
     ),
@@ -78,7 +81,7 @@ const fields: Record<string, Make> = {
 };
 
 /* Fields that take the whole width, below their name. */
-const WIDE = ["asset", "code", "equation", "points", "rows"];
+const WIDE = ["asset", "code", "equation", "points", "rows", "surface"];
 
 const unknown: Make = (_param, props) => <JsonField {...as<Value>(props)} />;
 

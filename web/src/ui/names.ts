@@ -16,6 +16,7 @@ const spoken: Record<string, string> = {
     d: "point D",
     t: "share",
     params: "parameters",
+    parametric: "parametric surface",
     lipschitz: "steepness",
     doc: "help",
     fog: "fog density",

@@ -4,7 +4,6 @@
 import { useEffect, useRef, useState } from "react";
 import { useDocument } from "../state.ts";
 import { Mark } from "./Mark.tsx";
-import { FromParametric } from "./Parametric.tsx";
 import type { FieldProps } from "./types.ts";
 import "./fields.css";
 
@@ -61,7 +60,6 @@ export function EquationField(props: Props) {
             {problem?.line !== undefined && (
                 <Mark text={shown} line={problem.line} column={problem.column ?? 1} />
             )}
-            <FromParametric onTake={onCommit} />
         </div>
     );
 }

@@ -2,46 +2,56 @@
 /* The equation of a parametric surface: three expressions in two parameters; the server finds the
  * equation while they are typed, and proves it. */
 import { useEffect, useState } from "react";
-import { type Implicit, type PartTexts, RestError } from "../../link/rest.ts";
+import { type Implicit, RestError } from "../../link/rest.ts";
+import { numberParam } from "../../model/schema.ts";
+import {
+    PARTS,
+    type PartTexts,
+    type Surface,
+    type SurfaceRange,
+    type SurfaceValue,
+    surfaceValue,
+} from "../../model/surface.ts";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
 import { Mark } from "./Mark.tsx";
+import { NumberField } from "./Number.tsx";
 import "./fields.css";
 
-const PARTS = ["x", "y", "z"] as const;
 /* Whitney's umbrella. */
-const FIRST: PartTexts = { x: "s*t", y: "s", z: "t^2" };
+const FIRST: Surface = { texts: { x: "s*t", y: "s", z: "t^2" }, ranges: {} };
 /* A pause in typing after which the server is asked. */
 const ASK_MS = 300;
 
 interface Props {
-    onTake: (equation: string) => void;
+    open: boolean;
+    /* What the node has; null: nothing yet. */
+    start: Surface | null;
+    onTake: (equation: string, surface: SurfaceValue) => void;
+    onClose: () => void;
 }
 
-export function FromParametric({ onTake }: Props) {
-    const [open, setOpen] = useState(false);
-    const [texts, setTexts] = useState(FIRST);
-    const take = (equation: string): void => {
-        setOpen(false);
-        onTake(equation);
-    };
+export function FromParametric({ open, start, onTake, onClose }: Props) {
+    const [draft, setDraft] = useState<Surface | null>(null);
     return (
-        <>
-            <Button className="equation-from" onClick={() => setOpen(true)}>
-                {t("parametric.open")}
-            </Button>
-            <Dialog
-                open={open}
-                title={t("parametric.title")}
-                wide
-                closeLabel={t("close")}
-                onClose={() => setOpen(false)}
-            >
-                <Sheet texts={texts} onChange={setTexts} onTake={take} />
-            </Dialog>
-        </>
+        <Dialog
+            open={open}
+            title={t("parametric.title")}
+            wide
+            closeLabel={t("close")}
+            onClose={onClose}
+        >
+            <Sheet
+                surface={draft ?? start ?? FIRST}
+                onChange={setDraft}
+                onTake={(equation, surface) => {
+                    setDraft(null);
+                    onTake(equation, surface);
+                }}
+            />
+        </Dialog>
     );
 }
 
@@ -80,14 +90,24 @@ const asProblem = (problem: unknown): RestError =>
     problem instanceof RestError ? problem : new RestError(0, "unreachable", "", String(problem));
 
 interface SheetProps {
-    texts: PartTexts;
-    onChange: (texts: PartTexts) => void;
-    onTake: (equation: string) => void;
+    surface: Surface;
+    onChange: (surface: Surface) => void;
+    onTake: (equation: string, surface: SurfaceValue) => void;
 }
 
-function Sheet({ texts, onChange, onTake }: SheetProps) {
+function Sheet({ surface, onChange, onTake }: SheetProps) {
+    const { texts } = surface;
     const answer = useEquation(texts);
     const found = answer?.found ?? null;
+    const equation = found === null ? "" : `${found.equation} = 0`;
+    /* The fields of the letters stay while the server looks. */
+    const [letters, setLetters] = useState<readonly string[]>(Object.keys(surface.ranges));
+    const now = found?.letters ?? letters;
+    useEffect(() => setLetters(now), [now]);
+    const ranged = surfaceValue(surface, now) as Readonly<Record<string, SurfaceRange>>;
+    const reversed = now.find(
+        (letter) => !((ranged[letter]?.[0] ?? 0) < (ranged[letter]?.[1] ?? 0)),
+    );
     return (
         <>
             <div className="parametric">
@@ -98,25 +118,69 @@ function Sheet({ texts, onChange, onTake }: SheetProps) {
                         part={part}
                         text={texts[part]}
                         problem={answer?.problem?.place === `/${part}` ? answer.problem : null}
-                        onChange={(text) => onChange({ ...texts, [part]: text })}
+                        onChange={(text) =>
+                            onChange({ ...surface, texts: { ...texts, [part]: text } })
+                        }
+                    />
+                ))}
+                {now.map((letter) => (
+                    <Range
+                        key={letter}
+                        letter={letter}
+                        range={ranged[letter] ?? [0, 0]}
+                        onChange={(range) =>
+                            onChange({ texts, ranges: { ...surface.ranges, [letter]: range } })
+                        }
                     />
                 ))}
                 {/* biome-ignore lint/a11y/noNoninteractiveTabindex: long equations scroll by keys */}
                 <output tabIndex={0} aria-label={t("parametric.equation")}>
-                    {found === null ? "" : `${found.equation} = 0`}
+                    {equation}
                 </output>
             </div>
             <footer className="dialog-foot">
-                <Verdict answer={answer} />
+                <Verdict answer={answer} reversed={reversed ?? null} />
                 <Button
                     look="primary"
-                    disabled={!found?.drawable}
-                    onClick={() => found && onTake(`${found.equation} = 0`)}
+                    disabled={!found?.drawable || reversed !== undefined}
+                    onClick={() => onTake(equation, surfaceValue(surface, now))}
                 >
                     {t("parametric.take")}
                 </Button>
             </footer>
         </>
+    );
+}
+
+interface RangeProps {
+    letter: string;
+    range: SurfaceRange;
+    onChange: (range: SurfaceRange) => void;
+}
+
+const BOUND = numberParam("bound", { step: 0.1 });
+const ignore = (): void => undefined;
+
+/* [low] ≤ s ≤ [high] */
+function Range({ letter, range: [low, high], onChange }: RangeProps) {
+    const bound = (label: string, value: number, change: (value: number) => void) => (
+        <NumberField
+            param={BOUND}
+            label={label}
+            value={value}
+            fallback={value}
+            onInput={change}
+            onCommit={change}
+            onCancel={ignore}
+            onRefuse={ignore}
+        />
+    );
+    return (
+        <div className="parametric-range">
+            {bound(t("parametric.from", { letter }), low, (value) => onChange([value, high]))}
+            <span>≤ {letter} ≤</span>
+            {bound(t("parametric.to", { letter }), high, (value) => onChange([low, value]))}
+        </div>
     );
 }
 
@@ -146,15 +210,21 @@ function Part({ part, text, problem, onChange }: PartProps) {
 }
 
 /* What was proved, or why there is no equation. */
-function Verdict({ answer }: { answer: Answer | null }) {
+function Verdict({ answer, reversed }: { answer: Answer | null; reversed: string | null }) {
     const { found = null, problem = null } = answer ?? {};
     const place = problem?.place.replace("/", "");
     return (
-        <p role="status" data-bad={problem !== null || found?.drawable === false || undefined}>
+        <p
+            role="status"
+            data-bad={
+                problem !== null || found?.drawable === false || reversed !== null || undefined
+            }
+        >
             {problem !== null && `${place ? `${place}: ` : ""}${problem.message}`}
             {found !== null && t("parametric.found", { degree: found.degree, terms: found.terms })}
             {found?.drawable === false && ` ${t("parametric.large", { why: found.why })}`}
             {answer === null && t("parametric.busy")}
+            {reversed !== null && ` ${t("parametric.range", { letter: reversed })}`}
         </p>
     );
 }

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/* Parametric surfaces in documents: from JSON and back. */
+#include "surface.h"
+
+#include "json.h"
+#include "param.h"
+
+const char *const surface_names[SURFACE_MEMBERS + 1] = {"x", "y", "z", "s", "t", "u", "v", NULL};
+
+const char *const surface_verdicts[] = {[SURFACE_VERIFIED] = "verified",
+                                        [SURFACE_DOES_NOT_FIT] = "does not fit",
+                                        [SURFACE_NOT_CHECKED] = "not checked"};
+
+static bool read_part(const char **out, const cJSON *json, int member, const char *place,
+                      struct error *err)
+{
+    static const struct param expression = {.type = PARAM_EQUATION};
+    char path[ERROR_PLACE_BYTES];
+    error_place(path, place, surface_names[member]);
+    if (!json) {
+        return error_set(err, ERROR_INVALID, path, "is missing");
+    }
+    *out = cJSON_GetStringValue(json);
+    return param_read(&expression, json, NULL, path, err);
+}
+
+static bool read_range(struct surface_range *out, const cJSON *json, int member, const char *place,
+                       struct error *err)
+{
+    static const struct param pair = {.type = PARAM_VEC2};
+    char path[ERROR_PLACE_BYTES];
+    double numbers[4];
+    error_place(path, place, surface_names[member]);
+    if (!param_read(&pair, json, numbers, path, err)) {
+        return false;
+    }
+    *out = (struct surface_range){true, numbers[0], numbers[1]};
+    return numbers[0] < numbers[1] ||
+           error_set(err, ERROR_INVALID, path, "the first number is not below the second");
+}
+
+bool surface_read(struct surface *out, const cJSON *json, const char *place, struct error *err)
+{
+    const cJSON *found[SURFACE_MEMBERS];
+    int parameters = 0;
+    *out = (struct surface){0};
+    if (!json_sort_members(json, surface_names, found, place, err)) {
+        return false;
+    }
+    if (!json->child) {
+        return true;
+    }
+    for (int i = 0; i < SURFACE_PARTS; i++) {
+        if (!read_part(&out->parts[i], found[i], i, place, err)) {
+            return false;
+        }
+    }
+    for (int i = SURFACE_PARTS; i < SURFACE_MEMBERS; i++) {
+        parameters += found[i] != NULL;
+        if (found[i] && !read_range(&out->ranges[i - SURFACE_PARTS], found[i], i, place, err)) {
+            return false;
+        }
+    }
+    return parameters == SURFACE_PARAMETERS ||
+           error_set(err, ERROR_INVALID, place,
+                     "the ranges of %d letters; a surface has two parameters, of s, t, u, v",
+                     parameters);
+}
+
+char *surface_text(const cJSON *json)
+{
+    struct surface surface;
+    cJSON *canonical = cJSON_CreateObject();
+    surface_read(&surface, json, "", NULL);
+    for (int i = 0; i < SURFACE_PARTS && surface.parts[i]; i++) {
+        cJSON_AddStringToObject(canonical, surface_names[i], surface.parts[i]);
+    }
+    for (int i = 0; i < SURFACE_LETTERS; i++) {
+        const struct surface_range *range = &surface.ranges[i];
+        if (range->set) {
+            const double pair[] = {range->low + 0.0, range->high + 0.0}; /* -0 becomes 0 */
+            cJSON_AddItemToObject(canonical, surface_names[SURFACE_PARTS + i],
+                                  cJSON_CreateDoubleArray(pair, 2));
+        }
+    }
+    char *text = json_print(canonical, false);
+    cJSON_Delete(canonical);
+    return text;
+}

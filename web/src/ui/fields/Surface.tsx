@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+/* The parametric surface that an equation was found for. The server proves it again whenever one of
+ * the two changes; the badge says what it found. */
+import { CircleCheck, LoaderCircle, TriangleAlert } from "lucide-react";
+import { useEffect, useMemo, useState } from "react";
+import type { Proof } from "../../link/rest.ts";
+import { paramAt } from "../../model/document.ts";
+import type { JsonObject } from "../../model/json.ts";
+import { multiEdit } from "../../model/multiEdit.ts";
+import type { Value } from "../../model/schema.ts";
+import { readSurface, type Surface, type SurfaceValue } from "../../model/surface.ts";
+import { useDocument, useEditor } from "../state.ts";
+import { t } from "../texts.ts";
+import { Button } from "../widgets/Button.tsx";
+import { FromParametric } from "./Parametric.tsx";
+import type { FieldProps } from "./types.ts";
+import "./fields.css";
+
+/* A pause in changes after which the server is asked. */
+const ASK_MS = 300;
+
+interface Props extends FieldProps<SurfaceValue> {
+    place: string;
+}
+
+export default function SurfaceField({ label, value, place, mixed }: Props) {
+    const { link, stores } = useEditor();
+    const [open, setOpen] = useState(false);
+    const surface = readSurface(value);
+    const take = (equation: string, found: SurfaceValue): void => {
+        const { schema, document } = stores.document.getState();
+        const { selection } = stores.view.getState();
+        const set = (at: string, next: Value) =>
+            document ? multiEdit(schema, document, selection, at, next) : [];
+        setOpen(false);
+        link.edit([...set(place.replace(/[^/]+$/, "equation"), equation), ...set(place, found)], {
+            label: t("parametric.edit"),
+        });
+    };
+    return (
+        // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
+        <div
+            className="surface"
+            role="group"
+            aria-label={label}
+            data-empty={surface === null || undefined}
+        >
+            {surface !== null && !mixed && <Summary surface={surface} />}
+            <div className="surface-foot">
+                {surface !== null && !mixed && <Badge place={place} />}
+                <Button className="equation-from" onClick={() => setOpen(true)}>
+                    {t(surface === null ? "parametric.open" : "parametric.change")}
+                </Button>
+            </div>
+            <FromParametric
+                open={open}
+                start={surface}
+                onTake={take}
+                onClose={() => setOpen(false)}
+            />
+        </div>
+    );
+}
+
+function Summary({ surface }: { surface: Surface }) {
+    const { texts, ranges } = surface;
+    const lines = Object.entries(texts).map(([part, text]) => `${part} = ${text}`);
+    const bounds = Object.entries(ranges).map(([letter, [low, high]]) =>
+        `${low} ≤ ${letter} ≤ ${high}`.replaceAll("-", "−"),
+    );
+    return (
+        <pre className="surface-texts">
+            {lines.join("\n")}
+            <span>{`\n${bounds.join(", ")}`}</span>
+        </pre>
+    );
+}
+
+/* --- the badge --- */
+
+/* null: it is being checked. */
+function useProof(place: string): Proof | null {
+    const { rest } = useEditor();
+    const body = useDocument(({ schema, document }) => {
+        const values = (document && paramAt(schema, document, place)?.values) ?? {};
+        const { equation, parametric, a, b, c, d } = values;
+        return JSON.stringify({ equation, parametric, a, b, c, d });
+    });
+    const params = useMemo(() => JSON.parse(body) as JsonObject, [body]);
+    const [proof, setProof] = useState<Proof | null>(null);
+    useEffect(() => {
+        const request = new AbortController();
+        const tell = (next: Proof): void => {
+            if (!request.signal.aborted) {
+                setProof(next);
+            }
+        };
+        setProof(null);
+        const timer = setTimeout(() => {
+            rest.verify(params, request.signal).then(tell, (problem) =>
+                tell({ verdict: "", reason: String(problem.message ?? problem) }),
+            );
+        }, ASK_MS);
+        return () => {
+            clearTimeout(timer);
+            request.abort();
+        };
+    }, [rest, params]);
+    return proof;
+}
+
+function Badge({ place }: { place: string }) {
+    const proof = useProof(place);
+    const verified = proof?.verdict === "verified";
+    const state = proof === null ? "busy" : verified ? "verified" : "unverified";
+    const Icon = { busy: LoaderCircle, verified: CircleCheck, unverified: TriangleAlert }[state];
+    return (
+        <p className="surface-badge" role="status" data-proof={state}>
+            <Icon size={14} aria-hidden="true" />
+            <span>{t(`proof.${state}`, { reason: proof?.reason ?? "" })}</span>
+        </p>
+    );
+}
