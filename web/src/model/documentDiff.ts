@@ -22,6 +22,7 @@ import {
     resourcePlace,
     valuesPlace,
 } from "./places.ts";
+import { rising } from "./rising.ts";
 import { nodeType, type Schema, type Values } from "./schema.ts";
 import { usersOf } from "./usage.ts";
 
@@ -64,29 +65,12 @@ function rootOf(document: SceneDocument, id: string): string {
     return document.root === id ? "/" : (modelOf(document, id)?.name ?? "");
 }
 
-/* Places, by index, of a longest rising row. */
-function rising(numbers: readonly number[]): ReadonlySet<number> {
-    const ends: number[] = [];
-    const previous: number[] = [];
-    numbers.forEach((number, i) => {
-        let at = ends.findIndex((end) => (numbers[end] ?? 0) >= number);
-        at = at < 0 ? ends.length : at;
-        previous[i] = at > 0 ? (ends[at - 1] ?? -1) : -1;
-        ends[at] = i;
-    });
-    const found = new Set<number>();
-    for (let i = ends.at(-1) ?? -1; i >= 0; i = previous[i] ?? -1) {
-        found.add(i);
-    }
-    return found;
-}
-
 /* Those of `wanted` that can stay where they are among `now` while the others move. */
 function staying(now: readonly string[], wanted: readonly string[]): ReadonlySet<string> {
     const index = new Map(now.map((name, i) => [name, i]));
     const there = wanted.filter((name) => index.has(name));
     const keep = rising(there.map((name) => index.get(name) ?? 0));
-    return new Set(there.filter((_, i) => keep.has(i)));
+    return new Set(keep.map((i) => there[i] as string));
 }
 
 class Plan {

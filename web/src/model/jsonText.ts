@@ -240,7 +240,7 @@ function printLine(json: Json): string {
 }
 
 /* In UTF-8, as the server counts. */
-function bytesOf(line: string): number {
+export function bytesOf(line: string): number {
     let bytes = 0;
     for (const character of line) {
         const code = character.codePointAt(0) ?? 0;

@@ -27,7 +27,7 @@ export type Popup =
     | null;
 
 /* What can be shown below the picture. */
-export const DRAWERS = ["graph", "code"] as const;
+export const DRAWERS = ["graph", "text", "code"] as const;
 export type Drawer = (typeof DRAWERS)[number];
 
 /* The output that is the picture itself. */
@@ -43,6 +43,7 @@ export interface Preferences {
         readonly scene: boolean;
         readonly inspector: boolean;
         readonly graph: boolean;
+        readonly text: boolean;
     };
     /* Names of hints that were followed or closed. */
     readonly hintsDone: readonly string[];
@@ -77,7 +78,7 @@ export const PREFERENCES: Preferences = {
     theme: "auto",
     pointing: "mouse",
     quality: "auto",
-    panels: { scene: true, inspector: true, graph: false },
+    panels: { scene: true, inspector: true, graph: false, text: false },
     hintsDone: [],
     singleKeys: true,
     thumbnails: true,
@@ -117,7 +118,7 @@ export interface View {
     readonly into: string | null;
     /* The place of the code that is being edited; null: the editor of code is closed. */
     readonly code: string | null;
-    /* What is in front below the picture, where the graph and code are both open. */
+    /* What is in front below the picture, where several are open. */
     readonly drawer: Drawer;
     /* The type at which the reference opens. */
     readonly topic: string | null;
@@ -180,21 +181,25 @@ export function unfoldTo({ collapsed }: View, above: readonly string[]): Partial
     return { collapsed: new Set([...collapsed].filter((one) => !open.has(one))) };
 }
 
-/* What is shown below the picture; null: nothing. */
-export function drawerOf({ drawer, code, preferences }: View): Drawer | null {
-    const { graph } = preferences.panels;
-    return graph && (drawer === "graph" || code === null) ? "graph" : code !== null ? "code" : null;
+/* What is open below the picture, in the order of tabs. */
+export function drawersOf({ code, preferences: { panels } }: View): readonly Drawer[] {
+    return DRAWERS.filter((one) => (one === "code" ? code !== null : panels[one]));
 }
 
-/* Brings the graph to the front, or closes it where it is there. */
-export function toggleGraph(view: View): Partial<View> {
-    const graph = drawerOf(view) !== "graph";
-    const panels = { ...view.preferences.panels, graph };
-    return {
-        drawer: graph ? "graph" : "code",
-        preferences: { ...view.preferences, panels },
-    };
+/* What is shown of it; null: nothing is open. */
+export function drawerOf(view: View): Drawer | null {
+    const open = drawersOf(view);
+    return open.includes(view.drawer) ? view.drawer : (open[0] ?? null);
 }
+
+/* Brings one to the front, or closes it where it is there. */
+export const toggleDrawer =
+    (drawer: "graph" | "text") =>
+    (view: View): Partial<View> => {
+        const open = drawerOf(view) !== drawer;
+        const panels = { ...view.preferences.panels, [drawer]: open };
+        return { drawer, preferences: { ...view.preferences, panels } };
+    };
 
 /* Esc: closes the topmost thing only. Null when there was nothing to close. */
 export function peel(view: View): Partial<View> | null {
@@ -246,6 +251,7 @@ export function readPreferences(text: string | null): Preferences {
             scene: stored.panels?.scene !== false,
             inspector: stored.panels?.inspector !== false,
             graph: stored.panels?.graph === true,
+            text: stored.panels?.text === true,
         },
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,
