@@ -694,11 +694,19 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.upload",
-        words: "import load file open json",
-        title: "Open a scene file",
+        words: "import load insert open json environment hdri panorama picture backdrop",
+        title: "Open or insert files …",
         group: "scene",
         whyNot: never,
         run: (app) => app.upload(),
+    }),
+    row({
+        id: "scene.folder",
+        words: "import load directory thesis files",
+        title: "Import a folder …",
+        group: "scene",
+        whyNot: never,
+        run: (app) => app.upload(true),
     }),
     row({
         id: "help.reference",

@@ -120,6 +120,8 @@ export interface View {
     readonly code: string | null;
     /* What is in front below the picture, where several are open. */
     readonly drawer: Drawer;
+    /* Scene files of which nobody has said yet what they are for. */
+    readonly offered: readonly { readonly path: string; readonly text: string }[];
     /* The type at which the reference opens. */
     readonly topic: string | null;
     /* Ctrl+\ hides all but the picture. */
@@ -147,6 +149,7 @@ export const INITIAL_VIEW: View = {
     into: null,
     code: null,
     drawer: "graph",
+    offered: [],
     topic: null,
     chromeHidden: false,
     aov: COLOR,

@@ -32,4 +32,22 @@ export const FILE_TEXTS = {
     "text.large": "{bytes} bytes are more than one edit may have, {most}: change it in parts",
     "text.moreFaults": "{count} more",
     "text.moreFaults.one": "1 more",
+    "drop.zone": "Drop a scene, a folder of files, or a picture for the environment",
+    "drop.zoneMore": "Scenes are JSON, pictures HDR, PNG or JPEG.",
+    "drop.ask": "What are {names} for?",
+    "drop.ask.one": "What is {names} for?",
+    "drop.insert": "Insert into this scene",
+    "drop.insertDoc":
+        "Its nodes come as one node, with the materials, primitives, shaders and models that they use. Its lights, camera and environment stay out.",
+    "drop.insertEdit": "insert a scene",
+    "drop.open": "Open as new scenes",
+    "drop.open.one": "Open as a new scene",
+    "drop.openDoc": "This scene stays as it is.",
+    "drop.notInserted": "{name} was not inserted. {reason}",
+    "drop.onePicture": "The environment is one picture: left out were {names}.",
+    "drop.strange":
+        "Nothing can be done with {names}: scenes are JSON files, pictures of the environment HDR, PNG or JPEG.",
+    "drop.environment": "{name} is the environment now.",
+    "drop.environmentEdit": "environment picture",
+    "drop.noPicture": "{name} did not become the environment:",
 } as const;

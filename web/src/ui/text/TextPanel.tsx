@@ -27,6 +27,9 @@ interface Open {
 export default function TextPanel() {
     const { stores } = useEditor();
     const { element, open, state } = useDraft();
+    const below = state.faults.length;
+    // biome-ignore lint/correctness/useExhaustiveDependencies: what stands below takes room
+    useEffect(() => open?.text.keepCursor(), [open, below, state.others, state.meeting]);
     return (
         <section
             className="code-panel text-panel"

@@ -10,7 +10,13 @@ import {
     syntaxHighlighting,
 } from "@codemirror/language";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
-import { EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
+import {
+    EditorSelection,
+    EditorState,
+    StateEffect,
+    StateField,
+    Transaction,
+} from "@codemirror/state";
 import {
     Decoration,
     type DecorationSet,
@@ -40,6 +46,8 @@ export interface TextEditor {
     lineOf(offset: number): { readonly line: number; readonly column: number };
     goTo(offset: number): void;
     hasFocus(): boolean;
+    /* After its room has become less: the cursor is in sight again. */
+    keepCursor(): void;
     focus(): void;
     destroy(): void;
 }
@@ -131,6 +139,9 @@ export function mountText(
 ): TextEditor {
     const view = new EditorView({ parent, doc: text, extensions: extensionsOf(label, events) });
     const reach = (offset: number): number => Math.min(offset, view.state.doc.length);
+    /* All of it, or as much as there is room for from its start. */
+    const whole = ({ from, to }: Span) =>
+        EditorView.scrollIntoView(EditorSelection.range(reach(to), reach(from)), { yMargin: 24 });
     return {
         text: () => view.state.doc.toString(),
         setText: (next, undoable = false) =>
@@ -151,17 +162,7 @@ export function mountText(
         },
         mark: (parts, shown) =>
             view.dispatch({
-                effects: [
-                    setMarks.of(parts),
-                    ...(shown
-                        ? [
-                              EditorView.scrollIntoView(reach(shown.from), {
-                                  y: "nearest",
-                                  yMargin: 40,
-                              }),
-                          ]
-                        : []),
-                ],
+                effects: [setMarks.of(parts), ...(shown ? [whole(shown)] : [])],
             }),
         lineOf: (offset) => {
             const { number, from } = view.state.doc.lineAt(reach(offset));
@@ -172,6 +173,12 @@ export function mountText(
             view.focus();
         },
         hasFocus: () => view.hasFocus,
+        keepCursor: () => {
+            if (view.hasFocus) {
+                const { head } = view.state.selection.main;
+                view.dispatch({ effects: EditorView.scrollIntoView(head, { yMargin: 12 }) });
+            }
+        },
         focus: () => view.focus(),
         destroy: () => view.destroy(),
     };

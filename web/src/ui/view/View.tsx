@@ -5,6 +5,7 @@ import { useCallback, useEffect, useRef, useState } from "react";
 import { Hands } from "../../overlay/hands.ts";
 import { Outlines } from "../../overlay/outlines.ts";
 import { attachPointer } from "../../overlay/pointer.ts";
+import { Drops } from "../drop/Drops.tsx";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -47,6 +48,7 @@ export function View() {
                 <Outputs />
             </div>
             <AxesBall />
+            <Drops />
             <div className="view-bottom">
                 <Aim />
                 <Measured />
