@@ -4,6 +4,7 @@
 import path from 'node:path';
 import { field, picture, row } from '../stage.mjs';
 import { CODED, EMPTY, STUDIO } from './scene.mjs';
+import { textStates } from './text.mjs';
 
 const examples = new URL('../../../protocol/examples/', import.meta.url).pathname;
 
@@ -539,5 +540,6 @@ export const STATES = [
     ...rows('changes', CHANGES, { scene: STUDIO, alone: true, tampered: true }),
     ...rows('code', CODE, { scene: CODED, alone: true, tampered: true }),
     ...rows('graph', GRAPH, { scene: STUDIO, alone: true }),
+    ...rows('text', textStates({ select, tab, graph }), { scene: STUDIO, alone: true }),
     ...rows('others', OTHERS, { alone: true }),
 ];

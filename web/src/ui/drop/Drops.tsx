@@ -3,17 +3,15 @@
 import { FileDown } from "lucide-react";
 import { useState } from "react";
 import { type ImportProblem, openFiles } from "../import.ts";
-import { lazyPart } from "../lazy.tsx";
+import ImportFault from "../scenes/ImportFault.tsx";
 import { useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { useDrop } from "./drop.ts";
+import Offer from "./Offer.tsx";
 import { takeFiles } from "./take.ts";
 import "./drop.css";
 
-const Offer = lazyPart(() => import("./Offer.tsx"));
-const ImportFault = lazyPart(() => import("../scenes/ImportFault.tsx"));
-
-export function Drops() {
+export default function Drops() {
     const editor = useEditor();
     const [problem, setProblem] = useState<ImportProblem | null>(null);
     const hovering = useDrop((files) => void takeFiles(editor, files, setProblem));

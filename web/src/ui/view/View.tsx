@@ -5,7 +5,6 @@ import { useCallback, useEffect, useRef, useState } from "react";
 import { Hands } from "../../overlay/hands.ts";
 import { Outlines } from "../../overlay/outlines.ts";
 import { attachPointer } from "../../overlay/pointer.ts";
-import { Drops } from "../drop/Drops.tsx";
 import { lazyPart } from "../lazy.tsx";
 import { NodeMenu, type Target } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useLink, useView } from "../state.ts";
@@ -29,6 +28,7 @@ import { Strip } from "./Strip.tsx";
 import { Trial } from "./Trial.tsx";
 import "./view.css";
 
+const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
