@@ -29,6 +29,7 @@ import {
 } from "@codemirror/view";
 import type { Span } from "../../model/jsonText.ts";
 import { changesBetween } from "../code/change.ts";
+import { NARROW } from "../theme.ts";
 import { foldBrackets, sceneColours, sceneLanguage } from "./language.ts";
 
 export interface Fault extends Span {
@@ -105,6 +106,7 @@ function extensionsOf(label: string, events: TextEvents) {
         syntaxHighlighting(sceneColours),
         marks,
         EditorView.contentAttributes.of({ "aria-label": label }),
+        window.matchMedia(NARROW).matches ? EditorView.lineWrapping : [],
         keymap.of([
             {
                 key: "Mod-Enter",
