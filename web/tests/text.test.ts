@@ -10,6 +10,7 @@ import type { Json } from "../src/model/json.ts";
 import { parseText, printText } from "../src/model/jsonText.ts";
 import type { Operation } from "../src/model/operation.ts";
 import { apply } from "../src/model/operations.ts";
+import { judgeText } from "../src/model/textDraft.ts";
 import { choose, random, randomOperation, SCENE, SCHEMA, scene } from "./fixture.ts";
 
 const print = (document: SceneDocument): string => documentText(SCHEMA, document);
@@ -177,6 +178,66 @@ describe("two authors", () => {
         };
         expect(meet(radius, move)).toEqual([]);
         expect(meet(move, move)).toHaveLength(1);
+    });
+});
+
+describe("a text that was typed while others changed the scene", () => {
+    const tell = () => "too much";
+    const judge = (base: SceneDocument, now: SceneDocument, text: string) =>
+        judgeText(SCHEMA, base, now, text, tell);
+
+    test("300 random pairs: what does not meet adds up to the same, whoever comes first", () => {
+        const kinds = { faults: 0, meeting: 0, edit: 0 };
+        for (let seed = 0; seed < 300; seed++) {
+            const next = random(5000 + seed);
+            const base = scene();
+            const changed = (mark: string) => {
+                let names = 0;
+                const fresh = () => `${mark}${names++}`;
+                for (;;) {
+                    const op = randomOperation(base, next, fresh);
+                    const result = apply(base, [op], SCHEMA);
+                    const plain = op.op === "set" || op.op === "remove";
+                    if (plain && result.ok && opsBetween(base, result.document).length > 0) {
+                        return result.document;
+                    }
+                }
+            };
+            const [mine, theirs] = [changed("m"), changed("t")];
+            const judged = judge(base, theirs, print(mine));
+            kinds[judged.kind]++;
+            if (judged.kind === "edit") {
+                const other = apply(mine, opsBetween(base, theirs), SCHEMA);
+                expect(other.ok && print(other.document), `seed ${seed}`).toBe(
+                    print(applied(theirs, judged.ops)),
+                );
+            } else if (judged.kind === "meeting" && judged.meeting.message !== "") {
+                expect(print(applied(theirs, judged.meeting.ops))).toBe(print(mine));
+            }
+        }
+        expect(kinds.edit).toBeGreaterThan(100);
+        expect(kinds.meeting).toBeGreaterThan(5);
+    });
+
+    test("the same value meets; a node that is gone can be brought back", () => {
+        const text = print(scene()).replace('"radius": 0.6', '"radius": 0.75');
+        const at = "/nodes/head/params/radius";
+        const other = applied(scene(), [{ op: "set", at, value: 2 }]);
+        expect(judge(scene(), other, text)).toMatchObject({
+            kind: "meeting",
+            meeting: { places: [at], message: "", ops: [{ at, value: 0.75 }] },
+        });
+        const gone = applied(scene(), [{ op: "remove", at: "/nodes/neck" }]);
+        const judged = judge(scene(), gone, text);
+        const ops = judged.kind === "meeting" ? judged.meeting.ops : [];
+        expect(print(applied(gone, ops))).toBe(text);
+    });
+
+    test("more than one edit may have is a fault", () => {
+        const limits = [{ name: "operations", value: 1, unit: "", doc: "" }];
+        const text = print(scene()).replace('"radius": 0.6', '"radius": 2').replace("45", "46");
+        const judged = judgeText({ ...SCHEMA, limits }, scene(), scene(), text, tell);
+        expect(judged).toMatchObject({ kind: "faults", faults: [{ message: "too much" }] });
     });
 });
 
