@@ -103,7 +103,12 @@ describe('the text', () => {
     test('a node that is selected is marked and in sight; the cursor selects', async () => {
         await open({ height: 700 });
         await row(page, 'pole').click();
-        await panel().locator('.text-marked', { hasText: '"pole"' }).waitFor();
+        const marked = panel().locator('.text-marked', { hasText: '"pole"' });
+        await until(async () => {
+            const line = (await marked.count()) === 1 && (await marked.boundingBox());
+            const all = await panel().locator('.code-text').boundingBox();
+            return line && line.y >= all.y && line.y + line.height <= all.y + all.height;
+        }, 'the lines of the pole in sight');
         assert.equal(await panel().locator('.text-marked', { hasText: '"ring"' }).count(), 0);
         await lineWith('"ring"').click();
         await page.locator('[data-node="ring"][aria-selected="true"]').waitFor();
