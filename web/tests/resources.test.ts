@@ -381,6 +381,73 @@ test("in the same scene they name what is there; strangers lose their names", ()
     expect(JSON.stringify(pasted)).not.toContain("gone");
 });
 
+/* One of everything that a node can name, all of it in other words than in `scene()`. */
+function strangerWith(glow: number): SceneDocument {
+    return readDocument({
+        name: "Stranger",
+        materials: { stone: { shader: "marble", properties: { glow } }, coal: { shader: "flat" } },
+        shaders: { marble: { properties: [{ name: "glow", type: "float" }], code: `${glow}` } },
+        primitives: { rod: { params: [], code: `${glow}` } },
+        models: {
+            pawn: {
+                id: "foot",
+                type: "field",
+                material: "stone",
+                params: { primitive: "rod" },
+            },
+        },
+        root: {
+            id: "root",
+            type: "union",
+            children: [{ id: "stick", type: "model", params: { model: "pawn" } }],
+        },
+    });
+}
+
+test("what differs under the same name comes along under a new one, and is named so", () => {
+    const text = clip(SCHEMA, strangerWith(0.25), ["stick"], "other");
+    const edit = paste(scene(), SCHEMA, [], text, "mine");
+    const document = after(scene(), edit?.ops ?? []);
+    const node = document.nodes.get(edit?.select[0] ?? "");
+    expect(node?.params).toEqual({ model: "pawn-1" });
+    const root = document.nodes.get(findResource(document, "models", "pawn-1")?.root ?? "");
+    expect(root).toMatchObject({ common: { material: "stone-1" }, params: { primitive: "rod-1" } });
+    expect(findResource(document, "materials", "stone-1")?.type).toBe("marble-1");
+    expect(findResource(document, "materials", "stone")).toEqual(
+        findResource(scene(), "materials", "stone"),
+    );
+    expect(new Set(document.nodes.keys()).size).toBe(scene().nodes.size + 2);
+    const again = paste(document, SCHEMA, [], text, "mine");
+    expect(again?.ops.filter(({ op }) => op === "insert").length).toBeGreaterThan(1);
+});
+
+test("what is the same under the same name is used", () => {
+    const there = after(strangerWith(0.25), [
+        { op: "remove", at: "/nodes/stick" },
+        { op: "set", at: "/nodes/foot/name", value: null },
+    ]);
+    const text = clip(SCHEMA, strangerWith(0.25), ["stick"], "other");
+    expect(paste(there, SCHEMA, [], text, "mine")?.ops).toHaveLength(1);
+});
+
+test("in the scene that they are from, nodes name what is there, changed as it may be", () => {
+    const text = clip(SCHEMA, strangerWith(0.25), ["stick"], "mine");
+    expect(paste(strangerWith(0.5), SCHEMA, [], text, "mine")?.ops).toHaveLength(1);
+    expect(paste(strangerWith(0.5), SCHEMA, [], text, "else")?.ops.length).toBeGreaterThan(3);
+});
+
+test("a whole scene comes as one node with its name and what it needs, no more", () => {
+    const text = JSON.stringify(printDocument(strangerWith(0.25)));
+    const empty = readDocument({ root: { id: "root", type: "union" } });
+    const edit = paste(empty, SCHEMA, [], text, "mine");
+    const document = after(empty, edit?.ops ?? []);
+    const [id = ""] = edit?.select ?? [];
+    expect(document.nodes.get(id)).toMatchObject({ type: "union", common: { name: "Stranger" } });
+    expect(document.materials.map(({ name }) => name)).toEqual(["stone"]);
+    expect(document.models).toHaveLength(1);
+    expect(document.lights).toHaveLength(0);
+});
+
 /* --- lights and materials --- */
 
 test("a new light stands beside what is selected and lights it", () => {

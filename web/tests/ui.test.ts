@@ -6,7 +6,7 @@ import { expect, test } from "vitest";
 import { RestError } from "../src/link/rest.ts";
 import { findParam, nodeType, type Param } from "../src/model/schema.ts";
 import { NO_FRAME, type Statistics } from "../src/model/stores.ts";
-import { changeBetween } from "../src/ui/code/change.ts";
+import { changeBetween, changesBetween } from "../src/ui/code/change.ts";
 import { shaderLanguage } from "../src/ui/code/language.ts";
 import { frameOf, type Point, pointAt, ticksOf, toView } from "../src/ui/fields/grid.ts";
 import { problemOf, type TextFile, withoutFolder } from "../src/ui/import.ts";
@@ -53,6 +53,27 @@ test("one change makes any text of any other", () => {
         expect(before.slice(0, from) + insert + before.slice(to)).toBe(after);
     }
     expect(changeBetween("abc", "abxc")).toEqual({ from: 2, to: 2, insert: "x" });
+});
+
+test("texts become others by changes that leave the lines between them alone", () => {
+    const line = (n: number) => `line ${n}\n`;
+    for (let seed = 0; seed < 200; seed++) {
+        const next = random(seed);
+        const before = Array.from({ length: 12 }, () => line(Math.floor(next() * 20)));
+        const after = before.flatMap((text) =>
+            choose([[text], [text], [text], [], [text, line(99)], ["new"]], next),
+        );
+        const changes = changesBetween(before.join(""), after.join(""));
+        let made = before.join("");
+        for (const { from, to, insert } of [...changes].reverse()) {
+            made = made.slice(0, from) + insert + made.slice(to);
+        }
+        expect(made).toBe(after.join(""));
+    }
+    expect(changesBetween("a\nb 1\nc\nd 1\n", "a\nb 2\nc\nd 2\n")).toEqual([
+        { from: 4, to: 5, insert: "2" },
+        { from: 10, to: 11, insert: "2" },
+    ]);
 });
 
 test("all points and the origin are in sight, and come back from the drawing", () => {

@@ -4,6 +4,7 @@
 import path from 'node:path';
 import { field, picture, row } from '../stage.mjs';
 import { CODED, EMPTY, STUDIO, umbrella } from './scene.mjs';
+import { textStates } from './text.mjs';
 
 const examples = new URL('../../../protocol/examples/', import.meta.url).pathname;
 
@@ -633,5 +634,6 @@ export const STATES = [
     ...rows('changes', CHANGES, { scene: STUDIO, alone: true, tampered: true }),
     ...rows('code', CODE, { scene: CODED, alone: true, tampered: true }),
     ...rows('graph', GRAPH, { scene: STUDIO, alone: true }),
+    ...rows('text', textStates({ select, tab, graph }), { scene: STUDIO, alone: true }),
     ...rows('others', OTHERS, { alone: true }),
 ];

@@ -37,9 +37,9 @@ export interface App {
     aspect(): number;
     writeClipboard(text: string): void;
     readClipboard(): Promise<string>;
-    /* Saves the document as a file; opens the chooser for one. */
+    /* Saves the document as a file; opens the chooser for some, or for a folder. */
     download(): void;
-    upload(): void;
+    upload(folder?: boolean): void;
     /* Puts a copy of a node into the library. */
     saveToLibrary(node: string): void;
 }
@@ -201,16 +201,16 @@ export function frameNodes(app: App, ids?: readonly string[]): void {
 }
 
 export function copyNodes(app: App): void {
-    const { document, schema } = app.stores.document.getState();
+    const { document, schema, scene } = app.stores.document.getState();
     if (document) {
-        app.writeClipboard(clip(schema, document, selectionOf(app)));
+        app.writeClipboard(clip(schema, document, selectionOf(app), scene ?? ""));
     }
 }
 
 export async function pasteNodes(app: App): Promise<void> {
     const content = await app.readClipboard().catch(() => "");
-    const { document, schema } = app.stores.document.getState();
-    const edit = document && paste(document, schema, selectionOf(app), content);
+    const { document, schema, scene } = app.stores.document.getState();
+    const edit = document && paste(document, schema, selectionOf(app), content, scene ?? "");
     if (edit) {
         perform(app, edit);
     } else {

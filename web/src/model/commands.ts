@@ -45,7 +45,7 @@ import { park, unpark } from "./moves.ts";
 import { outputsShown } from "./schema.ts";
 import { type Stores, setPreferences } from "./stores.ts";
 import { text } from "./texts.ts";
-import { COLOR, peel, type Theme, toggleGraph, type View } from "./view.ts";
+import { COLOR, peel, type Theme, toggleDrawer, type View } from "./view.ts";
 
 /* Where a key works: `anywhere` outside of text fields, or only with the focus in that region. */
 export type Context = "anywhere" | "view" | "tree";
@@ -597,7 +597,16 @@ export const COMMANDS: readonly Command[] = [
         group: "view",
         keys: ["Alt+1"],
         inFields: true,
-        run: show(toggleGraph),
+        run: show(toggleDrawer("graph")),
+    }),
+    row({
+        id: "view.text",
+        words: "json source code document edit raw drawer",
+        title: "Scene as text",
+        group: "view",
+        keys: ["Alt+2"],
+        inFields: true,
+        run: show(toggleDrawer("text")),
     }),
     row({
         id: "view.grid",
@@ -719,11 +728,19 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.upload",
-        words: "import load file open json",
-        title: "Open a scene file",
+        words: "import load insert open json environment hdri panorama picture backdrop",
+        title: "Open or insert files …",
         group: "scene",
         whyNot: never,
         run: (app) => app.upload(),
+    }),
+    row({
+        id: "scene.folder",
+        words: "import load directory thesis files",
+        title: "Import a folder …",
+        group: "scene",
+        whyNot: never,
+        run: (app) => app.upload(true),
     }),
     row({
         id: "help.reference",

@@ -311,13 +311,19 @@ export function plainName(document: SceneDocument, list: ListName, name: string)
     return findResource(document, list, name) === null ? name : freeName(document, list, name);
 }
 
-/* The first free name of a list; what no name can hold becomes "-". */
-export function freeName(document: SceneDocument, list: ListName, stem: string): string {
+/* The first free name of a list, but for those `taken`; what no name can hold becomes "-". */
+export function freeName(
+    document: SceneDocument,
+    list: ListName,
+    stem: string,
+    taken: ReadonlySet<string> = new Set(),
+): string {
     const plain = stem.replace(/[^A-Za-z0-9_.-]+/g, "-").replace(/^-+|-+$|-\d+$/g, "");
     const base = plain.slice(0, 56) || LISTS[list].one;
     for (let n = 1; ; n++) {
-        if (findResource(document, list, `${base}-${n}`) === null) {
-            return `${base}-${n}`;
+        const name = `${base}-${n}`;
+        if (findResource(document, list, name) === null && !taken.has(name)) {
+            return name;
         }
     }
 }

@@ -2,7 +2,6 @@
 /* The library: what a scene gives to it, as a small document with all that it uses, and the edit that
  * takes it into another scene. */
 import { needsSolid } from "./add.ts";
-import { needed, withNames } from "./clipboard.ts";
 import {
     findResource,
     freeName,
@@ -14,7 +13,8 @@ import {
 } from "./document.ts";
 import { printNode, printResource, readDocument } from "./documentJson.ts";
 import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
-import { equalJson, isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import { adapted, adaptedResource, isSameResource, keyOf, needed, type Resolve } from "./naming.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName } from "./places.ts";
 import { placing, type Way } from "./placing.ts";
@@ -131,16 +131,6 @@ const isFunction = ({ type }: { type: string }): boolean => type === "function";
 
 /* --- taking --- */
 
-/* Without the ids of nodes, which are new in each scene. */
-function withoutIds({ id: _id, children, ...own }: JsonObject): JsonObject {
-    const inner = listOf(children).filter(isObject).map(withoutIds);
-    return inner.length > 0 ? { ...own, children: inner } : own;
-}
-
-function isSame(list: Held, a: JsonObject, b: JsonObject): boolean {
-    return list === "models" ? equalJson(withoutIds(a), withoutIds(b)) : equalJson(a, b);
-}
-
 /* What the document has already, under the same name or one that was made of it. */
 function knownAs(
     document: SceneDocument,
@@ -153,15 +143,15 @@ function knownAs(
         (one) =>
             (one.name === name ||
                 (one.name.startsWith(stem) && /^\d+$/.test(one.name.slice(stem.length)))) &&
-            isSame(list, printResource(document, list, one), value),
+            isSameResource(list, printResource(document, list, one), value),
     );
     return same?.name ?? null;
 }
 
 interface Taken {
     readonly ops: readonly Operation[];
-    /* The names that its resources have here, by "/LIST/NAME". */
-    readonly names: ReadonlyMap<string, string>;
+    /* The names that its resources have here. */
+    readonly resolve: Resolve;
 }
 
 /* Brings in what an entry uses. What is here already is shared, but no models inside a model: one
@@ -174,24 +164,30 @@ function takeResources(
     above: string,
 ): Taken {
     const names = new Map<string, string>();
+    const resolve: Resolve = (named) => names.get(keyOf(named)) ?? named.name;
     const ops: Operation[] = [];
     const insideModel = modelOf(document, above) !== null;
     for (const list of LISTS_HELD) {
         for (const resource of inOrder(schema, entry, list)) {
             const { name } = resource;
-            const json = withNames(schema, list, printResource(entry, list, resource), names);
+            const json = adaptedResource(
+                schema,
+                list,
+                printResource(entry, list, resource),
+                resolve,
+            );
             const shared = list !== "models" || !insideModel;
             const known = shared ? knownAs(document, list, name, json) : null;
             const free = findResource(document, list, name) === null;
             const own = known ?? (free ? name : freeName(document, list, name));
-            names.set(`/${list}/${name}`, own);
+            names.set(keyOf({ list, name }), own);
             if (known === null) {
                 const value = list === "models" ? renamed(json, fresh) : json;
                 ops.push({ op: "insert", into: `/${list}`, before: null, name: own, value });
             }
         }
     }
-    return { ops, names };
+    return { ops, resolve };
 }
 
 /* Models behind those of which they hold instances. */
@@ -225,8 +221,8 @@ function takeMaterial(
     if (!material) {
         return null;
     }
-    const { ops, names } = takeResources(schema, document, entry, freshIds(document), "");
-    const name = names.get(`/materials/${material.name}`) ?? material.name;
+    const { ops, resolve } = takeResources(schema, document, entry, freshIds(document), "");
+    const name = resolve({ list: "materials", name: material.name }) ?? material.name;
     const users = use ? [use] : selection.map((id) => `/nodes/${id}/material`);
     return {
         ops: [...ops, ...users.map((at): Operation => ({ op: "set", at, value: name }))],
@@ -257,8 +253,8 @@ function takeTree(
             freshName(type);
         }
     }
-    const { ops, names } = takeResources(schema, document, entry, fresh, place.above);
-    const own = renamed({ ...withNames(schema, "root", root, names), name }, fresh, freshName);
+    const { ops, resolve } = takeResources(schema, document, entry, fresh, place.above);
+    const own = renamed({ ...adapted(schema, root, resolve), name }, fresh, freshName);
     const maker = needsSolid(document, schema, row, place.above);
     const value = maker
         ? { id: fresh(maker), type: maker, name: freshName(maker), children: [own] }

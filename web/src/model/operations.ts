@@ -17,7 +17,7 @@ export type Applied =
       }
     | { readonly ok: false; readonly problem: Problem };
 
-function applyOne(draft: DocumentDraft, operation: Operation): Operation[] {
+export function applyOne(draft: DocumentDraft, operation: Operation): Operation[] {
     switch (operation.op) {
         case "set":
             return set(draft, operation.at, operation.value);

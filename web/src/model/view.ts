@@ -28,7 +28,7 @@ export type Popup =
     | null;
 
 /* What can be shown below the picture. */
-export const DRAWERS = ["graph", "code"] as const;
+export const DRAWERS = ["graph", "text", "code"] as const;
 export type Drawer = (typeof DRAWERS)[number];
 
 /* The output that is the picture itself. */
@@ -44,6 +44,7 @@ export interface Preferences {
         readonly scene: boolean;
         readonly inspector: boolean;
         readonly graph: boolean;
+        readonly text: boolean;
     };
     /* Names of hints that were followed or closed. */
     readonly hintsDone: readonly string[];
@@ -82,7 +83,7 @@ export const PREFERENCES: Preferences = {
     theme: "auto",
     pointing: "mouse",
     quality: "auto",
-    panels: { scene: true, inspector: true, graph: false },
+    panels: { scene: true, inspector: true, graph: false, text: false },
     hintsDone: [],
     singleKeys: true,
     thumbnails: true,
@@ -124,8 +125,10 @@ export interface View {
     readonly into: string | null;
     /* The place of the code that is being edited; null: the editor of code is closed. */
     readonly code: string | null;
-    /* What is in front below the picture, where the graph and code are both open. */
+    /* What is in front below the picture, where several are open. */
     readonly drawer: Drawer;
+    /* Scene files of which nobody has said yet what they are for. */
+    readonly offered: readonly { readonly path: string; readonly text: string }[];
     /* The type at which the reference opens. */
     readonly topic: string | null;
     /* Ctrl+\ hides all but the picture. */
@@ -153,6 +156,7 @@ export const INITIAL_VIEW: View = {
     into: null,
     code: null,
     drawer: "graph",
+    offered: [],
     topic: null,
     chromeHidden: false,
     aov: COLOR,
@@ -187,21 +191,25 @@ export function unfoldTo({ collapsed }: View, above: readonly string[]): Partial
     return { collapsed: new Set([...collapsed].filter((one) => !open.has(one))) };
 }
 
-/* What is shown below the picture; null: nothing. */
-export function drawerOf({ drawer, code, preferences }: View): Drawer | null {
-    const { graph } = preferences.panels;
-    return graph && (drawer === "graph" || code === null) ? "graph" : code !== null ? "code" : null;
+/* What is open below the picture, in the order of tabs. */
+export function drawersOf({ code, preferences: { panels } }: View): readonly Drawer[] {
+    return DRAWERS.filter((one) => (one === "code" ? code !== null : panels[one]));
 }
 
-/* Brings the graph to the front, or closes it where it is there. */
-export function toggleGraph(view: View): Partial<View> {
-    const graph = drawerOf(view) !== "graph";
-    const panels = { ...view.preferences.panels, graph };
-    return {
-        drawer: graph ? "graph" : "code",
-        preferences: { ...view.preferences, panels },
-    };
+/* What is shown of it; null: nothing is open. */
+export function drawerOf(view: View): Drawer | null {
+    const open = drawersOf(view);
+    return open.includes(view.drawer) ? view.drawer : (open[0] ?? null);
 }
+
+/* Brings one to the front, or closes it where it is there. */
+export const toggleDrawer =
+    (drawer: "graph" | "text") =>
+    (view: View): Partial<View> => {
+        const open = drawerOf(view) !== drawer;
+        const panels = { ...view.preferences.panels, [drawer]: open };
+        return { drawer, preferences: { ...view.preferences, panels } };
+    };
 
 /* Esc: closes the topmost thing only. Null when there was nothing to close. */
 export function peel(view: View): Partial<View> | null {
@@ -253,6 +261,7 @@ export function readPreferences(text: string | null): Preferences {
             scene: stored.panels?.scene !== false,
             inspector: stored.panels?.inspector !== false,
             graph: stored.panels?.graph === true,
+            text: stored.panels?.text === true,
         },
         hintsDone: texts(stored.hintsDone),
         singleKeys: stored.singleKeys !== false,

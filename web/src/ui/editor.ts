@@ -7,6 +7,7 @@ import type { App } from "../model/actions.ts";
 import { EMPTY_SCHEMA, outputsShown } from "../model/schema.ts";
 import { createStores, type Stores } from "../model/stores.ts";
 import { COLOR, INITIAL_VIEW, type Subject } from "../model/view.ts";
+import { EDITOR_FILES, takeFiles } from "./drop/take.ts";
 import { chooseFiles, SCENE_FILES, saveDocument } from "./files.ts";
 import { openFiles, readFiles } from "./import.ts";
 
@@ -37,11 +38,10 @@ export function createEditor(): Editor {
         undo: () => link.undo(),
         redo: () => link.redo(),
         aspect: () => (picture ? picture.clientWidth / Math.max(1, picture.clientHeight) : 1.5),
-        writeClipboard: (text) => void navigator.clipboard?.writeText(text).catch(() => undefined),
-        readClipboard: () => navigator.clipboard.readText(),
+        writeClipboard,
+        readClipboard,
         download: () => void saveDocument(editor),
-        upload: () =>
-            chooseFiles(SCENE_FILES, async (files) => openFiles(editor, await readFiles(files))),
+        upload: (folder = false) => upload(editor, folder),
         saveToLibrary: (node) =>
             void import("./library/acts.ts").then(({ saveNode }) => saveNode(editor, node)),
         open: (scene) => void openScene(editor, scene, author),
@@ -54,6 +54,36 @@ export function createEditor(): Editor {
         },
     };
     return editor;
+}
+
+/* Where a browser gives no clipboard, without HTTPS for one, all tabs have this one. */
+const COPIED = "fieldcast.clipboard";
+
+function writeClipboard(text: string): void {
+    const keep = (): void => window.localStorage.setItem(COPIED, text);
+    if (navigator.clipboard) {
+        navigator.clipboard.writeText(text).catch(keep);
+    } else {
+        keep();
+    }
+}
+
+async function readClipboard(): Promise<string> {
+    const kept = window.localStorage.getItem(COPIED) ?? "";
+    return navigator.clipboard?.readText ? navigator.clipboard.readText().catch(() => kept) : kept;
+}
+
+/* On the start page there is no scene to put anything into. */
+function upload(editor: Editor, folder: boolean): void {
+    const inScene = editor.stores.document.getState().document !== null;
+    const accept = inScene ? EDITOR_FILES : SCENE_FILES;
+    chooseFiles(folder ? "folder" : accept, async (files) => {
+        if (inScene && !folder) {
+            await takeFiles(editor, files);
+        } else {
+            await openFiles(editor, await readFiles(files));
+        }
+    });
 }
 
 async function openScene(

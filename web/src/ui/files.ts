@@ -3,7 +3,9 @@
 import { download, RestError } from "../link/rest.ts";
 import { printDocument } from "../model/documentJson.ts";
 import type { Json } from "../model/json.ts";
+import { printText } from "../model/jsonText.ts";
 import { addNotice } from "../model/stores.ts";
+import { type PageFile, pathOf } from "./drop/drop.ts";
 import type { Editor } from "./editor.ts";
 
 /* The server's own bytes where it can be reached, else what this page holds. */
@@ -17,7 +19,7 @@ export async function saveDocument(editor: Editor): Promise<void> {
 }
 
 export function downloadJson(name: string, json: Json): void {
-    const blob = new Blob([JSON.stringify(json, null, 2)], { type: "application/json" });
+    const blob = new Blob([printText(json)], { type: "application/json" });
     download(name, "json", blob);
 }
 
@@ -26,7 +28,7 @@ export const SCENE_FILES = ".json,application/json";
 /* Opens the chooser for files that `accept` names, or for a folder. */
 export function chooseFiles(
     accept: string | "folder",
-    onFiles: (files: readonly File[]) => void,
+    onFiles: (files: readonly PageFile[]) => void,
 ): void {
     const input = window.document.createElement("input");
     input.type = "file";
@@ -36,7 +38,7 @@ export function chooseFiles(
         input.accept = accept;
     }
     input.addEventListener("change", () => {
-        const files = [...(input.files ?? [])];
+        const files = [...(input.files ?? [])].map(pathOf);
         if (files.length > 0) {
             onFiles(files);
         }

@@ -3,6 +3,7 @@
  * format, which name each other, one together. */
 import { RestError } from "../link/rest.ts";
 import { addNotice } from "../model/stores.ts";
+import type { PageFile } from "./drop/drop.ts";
 import type { Editor } from "./editor.ts";
 import { report } from "./files.ts";
 import { goTo } from "./route.ts";
@@ -33,18 +34,13 @@ const READ = /\.(json|txt|glsl|hlsl|slang)$/i;
 const AROUND = 2;
 const MOST_NOTES = 2;
 
-export async function readFiles(files: readonly File[]): Promise<TextFile[]> {
-    const read = files.filter((file) => READ.test(file.name) || files.length === 1);
-    return Promise.all(
-        read.map(async (file) => ({
-            path: file.webkitRelativePath || file.name,
-            text: await file.text(),
-        })),
-    );
+export async function readFiles(files: readonly PageFile[]): Promise<TextFile[]> {
+    const read = files.filter(({ path }) => READ.test(path) || files.length === 1);
+    return Promise.all(read.map(async ({ path, file }) => ({ path, text: await file.text() })));
 }
 
 /* A document of ours, also a broken one. */
-function isDocument({ text }: TextFile): boolean {
+export function isDocument({ text }: TextFile): boolean {
     return /"format"\s*:\s*"fieldcast\//.test(text);
 }
 

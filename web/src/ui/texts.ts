@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Every text of the page that is not in the schema, a command or the model's own table. */
+import { FILE_TEXTS } from "./textsOfFiles.ts";
+
 const texts = {
+    ...FILE_TEXTS,
     "app.name": "fieldcast",
     "app.failed": "The page met an error and stopped.",
     "app.reload": "Reload",
@@ -598,7 +601,6 @@ const texts = {
     "scenes.new": "New scene",
     "scenes.upload": "Upload",
     "scenes.folder": "Import a folder of scene, model and material files",
-    "scenes.drop": "Drop scene files or a folder to open them",
     "scenes.none": "Nothing here yet. Open an example, or start with an empty scene.",
     "scenes.meta": "{nodes} nodes · {age}",
     "scenes.meta.one": "1 node · {age}",
@@ -612,17 +614,12 @@ const texts = {
     "scenes.deleted": "“{name}” is deleted.",
     "scenes.failed": "The scenes could not be read: {message}",
     "scenes.tagline": "Sculpt with distance fields, live.",
-    "import.refused": "These files were not opened",
-    "import.which": "Which scene?",
-    "import.choose": "These files hold several scenes. Choose the one to open.",
-    "import.notes": "{count} more things were put right while reading.",
-    "import.nothing": "There is no file that could be read: JSON is expected.",
-    "files.refused": "{name} was not opened:",
     "tab.scene": "Nodes",
     "tab.inspector": "Edit",
     "tab.setup": "Looks",
     "tab.code": "Code",
     "tab.graph": "Graph",
+    "tab.text": "Text",
 } as const;
 
 export type TextKey = keyof typeof texts;

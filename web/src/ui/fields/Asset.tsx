@@ -55,6 +55,7 @@ export default function AssetField(props: FieldProps<string>) {
             aria-label={label}
             aria-describedby={describedBy}
             data-over={over || undefined}
+            data-takes-files=""
             onDragOver={(event) => {
                 event.preventDefault();
                 setOver(true);
@@ -68,7 +69,9 @@ export default function AssetField(props: FieldProps<string>) {
                     look="outline"
                     icon={<ImageUp size={14} />}
                     disabled={busy}
-                    onClick={() => chooseFiles(ACCEPT, (files) => void upload(files))}
+                    onClick={() =>
+                        chooseFiles(ACCEPT, (files) => void upload(files.map(({ file }) => file)))
+                    }
                 >
                     {t(busy ? "asset.busy" : "asset.upload")}
                 </Button>

@@ -6,7 +6,7 @@ import { Background, ReactFlow, ReactFlowProvider, useReactFlow } from "@xyflow/
 import { Maximize, Minus, Plus, X } from "lucide-react";
 import { memo, useMemo, useRef, useState } from "react";
 import { CARD, type Derived, deriveGraph, type Graph } from "../../model/graph.ts";
-import { toggleGraph } from "../../model/view.ts";
+import { toggleDrawer } from "../../model/view.ts";
 import { NodeMenu } from "../scene/NodeMenu.tsx";
 import { useDocument, useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
@@ -81,7 +81,7 @@ const Head = memo(function Head({ graph }: { graph: Graph }) {
             <IconButton
                 title={t("close")}
                 data-size="s"
-                onClick={() => stores.view.setState(toggleGraph)}
+                onClick={() => stores.view.setState(toggleDrawer("graph"))}
             >
                 <X size={15} />
             </IconButton>

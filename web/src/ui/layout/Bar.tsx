@@ -141,6 +141,7 @@ function SceneMenu({ onRename }: { onRename: () => void }) {
                 {t("bar.upload")}
             </MenuItem>
             <MenuLine />
+            <ActItem id="view.text" />
             <ActItem id="scene.open" />
             <ActItem id="library.open" />
             <ActItem id="view.theme" />

@@ -4,9 +4,7 @@
 
 import { useState } from "react";
 import { Group, Panel, Separator, useDefaultLayout } from "react-resizable-panels";
-import { DRAWERS, type Drawer as DrawerName, drawerOf } from "../../model/view.ts";
-import { CodePanel } from "../code/index.ts";
-import { GraphPanel } from "../graph/index.ts";
+import { type Drawer as DrawerName, drawerOf, drawersOf } from "../../model/view.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
@@ -15,6 +13,7 @@ import { t } from "../texts.ts";
 import { NARROW, useMedia, WIDE } from "../theme.ts";
 import { View } from "../view/View.tsx";
 import { Bar } from "./Bar.tsx";
+import { DrawerPart } from "./DrawerPart.tsx";
 import { Region } from "./Region.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { Status } from "./Status.tsx";
@@ -85,19 +84,17 @@ function Picture() {
     );
 }
 
-/* Tabs where both are open. */
+/* Tabs where several are open. */
 function Drawer({ drawer }: { drawer: DrawerName }) {
     const { view } = useEditor().stores;
-    const code = useView((state) => state.code);
-    const both = useView((state) => state.code !== null && state.preferences.panels.graph);
-    const part = drawer === "graph" ? <GraphPanel /> : code && <CodePanel place={code} />;
-    if (!both) {
-        return part;
+    const open = useView((state) => drawersOf(state).join(" ")).split(" ") as DrawerName[];
+    if (open.length < 2) {
+        return <DrawerPart drawer={drawer} />;
     }
     return (
         <div className="drawer">
             <Tabs
-                tabs={DRAWERS.map((id) => ({ id, title: t(`tab.${id}`) }))}
+                tabs={open.map((id) => ({ id, title: t(`tab.${id}`) }))}
                 active={drawer}
                 panel="drawer-panel"
                 onChange={(id) => view.setState({ drawer: id })}
@@ -108,7 +105,7 @@ function Drawer({ drawer }: { drawer: DrawerName }) {
                 className="tab-panel"
                 aria-label={t(`tab.${drawer}`)}
             >
-                {part}
+                <DrawerPart drawer={drawer} />
             </div>
         </div>
     );

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* On a phone: the picture above, one sheet below with three heights. */
 import { type ReactNode, useEffect, useRef, useState } from "react";
-import { DRAWERS, type Drawer, drawerOf } from "../../model/view.ts";
-import { CodePanel } from "../code/index.ts";
-import { GraphPanel } from "../graph/index.ts";
+import { type Drawer, drawerOf, drawersOf } from "../../model/view.ts";
 import { Inspector } from "../inspector/Inspector.tsx";
 import { Resources, Setup } from "../scene/Resources.tsx";
 import { Scene } from "../scene/Scene.tsx";
 import { useEditor, useView } from "../state.ts";
 import { t } from "../texts.ts";
+import { DrawerPart } from "./DrawerPart.tsx";
 import { Region } from "./Region.tsx";
 import { Tabs } from "./Tabs.tsx";
 import "./layout.css";
@@ -21,8 +20,11 @@ const names = {
     inspector: "region.inspector",
     setup: "region.scene",
     graph: "graph.label",
+    text: "text.title",
     code: "code.title",
 } as const;
+
+const isDrawer = (tab: Tab): tab is Drawer => !always.includes(tab);
 
 const heights = ["76px", "46%", "82%"] as const;
 
@@ -51,15 +53,12 @@ export function Sheet({ picture }: { picture: ReactNode }) {
     const touched = useRef<"picture" | "sheet">("sheet");
     const code = useView((view) => view.code);
     const drawer = useView(drawerOf);
-    const graph = useView((view) => view.preferences.panels.graph);
-    const tabs: readonly Tab[] = [
-        ...always,
-        ...DRAWERS.filter((one) => (one === "graph" ? graph : code !== null)),
-    ];
+    const open = useView((view) => drawersOf(view).join(" "));
+    const tabs = [...always, ...(open.split(" ").filter(Boolean) as Drawer[])];
     /* What is opened is shown, and what was there before when it is closed. */
     // biome-ignore lint/correctness/useExhaustiveDependencies: other code is shown, too
     useEffect(() => {
-        setTab((old) => drawer ?? (old === "graph" || old === "code" ? "inspector" : old));
+        setTab((old) => drawer ?? (always.includes(old) ? old : "inspector"));
         setHeight((now) => (drawer === null ? now : 2));
     }, [drawer, code]);
     usePicked(touched, () => {
@@ -130,8 +129,7 @@ export function Sheet({ picture }: { picture: ReactNode }) {
                         {tab === "inspector" && <Inspector />}
                         {tab === "setup" && <Resources />}
                         {tab === "setup" && <Setup />}
-                        {tab === "graph" && <GraphPanel />}
-                        {tab === "code" && code !== null && <CodePanel place={code} />}
+                        {isDrawer(tab) && <DrawerPart drawer={tab} />}
                     </Region>
                 </div>
             </div>

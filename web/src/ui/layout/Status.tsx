@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The line below: what can be done next with what is selected, and whether all is saved. */
-import { Workflow } from "lucide-react";
-import { drawerOf, toggleGraph } from "../../model/view.ts";
+import { Braces, Workflow } from "lucide-react";
+import { commandById } from "../../model/commandLookup.ts";
+import { drawerOf, toggleDrawer } from "../../model/view.ts";
 import { useEditor, useView } from "../state.ts";
 import { type TextKey, t } from "../texts.ts";
 import { TOUCH, useMedia } from "../theme.ts";
@@ -33,21 +34,28 @@ const something: readonly Hint[] = [
     { key: "?", what: "hint.keys" },
 ];
 
-/* Opens the graph below the picture, and closes it. */
-function GraphTab() {
+const drawers = {
+    graph: { command: "view.graph", icon: Workflow },
+    text: { command: "view.text", icon: Braces },
+} as const;
+
+/* Opens something below the picture, and closes it. */
+function DrawerTab({ drawer }: { drawer: keyof typeof drawers }) {
     const { view } = useEditor().stores;
-    const open = useView((state) => drawerOf(state) === "graph");
+    const open = useView((state) => drawerOf(state) === drawer);
+    const { command, icon: Icon } = drawers[drawer];
+    const row = commandById(command);
     return (
-        <Tip text={t("graph.label")} keys={keyText("Alt+1")}>
+        <Tip text={row?.title ?? ""} keys={keyText(row?.keys[0])}>
             <button
                 type="button"
                 className="status-tab"
                 aria-pressed={open}
-                data-command="view.graph"
-                onClick={() => view.setState(toggleGraph)}
+                data-command={command}
+                onClick={() => view.setState(toggleDrawer(drawer))}
             >
-                <Workflow size={14} aria-hidden="true" />
-                {t("graph.title")}
+                <Icon size={14} aria-hidden="true" />
+                {t(`tab.${drawer}`)}
             </button>
         </Tip>
     );
@@ -60,7 +68,8 @@ export function Status() {
     const selected = useView((view) => view.selection.length > 0);
     return (
         <Region as="footer" name={t("region.status")} className="status">
-            <GraphTab />
+            <DrawerTab drawer="graph" />
+            <DrawerTab drawer="text" />
             <div className="status-hints">
                 {(selected ? something : nothing).map(({ key, gesture, what }) => (
                     <span key={what}>

@@ -126,7 +126,7 @@ export function exportLibrary(editor: Editor): void {
 
 export function importLibrary(editor: Editor): void {
     chooseFiles(SCENE_FILES, (files) => {
-        for (const file of files) {
+        for (const { file } of files) {
             void change(editor, async () => {
                 const { added, rows } = await editor.rest.library.importFile(await file.text());
                 const known = rows.length - added;

@@ -4,8 +4,9 @@ import { CircleHelp, FolderUp, Plus, Upload } from "lucide-react";
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { ExampleEntry, SceneEntry } from "../../link/rest.ts";
 import { search } from "../../model/search.ts";
+import { type PageFile, useDrop } from "../drop/drop.ts";
 import { chooseFiles, report, SCENE_FILES } from "../files.ts";
-import { type ImportProblem, openFiles, readFiles, type TextFile } from "../import.ts";
+import { type ImportProblem, openFiles, readFiles } from "../import.ts";
 import { ThemeButton } from "../layout/Bar.tsx";
 import { lazyPart } from "../lazy.tsx";
 import { goTo } from "../route.ts";
@@ -15,7 +16,6 @@ import { Button, IconButton } from "../widgets/Button.tsx";
 import { Filter } from "../widgets/Filter.tsx";
 import { Logo } from "../widgets/Logo.tsx";
 import { ExampleCard, Leaving, SceneCard } from "./Card.tsx";
-import { useDrop } from "./drop.ts";
 import "./scenes.css";
 
 const ImportFault = lazyPart(() => import("./ImportFault.tsx"));
@@ -104,10 +104,11 @@ export default function ScenesPage() {
     const { scenes, examples, failed, reload } = useLists();
     const { leaving, leave, stay, remove } = useLeaving(reload);
     const [problem, setProblem] = useState<ImportProblem | null>(null);
-    const take = (files: readonly TextFile[]): void => void openFiles(editor, files, setProblem);
+    const take = (files: readonly PageFile[]): void =>
+        void readFiles(files).then((texts) => openFiles(editor, texts, setProblem));
     const dropping = useDrop(take);
     const choose = (folder: boolean) => (): void =>
-        chooseFiles(folder ? "folder" : SCENE_FILES, async (files) => take(await readFiles(files)));
+        chooseFiles(folder ? "folder" : SCENE_FILES, take);
     const start = async (make: () => Promise<string>): Promise<void> => {
         try {
             goTo(await make());

@@ -29,6 +29,7 @@ import { Strip } from "./Strip.tsx";
 import { Trial } from "./Trial.tsx";
 import "./view.css";
 
+const Drops = lazyPart(() => import("../drop/Drops.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
@@ -48,6 +49,7 @@ export function View() {
                 <Outputs />
             </div>
             <AxesBall />
+            <Drops />
             <div className="view-bottom">
                 <Aim />
                 <Measured />

@@ -1,26 +1,42 @@
 /* SPDX-License-Identifier: MIT */
-/* Files and folders dropped anywhere on the page; answers whether some hover now. */
+/* Files and folders dropped anywhere on the page; answers whether some hover now. What takes files
+ * itself has `data-takes-files`. */
 import { useEffect, useRef, useState } from "react";
-import { readFiles, type TextFile } from "../import.ts";
 
 /* More files than this are no folder of a scene. */
 const MOST_FILES = 500;
 
-export function useDrop(onFiles: (files: readonly TextFile[]) => void): boolean {
+/* A file by its path inside of what was chosen or dropped. */
+export interface PageFile {
+    readonly path: string;
+    readonly file: File;
+}
+
+export const pathOf = (file: File): PageFile => ({
+    path: file.webkitRelativePath || file.name,
+    file,
+});
+
+const takesItself = ({ target }: DragEvent): boolean =>
+    target instanceof Element && target.closest("[data-takes-files]") !== null;
+
+const holdsFile = ({ dataTransfer }: DragEvent): boolean =>
+    dataTransfer?.types.includes("Files") ?? false;
+
+export function useDrop(onFiles: (files: readonly PageFile[]) => void): boolean {
     const [hovering, setHovering] = useState(false);
     const latest = useRef(onFiles);
     latest.current = onFiles;
     useEffect(() => {
         const listening = new AbortController();
-        const options = { signal: listening.signal };
-        const holdsFile = (event: DragEvent): boolean =>
-            event.dataTransfer?.types.includes("Files") ?? false;
+        /* Before an editor of text, which would type the file. */
+        const options = { signal: listening.signal, capture: true };
         window.addEventListener(
             "dragover",
             (event) => {
                 if (holdsFile(event)) {
                     event.preventDefault();
-                    setHovering(true);
+                    setHovering(!takesItself(event));
                 }
             },
             options,
@@ -34,8 +50,9 @@ export function useDrop(onFiles: (files: readonly TextFile[]) => void): boolean 
             "drop",
             (event) => {
                 setHovering(false);
-                if (event.dataTransfer && holdsFile(event)) {
+                if (event.dataTransfer && holdsFile(event) && !takesItself(event)) {
                     event.preventDefault();
+                    event.stopPropagation();
                     void dropped(event.dataTransfer).then((files) => latest.current(files));
                 }
             },
@@ -47,13 +64,13 @@ export function useDrop(onFiles: (files: readonly TextFile[]) => void): boolean 
 }
 
 /* What a drop holds has to be asked for at once; folders are read afterwards. */
-async function dropped(data: DataTransfer): Promise<readonly TextFile[]> {
+async function dropped(data: DataTransfer): Promise<readonly PageFile[]> {
     const entries = [...data.items].map((item) => item.webkitGetAsEntry?.() ?? null);
     const files = [...data.files];
     if (!entries.some((entry) => entry?.isDirectory)) {
-        return readFiles(files);
+        return files.map(pathOf);
     }
-    const found: TextFile[] = [];
+    const found: PageFile[] = [];
     for (const entry of entries) {
         if (entry) {
             await collect(entry, found);
@@ -62,7 +79,7 @@ async function dropped(data: DataTransfer): Promise<readonly TextFile[]> {
     return found;
 }
 
-async function collect(entry: FileSystemEntry, found: TextFile[]): Promise<void> {
+async function collect(entry: FileSystemEntry, found: PageFile[]): Promise<void> {
     if (found.length >= MOST_FILES || entry.name.startsWith(".")) {
         return;
     }
@@ -71,7 +88,7 @@ async function collect(entry: FileSystemEntry, found: TextFile[]): Promise<void>
             (entry as FileSystemFileEntry).file(take, fail),
         );
         if (/\.json$/i.test(file.name)) {
-            found.push({ path: entry.fullPath.replace(/^\//, ""), text: await file.text() });
+            found.push({ path: entry.fullPath.replace(/^\//, ""), file });
         }
         return;
     }
