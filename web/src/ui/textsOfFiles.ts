@@ -1,6 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* The page's texts about scenes as text and as files: a part of the table in texts.ts. */
+/* The page's texts about lists of scenes, scenes as text and as files: a part of the table in
+ * texts.ts. */
 export const FILE_TEXTS = {
+    "scenes.title": "Your scenes",
+    "scenes.examples": "Start from an example",
+    "scenes.search": "Search the examples",
+    "scenes.examplesDoc": "A copy opens; the example stays as it is.",
+    "scenes.new": "New scene",
+    "scenes.upload": "Upload",
+    "scenes.folder": "Import a folder of scene, model and material files",
+    "scenes.none": "Nothing here yet. Open an example, or start with an empty scene.",
+    "scenes.meta": "{nodes} nodes · {age}",
+    "scenes.meta.one": "1 node · {age}",
+    "scenes.viewers": "{count} viewers",
+    "scenes.viewers.one": "1 viewer",
+    "scenes.rename": "Rename",
+    "scenes.delete": "Delete",
+    "scenes.duplicate": "Duplicate",
+    "scenes.more": "Actions for {name}",
+    "scenes.nameOf": "New name of {name}",
+    "scenes.deleted": "“{name}” is deleted.",
+    "scenes.failed": "The scenes could not be read: {message}",
+    "scenes.tagline": "Sculpt with distance fields, live.",
     "scenes.drop": "Drop scene files or a folder to open them",
     "import.refused": "These files were not opened",
     "import.which": "Which scene?",

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* The page's texts about the library: a part of the table in texts.ts. */
+export const LIBRARY_TEXTS = {
+    "library.title": "My library",
+    "library.doc": "What is kept here is offered in every scene. Scenes take copies.",
+    "library.search": "Search My library",
+    "library.empty": "Nothing here yet.",
+    "library.emptyHow":
+        "Open the menu of a node, a material or a primitive and choose “Save to My library”.",
+    "library.none": "Nothing in it matches “{query}”.",
+    "library.loading": "Reading My library …",
+    "library.kind.primitive": "Primitive",
+    "library.kind.material": "Material",
+    "library.kind.model": "Model",
+    "library.nodes": "{kind} · {count} nodes",
+    "library.offer.primitive": "A primitive of My library.",
+    "library.offer.material": "A material of My library.",
+    "library.offer.model": "A model of My library.",
+    "library.gives": "For what is selected.",
+    "library.brings": "Among the materials of the scene.",
+    "library.add": "Add {name} to the scene",
+    "library.save": "Save to My library",
+    "library.export": "Export",
+    "library.import": "Import",
+    "library.file": "my-library",
+    "library.saved": "“{name}” is in My library.",
+    "library.deleted": "“{name}” is deleted from My library.",
+    "library.imported": "{count} entries are new in My library.",
+    "library.imported.one": "1 entry is new in My library.",
+    "library.known": "{count} were there already.",
+    "library.known.one": "1 was there already.",
+} as const;
