@@ -140,7 +140,8 @@ describe('the gizmo', () => {
         await page.keyboard.press('Escape');
         await page.mouse.up();
         await until(async () => (await stage.document(id)) === start, 'the document as it was');
-        assert.equal(await page.getByRole('button', { name: /^Undo/ }).first().isEnabled(), false);
+        const undo = page.getByRole('button', { name: /^Undo/ }).first();
+        await until(() => undo.isDisabled(), 'no step in the page');
     });
 
     test('a light that is chosen has one too', async () => {
