@@ -39,7 +39,7 @@ function Shown({ aov, name }: { aov: string; name: string }) {
                         aria-label={t("output.menu", { name })}
                     >
                         <Layers2 size={14} aria-hidden="true" />
-                        {name}
+                        <span className="outputs-name">{name}</span>
                     </button>
                 }
             >
