@@ -69,7 +69,10 @@ test(`a mug takes at most ${MOST_ACTS} acts`, async () => {
     await document((d) => only(d, 'cylinder').transform.translation[1] > 0.05, 'a tool above the bottom');
     await act('click the cut in the tree', () => row(page, 'smooth_difference-1').click());
     await add('the handle', 'link', 'blend');
-    await act('drag it to the side', async () => pull(await arrow(0), 2.6));
+    await act('drag it to the side', async () => {
+        const [from, { x, y }] = [await arrow(0), await middle()];
+        await pull(from, 1 + 135 / Math.hypot(from.x - x, from.y - y));
+    });
     await document((d) => only(d, 'link').transform.translation[0] > 0.3, 'a handle at the side');
     await act('drag it shorter', async () => pull(await handle('length'), 0.3));
     await document((d) => only(d, 'link').params?.length < 0.4, 'a shorter handle');
