@@ -328,8 +328,8 @@ static void test_scenes_take_turns(void **state)
     send_cancel(LARGE);
 }
 
-/* What takes no time is no turn: beginning, handing over rows, ending. The picture is as small as the
- * smallest tile, so that it has one, however slow the machine is. */
+/* What takes no time is no turn: beginning, handing over rows, ending. The picture is as small as
+ * the smallest tile, so that it has one, however slow the machine is. */
 static void test_one_tile_takes_one_turn(void **state)
 {
     enum { SMALL = 8, LARGE = 100 };
