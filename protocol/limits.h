@@ -49,9 +49,13 @@
     X(CODE_ARRAY, "code_array", 64, "elements", "one array in code")                               \
     X(CODE_ARRAY_BYTES, "code_array_bytes", 2048, "bytes",                                         \
       "all arrays in code, with every call written out")                                           \
-    X(EQUATION_BYTES, "equation_bytes", 4096, "bytes", "an equation")                              \
-    X(EQUATION_NODES, "equation_nodes", 256, "operations", "different ones of an equation")        \
-    X(EQUATION_WEIGHT, "equation_weight", 4096, "operations",                                      \
+    X(EQUATION_BYTES, "equation_bytes", 16384, "bytes", "an equation")                             \
+    X(EQUATION_NODES, "equation_nodes", 2048, "operations", "different ones of an equation")       \
+    X(EQUATION_OPERATIONS, "equation_operations", 256, "operations",                               \
+      "the same of an equation that is no polynomial of polynomial_degree")                        \
+    X(POLYNOMIAL_DEGREE, "polynomial_degree", 18, "factors",                                       \
+      "an equation that is drawn by its coefficients, at most 1,330")                              \
+    X(EQUATION_WEIGHT, "equation_weight", 16384, "operations",                                     \
       "an equation with all definitions written out")                                              \
     X(EQUATION_DEPTH, "equation_depth", 64, "levels", "nesting of an equation")                    \
     X(EQUATION_EXPONENT, "equation_exponent", 64, "factors", "a whole exponent")                   \

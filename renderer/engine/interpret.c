@@ -72,7 +72,7 @@ static void select_all(vb m, const vf *from, vf *to, int count)
 /* Around the point, of one whose distance is v->d[in->a]. */
 static vf looseness(const struct machine *v, const struct operation *in)
 {
-    if (!in->code) {
+    if (!in->unsteady) {
         return vf_zero;
     }
     const float *cut = v->c->own + 4 * (FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);

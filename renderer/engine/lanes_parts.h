@@ -14,6 +14,7 @@ struct operation {
     uint8_t op;           /* enum field_op */
     bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
     bool prunes;          /* FIELD_COMBINE: an operand may be left out */
+    bool unsteady;        /* FIELD_SHAPE: it has a number FIELD_UNSTEADY */
     uint8_t rule, kernel; /* FIELD_COMBINE: enum sdf_rule; its choice */
     uint16_t a, b, point, out;
     uint32_t numbers, seen;

@@ -95,6 +95,7 @@ static bool make(const struct engine_program *program, struct operation *out,
                               .out = in->out,
                               .numbers = in->numbers,
                               .seen = in->seen};
+    out->unsteady = in->op == FIELD_SHAPE && (!in->sdf || in->choices == FIELD_POLYNOMIAL);
     if (in->op == FIELD_SHAPE && !in->sdf) {
         out->code = &program->codes[in->choices];
         return true;

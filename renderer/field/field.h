@@ -52,7 +52,7 @@ struct field_instruction {
     uint16_t a, b;                /* distance slots */
     uint16_t point, out;          /* point slots; 0 is the point asked for */
     /* What enumerated parameters hold, eight bits each, the last lowest; of a shape of a user's
-     * code: which of field.codes it is. */
+     * code: which of field.codes it is; of a polynomial FIELD_POLYNOMIAL. */
     uint32_t choices;
     uint32_t numbers;   /* first vec4 of what it reads */
     uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
@@ -94,6 +94,8 @@ enum {
  * no faster than the way, none is below minus it: see equation_unsteady(). 0: all are steady. */
 enum { FIELD_HEAD_VEC4S = 2, FIELD_CUT_VEC4S = 2, FIELD_CUT_NUMBERS = 5, FIELD_UNSTEADY = 4 };
 #define FIELD_UNCUT 1e9 /* half of a box without an end */
+/* Behind these of a polynomial: the numbers of renderer/sdf/polynomial.h. */
+#define FIELD_POLYNOMIAL UINT32_MAX
 
 /* A guard's two vec4s: (centre of the box, from the slot's lengths to the scene's), (half, 0).
  *

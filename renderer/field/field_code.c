@@ -106,12 +106,36 @@ static void fail_equation(struct builder *b, const struct equation_errors *error
     builder_fail(b, &err, place);
 }
 
-static int add_equation(struct builder *b, const struct field_call *call)
+struct equation *field_call_equation(struct builder *b, const struct field_call *call)
 {
     struct equation_errors errors;
     struct equation *equation = equation_read(call->text, equation_letters, &errors);
     if (!equation) {
         fail_equation(b, &errors, call->place);
+    }
+    return equation;
+}
+
+/* Code is bounded by what it takes to run it. */
+static bool check_operations(struct builder *b, const struct equation *equation, const char *place)
+{
+    struct error err = {0};
+    if (equation->count <= LIMIT_EQUATION_OPERATIONS) {
+        return true;
+    }
+    error_set_at(&err, ERROR_LIMIT, "", 1, 1,
+                 "%zu different operations and no polynomial of degree %d at most "
+                 "(polynomial_degree), above the maximum %d (equation_operations)",
+                 equation->count, LIMIT_POLYNOMIAL_DEGREE, LIMIT_EQUATION_OPERATIONS);
+    builder_fail(b, &err, place);
+    return false;
+}
+
+static int add_equation(struct builder *b, const struct field_call *call)
+{
+    struct equation *equation = field_call_equation(b, call);
+    if (!equation || !check_operations(b, equation, call->place)) {
+        free(equation);
         return -1;
     }
     char *text = equation_code(equation, equation_letters, call->form);

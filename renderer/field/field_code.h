@@ -14,6 +14,10 @@ int field_code_add(struct builder *b, enum code_use use, const char *text,
 struct field_call;
 int field_call_add(struct builder *b, const struct field_call *call);
 
+/* The equation of a shape that has one; the caller frees it. NULL, and the builder's error: it
+ * cannot be read. */
+struct equation *field_call_equation(struct builder *b, const struct field_call *call);
+
 /* BUILDER_HASH_START, or what was hashed before, with a text behind it. */
 uint64_t field_text_hash(uint64_t state, const char *text);
 

@@ -3,9 +3,14 @@
 #include "field_shape.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "field_code.h"
 #include "field_materials.h"
+#include "protocol/memory.h"
+#include "renderer/code/equation_expand.h"
+#include "renderer/sdf/polynomial.h"
 
 uint32_t field_choices(const struct record *params)
 {
@@ -104,23 +109,82 @@ static struct bounds fill_cut(const struct field_call *call, double scale,
     return box;
 }
 
+/* The head of its numbers. */
+static void fill_form(const struct field_call *call, const double *numbers, int degree,
+                      double out[4 * POLYNOMIAL_HEAD])
+{
+    const double thickness = numbers[4] / call->extent;
+    const double head[4 * POLYNOMIAL_HEAD] = {call->size[0] / 2,
+                                              call->size[1] / 2,
+                                              call->size[2] / 2,
+                                              call->extent,
+                                              call->form.ball ? numbers[3] : 0,
+                                              call->form.sheet ? thickness : -1,
+                                              degree,
+                                              polynomial_rest_rows(degree),
+                                              EQUATION_MARGIN * call->extent,
+                                              EQUATION_REACH,
+                                              call->form.sheet ? thickness / 16 : 0,
+                                              0};
+    memcpy(out, head, sizeof head);
+}
+
+/* An equation that is a polynomial: its coefficients are numbers of the field. */
+static struct result emit_polynomial(struct builder *b, const struct node *node,
+                                     const struct frame *frame, uint16_t slot, uint32_t number,
+                                     const struct field_call *call,
+                                     const struct equation *equation)
+{
+    enum { LETTERS = 5 }; /* behind size, radius and thickness */
+    const int degree = equation_degree(equation);
+    const size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S, rows = polynomial_rows(degree);
+    const int count = 4 * (int)(POLYNOMIAL_HEAD + rows);
+    double declared[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
+    double c[POLYNOMIAL_COEFFICIENTS_MAX], *numbers = memory_alloc((size_t)count, sizeof *numbers);
+    const struct bounds box = fill_cut(call, frame->scale, cut);
+    fill_head(b, frame, 1, number, head);
+    sdf_numbers(call->params, call->values, declared);
+    fill_form(call, declared, degree, numbers);
+    equation_expand(equation, declared + LETTERS, call->extent, degree, c);
+    polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
+    const uint32_t block =
+        builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + POLYNOMIAL_HEAD + rows);
+    const uint32_t arguments = builder_add_arguments(
+        b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
+    builder_put(b, block, 0, arguments, 12, frame->matrix);
+    builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
+    builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS,
+                FIELD_CUT_NUMBERS, cut);
+    builder_put(b, block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
+                arguments + 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS, count, numbers);
+    free(numbers);
+    builder_add_trips(b, (uint64_t)polynomial_trips(degree));
+    add_leaf(b, number, node);
+    builder_add_instruction(b, (struct field_instruction){.op = FIELD_SHAPE,
+                                                          .type = node->type,
+                                                          .sdf = &sdf_polynomial,
+                                                          .a = slot,
+                                                          .point = frame->point,
+                                                          .choices = FIELD_POLYNOMIAL,
+                                                          .numbers = block,
+                                                          .arguments = arguments});
+    return (struct result){.solid = true, .shown = true, .box = box};
+}
+
 /* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
 static struct result emit_code(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, uint32_t number)
+                               const struct frame *frame, uint16_t slot, uint32_t number,
+                               const struct field_call *call)
 {
-    struct field_call call;
-    if (!field_call_of(b->scene, node, &call)) {
-        return (struct result){0};
-    }
-    int index = field_call_add(b, &call);
+    const int index = field_call_add(b, call);
     if (index < 0) {
         return (struct result){0};
     }
     const struct field_code *code = &b->field->codes[index];
     double numbers[SDF_NUMBERS_MAX], cut[FIELD_CUT_NUMBERS], head[FIELD_HEAD_NUMBERS];
-    const struct bounds box = fill_cut(&call, frame->scale, cut);
-    fill_head(b, frame, call.lipschitz, number, head);
-    int count = sdf_numbers(call.params, call.values, numbers);
+    const struct bounds box = fill_cut(call, frame->scale, cut);
+    fill_head(b, frame, call->lipschitz, number, head);
+    int count = sdf_numbers(call->params, call->values, numbers);
     size_t heads = FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S;
     uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + (size_t)code->vec4s);
     uint32_t arguments =
@@ -129,7 +193,7 @@ static struct result emit_code(struct builder *b, const struct node *node,
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
     builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS,
                 FIELD_CUT_NUMBERS, cut);
-    builder_put_params(b, call.params, call.values, NULL, 1,
+    builder_put_params(b, call->params, call->values, NULL, 1,
                        block + (uint32_t)heads + FIELD_CUT_VEC4S, 0,
                        arguments + 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS);
     builder_add_trips(b, (uint64_t)code_trips(code->code));
@@ -144,12 +208,33 @@ static struct result emit_code(struct builder *b, const struct node *node,
     return (struct result){.solid = true, .shown = true, .box = box};
 }
 
+static struct result emit_called(struct builder *b, const struct node *node,
+                                 const struct frame *frame, uint16_t slot, uint32_t number)
+{
+    struct field_call call;
+    struct result result = {0};
+    if (!field_call_of(b->scene, node, &call)) {
+        return result;
+    }
+    if (!call.is_equation) {
+        return emit_code(b, node, frame, slot, number, &call);
+    }
+    struct equation *equation = field_call_equation(b, &call);
+    if (equation && equation_degree(equation) >= 0) {
+        result = emit_polynomial(b, node, frame, slot, number, &call, equation);
+    } else if (equation) {
+        result = emit_code(b, node, frame, slot, number, &call);
+    }
+    free(equation);
+    return result;
+}
+
 struct result field_emit_shape(struct builder *b, const struct node *node,
                                const struct frame *frame, uint16_t slot, uint32_t number)
 {
     struct result result = {.solid = true, .shown = true};
     if (node->type->kind == KIND_CODE || node->type->kind == KIND_EQUATION) {
-        result = emit_code(b, node, frame, slot, number);
+        result = emit_called(b, node, frame, slot, number);
     } else {
         const struct sdf *sdf = sdf_find(node->type);
         emit_shape(b, node, sdf, frame, slot, number);

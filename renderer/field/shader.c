@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "renderer/sdf/polynomial.h"
+
 /* The numbers of strings that #line gives to users' code. */
 enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
 
@@ -106,7 +108,11 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
         fprintf(w->out, ";\n");
     }
     fprintf(w->out, w->surface ? "h%u = vec3(hidden(" : "d%u = hidden(", in->a);
-    if (in->sdf) {
+    if (in->choices == FIELD_POLYNOMIAL) {
+        fprintf(w->out, "polynomial(");
+        write_local(w, in);
+        fprintf(w->out, ", %u) * N(%u).x", head + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S, head);
+    } else if (in->sdf) {
         fprintf(w->out, "%s(", in->type->glsl);
         write_local(w, in);
         fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
@@ -486,7 +492,7 @@ char *shader_surface(const struct field *field)
 
 bool shader_has_kernel(const struct node_type *type, enum shader_kernel kernel)
 {
-    const struct sdf *sdf = sdf_find(type);
+    const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
     const struct sdf_domain *domain = sdf ? sdf->domain : NULL;
     switch (kernel) {
     case KERNEL_SHAPE:
@@ -534,7 +540,8 @@ void shader_kernel(FILE *out, const char *name, const struct node_type *type, ui
         [KERNEL_AFTER] = {"float", "float d0, vec3 p0", "_after"},
     };
     const struct field none = {0};
-    struct field_instruction in = {.type = type, .sdf = sdf_find(type), .b = 1, .choices = choices};
+    const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
+    struct field_instruction in = {.type = type, .sdf = sdf, .b = 1, .choices = choices};
     struct writer w = {.out = out, .field = &none};
     in.op = kernel == KERNEL_COMBINE || kernel == KERNEL_SHARE ? FIELD_COMBINE : FIELD_DISTANCE;
     fprintf(out, "%s %s(%s)\n{\n", rows[kernel].result, name, rows[kernel].parameters);

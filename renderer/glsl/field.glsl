@@ -7,6 +7,7 @@
 #include "guard.glsl"
 #include "modifiers.glsl"
 #include "operations.glsl"
+#include "polynomial.glsl"
 #include "shapes.glsl"
 #include "solids.glsl"
 #include "through.glsl"

@@ -20,6 +20,9 @@ layout(std140, binding = BINDING_NUMBERS) uniform Numbers {
 #define N_ANY(i) numbers[i]
 #endif
 
+/* What a shape reads of its own block, from a constant on. */
+#define N_FROM(i) N_ANY(i)
+
 #ifdef NUMBERS_PRELOAD
 vec4 preloaded[NUMBERS_PRELOADED];
 

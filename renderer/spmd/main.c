@@ -20,7 +20,8 @@ static const struct glsl_file own[] = {
                          "bool field_waits(float d);\n"},
     {"field_surface.glsl", "#include \"surface.glsl\"\n"
                            "void surface(vec3 p, Shading at, out Surface s);\n"},
-    {"numbers.glsl", "#define N(i) own_number(i)\n#define N_ANY(i) number(i)\n"},
+    {"numbers.glsl", "#define N(i) own_number(i)\n#define N_ANY(i) number(i)\n"
+                     "#define N_FROM(i) own_number(i)\n"},
     {NULL, NULL},
 };
 
@@ -67,7 +68,9 @@ static void write_kernels(FILE *out, bool table)
 {
     for (size_t i = 0; i < node_type_count(); i++) {
         const struct node_type *type = node_type_at(i);
-        if (sdf_find(type)) {
+        if (type->kind == KIND_EQUATION) {
+            write_kernel(out, type, FIELD_POLYNOMIAL, KERNEL_SHAPE, table);
+        } else if (sdf_find(type)) {
             write_choices(out, type, type->record.params, 0, table);
         }
     }

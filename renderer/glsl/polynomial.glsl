@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* Surfaces by polynomials (renderer/sdf/polynomial.h), as in renderer/sdf/polynomial.c. */
+
+/* Around p up to the third order: (value, bounds of the first, second and third order). Series in
+ * the ways along x, y and z are cut at that order: `s` in z, `r` in y and z, `a` in all. */
+vec4 polynomial_orders(vec3 p, int at, int degree)
+{
+    vec4 a0 = vec4(0.0), r0, s, c;
+    vec3 a1 = vec3(0.0), a4 = vec3(0.0), r1;
+    vec2 a2 = vec2(0.0), a5 = vec2(0.0), a7 = vec2(0.0), r2;
+    float a3 = 0.0, a6 = 0.0, a8 = 0.0, a9 = 0.0, r3;
+    for (int i = 0; i <= degree; i++) {
+        int rows = int(N_FROM(at).x);
+        at++;
+        r0 = vec4(0.0);
+        r1 = vec3(0.0);
+        r2 = vec2(0.0);
+        r3 = 0.0;
+        for (int j = 0; j < rows; j++) {
+            c = N_FROM(at);
+            at++;
+            int more = int(c.x);
+            s = vec4(c.y, 0.0, 0.0, 0.0);
+            s = s * p.z + vec4(c.z, s.xyz);
+            s = s * p.z + vec4(c.w, s.xyz);
+            for (int k = 0; k < more; k++) {
+                c = N_FROM(at);
+                at++;
+                s = s * p.z + vec4(c.x, s.xyz);
+                s = s * p.z + vec4(c.y, s.xyz);
+                s = s * p.z + vec4(c.z, s.xyz);
+                s = s * p.z + vec4(c.w, s.xyz);
+            }
+            r3 = r3 * p.y + r2.x;
+            r2 = r2 * p.y + r1.xy;
+            r1 = r1 * p.y + r0.xyz;
+            r0 = r0 * p.y + s;
+        }
+        a9 = a9 * p.x + a7.x;
+        a8 = a8 * p.x + a5.x;
+        a7 = a7 * p.x + a4.xy;
+        a6 = a6 * p.x + a2.x;
+        a5 = a5 * p.x + a1.xy;
+        a4 = a4 * p.x + a0.xyz;
+        a3 = a3 * p.x + r3;
+        a2 = a2 * p.x + r2;
+        a1 = a1 * p.x + r1;
+        a0 = a0 * p.x + r0;
+    }
+    vec3 first = vec3(a4.x, a1.x, a0.y);
+    vec3 even = vec3(a7.x, a2.x, a0.z), odd = vec3(a5.x, a4.y, a1.y);
+    vec4 cubes = vec4(a9, a3, a0.w, 0.0);
+    vec3 one = vec3(a8, a7.y, a6), two = vec3(a4.z, a2.y, a1.z);
+    return vec4(a0.x, length(first), sqrt(dot(even, even) + 0.5 * dot(odd, odd)),
+                sqrt(dot(cubes, cubes) + (dot(one, one) + dot(two, two)) / 3.0 +
+                     a5.y * a5.y / 6.0));
+}
+
+/* All higher orders within `radius` of the origin as one of the fourth. */
+float polynomial_rest(int at, int count, float radius)
+{
+    float sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        vec4 c = N_FROM(at + i);
+        sum = (((sum * radius + c.x) * radius + c.y) * radius + c.z) * radius + c.w;
+    }
+    return sum;
+}
+
+/* What f may change by on a way r, and that by r: orders b, and the fourth. */
+vec2 polynomial_change(vec3 b, float fourth, float r)
+{
+    return vec2((((fourth * r + b.z) * r + b.y) * r + b.x) * r,
+                ((4.0 * fourth * r + 3.0 * b.z) * r + 2.0 * b.y) * r + b.x);
+}
+
+/* The way on which f may change by `f`, at most `most`: Newton's method from above, where it
+ * converges, then the chord, which is below. */
+float polynomial_way(float f, vec3 b, float fourth, float most)
+{
+    float r = min(min(f / b.x, sqrt(f / b.y)), min(sqrt(sqrt(f / max(fourth, 1e-18))), most));
+    for (int i = 0; i < 3; i++) {
+        vec2 change = polynomial_change(b, fourth, r);
+        r -= max(change.x - f, 0.0) / change.y;
+    }
+    return r * min(1.0, f / max(polynomial_change(b, fourth, r).x, 1e-30));
+}
+
+/* A sheet: |f| at most half of the thickness times the slope within a grain. */
+float polynomial_sheet(float f, vec3 b, float fourth, float thickness, float grain, float most)
+{
+    float half_thickness = 0.5 * thickness;
+    float begin = half_thickness * polynomial_change(b, fourth, grain).y;
+    float s = most, whole = begin;
+    for (int i = 0; i < 4; i++) {
+        float t = s + grain;
+        float bend = (12.0 * fourth * t + 6.0 * b.z) * t + 2.0 * b.y;
+        vec2 change = polynomial_change(b, fourth, s);
+        whole = change.x + half_thickness * polynomial_change(b, fourth, t).y;
+        s = i < 3 ? s - max(whole - f, 0.0) / (change.y + half_thickness * bend) : s;
+    }
+    float outside = s * min(1.0, (f - begin) / max(whole - begin, 1e-30));
+    return f > begin ? outside : max(half_thickness * (f / begin - 1.0), -half_thickness);
+}
+
+/* Within the clip, in parts of its extent. */
+float polynomial_within(vec3 p, int at)
+{
+    vec4 form = N_FROM(at + 1), steps = N_FROM(at + 2);
+    int count = int(form.w), rest = at + 3;
+    vec4 orders = polynomial_orders(p, rest + count, int(form.z));
+    vec3 b = max(orders.yzw, 1e-18);
+    float f = abs(orders.x), fourth = 0.0, radius = length(p);
+    float most = polynomial_way(f, b, 0.0, steps.y), d = most;
+    if (count > 0) {
+        fourth = polynomial_rest(rest, count, radius + most + steps.z);
+        float less = polynomial_way(f, b, fourth, most);
+        float between = sqrt(less * most);
+        float other = polynomial_rest(rest, count, radius + between + steps.z);
+        float more = polynomial_way(f, b, other, between);
+        d = max(less, more);
+        fourth = more > less ? other : fourth;
+    }
+    if (form.y >= 0.0) {
+        return polynomial_sheet(f, b, fourth, form.y, steps.z, d);
+    }
+    return orders.x < 0.0 ? -d : d;
+}
+
+float polynomial(vec3 p, int at)
+{
+    vec4 clip = N_FROM(at);
+    float radius = N_FROM(at + 1).x;
+    bool ball = radius > 0.0;
+    vec3 near = ball ? p * min(1.0, radius / max(length(p), 1e-18)) : clamp(p, -clip.xyz, clip.xyz);
+    float outside = distance(p, near);
+    if (outside > N_FROM(at + 2).x) {
+        return outside;
+    }
+    vec3 faces = abs(p) - clip.xyz;
+    float face = ball ? length(p) - radius : max(faces.x, max(faces.y, faces.z));
+    float d = polynomial_within(near / clip.w, at) * clip.w;
+    return outside > 0.0 ? length(vec2(outside, max(d, 0.0))) : max(d, face);
+}
