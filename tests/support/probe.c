@@ -44,6 +44,7 @@ static const char head_texture[] = "layout(binding = 1) uniform samplerBuffer nu
                                    "#define AT(i) texelFetch(numbers, i)\n";
 static const char head_access[] = "int first_number;\n"
                                   "#define N_ANY(i) AT(first_number + (i))\n"
+                                  "#define N_FROM(i) N_ANY(i)\n"
                                   "#define N(i) AT(FIRST + (i))\n";
 static const char head[] =
     "#include \"field.glsl\"\n#include \"mixture.glsl\"\n"
