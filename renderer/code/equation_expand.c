@@ -292,8 +292,7 @@ void equation_expand(const struct equation *equation, const double *letters, dou
     for (size_t i = 0; i < equation->count; i++) {
         const struct equation_node *node = &equation->nodes[i];
         if (used[i]) {
-            parts[i] =
-                expand(node, &parts[node->args[0]], &parts[node->args[1]], letters, extent);
+            parts[i] = expand(node, &parts[node->args[0]], &parts[node->args[1]], letters, extent);
         }
     }
     add(&whole, &parts[equation->left], turned ? -1 : 1);

@@ -51,7 +51,8 @@ static char *write_numbers(const struct field *field)
     struct text text;
 
     text_begin(&text);
-    fputs("#define N(i) numbers[i]\n#define N_ANY(i) numbers[i]\n#define N_FROM(i) numbers[i]\nvoid preload() {}\n"
+    fputs("#define N(i) numbers[i]\n#define N_ANY(i) numbers[i]\n#define N_FROM(i) numbers[i]\n"
+          "void preload() {}\n"
           "const vec4 numbers[] = vec4[](\n    ",
           text.out);
     for (size_t i = 0; i < field->vec4_count; i++) {

@@ -132,8 +132,7 @@ static void fill_form(const struct field_call *call, const double *numbers, int 
 /* An equation that is a polynomial: its coefficients are numbers of the field. */
 static struct result emit_polynomial(struct builder *b, const struct node *node,
                                      const struct frame *frame, uint16_t slot, uint32_t number,
-                                     const struct field_call *call,
-                                     const struct equation *equation)
+                                     const struct field_call *call, const struct equation *equation)
 {
     enum { LETTERS = 5 }; /* behind size, radius and thickness */
     const int degree = equation_degree(equation);
@@ -147,10 +146,9 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
     fill_form(call, declared, degree, numbers);
     equation_expand(equation, declared + LETTERS, call->extent, degree, c);
     polynomial_write(degree, c, numbers + (size_t)(4 * POLYNOMIAL_HEAD));
-    const uint32_t block =
-        builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + POLYNOMIAL_HEAD + rows);
-    const uint32_t arguments = builder_add_arguments(
-        b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
+    const uint32_t block = builder_add_vec4s(b, heads + FIELD_CUT_VEC4S + POLYNOMIAL_HEAD + rows);
+    const uint32_t arguments =
+        builder_add_arguments(b, 12 + FIELD_HEAD_NUMBERS + FIELD_CUT_NUMBERS + (size_t)count);
     builder_put(b, block, 0, arguments, 12, frame->matrix);
     builder_put(b, block + FIELD_MATRIX_VEC4S, 0, arguments + 12, FIELD_HEAD_NUMBERS, head);
     builder_put(b, block + (uint32_t)heads, 0, arguments + 12 + FIELD_HEAD_NUMBERS,

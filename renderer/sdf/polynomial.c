@@ -20,7 +20,7 @@ static int further_rows(int length)
 
 size_t polynomial_rows(int degree)
 {
-    size_t rows = (size_t)(degree + 1 + polynomial_rest_rows(degree));
+    size_t rows = (size_t)degree + 1 + (size_t)polynomial_rest_rows(degree);
     for (int i = 0; i <= degree; i++) {
         for (int j = 0; j <= degree - i; j++) {
             rows += 1 + (size_t)further_rows(degree - i - j + 1);
@@ -91,7 +91,7 @@ void polynomial_write(int degree, const double *c, double *out)
     memset(out, 0, 4 * polynomial_rows(degree) * sizeof *out);
     norms(degree, c, own);
     for (int m = 4; m <= degree; m++) {
-        out[rest - 1 - (m - 4)] = own[m] * (m * (m - 1) * (m - 2) * (m - 3) / 24);
+        out[rest - 1 - (m - 4)] = own[m] * m * (m - 1) * (m - 2) * (m - 3) / 24;
     }
     out += rest;
     for (int i = degree; i >= 0; i--) {
