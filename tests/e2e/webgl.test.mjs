@@ -146,6 +146,7 @@ const SCENES = [
     'protocol/examples/csg',
     'protocol/examples/glass',
     'protocol/examples/own-code',
+    'protocol/examples/surface-kummer',
     'tests/golden/volumes/noise/scene',
 ];
 for (const name of SCENES) {
