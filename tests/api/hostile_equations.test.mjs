@@ -171,16 +171,18 @@ for (const [what, equation, column, why] of TEXTS) {
     });
 }
 
+/** A polynomial of degree 3 in both letters with all its terms. */
+function everyTerm(first) {
+    const powers = [0, 1, 2, 3].flatMap((i) => [0, 1, 2, 3].map((k) => `s^${i}*t^${k}`));
+    return powers.map((power, i) => `${long((first + i) % 12)}*${power}`).join('+');
+}
+
 test('a surface that takes too long: frames come until it is ended by its limit', async () => {
     let answered = false;
     const asked = fetch(`${daemon.url}/v1/implicitize`, {
         method: 'POST',
         headers: { 'content-type': 'application/json' },
-        body: JSON.stringify({
-            x: `s^3*t^3+${long(0)}*s-2t^2+${long(1)}s^2*t`,
-            y: `2s^3*t^3+${long(2)}s^3-t+${long(3)}s*t-${long(4)}t^3*s^2`,
-            z: `s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`,
-        }),
+        body: JSON.stringify({ x: everyTerm(0), y: everyTerm(5), z: everyTerm(9) }),
     }).finally(() => (answered = true));
     await until(() => algebraLeft().length === 1, 'the process of the algebra');
     for (let i = 0; i < 20; i += 1) {
