@@ -14,6 +14,7 @@ const struct record_type delivery_type = {"delivery", "How a picture comes to wh
     (const struct param[]){
     {"exact", PARAM_BOOL, .doc = "Waits for the newest revision."},
     {"in_rounds", PARAM_BOOL, .doc = "Several pictures, of ever more samples."},
+    {"sparse", PARAM_BOOL, .doc = "Fewer rays than pixels, where these are alike."},
     {"chroma_halved", PARAM_BOOL, .doc = "JPEG with a quarter of the colours."},
     {"fast", PARAM_BOOL, .doc = "PNG that is quick to write."},
     {"key", PARAM_BOOL, .doc = "Decodes without earlier pictures of the stream."},

@@ -22,6 +22,7 @@ struct render_request {
 /* Switches of the way from the renderer to who asked; nobody outside can set them:
  * `exact`: wait for the newest revision's shader, else draw the newest drawable state;
  * `in_rounds`: of ever more samples, each a whole picture;
+ * `sparse`: of fewer rays than pixels, for a picture that moves;
  * `chroma_halved`: JPEG 4:2:0; `fast`: PNG that is quick to write; `zipped`: a ZIP also of one;
  * `key`: it decodes without earlier pictures of the stream; `guide`: a CODEC_GUIDE, of the output
  * id as NPY. */

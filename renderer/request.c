@@ -17,6 +17,7 @@ struct job_desc job_desc_of(const struct render_request *request)
             record_is_set(picture, "transparent") ? render_request_int(request, "transparent") : -1,
         .exact = render_request_is(request, "exact"),
         .in_rounds = render_request_is(request, "in_rounds"),
+        .sparse = render_request_is(request, "sparse"),
         .as_floats = request->codec == CODEC_NPY,
         .isolated = (const char *const *)request->isolate.ids,
         .isolated_count = request->isolate.count,

@@ -21,6 +21,17 @@ static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
     }
 }
 
+/* Only light is interpolated, and only as bytes. */
+static bool is_sparse(const struct draw_picture *picture)
+{
+    for (int i = 0; i < AOV_COUNT; i++) {
+        if (i != AOV_COLOR && picture->forms[i]) {
+            return false;
+        }
+    }
+    return picture->plan.sparse && !draw_is_linear(picture);
+}
+
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
                   const struct frame_block *block, struct error *err)
 {
@@ -43,6 +54,7 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
         .shadows = last >= STAGE_SHADOW,
         .lights = last == STAGE_COUNT,
         .linear = draw_is_linear(picture),
+        .sparse = is_sparse(picture),
     });
     return true;
 }

@@ -101,6 +101,7 @@ static void set_desc(struct job *job, const struct job_desc *desc)
         .transparent = desc->transparent >= 0
                            ? desc->transparent
                            : record_number(&job->snapshot->render, "transparent") != 0,
+        .sparse = desc->sparse,
     };
 }
 

@@ -135,6 +135,7 @@ bool plan_make(struct draw_plan *out_plan, struct frame_block *block, const stru
     set_samples(&plan, block, render, q, level, wish->samples);
     set_effects(&plan, block, render, q,
                 wish->transparent >= 0 ? wish->transparent : is_on(render, "transparent"));
+    plan.sparse = wish->sparse && plan.samples == 1;
     *out_plan = plan;
     set_volume_steps(block, q, extent);
     return set_steps(block, (int)record_number(render, "max_steps"), q->shadow_steps, extent);

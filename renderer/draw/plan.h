@@ -14,6 +14,7 @@ struct draw_plan {
     int rays;                       /* of a sample after the first; 0: none */
     int clear_depth;                /* surfaces that light goes through; 0: none */
     bool volumes;
+    bool sparse;  /* even parts of the picture may be interpolated; the engine alone does so */
     bool mirrors; /* something may mirror: else light is shaded by the simpler program */
 };
 
@@ -22,6 +23,7 @@ struct plan_wish {
     int level;       /* enum quality_level; -1: the scene's */
     int samples;     /* along an axis; 0: the level's or the scene's */
     int transparent; /* 1, 0; -1: the scene's */
+    bool sparse;     /* where a pixel has one sample: fewer rays than pixels */
 };
 
 /* After frame_set_scene and frame_set_camera. `render`: the scene's render_type. True when a ray

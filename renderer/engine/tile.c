@@ -4,23 +4,28 @@
 enum {
     TILE = 64,                      /* pixels to a side */
     MARGIN = 1,                     /* around it, by which edges are found */
-    SIDE = 72,                      /* a multiple of lanes' pixels */
+    SIDE = 80,                      /* a multiple of lanes' pixels */
     BLOCKS = TILE / BLOCK_SIDE + 2, /* to a side, with the margin's */
-    ACROSS = 4, /* pixels of a vector: neighbours, because lanes wait for the slowest */
+    ACROSS = 4,      /* pixels of a vector: neighbours, because lanes wait for the slowest */
+    SPARSE_STEP = 4, /* pixels between the first rays of a sparse tile (sparse.c) */
 };
 
-/* A thread's own. `left`, `top`: of the tile with its margin, in the picture. */
+/* A thread's own. `left`, `top`: of the tile with its margin, in the picture. `inner`: the tile's
+ * own pixels in it. */
 struct hand {
     struct lanes lanes;
     struct dispatch_block dispatch;
     struct scene_block scene;
     const struct engine_canvas *canvas;
     const struct engine_work *work;
-    int left, top, width, height, margin;
+    int left, top, width, height;
+    struct engine_rect inner;
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE];
     int listed[SIDE * SIDE], listed_count;
-    uint64_t rays; /* that followed others */
+    uint8_t blocks[SIDE * SIDE]; /* of a sparse tile: their sides, at their first pixels */
+    bool wanted[SIDE * SIDE];    /* of the same: has a ray */
+    uint64_t rays;               /* that followed others */
 };
 
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */
@@ -71,8 +76,9 @@ static bool is_light(const struct engine_output *output)
 /* All outputs but light, of what the first sample of pixels x, y met. */
 static void write_met(struct hand *hand, vb m, vi x, vi y, const vf *met)
 {
-    const int margin = hand->margin;
-    m &= (x >= margin) & (y >= margin) & (x < hand->width - margin) & (y < hand->height - margin);
+    const struct engine_rect inner = hand->inner;
+    m &= (x >= inner.x) & (y >= inner.y) & (x < inner.x + inner.width) &
+         (y < inner.y + inner.height);
     for (size_t o = 0; o < hand->work->output_count; o++) {
         const struct engine_output *output = &hand->work->outputs[o];
         vf color[4];
@@ -171,15 +177,15 @@ static void keep(struct hand *hand, bool back)
 {
     const struct engine_canvas *canvas = hand->canvas;
     const struct engine_rect kept = canvas->kept;
-    const int margin = hand->margin, width = hand->width - 2 * margin;
-    for (int y = margin; y < hand->height - margin; y++) {
+    const struct engine_rect inner = hand->inner;
+    for (int y = inner.y; y < inner.y + inner.height; y++) {
         const size_t at = (size_t)(hand->top + y - kept.y) * (size_t)kept.width +
-                          (size_t)(hand->left + margin - kept.x);
-        float *const own[] = {hand->pixels + 4 * (y * SIDE + margin),
-                              hand->counted + y * SIDE + margin};
+                          (size_t)(hand->left + inner.x - kept.x);
+        float *const own[] = {hand->pixels + 4 * (y * SIDE + inner.x),
+                              hand->counted + y * SIDE + inner.x};
         float *const theirs[] = {canvas->pixels + 4 * at, canvas->counted + at};
         for (int i = 0; i < 2; i++) {
-            const size_t bytes = (size_t)width * (i == 0 ? 4 : 1) * sizeof(float);
+            const size_t bytes = (size_t)inner.width * (i == 0 ? 4 : 1) * sizeof(float);
             memcpy(back ? own[i] : theirs[i], back ? theirs[i] : own[i], bytes);
         }
     }
@@ -203,9 +209,10 @@ static void list_again(struct hand *hand, int samples)
 static void write_light(struct hand *hand, const struct engine_output *output)
 {
     const bool blend = hand->canvas->picture.smoothing == ENGINE_BLEND;
-    const int right = hand->width - hand->margin;
-    for (int y = hand->margin; y < hand->height - hand->margin; y++) {
-        for (int x = hand->margin; x < right; x += LANES) {
+    const struct engine_rect inner = hand->inner;
+    const int right = inner.x + inner.width;
+    for (int y = inner.y; y < inner.y + inner.height; y++) {
+        for (int x = inner.x; x < right; x += LANES) {
             const vb m = x + lanes_number < right;
             const vi column = vi_select(m, x + lanes_number, vi_all(x));
             const vf here[2] = {(vf)column, (vf)vi_all(y)};
@@ -225,6 +232,8 @@ static void write_light(struct hand *hand, const struct engine_output *output)
     }
 }
 
+#include "sparse.c"
+
 static void draw_samples(struct hand *hand)
 {
     const struct engine_work *work = hand->work;
@@ -233,6 +242,10 @@ static void draw_samples(struct hand *hand)
     if (index == 0) {
         memset(hand->pixels, 0, sizeof hand->pixels);
         memset(hand->counted, 0, sizeof hand->counted);
+        if (hand->canvas->picture.sparse) {
+            draw_sparse(hand);
+            return;
+        }
         add_to_all(hand, index++);
         if (few && work->until > 1) {
             list_edges(hand);
@@ -250,16 +263,30 @@ static void draw_samples(struct hand *hand)
     }
 }
 
+/* A stretch of the picture's pixels to whole blocks of a sparse tile, with the line behind. */
+static void widen(int *from, int *until)
+{
+    *from &= -SPARSE_STEP;
+    *until = ((*until - 1) & -SPARSE_STEP) + SPARSE_STEP + 1;
+}
+
 /* Pixels x, y to x + width, y + height of the picture. */
 static void draw_tile(struct hand *hand, int x, int y, int width, int height)
 {
-    const enum engine_smoothing smoothing = hand->canvas->picture.smoothing;
+    const struct engine_picture *picture = &hand->canvas->picture;
+    const enum engine_smoothing smoothing = picture->smoothing;
     const int margin = smoothing == ENGINE_BLEND || smoothing == ENGINE_ADAPTIVE ? MARGIN : 0;
-    hand->left = hand->dispatch.origin[0] = x - margin;
-    hand->top = hand->dispatch.origin[1] = y - margin;
-    hand->width = width + 2 * margin;
-    hand->height = height + 2 * margin;
-    hand->margin = margin;
+    int left = x - margin, top = y - margin;
+    int right = x + width + margin, bottom = y + height + margin;
+    if (picture->sparse) {
+        widen(&left, &right);
+        widen(&top, &bottom);
+    }
+    hand->left = hand->dispatch.origin[0] = left;
+    hand->top = hand->dispatch.origin[1] = top;
+    hand->width = right - left;
+    hand->height = bottom - top;
+    hand->inner = (struct engine_rect){x - left, y - top, width, height};
     find_starts(hand);
     draw_samples(hand);
     for (size_t i = 0; i < hand->work->output_count; i++) {

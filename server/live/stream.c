@@ -42,20 +42,20 @@ struct stage_rule {
     int level; /* of quality; -1: the scene's */
     enum codec codec;
     int priority, quality;
-    bool chroma_halved, exact;
+    bool chroma_halved, exact, sparse;
     int after_ms; /* rest of the view before it is due */
     uint8_t flags;
 };
 
 static const struct stage_rule stage_rules[] = {
-    [STREAM_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, 0, 0},
-    [STREAM_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false,
+    [STREAM_MOVING] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_MOVING, 60, true, false, true, 0, 0},
+    [STREAM_LARGER] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 80, true, false, true,
                        STREAM_STILL_MS, 0},
-    [STREAM_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false,
+    [STREAM_STILL] = {QUALITY_INTERACTIVE, CODEC_JPEG, RENDER_STILL, 88, false, false, false,
                       STREAM_STILL_MS, FRAME_STILL},
-    [STREAM_GUIDE] = {QUALITY_INTERACTIVE, CODEC_NPY, RENDER_STILL, 90, false, false,
+    [STREAM_GUIDE] = {QUALITY_INTERACTIVE, CODEC_NPY, RENDER_STILL, 90, false, false, false,
                       STREAM_STILL_MS, FRAME_STILL},
-    [STREAM_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, STREAM_LOSSLESS_MS,
+    [STREAM_LOSSLESS] = {-1, CODEC_PNG, RENDER_LOSSLESS, 90, false, true, false, STREAM_LOSSLESS_MS,
                          FRAME_STILL | FRAME_LOSSLESS},
 };
 
@@ -471,6 +471,7 @@ static void make_request(struct session *session, const struct stream_view *view
     record_put(delivery, "chroma_halved", rule->chroma_halved);
     record_put(delivery, "fast", true);
     record_put(delivery, "exact", rule->exact);
+    record_put(delivery, "sparse", rule->sparse);
     record_put(delivery, "in_rounds", stage == STREAM_LOSSLESS);
     record_put(delivery, "key", send_queue_wants_key(&session->send_queue));
     record_put(delivery, "guide", stage == STREAM_GUIDE);
