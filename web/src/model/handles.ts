@@ -2,6 +2,7 @@
 /* Handles of parameters: points of a node, light or volume at which a value is seen and dragged. Where
  * they are is a fact of the registry (`handle` of its rows). */
 import { ballOf } from "./bounds.ts";
+import { cornerHandles, cornerLabel, dragCorner, isCorner } from "./corners.ts";
 import {
     findResource,
     nodeParams,
@@ -36,7 +37,7 @@ import { clampNumber, numbersOf } from "./values.ts";
 import type { Subject } from "./view.ts";
 
 /* What has handles: its rows and values, and its space. */
-interface Owner {
+export interface Owner {
     readonly at: string;
     readonly params: readonly Param[];
     readonly values: Values;
@@ -54,14 +55,16 @@ export type HandleLook =
     | { readonly kind: "arrow"; readonly tail: Spot }
     /* An angle: the way of the point from where there is none. */
     | { readonly kind: "arc"; readonly spots: readonly Spot[] }
+    /* A corner of a flat shape, with the one after it. */
+    | { readonly kind: "corner"; readonly next: Spot | null }
     /* The reach of a blend: pixels around the middle of what it joins. */
     | { readonly kind: "band"; readonly middle: Spot; readonly radius: number };
 
 export interface Handle {
-    /* "radius", "size.x". */
+    /* "radius", "size.x", "points.0". */
     readonly key: string;
     readonly param: Param;
-    /* Which number of the value it changes; null: all, as a place. */
+    /* Which number or point of the value it changes; null: all, as a place. */
     readonly component: number | null;
     readonly owner: Owner;
     /* The texts of its three coordinates. */
@@ -165,6 +168,9 @@ function lookOf(owner: Owner, param: Param, component: number | null, curve: Cur
 }
 
 function handlesOfParam(owner: Owner, param: Param, projection: Projection): Handle[] {
+    if (param.type === "points") {
+        return cornerHandles(owner, param, projection);
+    }
     const points = param.handle
         .split(";")
         .map((point) => point.split(",").map((text) => text.trim()));
@@ -241,9 +247,8 @@ export function handlesOf(
               ? nodeOwner(document, schema, selection[0] ?? "")
               : null;
     return (owner?.params ?? [])
-        .filter(
-            (param) => owner && param.handle !== "" && matters(owner.params, owner.values, param),
-        )
+        .filter((param) => param.handle !== "" || param.type === "points")
+        .filter((param) => owner && matters(owner.params, owner.values, param))
         .flatMap((param) => (owner ? handlesOfParam(owner, param, projection) : []));
 }
 
@@ -256,6 +261,9 @@ function labelOf({ key, param, component }: Handle, value: readonly number[]): s
 /* What a handle is and the value that it has. */
 export function handleLabel(handle: Handle): string {
     const { owner, param } = handle;
+    if (isCorner(handle)) {
+        return cornerLabel(handle);
+    }
     return labelOf(handle, numbersOf(valueIn(owner.values, param), components(param.type)));
 }
 
@@ -318,6 +326,9 @@ export function dragHandle(
 ): HandleChange | null {
     const { param, owner, component } = handle;
     const spot = { x: handle.spot.x + to.x - from.x, y: handle.spot.y + to.y - from.y };
+    if (isCorner(handle)) {
+        return dragCorner(handle, projection, spot, snaps);
+    }
     const angle = isAngle(param.unit);
     const rounded = (x: number): number => {
         const stepped = snaps ? snap(x, angle ? SNAP_ANGLE : SNAP_LENGTH) : x;

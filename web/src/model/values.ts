@@ -86,7 +86,7 @@ function checkForm(param: Param, value: Value): string | null {
 }
 
 /* Largest magnitude of any number in a document, where the parameter has no limit of its own. */
-const COORDINATE = 1e6;
+export const COORDINATE = 1e6;
 
 function rangeOf(param: Param): readonly [number, number] {
     const least = param.type === "color" ? 0 : -COORDINATE;

@@ -2,6 +2,7 @@
 /* Hands in the picture: the gizmo, the drag or the keys that move what is selected. Drawn by the page
  * with the camera of the picture shown, so that it stands where its object is. Acts on a drag only;
  * a click goes through. */
+import { isCorner } from "../model/corners.ts";
 import { clearOf, gizmoParts, type Part, partAt } from "../model/gizmo.ts";
 import { type Axis, axisOf, type Motion } from "../model/grip.ts";
 import { shownGuide } from "../model/guide.ts";
@@ -12,15 +13,14 @@ import { type Projection, projectionOf, type Spot } from "../model/projection.ts
 import { surfaceUnder, type Target, targetsOf } from "../model/snapping.ts";
 import type { Stores } from "../model/stores.ts";
 import { add, scale } from "../model/transform.ts";
+import { Corners, type CornersPage } from "./corners.ts";
 import { Hold, type HoldKeys, STEP_NAMES, type Step } from "./hold.ts";
 import { colorOf, line, paintGizmo, paintHandles, paintLabel, ringAt, stroke } from "./paint.ts";
 import type { Holding, Press } from "./pointer.ts";
 import { shownCamera } from "./shown.ts";
 
-export interface HandsPage {
+export interface HandsPage extends CornersPage {
     readonly stores: Stores;
-    /* Begins one undo step: "move", "change radius of". */
-    begin(what: string): Step;
 }
 
 /* A part is held from this far, in pixels. */
@@ -35,6 +35,7 @@ export class Hands {
     readonly #element: HTMLElement;
     readonly #canvas: HTMLCanvasElement;
     readonly #stops: (() => void)[] = [];
+    readonly #corners: Corners;
     #pointer: Spot | null = null;
     #hot: Part | null = null;
     #hold: Hold | null = null;
@@ -47,6 +48,7 @@ export class Hands {
     constructor(page: HandsPage, element: HTMLElement) {
         this.#page = page;
         this.#element = element;
+        this.#corners = new Corners(page);
         this.#canvas = document.createElement("canvas");
         this.#canvas.className = "view-hands";
         this.#canvas.setAttribute("aria-hidden", "true");
@@ -100,6 +102,7 @@ export class Hands {
         };
         return {
             start: () => {
+                this.#corners.choose(isCorner(handle) ? handle.key : null);
                 step = this.#page.begin(`change ${handle.param.name} of`);
             },
             move: (to) => {
@@ -115,6 +118,22 @@ export class Hands {
             end: () => finish("end"),
             cancel: () => finish("cancel"),
         };
+    }
+
+    /* True: it was for a corner or an edge of a flat shape, and is for nothing else. */
+    click(spot: Spot): boolean {
+        const taken = this.#corners.click(this.#handles(), spot, SLOP_MOUSE);
+        this.#redraw();
+        return taken;
+    }
+
+    /* The same for a double click, which puts a corner on an edge. */
+    double(spot: Spot): boolean {
+        const projection = this.#projection();
+        return (
+            projection !== null &&
+            this.#corners.double(this.#handles(), projection, spot, SLOP_MOUSE)
+        );
     }
 
     #begin(constraint: Part["constraint"], from: Spot): void {
@@ -164,6 +183,8 @@ export class Hands {
         const over = this.#element.contains(event.target as Node);
         const handle = over ? handleAt(this.#handles(), this.#pointer, SLOP_MOUSE) : null;
         const part = over && !handle ? partAt(this.#parts(), this.#pointer, SLOP_MOUSE) : null;
+        const free = over && !handle && !part;
+        this.#corners.hover(free ? this.#handles() : [], this.#pointer, SLOP_MOUSE);
         this.#hot = part;
         this.#hotHandle = handle?.key ?? null;
         this.#element.dataset.grab = part === null && handle === null ? "" : "can";
@@ -203,10 +224,9 @@ export class Hands {
 
     #key(event: KeyboardEvent): void {
         const hold = this.#hold;
-        if (hold === null || this.#page.stores.view.getState().motion === null) {
-            return;
-        }
-        if (this.#act(hold, event)) {
+        const moves = hold !== null && this.#page.stores.view.getState().motion !== null;
+        const here = event.target === document.body || this.#element.contains(event.target as Node);
+        if (moves ? this.#act(hold, event) : here && this.#corners.key(this.#handles(), event)) {
             event.preventDefault();
             event.stopImmediatePropagation();
             this.#redraw();
@@ -278,8 +298,10 @@ export class Hands {
                 : [];
         return middle?.kind === "middle"
             ? all.filter(
-                  ({ spot }) =>
-                      Math.hypot(spot.x - middle.at.x, spot.y - middle.at.y) > NEAR_MIDDLE,
+                  (handle) =>
+                      isCorner(handle) ||
+                      Math.hypot(handle.spot.x - middle.at.x, handle.spot.y - middle.at.y) >
+                          NEAR_MIDDLE,
               )
             : all;
     }
@@ -339,6 +361,7 @@ export class Hands {
         const parts = this.#handle === null ? this.#parts(handles) : [];
         paintGizmo(brush, parts, this.#hot?.constraint ?? null);
         paintHandles(brush, handles, this.#handle?.key ?? this.#hotHandle);
+        this.#corners.paint(brush, handles, this.#size.width);
         const hot = handles.find(({ key }) => key === this.#hotHandle);
         const label = this.#handle?.label ?? (hot ? handleLabel(hot) : "");
         paintLabel(brush, label, this.#handle?.at ?? hot?.spot ?? ORIGIN, this.#size.width);
@@ -408,6 +431,9 @@ export class Hands {
             view.subscribe((now, before) => {
                 if (now.motion !== before.motion) {
                     this.#motion(now.motion);
+                }
+                if (now.selection !== before.selection) {
+                    this.#corners.choose(null);
                 }
                 this.#redraw();
             }),

@@ -166,6 +166,7 @@ function paintLook(brush: Brush, { spot, look }: Handle, color: string, hot: boo
                 brush.closePath();
             });
             break;
+        case "corner":
         case "dot":
             dot(brush, spot, radius, color);
             break;
@@ -174,9 +175,30 @@ function paintLook(brush: Brush, { spot, look }: Handle, color: string, hot: boo
 
 export function paintHandles(brush: Brush, handles: readonly Handle[], hot: string | null): void {
     brush.globalAlpha = 1;
+    for (const { spot, look } of handles) {
+        const next = look.kind === "corner" ? look.next : null;
+        if (next) {
+            stroke(brush, HANDLE, LINE - 1, () => line(brush, [spot, next]));
+        }
+    }
     for (const handle of handles) {
         paintLook(brush, handle, handle.key === hot ? HOT : HANDLE, handle.key === hot);
     }
+}
+
+/* A corner that there is not yet. */
+export function paintSpare(brush: Brush, { x, y }: Spot): void {
+    dot(brush, { x, y }, HANDLE_RADIUS + 3, HOT);
+    stroke(brush, "#1c1c1c", 1.5, () => {
+        line(brush, [
+            { x: x - 4, y },
+            { x: x + 4, y },
+        ]);
+        line(brush, [
+            { x, y: y - 4 },
+            { x, y: y + 4 },
+        ]);
+    });
 }
 
 /* --- words at the pointer --- */

@@ -199,6 +199,7 @@ const texts = {
     "points.point": "point {number}: {x}, {y}",
     "points.add": "Add a point after this one",
     "points.remove": "Remove this point",
+    "points.edge": "double click: a point here",
     "points.most": "There are {count} points at most.",
     "points.least": "There are {count} points at least.",
 

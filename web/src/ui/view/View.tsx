@@ -23,7 +23,7 @@ import { Measured, MeasuredLine } from "./Measure.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
-import { beginStep, pointerActions } from "./pointer.ts";
+import { handsPage, pointerActions } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import { Trial } from "./Trial.tsx";
@@ -81,7 +81,7 @@ function Picture() {
         const hide = editor.link.attach(element);
         const grid = new Grid(editor.stores, element);
         const outlines = new Outlines(editor.stores, element);
-        const hands = new Hands({ stores: editor.stores, begin: beginStep(editor) }, element);
+        const hands = new Hands(handsPage(editor), element);
         const stop = attachPointer(element, pointerActions(editor, element, hands, open));
         const rest = watchHover(editor, element);
         const drops = takeMaterials(editor, element);

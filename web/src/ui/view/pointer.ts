@@ -5,11 +5,11 @@ import { focusOn, moveCamera } from "../../model/actions.ts";
 import { commandById, runCommand } from "../../model/commandLookup.ts";
 import { parentOf, topmost } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
-import type { Stores } from "../../model/stores.ts";
+import { addNotice, type Stores } from "../../model/stores.ts";
 import { vectorOf } from "../../model/transform.ts";
 import { type SelectMode, select } from "../../model/view.ts";
 import { holdBox } from "../../overlay/box.ts";
-import type { Hands } from "../../overlay/hands.ts";
+import type { Hands, HandsPage } from "../../overlay/hands.ts";
 import type { Step } from "../../overlay/hold.ts";
 import type { PointerActions } from "../../overlay/pointer.ts";
 import { guideAt } from "../../overlay/shown.ts";
@@ -85,6 +85,9 @@ export function pointerActions(
             await aim(x, y);
             return;
         }
+        if (mode === "replace" && hands.click({ x, y })) {
+            return;
+        }
         const node = await nodeUnder(x, y);
         if (node === undefined) {
             return;
@@ -117,6 +120,9 @@ export function pointerActions(
         click: (x, y, mode) => void click(x, y, mode),
         menu: (x, y) => void menu(x, y),
         frame: async (x, y) => {
+            if (hands.double({ x, y })) {
+                return;
+            }
             const node = (await nodeUnder(x, y)) ?? null;
             const command = commandById("camera.frame");
             if (node !== null && command) {
@@ -143,7 +149,18 @@ function nameOfHeld({ document: scene, view }: Stores): string {
     return document ? nameAll(document, topmost(document, selection)) : "";
 }
 
-/* Begins the undo step of what a hand does to what is selected. */
-export function beginStep({ stores, link }: Editor): (what: string) => Step {
-    return (what) => link.gesture(`${what} ${nameOfHeld(stores)}`);
+/* What hands ask of the page: an undo step of what is selected, and words. */
+export function handsPage({ stores, link }: Editor): HandsPage {
+    return {
+        stores,
+        begin: (what): Step => link.gesture(`${what} ${nameOfHeld(stores)}`),
+        refuse: (limit) => {
+            const message =
+                "most" in limit
+                    ? t("points.most", { count: limit.most })
+                    : t("points.least", { count: limit.least });
+            addNotice(stores.notices, { level: "info", code: "points", message });
+        },
+        edgeHint: t("points.edge"),
+    };
 }
