@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Surfaces by polynomials (renderer/sdf/polynomial.h), as in renderer/sdf/polynomial.c. */
 
+#include "numbers.glsl"
+
 /* Around p up to the third order: (value, bounds of the first, second and third order). Series in
  * the ways along x, y and z are cut at that order: `s` in z, `r` in y and z, `a` in all. */
 vec4 polynomial_orders(vec3 p, int at, int degree)
