@@ -4,11 +4,16 @@
 #include "lanes_parts.h"
 #include "protocol/memory.h"
 
+/* In larger fields rays that are far apart share no tape: a sparse picture of the temple (245)
+ * takes as long as one of all rays, one of the snowman (84) less. */
+enum { SPARSE_OPERATIONS = 128 };
+
 struct engine_canvas *engine_canvas_create(const struct engine_picture *picture)
 {
     struct engine_canvas *canvas = memory_alloc(1, sizeof *canvas);
 
     canvas->picture = *picture;
+    canvas->picture.sparse &= picture->program->count <= SPARSE_OPERATIONS;
     return canvas;
 }
 

@@ -60,7 +60,7 @@ struct engine_picture {
     int clear_depth;      /* surfaces that light goes through; 0: none */
     bool shadows, lights; /* whether they are wanted */
     bool linear;          /* light is not tone mapped */
-    bool sparse;          /* one sample, of fewer pixels where these are alike; light alone */
+    bool sparse;          /* one sample, of fewer pixels where that pays; light alone */
 };
 
 /* What a picture keeps between its tiles: cubes of space with what matters in each, and sums of

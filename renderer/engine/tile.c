@@ -7,7 +7,7 @@ enum {
     SIDE = 80,                      /* a multiple of lanes' pixels */
     BLOCKS = TILE / BLOCK_SIDE + 2, /* to a side, with the margin's */
     ACROSS = 4,      /* pixels of a vector: neighbours, because lanes wait for the slowest */
-    SPARSE_STEP = 4, /* pixels between the first rays of a sparse tile (sparse.c) */
+    SPARSE_STEP = 4, /* side of a sparse tile's blocks (sparse.c) */
 };
 
 /* A thread's own. `left`, `top`: of the tile with its margin, in the picture. `inner`: the tile's
@@ -23,9 +23,7 @@ struct hand {
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
     float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE];
     int listed[SIDE * SIDE], listed_count;
-    uint8_t blocks[SIDE * SIDE]; /* of a sparse tile: their sides, at their first pixels */
-    bool wanted[SIDE * SIDE];    /* of the same: has a ray */
-    uint64_t rays;               /* that followed others */
+    uint64_t rays; /* that followed others */
 };
 
 /* Of pixels of the tile. Blocks are those of the picture, whatever the tile. */

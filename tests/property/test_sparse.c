@@ -13,7 +13,7 @@
 enum {
     WIDTH = 203,
     HEIGHT = 131,
-    FAR = 20, /* between neighbours with rays there is at most twice as much */
+    FAR = 12, /* of 255 */
 };
 
 static const char *const scenes[] = {
@@ -121,6 +121,19 @@ static void values_and_more_samples_have_all_rays(void **state)
     resident_destroy(resident);
 }
 
+static void large_fields_have_all_rays(void **state)
+{
+    const struct job_region all = {0};
+    struct resident *resident = drawing_resident(renderer, "protocol/examples/temple.json");
+    struct image full = draw(resident, false, all), same = draw(resident, true, all);
+
+    (void)state;
+    assert_true(drawing_is_same(&full, &same));
+    image_finish(&full);
+    image_finish(&same);
+    resident_destroy(resident);
+}
+
 static int start(void **state)
 {
     (void)state;
@@ -141,6 +154,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(is_near_to_all_rays),
         cmocka_unit_test(tiles_do_not_show),
+        cmocka_unit_test(large_fields_have_all_rays),
         cmocka_unit_test(values_and_more_samples_have_all_rays),
     };
     return cmocka_run_group_tests_name("sparse", tests, start, stop);
