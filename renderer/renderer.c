@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "protocol/memory.h"
+#include "renderer/field/field_check.h"
 
 enum { POLL_MS = 100 };
 
@@ -309,7 +310,8 @@ bool renderer_render(struct resident *resident, const struct job_desc *desc,
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err)
 {
     struct field *field = field_compile(scene, err);
-    const bool ok = field && field_try(field, out_warning, err);
+    const bool ok =
+        field && field_check_code(scene, err) && field_try(field, out_warning, err);
 
     field_unref(field);
     return ok;

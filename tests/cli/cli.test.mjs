@@ -145,6 +145,28 @@ test('check tells of what cannot be drawn what render tells of it', () => {
     }
 });
 
+// `render` draws without them.
+const UNUSED = [
+    ['a primitive', { primitives: { rod: { code: 'nonsense' } }, root: ball(0) }, /^\/primitives\/rod\/code:1:\d+: /],
+    ['a shader', { shaders: { pale: { code: 'nonsense' } }, root: ball(0) }, /^\/shaders\/pale\/code:1:\d+: /],
+    ['a hidden node', { root: { type: 'union', children: [ball(0), { ...field('nonsense'), visible: false }] } }, /^\/nodes\/own\/params\/code:1:\d+: /],
+    [
+        'a hidden equation',
+        { root: { type: 'union', children: [ball(0), { type: 'implicit', id: 'own', visible: false, params: { equation: 'x +' } }] } },
+        /^\/nodes\/own\/params\/equation:1:\d+: /,
+    ],
+];
+
+test('check reads code that nothing draws', () => {
+    for (const [what, document, message] of UNUSED) {
+        const file = write('unused.json', JSON.stringify({ format: 'fieldcast/1', ...document }));
+        const checked = run(['check', file]);
+        assert.equal(checked.status, 1, what);
+        assert.match(checked.out.replace(/^unused\.json: /, ''), message, what);
+        succeed(['render', file, '-o', 'unused.png', ...SMALL]);
+    }
+});
+
 test('check passes what can be drawn, and warns of it as render does', () => {
     const steep = { format: 'fieldcast/1', root: field('float sdf(vec3 p) { return 3.0 * (length(p) - 0.5); }') };
     const checked = run(['check', write('steep.json', JSON.stringify(steep))]);
