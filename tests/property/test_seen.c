@@ -3,10 +3,11 @@
  * evaluator (tests/support/oracle.h).
  * Every type of the registry, as golden/nodes has it but with its floor hidden, and compositions
  * (tests/support/compositions.h). Each is seen up close, and once more from elsewhere, at another
- * scale.
+ * scale. The engine draws all of them; compute shaders draw the first batches of compositions.
  *
  * Hiding, cameras and scales are numbers, so compositions are a few in a scene, all but one hidden:
  * compiling takes longer than drawing and hardly longer for four shapes than for one. */
+#include <assert.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -58,6 +59,7 @@ static const struct view views[] = {
 enum {
     VIEWS = sizeof views / sizeof views[0],
     FIRST_VIEW = 2, /* of the compositions: seen so, no eye is inside of something solid */
+    COMPUTED = 9,   /* the first compositions, which are thin, hollow or overlapping */
 };
 
 static struct renderer *renderer;
@@ -70,6 +72,7 @@ struct seen_case {
     const struct node_type *type;          /* of golden/nodes; NULL: a composition */
     const struct composition *composition; /* one of `count` from `first` on */
     size_t first, count;
+    enum render_stage stage;
     const struct view *second;
 };
 
@@ -195,6 +198,7 @@ static struct scene *scene_of(const struct seen_case *it, const struct view *vie
 /* Of the last case, and of those that share its program. */
 static struct {
     const void *owner;
+    enum render_stage stage;
     struct resident *resident;
     uint64_t revision;
 } shown;
@@ -213,9 +217,11 @@ static void forget_shown(void)
 
 static struct resident *show(const struct seen_case *it, const struct view *view)
 {
-    if (shown.owner != owner_of(it)) {
+    if (shown.owner != owner_of(it) || shown.stage != it->stage) {
         forget_shown();
         shown.owner = owner_of(it);
+        shown.stage = it->stage;
+        renderer_use_stage(renderer, it->stage);
         shown.revision = 1;
         shown.resident = resident_create(renderer, scene_of(it, &near_view, true), 1);
         while (renderer_is_trying(renderer)) {
@@ -292,6 +298,7 @@ static void test_case(void **state)
         good = is_seen_as(it, it, it->second) && good;
     }
     assert_true(good);
+    assert_true(it->stage != RENDER_COMPUTE || renderer_counters(renderer).compilations > 0);
 }
 
 /* --- */
@@ -336,27 +343,36 @@ static size_t batch_length(size_t first)
     return count;
 }
 
-static void add_batch(size_t first, size_t count)
+static struct seen_case *add_case(const char *name, enum render_stage stage)
 {
-    for (size_t i = first; i < first + count && case_count < CASES_MAX; i++) {
-        struct seen_case *it = &cases[case_count++];
-        it->composition = &compositions[i];
-        it->first = first;
-        it->count = count;
-        snprintf(it->name, sizeof it->name, "%s", compositions[i].name);
+    assert(case_count < CASES_MAX);
+    struct seen_case *it = &cases[case_count++];
+    it->stage = stage;
+    snprintf(it->name, sizeof it->name, "%s%s", name, stage == RENDER_COMPUTE ? ", computed" : "");
+    return it;
+}
+
+static void add_batches(size_t end, enum render_stage stage)
+{
+    for (size_t first = 0, count; first < end; first += count) {
+        count = batch_length(first);
+        for (size_t i = first; i < first + count; i++) {
+            struct seen_case *it = add_case(compositions[i].name, stage);
+            it->composition = &compositions[i];
+            it->first = first;
+            it->count = count;
+        }
     }
 }
 
 static void list_cases(void)
 {
-    for (size_t i = 0; i < node_type_count() && case_count < CASES_MAX; i++) {
-        struct seen_case *it = &cases[case_count++];
-        it->type = node_type_at(i);
-        snprintf(it->name, sizeof it->name, "%s", it->type->record.name);
+    for (size_t i = 0; i < node_type_count(); i++) {
+        const struct node_type *type = node_type_at(i);
+        add_case(type->record.name, RENDER_ENGINE)->type = type;
     }
-    for (size_t i = 0; i < composition_count; i += batch_length(i)) {
-        add_batch(i, batch_length(i));
-    }
+    add_batches(composition_count, RENDER_ENGINE);
+    add_batches(COMPUTED, RENDER_COMPUTE);
     for (size_t i = 0; i < case_count; i++) {
         const struct composition *composition = cases[i].composition;
         const size_t view = composition ? FIRST_VIEW + (size_t)(composition - compositions) : i;

@@ -10,8 +10,20 @@
     "{'type':'box','params':{'size':[" #a "," #b "," #c "]},'transform':{'translation':[" #x       \
     "," #y "," #z "],'rotation':[0.3,0.4,0.1]}}"
 #define BLEND(type, kernel, k)                                                                     \
-    "{'type':'" type "','params':{'kernel':'" kernel "','k':" #k                                   \
+    "{'type':'" type "','params':{'kernel':'" kernel "','k':" k                                    \
     "},'children':[" BOX(0.7, 0.7, 0.7, 0, 0, 0) "," SPHERE(0.4, 0.3, 0.35, 0.2) "]}"
+/* Every kernel. */
+#define BLENDS(word, type)                                                                         \
+    {.name = "quadratic " word, CAMERA, BLEND(type, "quadratic", "0.2")},                          \
+        {.name = "cubic " word, CAMERA, BLEND(type, "cubic", "0.2")},                              \
+        {.name = "quartic " word, CAMERA, BLEND(type, "quartic", "0.2")},                          \
+        {.name = "circular " word, CAMERA, BLEND(type, "circular", "0.2")},                        \
+        {.name = "exponential " word, CAMERA, BLEND(type, "exponential", "24")},                   \
+        {.name = "root " word, CAMERA, BLEND(type, "root", "0.01")},                               \
+        {.name = "power " word, CAMERA, BLEND(type, "power", "8")},                                \
+    {                                                                                              \
+        .name = "polynomial " word, CAMERA, BLEND(type, "polynomial", "0.2,'order':5")             \
+    }
 #define TURNED "'transform':{'rotation':[0.4,0.5,0.2]}"
 
 const struct composition compositions[] = {
@@ -168,13 +180,9 @@ const struct composition compositions[] = {
      "{'type':'difference','children':[{'type':'box','params':{'size':[3,3,3]}}," BOX(
          2, 1.6, 2.4, 0, 0, 0) "," SPHERE(0.7, -0.6, 0.2, -1.2) "]}",
      .inside = true},
-    {.name = "quadratic union", CAMERA, BLEND("smooth_union", "quadratic", 0.2)},
-    {.name = "cubic intersection", CAMERA, BLEND("smooth_intersection", "cubic", 0.2)},
-    {.name = "quartic difference", CAMERA, BLEND("smooth_difference", "quartic", 0.2)},
-    {.name = "circular difference", CAMERA, BLEND("smooth_difference", "circular", 0.2)},
-    {.name = "exponential union", CAMERA, BLEND("smooth_union", "exponential", 24)},
-    {.name = "root intersection", CAMERA, BLEND("smooth_intersection", "root", 0.01)},
-    {.name = "power union", CAMERA, BLEND("smooth_union", "power", 8)},
+    BLENDS("union", "smooth_union"),
+    BLENDS("intersection", "smooth_intersection"),
+    BLENDS("difference", "smooth_difference"),
     {.name = "torus of that quartic",
      CAMERA,
      "{'type':'torus','params':{'radius':0.6,'tube':0.2}," TURNED "}",
