@@ -31,7 +31,7 @@
 
 #define ROOT "tests/golden"
 
-enum { CASES_MAX = 400, WIDTH = 160, HEIGHT = 120, PATH_BYTES = 1024, NAME_BYTES = 256 };
+enum { CASES = 182, CASES_MAX = 400, WIDTH = 160, HEIGHT = 120, PATH_BYTES = 1024, NAME_BYTES = 256 };
 
 struct golden {
     char group[NAME_BYTES], name[NAME_BYTES], title[2 * NAME_BYTES];
@@ -310,6 +310,12 @@ static void test_registry_is_covered(void **state)
     assert_int_equal(missing, 0);
 }
 
+static void test_no_case_is_lost(void **state)
+{
+    (void)state;
+    assert_int_equal(case_count, CASES);
+}
+
 /* --- */
 
 static int set_up(void **state)
@@ -353,7 +359,7 @@ static bool open_page(const char *program)
 
 int main(int argc, char **argv)
 {
-    static struct CMUnitTest tests[CASES_MAX + 3];
+    static struct CMUnitTest tests[CASES_MAX + 4];
     size_t n = 0;
 
     (void)argc;
@@ -362,6 +368,7 @@ int main(int argc, char **argv)
         return 1;
     }
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_registry_is_covered);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_no_case_is_lost);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_bad_reference);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_missing_reference);
     find_cases();
