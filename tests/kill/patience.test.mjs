@@ -244,6 +244,23 @@ test('a scene whose smallest part takes too long is suspended with its measure',
     await live.close();
 });
 
+test('a scene that is too heavy for the engine is suspended, and others are drawn', async () => {
+    const daemon = await startDaemon({ args: ['--cache', folder, '--stage', 'engine', '--tile-time', '10'] });
+    daemons.push(daemon);
+    const wave = 'for (int i = 0; i < 250; i++) s += sin(p.x * float(i) + s) * cos(p.y * float(i));';
+    const heavy = scene(`float sdf(vec3 p) { float s = 0.0; ${wave} return length(p) - blow + 1e-9 * s; }`);
+    heavy.root.children = Array.from({ length: 100 }, () => ({ type: 'field', params: { primitive: 'blob' } }));
+    await ask(daemon, 'POST', '/v1/scenes?id=heavy', heavy);
+    const live = await Live.open(daemon, 'heavy');
+    live.look({ width: 64, height: 48 });
+    const notice = await live.next('notice', { code: 'scene_left_out' });
+    assert.ok(notice.measured > 10 && notice.limit === 10, `${notice.measured} of ${notice.limit}`);
+    const light = await open(daemon, 'light', GOOD, SMALL);
+    await light.nextFrame();
+    assert.equal(await restarts(daemon), 0);
+    await Promise.all([live.close(), light.close()]);
+});
+
 test('a scene that keeps two processes at work for too long is suspended too', async () => {
     const daemon = await start('--worker-busy', '400');
     const live = await open(daemon, 'busy', DRAW_HARDLY, SMALL);
