@@ -127,8 +127,8 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 
 # GLSL as C over vectors: the shaders that the engine runs, and each instruction of a field.
 spmd := $(OUT)/spmd
-spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far shown is_edge block_start \
-                pixel_light pixel_color output_of id_bits cell_count cell_next \
+spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far is_edge seen_at block_start \
+                sample_sums pixel_light pixel_color output_of id_bits cell_count cell_next \
                 environment_sky environment_mirror environment_matt
 spmd_objects := $(call object,$(wildcard $(S)/renderer/spmd/*.c $(S)/protocol/*.c \
                     $(S)/protocol/*/*.c $(S)/renderer/code/*.c $(S)/renderer/field/*.c \

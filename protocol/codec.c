@@ -5,22 +5,24 @@
 
 static const struct {
     const char *name, *mime;
+    bool raw;
 } rows[CODEC_COUNT] = {
     [CODEC_JPEG] = {"jpg", "image/jpeg"},
     [CODEC_PNG] = {"png", "image/png"},
-    [CODEC_NPY] = {"npy", "application/x-npy"},
-    [CODEC_ZIP] = {"zip", "application/zip"},
+    [CODEC_NPY] = {"npy", "application/x-npy", true},
+    [CODEC_HDR] = {"hdr", "image/vnd.radiance", true},
     [CODEC_GUIDE] = {"guide", "application/octet-stream"},
+    [CODEC_ZIP] = {"zip", "application/zip"},
 };
 
 const char *codec_choice(size_t index)
 {
-    return index + CODEC_JPEG < CODEC_ZIP ? rows[index + CODEC_JPEG].name : NULL;
+    return index + CODEC_JPEG < CODEC_GUIDE ? rows[index + CODEC_JPEG].name : NULL;
 }
 
 enum codec codec_find(const char *word)
 {
-    for (enum codec codec = CODEC_JPEG; codec < CODEC_ZIP; codec++) {
+    for (enum codec codec = CODEC_JPEG; codec < CODEC_GUIDE; codec++) {
         if (strcmp(rows[codec].name, word) == 0) {
             return codec;
         }
@@ -36,4 +38,9 @@ const char *codec_name(enum codec codec)
 const char *codec_mime(enum codec codec)
 {
     return rows[codec].mime;
+}
+
+bool codec_is_raw(enum codec codec)
+{
+    return rows[codec].raw;
 }

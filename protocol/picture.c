@@ -199,11 +199,11 @@ static const struct stage_row stages[FRAME_STAGES] = {
     [FRAME_MARCH] = {"march", "Rays from the camera to their surfaces."},
     [FRAME_MATTER] = {"matter", "What the surfaces are made of."},
     [FRAME_SHADOW] = {"shadow", "Shadows and occlusion."},
-    [FRAME_SHADE] = {"shade", "Light on surfaces, fog, background, tone mapping; where the engine "
+    [FRAME_SHADE] = {"shade", "Light on surfaces, fog, background; where the engine "
                               "draws, all of drawing."},
     [FRAME_RAYS] = {"rays", "Mirrored and broken rays, and light through glass."},
     [FRAME_VOLUME] = {"volume", "Smoke and clouds."},
-    [FRAME_RESOLVE] = {"resolve", "Samples to pixels."},
+    [FRAME_RESOLVE] = {"resolve", "Samples to pixels, tone mapping."},
     [FRAME_READ] = {"read", "Pixels to the processor."},
     [FRAME_ENCODE] = {"encode", "Pixels to a file."},
 };

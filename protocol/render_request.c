@@ -213,6 +213,19 @@ static bool check_region(const struct record *picture, const char *place, struct
            error_set(err, ERROR_INVALID, place, "holds no pixel");
 }
 
+/* Light is the output color's alone. */
+static bool check_light(const struct render_request *request, const bool outputs[AOV_COUNT],
+                        const char *place, struct error *err)
+{
+    for (int i = 0; request->codec == CODEC_HDR && i < AOV_COUNT; i++) {
+        if (outputs[i] && i != AOV_COLOR) {
+            return error_set(err, ERROR_INVALID, place, "%s is no light: format npy",
+                             aov_name((enum aov)i));
+        }
+    }
+    return true;
+}
+
 static const char *outputs_text(const struct record *picture)
 {
     return record_is_set(picture, "aov") ? record_text(picture, "aov") : aov_name(AOV_COLOR);
@@ -225,6 +238,7 @@ bool render_request_check(struct render_request *request, enum request_form form
     char place[ERROR_PLACE_BYTES], text[AOVS_TEXT_BYTES];
 
     if (!aovs_read(outputs_text(picture), outputs, place_of(place, form, "aov"), err) ||
+        !check_light(request, outputs, place, err) ||
         !check_region(picture, place_of(place, form, "region"), err)) {
         return false;
     }

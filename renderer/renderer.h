@@ -183,7 +183,7 @@ struct job_desc {
     bool exact;      /* wait for the newest revision's shader; else draw the newest drawable */
     bool in_rounds;  /* of ever more samples, each a whole picture: JOB_ROUND. Color alone */
     bool sparse;     /* fewer rays than pixels, with one sample; the engine does so for color */
-    bool as_floats;  /* give raw values (NPY), not 8/16-bit pixels */
+    bool as_floats;  /* give raw values (codec_is_raw), not 8/16-bit pixels */
     /* Ids of nodes: only they and what is below them are seen, inside of what is around them. None,
      * or none that the scene has: everything is. Compiles nothing. Borrowed for the call. */
     const char *const *isolated;

@@ -18,7 +18,7 @@ struct job_desc job_desc_of(const struct render_request *request)
         .exact = render_request_is(request, "exact"),
         .in_rounds = render_request_is(request, "in_rounds"),
         .sparse = render_request_is(request, "sparse"),
-        .as_floats = request->codec == CODEC_NPY,
+        .as_floats = codec_is_raw(request->codec),
         .isolated = (const char *const *)request->isolate.ids,
         .isolated_count = request->isolate.count,
     };

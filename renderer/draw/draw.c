@@ -125,11 +125,6 @@ enum draw_set draw_set_of(const struct draw_picture *picture)
     return draw_is_sampled(picture) ? DRAW_SET_SAMPLED : DRAW_SET_ONCE;
 }
 
-bool draw_is_linear(const struct draw_picture *picture)
-{
-    return picture->forms[AOV_COLOR] && picture->forms[AOV_COLOR]->floats;
-}
-
 enum program_stage draw_last_stage(const struct draw_picture *picture)
 {
     enum program_stage last = STAGE_MARCH;

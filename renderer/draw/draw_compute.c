@@ -40,7 +40,7 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
 
 static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    draw_gl_keep(draw, picture, region, GL_R32F);
+    draw_gl_keep(draw, picture, region, GL_RG32F);
 }
 
 /* The tile's sums: from the targets, or back into them. */
@@ -97,7 +97,6 @@ static struct wave make_wave(const struct draw *draw, struct draw_picture *pictu
         .plan = &picture->plan,
         .lights = picture->lights,
         .clear = picture->clear,
-        .linear = draw_is_linear(picture),
         .tile = draw_gl_place(picture, slot),
         .slot = slot,
     };

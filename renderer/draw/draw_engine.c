@@ -25,11 +25,11 @@ static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
 static bool is_sparse(const struct draw_picture *picture)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (i != AOV_COLOR && picture->forms[i]) {
+        if (picture->forms[i] && (i != AOV_COLOR || picture->forms[i]->floats)) {
             return false;
         }
     }
-    return picture->plan.sparse && !draw_is_linear(picture);
+    return picture->plan.sparse;
 }
 
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
@@ -49,11 +49,11 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
         .frame = picture->block,
         .skies = {&skies[0], &skies[1], &skies[2]},
         .smoothing = smoothing_of(plan),
+        .margin = draw_margin(plan),
         .rays = plan->rays,
         .clear_depth = block->has_clear ? plan->clear_depth : 0,
         .shadows = last >= STAGE_SHADOW,
         .lights = last == STAGE_COUNT,
-        .linear = draw_is_linear(picture),
         .sparse = is_sparse(picture),
     });
     return true;

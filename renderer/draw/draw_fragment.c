@@ -40,7 +40,7 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
 
 static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    draw_gl_keep(draw, picture, region, GL_RG32F);
+    draw_gl_keep(draw, picture, region, GL_RGBA32F);
 }
 
 /* --- a tile --- */
@@ -95,7 +95,7 @@ static void add_sample(const struct draw *draw, const struct draw_picture *pictu
     run(draw, picture, slot, FRAGMENT_SAMPLES, program_pass(scene->program, STAGE_SAMPLE),
         PASS_ARGS(struct trace_args, .sample_index = sample, .rays = plan->rays,
                   .depth = picture->clear ? plan->clear_depth : 0, .looks = last >= STAGE_SHADOW,
-                  .lights = last == STAGE_COUNT, .linear = draw_is_linear(picture),
+                  .lights = last == STAGE_COUNT,
                   .masked = sample > 0 && plan->antialiasing == ANTIALIASING_ADAPTIVE));
     tile_clock_mark(draw->gl, draw->software, slot, FRAME_SHADE);
 }

@@ -51,8 +51,6 @@ void draw_fragment_finish(struct draw *draw);
 int draw_margin(const struct draw_plan *plan);
 /* Where its samples lie. */
 enum draw_set draw_set_of(const struct draw_picture *picture);
-/* Its light is not tone-mapped. */
-bool draw_is_linear(const struct draw_picture *picture);
 /* The last stage that one of the picture's outputs needs. */
 enum program_stage draw_last_stage(const struct draw_picture *picture);
 uint64_t draw_now_us(void);

@@ -167,8 +167,7 @@ static void follow(struct wave *w)
 static void gather(struct wave *w, const struct round *round)
 {
     targets_bind_common(w->targets, w->gl, &w->targets->eye, &w->targets->eye);
-    run_common(w, COMMON_GATHER, round,
-               PASS_ARGS(struct gather_args, .sample_index = w->sample, .linear = w->linear));
+    run_common(w, COMMON_GATHER, round, PASS_ARGS(struct gather_args, .sample_index = w->sample));
     mark(w, round, FRAME_SHADE);
 }
 

@@ -16,7 +16,7 @@ struct wave {
     const struct program *program;
     const struct draw_plan *plan;
     int lights;
-    bool clear, linear;     /* light goes through something; no tone mapping */
+    bool clear;             /* light goes through something */
     struct pass_place tile; /* with its margin */
     int sample;             /* of each pixel */
     struct draw_slot *slot; /* takes the time */

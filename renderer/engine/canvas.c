@@ -23,7 +23,7 @@ void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region)
 
     canvas->kept = region;
     canvas->pixels = memory_alloc(4 * pixels, sizeof *canvas->pixels);
-    canvas->counted = memory_alloc(pixels, sizeof *canvas->counted);
+    canvas->counted = memory_alloc(2 * pixels, sizeof *canvas->counted);
 }
 
 void engine_canvas_destroy(struct engine_canvas *canvas)

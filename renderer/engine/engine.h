@@ -48,6 +48,7 @@ void engine_program_destroy(struct engine_program *program);
 void engine_distances(const struct engine_program *program, const float *numbers,
                       const float (*points)[3], size_t count, float *out);
 
+enum { ENGINE_MARGIN = 4 };
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };
 
 struct engine_picture {
@@ -56,10 +57,10 @@ struct engine_picture {
     const struct frame_block *frame;
     const struct engine_sky *skies[ENGINE_SKIES];
     enum engine_smoothing smoothing;
+    int margin;           /* pixels around a tile that are drawn too, ENGINE_MARGIN at most */
     int rays;             /* of a sample after the first */
     int clear_depth;      /* surfaces that light goes through; 0: none */
     bool shadows, lights; /* whether they are wanted */
-    bool linear;          /* light is not tone mapped */
     bool sparse;          /* one sample, of fewer pixels where that pays; light alone */
 };
 

@@ -115,7 +115,7 @@ struct engine_canvas {
     struct engine_picture picture;
     struct cells cells[ENGINE_THREADS][ENGINE_SPACES]; /* of each thread */
     struct engine_rect kept;                           /* width 0: nothing is */
-    float *pixels, *counted; /* of the kept: sums of four, and how many samples */
+    float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
 };
 
 /* One call of engine_draw. */

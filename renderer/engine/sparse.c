@@ -9,18 +9,18 @@
 enum { SPARSE_GROUP = 4 * SPARSE_STEP };
 
 /* More than this between two corners of a block asks for rays between them. */
-#define LIGHT_MOST 0.06f /* of the root of light, which is about equal steps for the eye */
+#define SEEN_MOST 0.06f  /* of what seen_at() gives */
 #define TURN_LEAST 0.95f /* cosine of two normals' angle */
 #define DEPTH_MOST 1.1f  /* one distance in parts of the other */
 
-static bool light_differs(const float *a, const float *b)
+/* Lanes of `seen`. */
+static bool light_differs(const vf seen[4], int a, int b)
 {
     float difference = 0;
     for (int k = 0; k < 4; k++) {
-        const float from = sqrtf(f_max(a[k], 0.0f)), to = sqrtf(f_max(b[k], 0.0f));
-        difference = f_max(difference, fabsf(from - to));
+        difference = f_max(difference, fabsf(seen[k][a] - seen[k][b]));
     }
-    return difference > LIGHT_MOST;
+    return difference > SEEN_MOST;
 }
 
 static float dot_normals(const float *a, const float *b)
@@ -42,13 +42,20 @@ static bool shape_differs(const float *a, const float *b)
 }
 
 /* Whether pixels between the corners can be told from these. */
-static bool is_even(const struct hand *hand, const int corners[4])
+static bool is_even(struct hand *hand, const int corners[4])
 {
     static const int pairs[][2] = {{0, 3}, {1, 2}, {0, 1}};
+    vi at = vi_zero;
+    vf seen[4];
+    for (int i = 0; i < 4; i++) {
+        at[i] = corners[i];
+    }
+    const vf here[2] = {(vf)(at % SIDE), (vf)(at / SIDE)};
+    spmd_seen_at(&hand->lanes, lanes_number < 4, here, seen);
     for (int i = 0; i < 3; i++) {
-        const int a = corners[pairs[i][0]], b = corners[pairs[i][1]];
-        if (light_differs(hand->pixels + 4 * a, hand->pixels + 4 * b) ||
-            shape_differs(hand->geometry + 4 * a, hand->geometry + 4 * b)) {
+        const int a = pairs[i][0], b = pairs[i][1];
+        if (light_differs(seen, a, b) ||
+            shape_differs(hand->geometry + 4 * corners[a], hand->geometry + 4 * corners[b])) {
             return false;
         }
     }
@@ -79,26 +86,27 @@ static void draw_corners(struct hand *hand)
 static void draw_block(struct hand *hand, int left, int top)
 {
     const struct engine_rect inner = hand->inner;
+    const int margin = hand->canvas->picture.margin;
     for (int i = 0; i < SPARSE_STEP * SPARSE_STEP; i += LANES) {
         const vi at = i + lanes_number;
         const vi x = left + at % SPARSE_STEP, y = top + at / SPARSE_STEP;
-        const vb shown = (x >= inner.x - MARGIN) & (x < inner.x + inner.width + MARGIN) &
-                         (y >= inner.y - MARGIN) & (y < inner.y + inner.height + MARGIN);
+        const vb shown = (x >= inner.x - margin) & (x < inner.x + inner.width + margin) &
+                         (y >= inner.y - margin) & (y < inner.y + inner.height + margin);
         if (lanes_any((at > 0) & shown)) {
             add_sample(hand, (at > 0) & shown, x, y, 0);
         }
     }
 }
 
-/* What lies at `x`, `y` of a block, from four floats of each corner. */
-static void interpolate(float *values, int to, const int corners[4], int x, int y)
+/* What lies at `x`, `y` of a block, from `count` floats of each corner. */
+static void interpolate(float *values, int count, int to, const int corners[4], int x, int y)
 {
     const float right = (float)x / SPARSE_STEP, down = (float)y / SPARSE_STEP;
-    for (int k = 0; k < 4; k++) {
-        const float a = values[4 * corners[0] + k], b = values[4 * corners[1] + k];
-        const float c = values[4 * corners[2] + k], d = values[4 * corners[3] + k];
+    for (int k = 0; k < count; k++) {
+        const float a = values[count * corners[0] + k], b = values[count * corners[1] + k];
+        const float c = values[count * corners[2] + k], d = values[count * corners[3] + k];
         const float above = a + (b - a) * right, below = c + (d - c) * right;
-        values[4 * to + k] = above + (below - above) * down;
+        values[count * to + k] = above + (below - above) * down;
     }
 }
 
@@ -111,13 +119,13 @@ static void fill_block(struct hand *hand, const int corners[4])
     }
     for (int i = 1; i < SPARSE_STEP * SPARSE_STEP; i++) {
         const int x = i % SPARSE_STEP, y = i / SPARSE_STEP, to = corners[0] + y * SIDE + x;
-        interpolate(hand->pixels, to, corners, x, y);
+        interpolate(hand->pixels, 4, to, corners, x, y);
+        interpolate(hand->counted, 2, to, corners, x, y);
         if (all_hit) {
-            interpolate(hand->geometry, to, corners, x, y);
+            interpolate(hand->geometry, 4, to, corners, x, y);
         } else {
             memcpy(hand->geometry + 4 * to, hand->geometry + 4 * corners[0], 4 * sizeof(float));
         }
-        hand->counted[to] = 1;
     }
 }
 

@@ -96,7 +96,7 @@ static void lanes_texel(struct lanes *c, int unit, vb m, vi x, vi y, vi level, v
     const float *from = unit == UNIT_GEOMETRY ? c->tile.geometry
                         : unit == UNIT_PIXELS ? c->tile.pixels
                                               : c->tile.counted;
-    const int width = unit == UNIT_COUNTED ? 1 : 4;
+    const int width = unit == UNIT_COUNTED ? 2 : 4;
     (void)level;
     for (int k = 0; k < 4; k++) {
         out[k] = k < width ? lanes_gather(from, (y * c->tile.side + x) * width + k, m) : vf_zero;

@@ -2,12 +2,12 @@
 /* Pixels of a small tile, LANES at a time, by a thread with its own memory of them. */
 
 enum {
-    TILE = 64,                      /* pixels to a side */
-    MARGIN = 1,                     /* around it, by which edges are found */
-    SIDE = 80,                      /* a multiple of lanes' pixels */
-    BLOCKS = TILE / BLOCK_SIDE + 2, /* to a side, with the margin's */
+    TILE = 64,       /* pixels to a side */
     ACROSS = 4,      /* pixels of a vector: neighbours, because lanes wait for the slowest */
     SPARSE_STEP = 4, /* side of a sparse tile's blocks (sparse.c) */
+    /* With its margin, and whole blocks of a sparse one; a multiple of lanes' pixels. */
+    SIDE = TILE + 2 * ENGINE_MARGIN + 2 * SPARSE_STEP,
+    BLOCKS = SIDE / BLOCK_SIDE + 1, /* to a side: they are the picture's, not the tile's */
 };
 
 /* A thread's own. `left`, `top`: of the tile with its margin, in the picture. `inner`: the tile's
@@ -21,7 +21,7 @@ struct hand {
     int left, top, width, height;
     struct engine_rect inner;
     float starts[BLOCKS * BLOCKS]; /* how far the rays of each block are free */
-    float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE];
+    float geometry[SIDE * SIDE * 4], pixels[SIDE * SIDE * 4], counted[SIDE * SIDE * 2];
     int listed[SIDE * SIDE], listed_count;
     uint64_t rays; /* that followed others */
 };
@@ -34,15 +34,23 @@ static vi block_of(const struct hand *hand, vi x, vi y)
     return down * BLOCKS + across;
 }
 
+/* From the block of pixel `from` to that of the last of `count`. */
+static int blocks_of(int from, int count)
+{
+    return ((from + count - 1) >> BLOCK_BITS) - (from >> BLOCK_BITS) + 1;
+}
+
 static void find_starts(struct hand *hand)
 {
-    for (int i = 0; i < BLOCKS * BLOCKS; i += LANES) {
-        const vi at = i + lanes_number;
-        const vf block[2] = {(vf)(at % BLOCKS + (hand->left >> BLOCK_BITS)),
-                             (vf)(at / BLOCKS + (hand->top >> BLOCK_BITS))};
-        const vf start = spmd_block_start(&hand->lanes, at < BLOCKS * BLOCKS, block);
-        for (int k = 0; k < LANES && i + k < BLOCKS * BLOCKS; k++) {
-            hand->starts[i + k] = start[k];
+    const int across = blocks_of(hand->left, hand->width);
+    const int count = across * blocks_of(hand->top, hand->height);
+    for (int i = 0; i < count; i += LANES) {
+        const vi at = i + lanes_number, column = at % across, row = at / across;
+        const vf block[2] = {(vf)(column + (hand->left >> BLOCK_BITS)),
+                             (vf)(row + (hand->top >> BLOCK_BITS))};
+        const vf start = spmd_block_start(&hand->lanes, at < count, block);
+        for (int k = 0; k < LANES && i + k < count; k++) {
+            hand->starts[row[k] * BLOCKS + column[k]] = start[k];
         }
     }
 }
@@ -104,10 +112,10 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     const struct engine_picture *picture = &hand->canvas->picture;
     const vf pixel[2] = {(vf)(x + hand->left), (vf)(y + hand->top)};
     const vf start = lanes_gather(hand->starts, block_of(hand, x, y), m);
-    vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[3];
+    vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[4] = {0}, counts[2] = {0};
     const vi rays = spmd_trace(c, m, pixel, start, index, picture->rays, picture->clear_depth,
                                picture->shadows, picture->lights, total, geometry, met);
-    spmd_shown(c, m, total, picture->linear, light);
+    spmd_sample_sums(c, m, total, light, counts);
     if (index == 0) {
         write_met(hand, m, x, y, met);
     }
@@ -116,14 +124,15 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
         if (!m[i]) {
             continue;
         }
-        float *sum = hand->pixels + 4 * at[i];
         for (int k = 0; k < 4; k++) {
-            sum[k] += k < 3 ? light[k][i] : total[3][i];
+            hand->pixels[4 * at[i] + k] += light[k][i];
+        }
+        for (int k = 0; k < 2; k++) {
+            hand->counted[2 * at[i] + k] += counts[k][i];
         }
         for (int k = 0; k < 4 && index == 0; k++) {
             hand->geometry[4 * at[i] + k] = geometry[k][i];
         }
-        hand->counted[at[i]] += 1;
         hand->rays += (uint64_t)rays[i];
     }
 }
@@ -180,10 +189,10 @@ static void keep(struct hand *hand, bool back)
         const size_t at = (size_t)(hand->top + y - kept.y) * (size_t)kept.width +
                           (size_t)(hand->left + inner.x - kept.x);
         float *const own[] = {hand->pixels + 4 * (y * SIDE + inner.x),
-                              hand->counted + y * SIDE + inner.x};
-        float *const theirs[] = {canvas->pixels + 4 * at, canvas->counted + at};
+                              hand->counted + 2 * (y * SIDE + inner.x)};
+        float *const theirs[] = {canvas->pixels + 4 * at, canvas->counted + 2 * at};
         for (int i = 0; i < 2; i++) {
-            const size_t bytes = (size_t)inner.width * (i == 0 ? 4 : 1) * sizeof(float);
+            const size_t bytes = (size_t)inner.width * (i == 0 ? 4 : 2) * sizeof(float);
             memcpy(back ? own[i] : theirs[i], back ? theirs[i] : own[i], bytes);
         }
     }
@@ -195,7 +204,7 @@ static void list_again(struct hand *hand, int samples)
     hand->listed_count = 0;
     for (int y = 1; y < hand->height - 1; y++) {
         for (int x = 1; x < hand->width - 1; x++) {
-            if (hand->counted[y * SIDE + x] >= (float)samples) {
+            if (hand->counted[2 * (y * SIDE + x)] >= (float)samples) {
                 hand->listed[hand->listed_count++] = y * SIDE + x;
             }
         }
@@ -272,8 +281,7 @@ static void widen(int *from, int *until)
 static void draw_tile(struct hand *hand, int x, int y, int width, int height)
 {
     const struct engine_picture *picture = &hand->canvas->picture;
-    const enum engine_smoothing smoothing = picture->smoothing;
-    const int margin = smoothing == ENGINE_BLEND || smoothing == ENGINE_ADAPTIVE ? MARGIN : 0;
+    const int margin = picture->margin;
     int left = x - margin, top = y - margin;
     int right = x + width + margin, bottom = y + height + margin;
     if (picture->sparse) {

@@ -26,8 +26,7 @@ bool fragment_targets_init(struct fragment_targets *out_targets, const struct gl
     struct fragment_targets targets = {.side = side};
 
     for (int i = 0; i < SAMPLE_TEXTURE_COUNT; i++) {
-        targets.samples[i] =
-            texture_create(gl, i == SAMPLE_COUNTED ? GL_RG32F : GL_RGBA32F, side, side);
+        targets.samples[i] = texture_create(gl, GL_RGBA32F, side, side);
     }
     targets.starts = texture_create(gl, GL_R32F, blocks, blocks);
     targets.mask = texture_create(gl, GL_R32F, side, side);

@@ -32,7 +32,7 @@ static const struct {
     {offsetof(struct targets, haze), GL_RGBA16F},
     {offsetof(struct targets, total), GL_RGBA32F},
     {offsetof(struct targets, pixels), GL_RGBA32F},
-    {offsetof(struct targets, counted), GL_R32F},
+    {offsetof(struct targets, counted), GL_RG32F},
 };
 enum { TEXTURE_COUNT = sizeof textures / sizeof textures[0] };
 
@@ -172,7 +172,7 @@ void targets_bind_common(const struct targets *targets, const struct gl *gl,
     bind_image(gl, IMAGE_TOTAL, targets->total, GL_RGBA32F);
     bind_image(gl, IMAGE_SEEN, targets->visibility, GL_RGBA16F);
     bind_image(gl, IMAGE_PIXELS, targets->pixels, GL_RGBA32F);
-    bind_image(gl, IMAGE_COUNTED, targets->counted, GL_R32F);
+    bind_image(gl, IMAGE_COUNTED, targets->counted, GL_RG32F);
 }
 
 void targets_begin_list(const struct targets *targets, const struct gl *gl, enum target_list list)

@@ -4,8 +4,7 @@
 
 #include "camera.glsl"
 #include "geometry_load.glsl"
-
-layout(binding = UNIT_PIXELS) uniform sampler2D pixels;
+#include "sums_load.glsl"
 
 /* 0: the same surface; 1 and more: an edge. Depth is compared with the plane through the pixel. */
 float edge_between(ivec2 here, ivec2 there, vec4 g)
@@ -30,14 +29,19 @@ float edge_at(ivec2 here)
     return most;
 }
 
+/* A pixel's colour and coverage in about equal steps for the eye. */
+vec4 seen_at(ivec2 here)
+{
+    vec4 mean = mean_at(here);
+    return sqrt(clamp(vec4(shown(mean.rgb), mean.a), 0.0, 1.0));
+}
+
 /* How much the colours around differ from the pixel's, as eyes see them. */
 float contrast_at(ivec2 here)
 {
-    vec3 c = sqrt(clamp(texelFetch(pixels, here, 0).rgb, 0.0, 1.0));
-    vec3 most = vec3(0.0);
+    vec4 c = seen_at(here), most = vec4(0.0);
     for (int i = zero; i < 9; i++) {
-        vec3 d = sqrt(clamp(texelFetch(pixels, here + ivec2(i % 3, i / 3) - 1, 0).rgb, 0.0, 1.0));
-        most = max(most, abs(d - c));
+        most = max(most, abs(seen_at(here + ivec2(i % 3, i / 3) - 1) - c));
     }
     return max(most.r, max(most.g, most.b));
 }

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Adds a finished sample to its pixel.
- *
- * Every sample is tone mapped before the average is taken: a bright highlight then has edges as
- * smooth as any other. The average is one of light, so it is taken before the sRGB curve. */
+/* Adds a finished sample to its pixel. */
 
 #include "group.glsl"
-#include "tone.glsl"
+#include "sums.glsl"
 
 layout(location = ARGS_LOCATION) uniform GatherArgs args;
 layout(binding = UNIT_TOTAL) uniform sampler2D totals;
-layout(rgba32f, binding = IMAGE_PIXELS) uniform image2D pixels; /* sums; w: coverage */
-layout(r32f, binding = IMAGE_COUNTED) writeonly uniform image2D counted;
+layout(rgba32f, binding = IMAGE_PIXELS) uniform image2D pixels; /* light; w: coverage */
+layout(rg32f, binding = IMAGE_COUNTED) uniform image2D counted; /* samples, weight */
 
 void main()
 {
@@ -18,9 +15,13 @@ void main()
     if (here.x < 0) {
         return;
     }
-    vec4 total = texelFetch(totals, here, 0);
-    vec3 color = args.linear == 1 ? total.rgb : tone_map(total.rgb * frame.exposure);
-    vec4 before = args.sample_index == 0 ? vec4(0.0) : imageLoad(pixels, here);
-    imageStore(pixels, here, before + vec4(color, total.w));
-    imageStore(counted, here, vec4(float(args.sample_index + 1)));
+    vec4 light;
+    vec2 counts;
+    sample_sums(texelFetch(totals, here, 0), light, counts);
+    if (args.sample_index > 0) {
+        light += imageLoad(pixels, here);
+        counts += imageLoad(counted, here).xy;
+    }
+    imageStore(pixels, here, light);
+    imageStore(counted, here, vec4(counts, 0.0, 0.0));
 }

@@ -213,9 +213,7 @@
     X(first)                                                                                       \
     X(last) /* no rays follow */                                                                   \
     X(haze) /* there are volumes */
-#define GATHER_ARGS(X)                                                                             \
-    X(sample_index)                                                                                \
-    X(linear) /* light is asked for as it is */
+#define GATHER_ARGS(X) X(sample_index)
 #define LISTING_ARGS(X)                                                                            \
     X(width)                                                                                       \
     X(height)  /* of the tile with its margin */                                                   \
@@ -228,8 +226,7 @@
     X(rays)   /* after the first */                                                                \
     X(depth)  /* surfaces between what is met and a light */                                       \
     X(looks)  /* shadows are wanted, */                                                            \
-    X(lights) /* light too, */                                                                     \
-    X(linear) /* as it is */                                                                       \
+    X(lights) /* light too */                                                                      \
     X(masked) /* for the pixels of a mask */
 
 /* --- the same in C --- */

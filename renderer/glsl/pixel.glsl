@@ -4,33 +4,24 @@
 #include "edges.glsl"
 #include "screen.glsl"
 
-layout(binding = UNIT_COUNTED) uniform sampler2D counted;
-
-vec4 average(ivec2 here)
-{
-    return texelFetch(pixels, here, 0) / max(texelFetch(counted, here, 0).x, 1.0);
-}
-
 /* Edges are mixed with what is around them, the more the stronger they are (Sabino, Andrade, Clua,
  * Montenegro, Pagliosa: A hybrid GPU rasterized and ray traced rendering pipeline for real time
  * rendering of per pixel effects, 2012). */
 vec4 blended(ivec2 here)
 {
-    vec4 c = average(here);
-    float edge = clamp(edge_at(here), 0.0, 1.0);
-    vec4 sum = 2.0 * c;
-    float weights = 2.0;
+    float part = clamp(edge_at(here), 0.0, 1.0) / 6.0;
+    vec4 light = (1.0 - 4.0 * part) * texelFetch(pixels, here, 0);
+    vec2 counts = (1.0 - 4.0 * part) * texelFetch(counted, here, 0).xy;
     for (int i = zero; i < 4; i++) {
-        ivec2 aside = (i < 2 ? ivec2(1, 0) : ivec2(0, 1)) * (1 - 2 * (i & 1));
-        sum += average(here + aside);
-        weights += 1.0;
+        ivec2 aside = here + (i < 2 ? ivec2(1, 0) : ivec2(0, 1)) * (1 - 2 * (i & 1));
+        light += part * texelFetch(pixels, aside, 0);
+        counts += part * texelFetch(counted, aside, 0).xy;
     }
-    return mix(c, sum / weights, edge);
+    return sums_mean(light, counts);
 }
 
-/* Light and coverage of a pixel; `blend`: at edges with its neighbours'. */
+/* Linear light and coverage of a pixel; `blend`: at edges with its neighbours'. */
 vec4 pixel_light(ivec2 here, bool blend)
 {
-    vec4 c = blend ? blended(here) : average(here);
-    return vec4(c.rgb, (frame.effects & EFFECT_TRANSPARENT) != 0 ? c.a : 1.0);
+    return blend ? blended(here) : mean_at(here);
 }

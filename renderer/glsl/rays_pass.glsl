@@ -11,7 +11,7 @@ void main()
 {
     float sum = 0.0;
     for (int y = zero; y < args.height; y++) {
-        sum += texelFetch(counted, ivec2(int(gl_FragCoord.x), y), 0).y;
+        sum += texelFetch(counted, ivec2(int(gl_FragCoord.x), y), 0).z;
     }
     out_rays = sum;
 }

@@ -100,9 +100,3 @@ int trace(ivec2 pixel, float start, int index, int rays, int depth, bool looks, 
     }
     return count;
 }
-
-/* A sample's light as it is added to its pixel. */
-vec3 shown(vec3 light, bool linear)
-{
-    return linear ? light : tone_map(light * frame.exposure);
-}

@@ -3,14 +3,14 @@
  * what the first sample met is told by that one alone. */
 
 #include "sample.glsl"
-#include "tone.glsl"
+#include "sums.glsl"
 
 layout(location = ARGS_LOCATION) uniform TraceArgs args;
 layout(binding = UNIT_STARTS) uniform sampler2D starts;
 layout(binding = UNIT_MASK) uniform sampler2D mask;
 
 layout(location = SAMPLE_PIXELS) out vec4 out_pixels;   /* light; w: coverage */
-layout(location = SAMPLE_COUNTED) out vec2 out_counted; /* samples, rays that followed */
+layout(location = SAMPLE_COUNTED) out vec4 out_counted; /* samples, weight, rays that followed */
 layout(location = SAMPLE_GEOMETRY) out vec4 out_geometry;
 layout(location = SAMPLE_NORMAL) out vec4 out_normal;     /* w: distance */
 layout(location = SAMPLE_DIFFUSE) out vec4 out_diffuse;   /* w: steps */
@@ -28,8 +28,9 @@ void add_sample(ivec2 here)
                      args.depth, args.looks == 1, args.lights == 1, total, g, met);
     Surface s = met.surface;
 
-    out_pixels = vec4(shown(total.rgb, args.linear == 1), total.w);
-    out_counted = vec2(1.0, float(rays));
+    vec2 counts;
+    sample_sums(total, out_pixels, counts);
+    out_counted = vec4(counts, float(rays), 0.0);
     out_geometry = out_normal = out_diffuse = out_specular = out_optical = out_lights = vec4(0.0);
     if (args.sample_index == 0) {
         out_geometry = g;

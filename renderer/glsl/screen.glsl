@@ -6,7 +6,7 @@
 
 vec3 color_of(vec4 c, float coverage)
 {
-    return srgb(coverage > 0.0 ? c.rgb / coverage : vec3(0.0));
+    return srgb(shown(coverage > 0.0 ? c.rgb / coverage : vec3(0.0)));
 }
 
 /* The same as a screen shows it, with noise below its steps. */

@@ -102,6 +102,47 @@ float occlusion_place(int i, float start)
     return max(start, frame.occlusion_reach * (x * (x + 1.0) + 1.0 / 3.0) / (n * n));
 }
 
+/* A straight way from a place. */
+struct Sight {
+    vec3 from, along; /* direction, of length 1 */
+    float near, far;  /* what is not between does not count */
+    float print;      /* so much is as good as nothing */
+    float sharpness;  /* of a soft shadow */
+    float lambert, lift; /* cosine to the surface's normal, and the place's height over it */
+};
+
+/* Of a sight whose openness is asked for, along a normal. */
+#define SIGHT_OPEN (-1)
+
+/* The part that is seen along it: of a light by the kind of its shadow, or of the environment.
+ * What else a ray may meet has to be looked at here too, and in march(). */
+float visible(Sight sight, int kind, int steps)
+{
+    Passage s = passage(sight.near, sight.far, sight.print, sight.sharpness, sight.lambert,
+                        sight.lift);
+    float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
+
+    for (int i = zero; i < steps; i++) {
+        float d = field_bound(sight.from + sight.along * x, x, true);
+        if (field_waits(d)) {
+            i--;
+            continue;
+        }
+        if (kind == SIGHT_OPEN) {
+            dark += clamp(1.0 - d / x, 0.0, 1.0);
+            x = occlusion_place(i + 1, sight.near);
+        } else {
+            bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, d);
+            x = s.x;
+            if (!on) {
+                break;
+            }
+        }
+    }
+    float open = max(1.0 - frame.occlusion_strength * dark / float(max(steps, 1)), 0.0);
+    return kind == SIGHT_OPEN ? open : kind == SHADOW_HARD ? hard_end(s) : s.seen;
+}
+
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
  * once. The rays of soft shadows go on beyond the bounds, as far as these may still cover a part of
  * the disc. */
@@ -123,33 +164,13 @@ void look(vec3 p, vec3 n, float print, bool hit)
         bool lit = lambert > 0.0 && any(greaterThan(comes.color, vec3(0.0)));
         bool looks = lit && kind != SHADOW_NONE && far > near;
         int steps = outward ? frame.occlusion_samples : looks ? frame.shadow_steps : 0;
-        Passage s = passage(near, far, print, light.sharpness, lambert, lift);
-        float x = outward ? occlusion_place(0, near) : near;
-        float dark = 0.0;
+        Sight sight = Sight(base, along, near, far, print, light.sharpness, lambert, lift);
 
-        steps = hit ? steps : 0;
-        for (int i = zero; i < steps; i++) {
-            float d = field_bound(base + along * x, x, true);
-            if (field_waits(d)) {
-                i--;
-                continue;
-            }
-            if (outward) {
-                dark += clamp(1.0 - d / x, 0.0, 1.0);
-                x = occlusion_place(i + 1, near);
-            } else {
-                bool on = kind == SHADOW_HARD ? hard_step(s, d) : soft_step(s, d);
-                x = s.x;
-                if (!on) {
-                    break;
-                }
-            }
-        }
+        float seen = visible(sight, outward ? SIGHT_OPEN : kind, hit ? steps : 0);
         if (outward) {
-            open = max(1.0 - frame.occlusion_strength * dark / float(max(steps, 1)), 0.0);
+            open = seen;
             store_openness(open);
         } else {
-            float seen = kind == SHADOW_HARD ? hard_end(s) : s.seen;
             seen = kind == SHADOW_NONE ? 1.0 : lit ? seen * seen * (3.0 - 2.0 * seen) : 0.0;
             store_visibility(round, seen, open);
         }

@@ -27,6 +27,12 @@ vec3 tone_map(vec3 c)
     return clamp(aces(c / 0.85), 0.0, 1.0);
 }
 
+/* Linear light as a screen shows it, before its curve. */
+vec3 shown(vec3 light)
+{
+    return tone_map(light * frame.exposure);
+}
+
 /* IEC 61966-2-1 */
 vec3 srgb(vec3 c)
 {

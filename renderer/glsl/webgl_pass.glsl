@@ -7,6 +7,7 @@
 
 #include "sample.glsl"
 #include "screen.glsl"
+#include "sums.glsl"
 
 uniform vec2 resolution; /* of the picture, in pixels */
 /* Radians around the target, radians above, and how much nearer, e to the power of it; 0: the
@@ -46,13 +47,17 @@ void main()
     preload();
     place_camera();
     ivec2 pixel = ivec2(gl_FragCoord.x, resolution.y - gl_FragCoord.y);
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
+    vec2 count = vec2(0.0);
     for (int i = zero; i < SAMPLES; i++) {
-        vec4 total, g;
+        vec4 total, g, light;
+        vec2 one;
         Met met;
         stack_set_count(pixel, 0);
         trace(pixel, 0.0, i, RAYS, CLEAR_DEPTH, true, true, total, g, met);
-        sum += shown(total.rgb, false);
+        sample_sums(total, light, one);
+        sum += light;
+        count += one;
     }
-    out_color = pixel_color(vec4(sum / float(SAMPLES), 1.0), pixel);
+    out_color = pixel_color(sums_mean(sum, count), pixel);
 }

@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "protocol/memory.h"
+#include "rgbe.h"
 #include "shrink.h"
-
-enum { RUNS_LEAST = 8, RUNS_MOST = 32767 }; /* widths of rows with runs of each component */
 
 struct reader {
     const uint8_t *bytes;
@@ -80,8 +79,8 @@ static bool read_row(struct reader *r, uint8_t *pixels, int width)
 {
     const uint8_t *head = r->bytes + r->at;
 
-    if (width < RUNS_LEAST || width > RUNS_MOST || r->length - r->at < 4 || head[0] != 2 ||
-        head[1] != 2 || head[2] > 127) {
+    if (width < RGBE_RUNS_LEAST || width > RGBE_RUNS_MOST || r->length - r->at < 4 ||
+        head[0] != 2 || head[1] != 2 || head[2] > 127) {
         return read_flat(r, pixels, width);
     }
     if ((head[2] << 8 | head[3]) != width) {
@@ -100,7 +99,7 @@ static void to_linear(const uint8_t *pixels, int width, float *out)
 {
     for (int x = 0; x < width; x++) {
         const uint8_t *p = pixels + 4 * x;
-        const float unit = p[3] ? ldexpf(1, p[3] - 136) : 0;
+        const float unit = p[3] ? ldexpf(1, p[3] - RGBE_BIAS) : 0;
 
         for (int i = 0; i < 3; i++) {
             out[3 * x + i] = (float)p[i] * unit;

@@ -15,7 +15,7 @@ struct encoder_class {
     bool (*end)(void *state, struct error *err);
     void (*destroy)(void *state);
 };
-extern const struct encoder_class png_class, jpeg_class, npy_class;
+extern const struct encoder_class png_class, jpeg_class, npy_class, hdr_class;
 
 /* One picture on its way into `out`, which stays the caller's. */
 struct image_encoder {

@@ -7,7 +7,11 @@
 #include "encode.h"
 
 static const struct encoder_class *const classes[] = {
-    [CODEC_PNG] = &png_class, [CODEC_JPEG] = &jpeg_class, [CODEC_NPY] = &npy_class};
+    [CODEC_PNG] = &png_class,
+    [CODEC_JPEG] = &jpeg_class,
+    [CODEC_NPY] = &npy_class,
+    [CODEC_HDR] = &hdr_class,
+};
 
 void image_finish(struct image *image)
 {

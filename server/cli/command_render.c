@@ -34,7 +34,7 @@ static bool choose_format(const struct options *options, struct render_request *
     }
     if (!out->codec) {
         return error_set(err, ERROR_INVALID, "--output",
-                         "%s has no known extension; --format png, jpg or npy says what to write",
+                         "%s has no known extension; --format " CODEC_CHOICES " says what to write",
                          output);
     }
     int outputs = option_int(options, OPTION_AOV);

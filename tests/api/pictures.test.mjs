@@ -6,6 +6,7 @@ import { after, before, describe, test } from 'node:test';
 
 import { OUTPUTS } from '../support/counts.mjs';
 import { ask, startDaemon } from '../support/daemon.mjs';
+import { readHdr } from '../support/hdr.mjs';
 import { Live } from '../support/live.mjs';
 import { readNpy } from '../support/npy.mjs';
 import { decodePng } from '../support/png.mjs';
@@ -132,6 +133,48 @@ describe('outputs', () => {
             assert.ok(shown.pixels.equals(asked.pixels), name);
         }
         await live.close();
+    });
+});
+
+describe('light', () => {
+    const srgb = (c) => (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055);
+    const level = (light) => 255 * srgb(Math.min(Math.max(2 * light, 0), 1));
+
+    test('comes as a Radiance file, brighter than white, and is that of the picture', async () => {
+        await ask(daemon, 'PUT', '/v1/scenes/lamp', {
+            ...DOCUMENT,
+            materials: {
+                lamp: { shader: 'phong', properties: { emission: [9, 5, 2] } },
+                mirror: DOCUMENT.materials.mirror,
+            },
+            render: { tone_map: 'none', exposure: 1 },
+            root: { ...DOCUMENT.root, material: 'lamp' },
+        });
+        const read = async (format) => {
+            const answer = await fetch(`${daemon.url}/v1/scenes/lamp/image.${format}?width=${WIDTH}&height=${HEIGHT}`);
+            assert.equal(answer.status, 200);
+            return [answer.headers.get('content-type'), Buffer.from(await answer.arrayBuffer())];
+        };
+        const [type, bytes] = await read('hdr');
+        assert.equal(type, 'image/vnd.radiance');
+        const { width, height, values, steps } = readHdr(bytes);
+        const { pixels } = decodePng((await read('png'))[1]);
+        const numbers = readNpy((await read('npy'))[1]).values;
+        assert.deepEqual([width, height], [WIDTH, HEIGHT]);
+        assert.ok(values.filter((light) => light > 4).length > 200);
+        values.forEach((light, i) => {
+            const step = steps[Math.floor(i / 3)];
+            const number = numbers[4 * Math.floor(i / 3) + (i % 3)];
+            assert.ok(Math.abs(light - number) <= 1.001 * step, `${i}: ${light}, not ${number}`);
+            assert.ok(Math.abs(level(number) - pixels[i]) <= 1, `${i}: ${level(number)}, not ${pixels[i]}`);
+            assert.ok(pixels[i] >= level(light - step) - 1 && pixels[i] <= level(light + step) + 1, `${i}`);
+        });
+        await ask(daemon, 'DELETE', '/v1/scenes/lamp');
+    });
+
+    test('is that of color alone', async () => {
+        await refused('&aov=normal', 'hdr', { place: '?aov', detail: /normal is no light/ });
+        await refused('&aov=color,depth', 'hdr', { place: '?aov', detail: /depth is no light/ });
     });
 });
 

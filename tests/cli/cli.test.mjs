@@ -282,11 +282,12 @@ test('schema is JSON with the registry in it', () => {
     assert.ok(schema['x-fieldcast'].nodes.some((node) => node.type === 'sphere'));
 });
 
-test('render writes PNG, JPEG and NPY by the extension', () => {
+test('render writes PNG, JPEG, NPY and HDR by the extension', () => {
     for (const [name, starts] of [
         ['a.png', '\x89PNG'],
         ['a.jpg', '\xff\xd8'],
         ['a.npy', '\x93NUMPY'],
+        ['a.hdr', '#?RADIANCE'],
     ]) {
         succeed(['render', 'example:first-steps', '-o', name, ...SMALL]);
         const bytes = fs.readFileSync(path.join(folder, name));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Encoders: what comes out reads back as what went in. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +12,8 @@
 #include <turbojpeg.h>
 
 #include "protocol/memory.h"
+#include "renderer/image/decode.h"
+#include "renderer/image/half.h"
 #include "renderer/renderer.h"
 #include "tests/support/picture.h"
 
@@ -159,6 +162,60 @@ static void test_npy(void **state)
     check_npy(PIXEL_UINT32, 1, "{'descr': '<u4', 'fortran_order': False, 'shape': (21, 37), }");
 }
 
+/* --- Radiance --- */
+
+/* Light of all strengths; some of it in runs; and what is none. */
+static struct image make_light(void)
+{
+    struct image image = make_image(PIXEL_FLOAT, 4, 16);
+    float *p = image.pixels;
+    uint32_t seed = 3;
+
+    for (int i = 0; i < WIDTH * HEIGHT * 4; i++) {
+        seed = seed * 1664525 + 1013904223;
+        p[i] = i % 200 < 60 ? 0.7f : ldexpf((float)(seed >> 8), (int)(seed >> 3) % 17 - 30);
+    }
+    p[0] = NAN;
+    p[1] = -3;
+    p[2] = 1;
+    memcpy(p + 4, (float[]){0, 0, 0}, 12);
+    memcpy(p + 8, (float[]){255.7f / 256, 0.001f, 0}, 12);
+    return image;
+}
+
+static void check_hdr(const struct image *image)
+{
+    const float *from = image->pixels;
+    struct decoded decoded;
+    size_t length;
+    uint8_t *bytes = encode(image, &(struct encode_params){.format = CODEC_HDR}, &length);
+
+    assert_true(image_decode(bytes, length, &decoded, NULL));
+    assert_int_equal(decoded.width, image->width);
+    assert_int_equal(decoded.height, image->height);
+    for (int i = 0; i < image->width * image->height; i++) {
+        const float most = fmaxf(fmaxf(from[4 * i], from[4 * i + 1]), from[4 * i + 2]);
+        for (int k = 0; k < 3; k++) {
+            const double want = from[4 * i + k] > 0 ? from[4 * i + k] : 0;
+            const double got = half_value(decoded.rgba[4 * i + k]);
+            assert_true(fabs(got - want) <= most / 250 + 1e-7);
+        }
+    }
+    decoded_finish(&decoded);
+    free(bytes);
+}
+
+static void test_hdr(void **state)
+{
+    struct image image = make_light();
+
+    (void)state;
+    check_hdr(&image);
+    image.width = 5; /* no runs */
+    check_hdr(&image);
+    image_finish(&image);
+}
+
 /* The outputs of a picture, in the file that picture_file makes of them by so many rows at once. */
 static uint8_t *write_file(const struct image images[AOV_COUNT], const struct encode_params *params,
                            int rows, size_t *out_length, struct error *err)
@@ -217,7 +274,7 @@ static void check_rows(const struct image *image, struct encode_params params)
 static void test_rows(void **state)
 {
     struct image colors = make_colors(255), clear = make_colors(9);
-    struct image floats = make_image(PIXEL_FLOAT, 3, 12);
+    struct image floats = make_image(PIXEL_FLOAT, 3, 12), light = make_light();
 
     (void)state;
     memset(floats.pixels, 0x41, floats.bytes);
@@ -225,9 +282,11 @@ static void test_rows(void **state)
     check_rows(&clear, (struct encode_params){.format = CODEC_PNG, .fast = true});
     check_rows(&colors, (struct encode_params){.format = CODEC_JPEG, .chroma_halved = true});
     check_rows(&floats, (struct encode_params){.format = CODEC_NPY});
+    check_rows(&light, (struct encode_params){.format = CODEC_HDR});
     image_finish(&colors);
     image_finish(&clear);
     image_finish(&floats);
+    image_finish(&light);
 }
 
 /* The member's bytes stand in the ZIP as they are, behind its name. */
@@ -308,6 +367,9 @@ static void test_refusals(void **state)
     assert_false(
         image_encode(&floats, &(struct encode_params){.format = CODEC_PNG}, &bytes, &length, &err));
     assert_int_equal(err.kind, ERROR_INVALID);
+    assert_false(
+        image_encode(&colors, &(struct encode_params){.format = CODEC_HDR}, &bytes, &length, &err));
+    assert_string_equal(err.place, "format");
     assert_false(image_encode(&floats, &(struct encode_params){.format = CODEC_JPEG}, &bytes,
                               &length, &err));
     assert_false(image_encode(&colors,
@@ -329,13 +391,15 @@ static void test_names(void **state)
     assert_int_equal(codec_find("jpg"), CODEC_JPEG);
     assert_int_equal(codec_find("jpeg"), CODEC_JPEG);
     assert_int_equal(codec_find("npy"), CODEC_NPY);
+    assert_int_equal(codec_find("hdr"), CODEC_HDR);
     assert_int_equal(codec_find("gif"), 0);
     assert_int_equal(codec_find("zip"), 0); /* nobody asks for it */
     for (size_t i = 0; codec_choice(i); i++) {
-        struct image image = make_colors(255);
+        const enum codec codec = codec_find(codec_choice(i));
+        struct image image =
+            codec_is_raw(codec) ? make_image(PIXEL_FLOAT, 4, 16) : make_colors(255);
         size_t length;
-        uint8_t *bytes =
-            encode(&image, &(struct encode_params){.format = codec_find(codec_choice(i))}, &length);
+        uint8_t *bytes = encode(&image, &(struct encode_params){.format = codec}, &length);
         assert_non_null(strstr(CODEC_CHOICES, codec_choice(i)));
         assert_true(length > 0);
         free(bytes);
@@ -391,11 +455,12 @@ static void test_outputs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),          cmocka_unit_test(test_png_gray),
-        cmocka_unit_test(test_jpeg),         cmocka_unit_test(test_npy),
-        cmocka_unit_test(test_rows),         cmocka_unit_test(test_zip),
-        cmocka_unit_test(test_length_limit), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_names),        cmocka_unit_test(test_outputs),
+        cmocka_unit_test(test_png),      cmocka_unit_test(test_png_gray),
+        cmocka_unit_test(test_jpeg),     cmocka_unit_test(test_npy),
+        cmocka_unit_test(test_hdr),      cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_zip),      cmocka_unit_test(test_length_limit),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_outputs),
     };
 
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);

@@ -185,6 +185,9 @@ static void errors_name_the_place_in_its_form(void **state)
     assert_false(read_json(&request, "{'camera':{'fov':500}}", &err));
     assert_string_equal(err.place, "/camera/fov");
     render_request_finish(&request);
+    assert_false(read_json(&request, "{'format':'hdr','aov':'color,normal'}", &err));
+    assert_string_equal(err.place, "/aov");
+    render_request_finish(&request);
     assert_false(read_json(&request, "{'delivery':{}}", &err));
     assert_string_equal(err.place, "/delivery");
     render_request_finish(&request);

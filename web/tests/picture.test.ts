@@ -149,6 +149,8 @@ test("what no file can be says why", () => {
     expect(why({ outputs: ["color", "position"] })).toMatch("position has no picture");
     expect(why({ outputs: ["color", "position"], format: "npy" })).toBeNull();
     expect(why({ outputs: ["color", "normal"], format: "jpg" })).toMatch("one output");
+    expect(why({ outputs: ["normal"], format: "hdr" })).toMatch("light of color alone");
+    expect(why({ format: "hdr" })).toBeNull();
     expect(why({ transparent: true, format: "jpg" })).toMatch("transparent");
     expect(why({ transparent: true })).toBeNull();
 });

@@ -4,7 +4,7 @@ import { limitOf, type Schema } from "./schema.ts";
 import { text } from "./texts.ts";
 import { COLOR } from "./view.ts";
 
-export const FORMATS = ["png", "jpg", "npy"] as const;
+export const FORMATS = ["png", "jpg", "npy", "hdr"] as const;
 export type Format = (typeof FORMATS)[number];
 
 export interface PictureChoice {
@@ -56,6 +56,9 @@ export function whyNotPicture(schema: Schema, choice: PictureChoice): string | n
     }
     if (numbersOnly && format !== "npy") {
         return text("picture.numbersOnly", { name: numbersOnly.name });
+    }
+    if (format === "hdr" && outputs.some((name) => name !== COLOR)) {
+        return text("picture.lightAlone");
     }
     if (format === "jpg" && outputs.length > 1) {
         return text("picture.oneInJpeg");

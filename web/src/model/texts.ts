@@ -31,6 +31,7 @@ const TEXTS = {
     "picture.large": "Pictures have {most} million pixels at most.",
     "picture.numbersOnly": "The output {name} has no picture, only numbers: choose NPY.",
     "picture.oneInJpeg": "A JPEG holds one output: choose PNG or NPY for several.",
+    "picture.lightAlone": "An HDR holds the light of color alone: choose NPY for other outputs.",
     "picture.opaqueJpeg": "A JPEG cannot be transparent: choose PNG.",
     "snap.floor": "floor",
     "edit.deleted": "{name} deleted.",
