@@ -508,8 +508,8 @@ describe('palettes', () => {
     test('what is not there is told', async () => {
         await open();
         await page.keyboard.press('Control+k');
-        await page.getByRole('combobox', { name: 'Search and commands' }).fill('ruler');
-        await page.getByText('The outputs depth and position give numbers').waitFor();
+        await page.getByRole('combobox', { name: 'Search and commands' }).fill('mesh');
+        await page.getByText('There are no meshes').waitFor();
         await page.keyboard.press('Escape');
     });
 
