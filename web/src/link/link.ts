@@ -463,7 +463,7 @@ class SceneLink implements Link {
             saved: sessions.isSaved(session),
             canUndo: editing || session.undo > 0,
             canRedo: !editing && session.redo > 0,
-            problems: dropGone(before.problems, session.schema, session.shown),
+            problems: dropGone(before.problems, session.shown),
             history: settled
                 ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)
                 : before.history,
