@@ -465,10 +465,15 @@ test("commands are found by other words, and what there is not is told", () => {
 });
 
 test("what there is not has no word of a command", () => {
-    const split = (...texts: string[]) => texts.join(" ").toLowerCase().match(/[a-z0-9]+/g) ?? [];
+    const split = (...texts: string[]) =>
+        texts
+            .join(" ")
+            .toLowerCase()
+            .match(/[a-z0-9]+/g) ?? [];
     const known = new Set(COMMANDS.flatMap(({ id, title, words }) => split(id, title, words)));
-    expect(ABSENT.flatMap(({ title, words }) => split(title, words)).filter((word) => known.has(word)))
-        .toEqual([]);
+    expect(
+        ABSENT.flatMap(({ title, words }) => split(title, words)).filter((word) => known.has(word)),
+    ).toEqual([]);
 });
 
 test("preferences survive, broken ones do not spread", () => {

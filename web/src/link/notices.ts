@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What goes wrong in a live scene, as the stores hold it: notices, and problems at their places. */
+import type { SceneDocument } from "../model/document.ts";
+import { lostTo } from "../model/lost.ts";
 import type { Operation, Problem } from "../model/operation.ts";
 import {
     addProblem,
@@ -14,7 +16,7 @@ import {
 } from "../model/problems.ts";
 import type { PendingEdit } from "../model/session.ts";
 import { addNotice, endNotices, type NoticeAct, type Stores } from "../model/stores.ts";
-import { text } from "../model/texts.ts";
+import { capitalised, text } from "../model/texts.ts";
 import type { NoticeMessage } from "./protocol.ts";
 
 export class Notices {
@@ -48,6 +50,16 @@ export class Notices {
             place: first && "at" in first ? first.at : "",
             acts: [{ kind: "edit", ops, label: text("undo.anywayLabel") }],
         });
+    }
+
+    /* Somebody else took away what is looked at, or gave it another name. */
+    lost(before: SceneDocument, after: SceneDocument): void {
+        const { gone, view } = lostTo(before, after, this.#stores.view.getState());
+        this.#stores.view.setState(view);
+        if (gone !== null) {
+            const message = text("edit.deletedByOther", { name: capitalised(gone) });
+            this.add("warning", "lost", message);
+        }
     }
 
     /* Broken code is marked where it stands, again and again while somebody types. */
