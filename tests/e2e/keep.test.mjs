@@ -541,6 +541,8 @@ describe('by touch', () => {
         await page.touchscreen.tap(box.x + box.width * 0.2, box.y + box.height / 2);
         await page.getByRole('tab', { name: 'Edit', selected: true }).waitFor();
         await page.getByTestId('inspector').waitFor();
+        const { x, width } = await page.getByTestId('outputs').boundingBox();
+        assert.ok(x + width <= 390, `the outputs end at ${x + width}`);
     });
 });
 

@@ -35,11 +35,6 @@ export function words(name: string): string {
         .replace(/\bcolor(\d*)\b/, (_, number: string) => `colour ${number}`.trimEnd());
 }
 
-/* Of the button that has the server try once more. */
-export function retryTitle(slow: boolean): string {
-    return t(slow ? "notices.act.retrySlow" : "notices.act.retry");
-}
-
 export function paramTitle(param: Param): string {
     const letter = param.name.length === 1 && param.type === "float" && param.unit === null;
     return (letter ? letters[param.name] : undefined) ?? spoken[param.name] ?? words(param.name);

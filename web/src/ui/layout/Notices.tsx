@@ -7,7 +7,7 @@ import { findResource } from "../../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../../model/places.ts";
 import { dismissNotice, type Notice, type NoticeAct } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
-import { placeTitle, retryTitle } from "../names.ts";
+import { placeTitle } from "../names.ts";
 import { useDocument, useEditor, useNotices } from "../state.ts";
 import { t } from "../texts.ts";
 import { Button, IconButton } from "../widgets/Button.tsx";
@@ -53,7 +53,11 @@ function ActButton({ act, id }: { act: NoticeAct; id: number }) {
     };
     return (
         <Button look="outline" onClick={run}>
-            {act.kind === "retry" ? retryTitle(act.slow) : t(`notices.act.${act.kind}`)}
+            {t(
+                act.kind === "retry" && act.slow
+                    ? "notices.act.retrySlow"
+                    : `notices.act.${act.kind}`,
+            )}
         </Button>
     );
 }

@@ -8,7 +8,7 @@ import { type Pill, pillOf } from "../../model/pill.ts";
 import { brokenCode, foremost, isGivenUp, isTooSlow } from "../../model/problems.ts";
 import type { Compiling } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
-import { drawnBy, retryTitle } from "../names.ts";
+import { drawnBy } from "../names.ts";
 import { useDocument, useEditor, useLink } from "../state.ts";
 import { t } from "../texts.ts";
 import { Tip } from "../widgets/Tip.tsx";
@@ -113,7 +113,7 @@ export function BrokenPill() {
                     onClick={() => editor.link.tryAgain(place)}
                 >
                     <RotateCw size={14} aria-hidden="true" />
-                    {retryTitle(isTooSlow(problem))}
+                    {t("notices.act.retry")}
                 </button>
             )}
         </>
