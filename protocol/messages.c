@@ -45,6 +45,7 @@ struct message_type {
 
 static const char *const qualities[] = {"auto", "smooth", "sharp", NULL};
 static const char *const levels[] = {"info", "warning", "error", NULL};
+static const char *const refusals[] = {"too_slow", "crashed", NULL};
 
 /* clang-format off */
 #define EDIT_NUMBER {.param = {"edit", PARAM_INT, .min = 1, .max = EXACT_MAX, \
@@ -186,7 +187,9 @@ static const struct message_type server_messages[] = {
         TEXT_PLACE,
         {.param = {"measured", COUNT,
           .doc = "Of what was too slow: milliseconds of processor time that it took, and more."}},
-        {.param = {"limit", COUNT, .doc = "Milliseconds that it might take."}})},
+        {.param = {"limit", COUNT, .doc = "Milliseconds that it might take."}},
+        {.param = {"reason", PARAM_ENUM, .choices = refusals,
+          .doc = "Why a scene is left out."}})},
     {"bye", "The last message.", MEMBERS(
         {.param = {"reason", PARAM_TEXT, .doc = "Why the connection ends."}, .required = true},
         {.param = {"retry_ms", COUNT, .doc = "When to come back; absent: never."}})},

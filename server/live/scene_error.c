@@ -82,7 +82,7 @@ void scene_error_tell_retry(const struct room *room, const char *place)
 void scene_error_suspend(struct room *room, const struct error *why)
 {
     room->suspended = *why;
-    tell_all(room, message_fault("error", "scene_left_out", why));
+    tell_all(room, message_left_out(why));
 }
 
 void scene_error_resume(struct room *room)
@@ -97,7 +97,7 @@ void scene_error_resume(struct room *room)
 void scene_error_tell(struct session *session, const struct room *room)
 {
     if (room->suspended.kind != ERROR_NONE) {
-        session_say(session, message_fault("error", "scene_left_out", &room->suspended));
+        session_say(session, message_left_out(&room->suspended));
     }
     if (room->scene_error.kind != ERROR_NONE) {
         session_say(session, message(&room->scene_error));

@@ -114,13 +114,26 @@ struct shared_buffer *message_rejected(int64_t edit, const struct error *err, co
     return message_print(message);
 }
 
-struct shared_buffer *message_fault(const char *level, const char *code, const struct error *err)
+static cJSON *fault(const char *level, const char *code, const struct error *err)
 {
     cJSON *message = message_begin("notice");
 
     cJSON_AddStringToObject(message, "level", level);
     cJSON_AddStringToObject(message, "code", code);
     add_error(message, err);
+    return message;
+}
+
+struct shared_buffer *message_fault(const char *level, const char *code, const struct error *err)
+{
+    return message_print(fault(level, code, err));
+}
+
+struct shared_buffer *message_left_out(const struct error *why)
+{
+    cJSON *message = fault("error", "scene_left_out", why);
+
+    cJSON_AddStringToObject(message, "reason", error_kind_name(why->kind));
     return message_print(message);
 }
 

@@ -26,6 +26,8 @@ struct shared_buffer *message_notice(const char *level, const char *code, const 
                                      const char *text);
 /* A notice about an error, with line and column where it is in a text. */
 struct shared_buffer *message_fault(const char *level, const char *code, const struct error *err);
+/* A notice that the scene is suspended, with the kind of `why` as its reason. */
+struct shared_buffer *message_left_out(const struct error *why);
 /* `retry_ms` < 0: do not come back. */
 struct shared_buffer *message_bye(const char *reason, int retry_ms);
 

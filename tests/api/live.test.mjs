@@ -12,6 +12,7 @@ import {
     memoryOf,
     removeDirectory,
     sleep,
+    standStill,
     startDaemon,
     until,
 } from '../support/daemon.mjs';
@@ -214,7 +215,7 @@ describe('waiting for a picture', () => {
         const live = await open();
         live.look();
         await still(live);
-        process.kill(daemon.worker(), 'SIGSTOP'); // the compiler takes as long as this test likes
+        await standStill(daemon.worker()); // the compiler takes as long as this test likes
         const edit = live.change([
             { op: 'insert', into: '/nodes/root', before: null, value: { type: 'torus' } },
         ]);

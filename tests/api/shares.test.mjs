@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
-import { ask, counter, sleep, startDaemon, until } from '../support/daemon.mjs';
+import { ask, counter, sleep, standStill, startDaemon, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const TILE_MS = 10;
@@ -180,7 +180,7 @@ async function comeAtOnce(count) {
     const all = await Promise.all(Array.from({ length: count }, () => Live.open(daemon, scene, { ack: false })));
     const before = await counter(daemon, 'renders_total');
     const worker = daemon.worker();
-    process.kill(worker, 'SIGSTOP');
+    await standStill(worker);
     all.forEach((live, i) => live.look({ width: 1024, height: 768, ...from(i) }));
     await until(async () => (await counter(daemon, 'renders_total')) === before + count, 'a picture for each');
     process.kill(worker, 'SIGCONT');

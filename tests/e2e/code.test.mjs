@@ -10,6 +10,7 @@ import {
     difference,
     dragBy,
     field,
+    keepsOff,
     nodeIn,
     openStage,
     pictureChanged,
@@ -17,6 +18,7 @@ import {
     row,
     settled,
     stillPixels,
+    valueIs,
 } from './stage.mjs';
 
 let stage;
@@ -241,12 +243,21 @@ test('a shader of the scene: its properties are a form, colours and sliders chan
     await page.keyboard.press('Escape');
 });
 
-test('what is too slow is told as that, with its place by name', async () => {
+/** A scene with code, in a window of this width, where the server can be made to say more. */
+async function openTold(width, more = {}) {
     const document = structuredClone(SHADED);
     document.primitives = { blob: { params: [], code: GOOD.replace('radius', '1.0') } };
     document.root.children = [{ id: 'blob', type: 'field', params: { primitive: 'blob' } }];
-    page = await openScreen(stage, { scene: document, tampered: true }, { theme: 'dark', width: 1200, height: 800 });
+    page = await openScreen(stage, { scene: document, tampered: true }, { theme: 'dark', width, height: 800, ...more });
+}
+
+const tellTooSlow = () =>
     page.tell({ type: 'notice', level: 'error', code: 'too_slow', place: '/primitives/blob/code', measured: 4100, limit: 2000, message: 'This code took too long.' });
+const notice = () => page.locator('.notice');
+
+test('what is too slow is told as that, with its place by name', async () => {
+    await openTold(1200);
+    tellTooSlow();
     await page.getByTestId('broken').getByText('show where').waitFor();
     await page.locator('.notice-place', { hasText: 'blob · code' }).waitFor();
     await page.getByTestId('broken').click();
@@ -255,19 +266,44 @@ test('what is too slow is told as that, with its place by name', async () => {
 });
 
 test('on a phone the message lies over neither grip nor tabs of the sheet with the code', async () => {
-    const document = structuredClone(SHADED);
-    document.primitives = { blob: { params: [], code: GOOD.replace('radius', '1.0') } };
-    document.root.children = [{ id: 'blob', type: 'field', params: { primitive: 'blob' } }];
-    page = await openScreen(stage, { scene: document, tampered: true }, { theme: 'dark', width: 390, height: 844, touch: true });
-    page.tell({ type: 'notice', level: 'error', code: 'too_slow', place: '/primitives/blob/code', measured: 4100, limit: 2000, message: 'This code took too long.' });
+    await openTold(390, { height: 844, touch: true });
+    tellTooSlow();
     await page.getByTestId('broken').click();
     await panel().waitFor();
-    const message = await page.locator('.notice').boundingBox();
-    for (const part of ['.sheet-grip', '.sheet .tabs']) {
-        const { y, height } = await page.locator(part).boundingBox();
-        assert.ok(message.y >= y + height || message.y + message.height <= y, `${part} at ${y} + ${height}, the message at ${message.y} + ${message.height}`);
-    }
+    await keepsOff(notice(), [page.locator('.sheet-grip'), page.locator('.sheet .tabs')]);
 });
+
+test('what is too slow is tried again with more time, or undone, from its message', async () => {
+    await openTold(1200);
+    const retries = () => page.sent.filter(({ type }) => type === 'retry');
+    tellTooSlow();
+    await notice().getByRole('button', { name: 'Try again with more time' }).click();
+    await until(() => retries().length === 1, 'the retry');
+    assert.deepEqual(retries(), [{ type: 'retry', place: '/primitives/blob/code' }]);
+    await notice().filter({ hasText: 'took too long' }).waitFor({ state: 'detached' });
+    await row(page, 'blob').click();
+    const x = field(page, 'translation x');
+    await x.fill('0.5');
+    await x.press('Enter');
+    await valueIs(x, '0.5');
+    tellTooSlow();
+    await notice().getByRole('button', { name: 'Undo', exact: true }).click();
+    await valueIs(x, '0');
+    assert.equal(page.sent.filter(({ type }) => type === 'undo').length, 1);
+});
+
+for (const width of [1440, 1024]) {
+    test(`messages lie over no value, ${width} pixels wide`, async () => {
+        await openTold(width);
+        await row(page, 'blob').click();
+        tellTooSlow();
+        for (const code of ['first', 'second']) {
+            page.tell({ type: 'notice', level: 'error', code, message: `The ${code} of two more messages, which is long enough for a second line.` });
+        }
+        await notice().nth(2).waitFor();
+        await keepsOff(page.locator('.notices'), [page.getByTestId('inspector')]);
+    });
+}
 
 test('a server that takes no code says so', async () => {
     const strict = await openStage({ args: ['--code', 'off'] });

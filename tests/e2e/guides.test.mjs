@@ -3,7 +3,7 @@
 // while the server stands still.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
-import { until } from '../support/daemon.mjs';
+import { standStill, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 import { closePage, field, openStage, picture, row, settled } from './stage.mjs';
 
@@ -59,22 +59,27 @@ async function spotOf([x, y, z]) {
 test('hover and click are answered within a frame while the server stands still', async () => {
     await open();
     const pids = [stage.daemon.worker(), stage.daemon.pid];
-    pids.forEach((pid) => process.kill(pid, 'SIGSTOP'));
     try {
+        await Promise.all(pids.map(standStill));
         await page.evaluate(() => {
-            window.frames = [];
+            Object.assign(window, { frames: [], clicked: [] });
             const watch = () => {
                 const { hovered } = document.querySelector('[data-testid=outlines]').dataset;
                 requestAnimationFrame(() => window.frames.push([hovered, document.querySelector('[data-testid=outlines]').dataset.hovered]));
             };
-            document.querySelector('[data-testid=picture]').addEventListener('pointermove', watch, true);
+            const picture = document.querySelector('[data-testid=picture]');
+            const rows = () => [...document.querySelectorAll('[data-node][aria-selected=true]')].map((one) => one.dataset.node);
+            picture.addEventListener('pointermove', watch, true);
+            picture.addEventListener('pointerup', () => requestAnimationFrame(() => window.clicked.push(rows())), true);
         });
-        for (const [node, at] of [['alone', [0.4, 2, 0.5]], ['body', [-2.6, -0.5, 1]], ['right', [2.3, 0.6, 0.5]]]) {
+        for (const [number, [node, at]] of [['alone', [0.4, 2, 0.5]], ['body', [-2.6, -0.5, 1]], ['right', [2.3, 0.6, 0.5]]].entries()) {
             const { x, y } = await spotOf(at);
             await page.mouse.move(x, y);
             await until(() => page.evaluate((wanted) => window.frames.some(([, hovered]) => hovered === wanted), node), `${node} outlined`);
             await page.mouse.click(x, y);
-            await until(() => chosen(node), `${node} selected`);
+            const clicked = await until(() => page.evaluate((i) => window.clicked[i], number), 'a frame after the click');
+            assert.deepEqual(clicked, [node], 'selected in the first frame after the click');
+            await until(async () => (await shown()).selected === node, `${node} outlined as selected`);
             const { selected, hovered } = await shown();
             assert.deepEqual([selected, hovered], [node, ''], 'what is selected is outlined as that alone');
         }

@@ -9,6 +9,7 @@ import {
     documentWhen,
     drawnPixels,
     field,
+    keepsOff,
     nodeIn,
     openStage,
     pictureChanged,
@@ -33,7 +34,7 @@ after(async () => {
 
 test('edits made while the daemon is away arrive when it is back', async () => {
     const id = await stage.scene();
-    const page = await stage.page({ scene: id });
+    const page = await stage.page({ scene: id, width: 1440, height: 900 });
     await row(page, 'ball').click();
     await field(page, 'radius').fill('1.1');
     await field(page, 'radius').press('Enter');
@@ -44,6 +45,7 @@ test('edits made while the daemon is away arrive when it is back', async () => {
     await stage.daemon.kill('SIGKILL');
     await page.getByTestId('strip').getByText('Offline').waitFor();
     assert.equal(difference(await pixels(page), last), 0, 'the last frame stays');
+    await keepsOff(page.getByTestId('strip'), [page.locator('.crumbs'), page.locator('.hand-tools'), page.locator('.outputs')]);
 
     for (const [name, value] of [
         ['radius', '1.25'],

@@ -2,6 +2,8 @@
 // The picture: picking, the honest state, and that the last frame is the picture of REST.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
+import { standStill, until } from '../support/daemon.mjs';
+import { openScreen } from './screens/screen.mjs';
 import {
     closePage,
     difference,
@@ -141,7 +143,7 @@ test('a scene shows what it looked like last before it has a picture', async () 
     page = await stage.page({ scene: id });
     await settled(page);
     await closePage(page);
-    process.kill(stage.daemon.worker(), 'SIGSTOP');
+    await standStill(stage.daemon.worker());
     page = await stage.page({ scene: id });
     await page.getByTestId('poster').waitFor();
     assert.equal(await page.getByTestId('state').getAttribute('data-state'), 'waiting');
@@ -157,7 +159,50 @@ test('the lossless frame is image.png, pixel for pixel', async () => {
     await drawnPixels(page, stage, id);
 });
 
-test('a new shape appears while the page says that it compiles', async () => {
+/* Pictures are held back, so that the pill has to say why there is none. */
+const DESKTOP = { theme: 'dark', width: 1200, height: 800 };
+const openHeld = () =>
+    openScreen(stage, { scene: SCENE, tampered: true, fresh: true, hold: (message) => typeof message !== 'string' }, DESKTOP);
+
+test('the pill tells how long compiling takes, and about how long it will', async () => {
+    page = await openHeld();
+    const pill = page.getByTestId('state');
+    await pill.evaluate((one) => {
+        window.said = [];
+        const options = { childList: true, characterData: true, subtree: true };
+        new MutationObserver(() => window.said.push(one.innerText)).observe(one, options);
+    });
+    const says = (pattern) => until(async () => (await page.evaluate(() => window.said)).some((text) => pattern.test(text)), String(pattern));
+    const compiling = { type: 'compiling', revision: 0, over: false };
+    page.tell({ ...compiling, elapsed_ms: 3000, expected_ms: 6000 });
+    await says(/^compiling \d+ s of about 6 s$/);
+    page.tell({ ...compiling, over: true, elapsed_ms: 4000 });
+    await pill.getByText('waiting for the first picture').waitFor();
+    /* Far beyond what was expected no more is promised. */
+    page.tell({ ...compiling, elapsed_ms: 60_000, expected_ms: 6000 });
+    await pill.getByText(/^compiling \d+ s$/).waitFor();
+});
+
+test('the pill says that a scene is given up, why, and offers another try', async () => {
+    page = await openHeld();
+    const pill = page.getByTestId('state');
+    const leftOut = { type: 'notice', level: 'error', code: 'scene_left_out', place: '/nodes/root', message: 'It is not drawn.' };
+    await pill.getByText('waiting for the first picture').waitFor();
+    page.tell({ ...leftOut, reason: 'crashed' });
+    await pill.getByText('given up: it crashed').waitFor();
+    page.tell({ ...leftOut, reason: 'too_slow', measured: 900, limit: 500 });
+    await pill.getByText('given up: too slow').waitFor();
+    await page.getByTestId('broken').click();
+    await row(page, 'root').and(page.locator('[aria-selected=true]')).waitFor();
+    assert.equal(await page.getByTestId('code').count(), 0, 'there is no code to show');
+    await page.getByTestId('retry').getByText('Try again', { exact: true }).click();
+    await until(() => page.sent.some(({ type, place }) => type === 'retry' && place === '/nodes/root'), 'the retry');
+    page.tell({ type: 'notice', level: 'info', code: 'retrying', place: '/nodes/root', message: 'It is tried again.' });
+    await pill.getByText('waiting for the first picture').waitFor();
+    assert.equal(await page.getByTestId('retry').count(), 0);
+});
+
+test('a new shape appears in the picture, which becomes final', async () => {
     const id = await stage.scene();
     page = await stage.page({ scene: id });
     await settled(page);

@@ -177,6 +177,17 @@ export const field = (page, name) => page.getByRole('spinbutton', { name, exact:
 export const valueIs = (locator, value) =>
     until(async () => (await locator.inputValue()) === value, `the value ${value}`);
 
+/** Asserts that an element covers nothing of others, all of which are seen. */
+export async function keepsOff(one, others) {
+    const a = await one.boundingBox();
+    for (const other of others) {
+        const b = await other.boundingBox();
+        assert.ok(a !== null && b !== null && a.width * a.height > 0 && b.width * b.height > 0, `${one} or ${other} is not seen`);
+        const apart = a.x >= b.x + b.width || b.x >= a.x + a.width || a.y >= b.y + b.height || b.y >= a.y + a.height;
+        assert.ok(apart, `${one} at ${JSON.stringify(a)} lies over ${other} at ${JSON.stringify(b)}`);
+    }
+}
+
 /** Waits until everything is saved and the lossless picture of that revision is shown. */
 export const settled = (page) =>
     page.waitForFunction(() => {

@@ -75,3 +75,19 @@ test('a newer value of somebody else stays until the author insists', async () =
     await closePage(one);
     await closePage(other);
 });
+
+test('what somebody else deletes while its values are looked at is told by its name', async () => {
+    const id = await stage.scene();
+    const [one, other] = [await stage.page({ scene: id }), await stage.page({ scene: id })];
+    await row(one, 'ball').click();
+    await field(one, 'radius').waitFor();
+    await row(other, 'crate').click();
+    await row(other, 'ball').click();
+    await other.keyboard.press('Delete');
+    await one.locator('.notice[data-code=lost]', { hasText: 'Ball deleted by somebody else.' }).waitFor();
+    assert.equal(await other.locator('.notice[data-code=lost]').count(), 0, 'the author knows');
+    await other.getByRole('button', { name: /^Undo/ }).first().click();
+    await field(one, 'radius').waitFor();
+    await closePage(one);
+    await closePage(other);
+});

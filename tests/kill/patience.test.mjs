@@ -228,11 +228,13 @@ test('a scene whose smallest part takes too long is suspended with its measure',
     const notice = await live.next('notice', { code: 'scene_left_out' });
     assert.ok(notice.measured > 500 && notice.limit === 500, `${notice.measured} of ${notice.limit}`);
     assert.equal(notice.place, '/nodes/root');
+    assert.equal(notice.reason, 'too_slow');
     const refused = await fetch(`${daemon.url}/v1/scenes/heavy/image.png?width=8&height=8`);
     assert.equal((await refused.json()).code, 'too_slow');
     assert.equal(await restarts(daemon), 0);
     const late = await Live.open(daemon, 'heavy');
-    assert.equal((await late.next('notice', { code: 'scene_left_out' })).limit, 500);
+    const again = await late.next('notice', { code: 'scene_left_out' });
+    assert.deepEqual([again.limit, again.reason], [500, 'too_slow']);
     await late.close();
     const spent = cpuSecondsOf(daemon.worker());
     await sleep(1000);

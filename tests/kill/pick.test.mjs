@@ -2,7 +2,7 @@
 // A click is answered by the front itself: a worker that stands still, or is gone, does not matter.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { ask, startDaemon } from '../support/daemon.mjs';
+import { ask, standStill, startDaemon } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
 
 const DOCUMENT = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
@@ -24,7 +24,7 @@ test('the worker is stopped', async () => {
     const live = await Live.open(daemon, 's');
     live.look(VIEW);
     await live.nextFrame();
-    process.kill(daemon.worker(), 'SIGSTOP');
+    await standStill(daemon.worker());
     const edit = live.set('/nodes/ball/params/radius', 2);
     const hit = await pick(live, 1);
     assert.equal(live.find('notice'), undefined, 'before the worker is missed');
@@ -40,7 +40,7 @@ test('the worker is stopped', async () => {
 test('there was no worker yet', async () => {
     const other = await startDaemon({ ready: false });
     await ask(other, 'POST', '/v1/scenes?id=s', DOCUMENT);
-    process.kill(other.worker(), 'SIGSTOP');
+    await standStill(other.worker());
     const live = await Live.open(other, 's');
     live.look(VIEW);
     assert.equal((await pick(live, 1)).node, 'ball');

@@ -105,7 +105,8 @@ test('a scene that ends workers is suspended until it is edited, others go on', 
         await until(() => daemon.worker() && daemon.worker() !== pid, 'another worker');
         await until(async () => (await fetch(`${daemon.url}/readyz`)).ok, 'it to be ready');
     }
-    assert.equal((await bad.next('notice', { code: 'scene_left_out' })).level, 'error');
+    const notice = await bad.next('notice', { code: 'scene_left_out' });
+    assert.deepEqual([notice.level, notice.reason], ['error', 'crashed']);
     const refused = await fetch(`${daemon.url}/v1/scenes/bad/image.png?width=8&height=8`);
     assert.equal(refused.status, 503);
     const from = good.frames.length;

@@ -78,6 +78,15 @@ export function cpuSecondsOf(pid) {
     return (Number(fields[11]) + Number(fields[12])) / 100;
 }
 
+const statesOf = (pid) =>
+    fs.readdirSync(`/proc/${pid}/task`).map((task) => textOf(`/proc/${pid}/task/${task}/stat`).split(') ')[1]?.[0]);
+
+/** Stops a process, and waits for each of its threads to stand: they go on until one of them has seen the signal. */
+export async function standStill(pid) {
+    process.kill(pid, 'SIGSTOP');
+    await until(() => statesOf(pid).every((state) => state === 'T'), `process ${pid} to stand still`);
+}
+
 const driverFile = (name) => path.join(path.dirname(program), `tests/support/drivers/${name}_driver.so`);
 
 /** What a program needs in its environment to have drivers in front of its own (support/drivers). */

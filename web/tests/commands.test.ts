@@ -11,7 +11,7 @@ import {
     searchAbsent,
     searchCommands,
 } from "../src/model/commandLookup.ts";
-import { COMMANDS, type Context } from "../src/model/commands.ts";
+import { ABSENT, COMMANDS, type Context } from "../src/model/commands.ts";
 import { isApart } from "../src/model/document.ts";
 import { printDocument, readDocument } from "../src/model/documentJson.ts";
 import { moveNodes, wrap } from "../src/model/edits.ts";
@@ -462,6 +462,18 @@ test("commands are found by other words, and what there is not is told", () => {
     }
     expect(searchAbsent("mesh")[0]?.answer).toContain("JSON");
     expect(searchAbsent("")).toEqual([]);
+});
+
+test("what there is not has no word of a command", () => {
+    const split = (...texts: string[]) =>
+        texts
+            .join(" ")
+            .toLowerCase()
+            .match(/[a-z0-9]+/g) ?? [];
+    const known = new Set(COMMANDS.flatMap(({ id, title, words }) => split(id, title, words)));
+    expect(
+        ABSENT.flatMap(({ title, words }) => split(title, words)).filter((word) => known.has(word)),
+    ).toEqual([]);
 });
 
 test("preferences survive, broken ones do not spread", () => {

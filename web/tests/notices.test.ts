@@ -4,7 +4,10 @@ import { expect, test } from "vitest";
 import { Notices } from "../src/link/notices.ts";
 import type { NoticeMessage } from "../src/link/protocol.ts";
 import { readDocument } from "../src/model/documentJson.ts";
-import { addNotice, createStores } from "../src/model/stores.ts";
+import type { Problem } from "../src/model/operation.ts";
+import { pillOf } from "../src/model/pill.ts";
+import { brokenCode, dropGone, isTooSlow } from "../src/model/problems.ts";
+import { addNotice, createStores, NO_FRAME } from "../src/model/stores.ts";
 
 const CODE = "/primitives/rod/code";
 const code = "float sdf(vec3 p) { return length(p) - 1.0; }";
@@ -87,6 +90,55 @@ test("a toast is gone when what it is about is deleted", () => {
     stores.document.setState({ document: readDocument({ root: { id: "root", type: "union" } }) });
     notices.dropGone();
     expect(shown()).toHaveLength(0);
+});
+
+const ROOT = "/nodes/root";
+const leftOut = (more: Partial<NoticeMessage>): NoticeMessage =>
+    notice({ place: ROOT, code: "scene_left_out", reason: "too_slow", ...more });
+
+/* The pill tells the first problem that stands. */
+const pillWith = (stores: ReturnType<typeof setUp>["stores"]) => {
+    const { problems, revision, waiting } = stores.document.getState();
+    const [problem = null] = brokenCode(problems);
+    const input = { connection: "live", frame: NO_FRAME, moving: false, compiling: false } as const;
+    return { problem, state: pillOf({ ...input, revision, waiting, problem }).state };
+};
+
+test.each([
+    ["scene_left_out", "too_slow"],
+    ["scene_left_out", "crashed"],
+    ["too_slow", undefined],
+    ["crashed", undefined],
+] as const)(
+    "the pill tells a scene that is given up, %s by %s, until it is tried again",
+    (code, reason) => {
+        const { stores, notices, shown } = setUp();
+        notices.fromServer(notice({ place: ROOT, code, ...(reason && { reason }) }));
+        notices.dropGone();
+        stores.document.setState(({ problems, document }) => ({
+            problems: dropGone(problems, document),
+        }));
+        expect(pillWith(stores)).toMatchObject({
+            state: "givenUp",
+            problem: { code, place: ROOT },
+        });
+        expect(isTooSlow(pillWith(stores).problem as Problem)).toBe(
+            code === "too_slow" || reason === "too_slow",
+        );
+        expect(shown()[0]?.acts[0]).toMatchObject({ kind: "retry", place: ROOT });
+        notices.fromServer(notice({ level: "info", code: "retrying", place: ROOT }));
+        expect(pillWith(stores)).toEqual({ problem: null, state: "waiting" });
+        expect(shown()).toHaveLength(0);
+    },
+);
+
+test("only what was too slow asks for more time", () => {
+    const { notices, shown } = setUp();
+    const last = () => shown().at(-1)?.acts[0];
+    notices.fromServer(leftOut({}));
+    expect(last()).toEqual({ kind: "retry", place: ROOT, slow: true });
+    notices.fromServer(leftOut({ reason: "crashed" }));
+    expect(last()).toEqual({ kind: "retry", place: ROOT, slow: false });
 });
 
 test("a mistake in the code takes the place of what was too slow before", () => {

@@ -77,6 +77,16 @@ test("what cannot be drawn is told as long as the picture is an older one", () =
     expect(told({ problem: problem("compile") }).state).toBe("final");
 });
 
+test("a scene that is left out is given up whatever its picture lacks", () => {
+    const left = problem("scene_left_out");
+    expect(told({ frame: NO_FRAME, problem: left }).state).toBe("givenUp");
+    const frame: FrameInfo = { ...FRAME, state: "still", round: 1, rounds: 3 };
+    expect(told({ frame, problem: left }).state).toBe("givenUp");
+    expect(told({ frame: { ...FRAME, outdated: true }, problem: left }).state).toBe("givenUp");
+    expect(told({ problem: left, moving: true, frame }).state).toBe("givenUp");
+    expect(told({ problem: left }).state).toBe("final");
+});
+
 test("a picture of another view than the newest is not final", () => {
     const frame = { ...FRAME, outdated: true };
     expect(told({ frame }).state).toBe("drawing");

@@ -566,9 +566,10 @@ test("problems stand at their places until they end", () => {
     expect(brokenCode(problems)).toHaveLength(1);
     expect(endProblem(problems, "/primitives/slab/code")).toBe(problems);
     expect(endProblem(problems, place).size).toBe(0);
-    expect(dropGone(problems, SCHEMA, document)).toBe(problems);
+    expect(dropGone(problems, document)).toBe(problems);
     const without = readDocument({ root: { type: "union" } });
-    expect(dropGone(problems, SCHEMA, without).size).toBe(0);
+    expect(dropGone(problems, without).size).toBe(0);
+    expect(dropGone(problems, null)).toBe(problems);
 });
 
 test("a refused edit is settled by the next one there; broken code is not", () => {

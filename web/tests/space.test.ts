@@ -250,6 +250,49 @@ test("a camera is read with defaults and printed with few digits", () => {
     expect(printCamera({ ...CAMERA, position: [1 / 3, 0, 0] }).position).toEqual([0.333333, 0, 0]);
 });
 
+test("the ball of what has no length of its own is where that is", () => {
+    const transform = { translation: [5, 1, 0] };
+    const document = readDocument({
+        models: {
+            pawn: {
+                id: "pawn-root",
+                type: "group",
+                children: [
+                    {
+                        id: "foot",
+                        type: "sphere",
+                        params: { radius: 0.2 },
+                        transform: { translation: [0, 1, 0] },
+                    },
+                ],
+            },
+        },
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                {
+                    id: "sign",
+                    type: "extrude",
+                    transform,
+                    children: [
+                        { id: "outline", type: "polygon", transform: { translation: [0, 2, 0] } },
+                    ],
+                },
+                { id: "one", type: "model", transform, params: { model: "pawn" } },
+                { id: "nothing", type: "group", transform },
+                { id: "hidden", type: "sphere", visible: false, transform },
+            ],
+        },
+    });
+    const center = (id: string) => ballOf(document, SCHEMA, [id]).center;
+    close(center("outline"), [5, 3, 0]);
+    close(center("sign"), [5, 3, 0]);
+    close(center("one"), [5, 2, 0]);
+    close(center("nothing"), [5, 1, 0]);
+    close(center("hidden"), [5, 1, 0]);
+});
+
 test("the ball of a node holds it, through its parents", () => {
     const document = scene();
     const head = ballOf(document, SCHEMA, ["head"]);

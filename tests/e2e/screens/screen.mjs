@@ -14,6 +14,7 @@ async function tamper(page, state) {
     page.change = null;
     let cut = false;
     const sockets = [];
+    page.sent = [];
     await page.addInitScript(() => {
         delete HTMLCanvasElement.prototype.transferControlToOffscreen;
     });
@@ -27,6 +28,10 @@ async function tamper(page, state) {
             if (!page.hold?.(message)) {
                 socket.send(page.change ? page.change(message) : message);
             }
+        });
+        socket.onMessage((message) => {
+            page.sent.push(JSON.parse(message));
+            server.send(message);
         });
         sockets.push(socket);
     });

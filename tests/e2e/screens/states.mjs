@@ -3,6 +3,7 @@
 // states come in a row on one page; `alone` has a page and a copy of the scene for itself.
 import path from 'node:path';
 import { field, picture, row } from '../stage.mjs';
+import { handStates } from './hands.mjs';
 import { CODED, EMPTY, STUDIO, umbrella } from './scene.mjs';
 import { textStates } from './text.mjs';
 
@@ -80,6 +81,10 @@ async function setRadius(page, text) {
 const STAYS = 'The last good picture stays.';
 const TOO_SLOW = `This code took over 2 s to compile here (limit 2 s). ${STAYS}`;
 const CRASHED = `Compiling this code ended the render process twice. ${STAYS}`;
+
+const LATER = 'It is not drawn until it is edited or tried again.';
+const LEFT_OUT = `Drawing the smallest part of this scene took over 0.9 s here (limit 0.5 s). ${LATER}`;
+const ENDED = `Drawing this scene ended the render process 2 times. ${LATER}`;
 
 const BINARY_FLAGS = 6;
 const LOSSLESS = 4;
@@ -354,7 +359,7 @@ const DIALOGS = [
     }],
     ['commands', key('Control+k')],
     ['commands, search', (page) => search(page, 'Control+k', 'look')],
-    ['commands, not there', (page) => search(page, 'Control+k', 'export')],
+    ['commands, not there', (page) => search(page, 'Control+k', 'mesh')],
     ['commands, nothing found', (page) => search(page, 'Control+k', 'xyzzy')],
     ['keys', key('?')],
     ['reference', key('F1')],
@@ -482,6 +487,21 @@ const CHANGES = [
         await turn(page);
         await page.locator('[data-testid=state][data-state=givenUp]').waitFor();
     }, { scene: CODED }],
+    ['left out', async (page) => {
+        page.tell({ type: 'notice', level: 'error', code: 'scene_left_out', reason: 'too_slow', place: '/nodes/root', measured: 900, limit: 500, message: LEFT_OUT });
+        await page.locator('[data-testid=state][data-state=givenUp]').waitFor();
+    }, { hold: isFrame, fresh: true }],
+    ['left out after a picture', async (page) => {
+        page.hold = isFrame;
+        await turn(page);
+        page.tell({ type: 'notice', level: 'error', code: 'scene_left_out', reason: 'crashed', place: '/nodes/root', message: ENDED });
+        await page.locator('[data-testid=state][data-state=givenUp]').waitFor();
+    }],
+    ['deleted by somebody else', async (page) => {
+        await select(page, 'pillar');
+        await page.ask('PATCH', [{ op: 'remove', at: '/nodes/pillar' }]);
+        await page.locator('.notice[data-code=lost]').waitFor();
+    }],
     ['another author', async (page) => {
         await setRadius(page, '0.4');
         await page.locator('[data-testid=saved][data-state=saved]').waitFor();
@@ -633,6 +653,7 @@ export const STATES = [
     ...rows('dialogs', DIALOGS, { scene: STUDIO }),
     ...rows('changes', CHANGES, { scene: STUDIO, alone: true, tampered: true }),
     ...rows('code', CODE, { scene: CODED, alone: true, tampered: true }),
+    ...rows('hands', handStates({ select, middle, resource }), { scene: STUDIO, alone: true }),
     ...rows('graph', GRAPH, { scene: STUDIO, alone: true }),
     ...rows('text', textStates({ select, tab, graph }), { scene: STUDIO, alone: true }),
     ...rows('others', OTHERS, { alone: true }),

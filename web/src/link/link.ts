@@ -280,8 +280,12 @@ class SceneLink implements Link {
         if (!this.#session) {
             return;
         }
+        const { shown } = this.#session;
         const { session, events } = sessions.receive(this.#session, message);
         this.#session = session;
+        if (shown && session.shown && isOfOthers(events)) {
+            this.#notices.lost(shown, session.shown);
+        }
         for (const event of events) {
             this.#event(event);
         }
@@ -463,7 +467,7 @@ class SceneLink implements Link {
             saved: sessions.isSaved(session),
             canUndo: editing || session.undo > 0,
             canRedo: !editing && session.redo > 0,
-            problems: dropGone(before.problems, session.schema, session.shown),
+            problems: dropGone(before.problems, session.shown),
             history: settled
                 ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)
                 : before.history,
@@ -499,6 +503,12 @@ const ATTEMPTS_BEFORE_PROBE = 2;
 const FINAL_STATUS: readonly number[] = [400, 401, 403, 404];
 /* Hidden pages get no animation frames. */
 const LATEST_FLUSH_MS = 50;
+
+/* Did somebody else change the document, or is it read anew? */
+function isOfOthers(events: readonly sessions.SessionEvent[]): boolean {
+    const kinds = events.map(({ kind }) => kind);
+    return kinds.includes("reset") || (kinds.includes("changed") && !kinds.includes("done"));
+}
 
 /* The nodes that operations put into trees. */
 function insertedNodes(ops: readonly Operation[]): string[] {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What goes wrong in a live scene, as the stores hold it: notices, and problems at their places. */
-import { findResource, type SceneDocument } from "../model/document.ts";
+import type { SceneDocument } from "../model/document.ts";
+import { lostTo } from "../model/lost.ts";
 import type { Operation, Problem } from "../model/operation.ts";
-import { nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import {
     addProblem,
     COMPILE,
@@ -11,22 +11,13 @@ import {
     isEnd,
     isGivenUp,
     isStanding,
-    LEFT_OUT,
+    isThere,
+    isTooSlow,
 } from "../model/problems.ts";
 import type { PendingEdit } from "../model/session.ts";
 import { addNotice, endNotices, type NoticeAct, type Stores } from "../model/stores.ts";
-import { text } from "../model/texts.ts";
+import { capitalised, text } from "../model/texts.ts";
 import type { NoticeMessage } from "./protocol.ts";
-
-/* Is the node or resource of a place there? What has none always is. */
-function exists(document: SceneDocument, place: string): boolean {
-    const node = nodeOfPlace(place);
-    const resource = resourceOfPlace(place);
-    return (
-        (node === null || document.nodes.has(node)) &&
-        (resource === null || findResource(document, resource.list, resource.name) !== null)
-    );
-}
 
 export class Notices {
     readonly #stores: Stores;
@@ -61,6 +52,16 @@ export class Notices {
         });
     }
 
+    /* Somebody else took away what is looked at, or gave it another name. */
+    lost(before: SceneDocument, after: SceneDocument): void {
+        const { gone, view } = lostTo(before, after, this.#stores.view.getState());
+        this.#stores.view.setState(view);
+        if (gone !== null) {
+            const message = text("edit.deletedByOther", { name: capitalised(gone) });
+            this.add("warning", "lost", message);
+        }
+    }
+
     /* Broken code is marked where it stands, again and again while somebody types. */
     fromServer({ type: _type, ...notice }: NoticeMessage): void {
         const { level, code, message, place = "" } = notice;
@@ -68,11 +69,11 @@ export class Notices {
             this.#end(place);
             return;
         }
-        if (level === "error" && code !== LEFT_OUT) {
+        if (level === "error") {
             this.#mark({ ...notice, place });
         }
         if (isGivenUp(code)) {
-            const acts = this.#actsFor(place, notice.limit !== undefined);
+            const acts = this.#actsFor(place, isTooSlow(notice));
             addNotice(this.#stores.notices, { level, code, message, place, acts });
         } else if (code !== COMPILE || place === "") {
             this.add(level, code, message, place);
@@ -94,7 +95,7 @@ export class Notices {
         endNotices(
             this.#stores.notices,
             ({ code, place }) =>
-                isStanding({ code }) && document !== null && !exists(document, place),
+                isStanding({ code }) && document !== null && !isThere(document, place),
         );
     }
 

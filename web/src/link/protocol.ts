@@ -2,6 +2,7 @@
 /* Everything that page and server say to each other on a live connection, and the binary header of
  * frames. Mirrors protocol/README.md, whose examples run against this file. */
 import { isObject, type Json, type JsonObject } from "../model/json.ts";
+import type { RefusalReason } from "../model/operation.ts";
 import type { OutgoingEdit, SessionMessage } from "../model/session.ts";
 import type { FrameState, Level, RendererInfo } from "../model/stores.ts";
 import type { Quality } from "../model/view.ts";
@@ -123,6 +124,8 @@ export interface NoticeMessage {
     /* Milliseconds of processor time: what was too slow took more, and might take. */
     readonly measured?: number;
     readonly limit?: number;
+    /* Why a scene is left out. */
+    readonly reason?: RefusalReason;
 }
 
 export interface ByeMessage {

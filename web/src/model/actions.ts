@@ -23,7 +23,7 @@ import { isParked, parkable } from "./moves.ts";
 import type { Operation } from "./operation.ts";
 import { limitOf, type Schema } from "./schema.ts";
 import { addNotice, type Stores, setPreferences } from "./stores.ts";
-import { text } from "./texts.ts";
+import { capitalised, text } from "./texts.ts";
 import { dot, subtract, type Vector } from "./transform.ts";
 import type { HandSettings } from "./view.ts";
 
@@ -157,7 +157,7 @@ export function perform(app: App, edit: Edit): boolean {
 
 /* Tells what is gone, with a way back beside it. */
 export function tellDeleted(app: Pick<App, "stores">, name: string, label: string): void {
-    const message = text("edit.deleted", { name: name.charAt(0).toUpperCase() + name.slice(1) });
+    const message = text("edit.deleted", { name: capitalised(name) });
     addNotice(app.stores.notices, {
         level: "info",
         code: "deleted",

@@ -10,6 +10,7 @@ import {
     scale,
     subtract,
     toParent,
+    toWorld,
     transformOf,
     type Vector,
     vectorOf,
@@ -46,18 +47,26 @@ function ownRadius(node: SceneNode, schema: Schema): number {
     return sum;
 }
 
+/* Its children, and the model that it is an instance of. */
+function partsOf(document: SceneDocument, node: SceneNode, schema: Schema): readonly string[] {
+    const row = nodeType(schema, node.type)?.params.find(({ type }) => type === "model");
+    const model = row && document.models.find(({ name }) => name === node.params[row.name]);
+    return model ? [...node.children, model.root] : node.children;
+}
+
 /* In the space of the node's parent. */
 function ballIn(document: SceneDocument, node: SceneNode, schema: Schema): Ball | null {
     if (!isVisible(node)) {
         return null;
     }
     let ball: Ball | null = null;
-    for (const id of node.children) {
+    const parts = partsOf(document, node, schema);
+    for (const id of parts) {
         const child = document.nodes.get(id);
         ball = merge(ball, child ? ballIn(document, child, schema) : null);
     }
     const own = ownRadius(node, schema);
-    const isShape = nodeType(schema, node.type)?.group === "primitive";
+    const isShape = nodeType(schema, node.type)?.children === "none" && parts === node.children;
     if (isShape) {
         ball = merge(ball, { center: [0, 0, 0], radius: own || UNKNOWN_RADIUS });
     } else if (ball) {
@@ -71,7 +80,8 @@ function ballIn(document: SceneDocument, node: SceneNode, schema: Schema): Ball 
     return { center: toParent(transform, ball.center), radius: ball.radius * largest };
 }
 
-/* Around the given nodes, in the world; around everything where none is given. */
+/* Around the given nodes, in the world; around everything where none is given. Where nothing is to be
+ * seen, it is around the place of the first. */
 export function ballOf(
     document: SceneDocument,
     schema: Schema,
@@ -93,5 +103,7 @@ export function ballOf(
         }
         all = merge(all, ball);
     }
-    return all ?? { center: [0, 0, 0], radius: UNKNOWN_RADIUS };
+    const [first = document.root] = ids;
+    const place = document.nodes.has(first) ? toWorld(document, first, [0, 0, 0]) : null;
+    return all ?? { center: place ?? [0, 0, 0], radius: UNKNOWN_RADIUS };
 }

@@ -72,7 +72,8 @@ export interface Command {
 
 const THEMES: readonly Theme[] = ["auto", "light", "dark"];
 
-/* What people look for and there is not: an honest answer each, and the way there is. */
+/* What people look for and there is not: an honest answer each, and the way there is. None of the
+ * words finds a command. */
 export interface Absent {
     readonly words: string;
     readonly title: string;
@@ -86,19 +87,9 @@ export const ABSENT: readonly Absent[] = [
         answer: "The address of this page is the link: whoever opens it edits along.",
     },
     {
-        words: "export mesh stl obj gltf glb 3mf print",
-        title: "Export a mesh",
+        words: "mesh stl obj gltf glb 3mf print",
+        title: "Meshes",
         answer: "There are no meshes: a scene is downloaded as JSON, a picture as PNG, JPEG or NPY.",
-    },
-    {
-        words: "measure ruler distance dimension",
-        title: "Measure",
-        answer: "There is no ruler. The outputs depth and position give numbers for each pixel.",
-    },
-    {
-        words: "grid ground",
-        title: "Grid",
-        answer: "There is no grid. Ctrl with a drag goes in steps.",
     },
     {
         words: "equation formula implicit function parametric expression math",
@@ -106,8 +97,8 @@ export const ABSENT: readonly Absent[] = [
         answer: "Add the shape Implicit and type an equation in x, y and z, or find that of a parametric surface.",
     },
     {
-        words: "history versions checkpoint timeline",
-        title: "History",
+        words: "versions checkpoint timeline",
+        title: "Versions",
         answer: "Ctrl+Z takes your steps back, also after a reload. There is no list of them.",
     },
     {
@@ -116,7 +107,7 @@ export const ABSENT: readonly Absent[] = [
         answer: "There is none: scenes stand still.",
     },
     {
-        words: "texture uv image map",
+        words: "texture uv map",
         title: "Textures",
         answer: "There are none on surfaces. Write a shader, or set a picture as the backdrop.",
     },
@@ -712,7 +703,7 @@ export const COMMANDS: readonly Command[] = [
     }),
     row({
         id: "scene.download",
-        words: "export share file backup json",
+        words: "export file backup json",
         title: "Download as JSON",
         group: "scene",
         run: (app) => app.download(),

@@ -26,7 +26,12 @@ export interface Problem {
     /* In the text at `place`, from 1. */
     readonly line?: number;
     readonly column?: number;
+    /* Of a scene that is left out. */
+    readonly reason?: RefusalReason;
 }
+
+/* Why something is not tried again before somebody asks for it. */
+export type RefusalReason = "too_slow" | "crashed";
 
 /* Thrown where an operation does not fit; operations.ts answers it. */
 export class Refusal extends Error {

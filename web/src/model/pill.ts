@@ -2,7 +2,7 @@
 /* What the pill under the picture says: how the picture on screen stands to the newest state, told
  * by revisions. Pure. */
 import type { Problem } from "./operation.ts";
-import { COMPILE } from "./problems.ts";
+import { COMPILE, LEFT_OUT } from "./problems.ts";
 import type { Connection, FrameInfo } from "./stores.ts";
 
 export type PillState =
@@ -50,13 +50,25 @@ export interface Pill {
     readonly rounds: number;
 }
 
+/* Does a problem keep the picture from what is looked at? A scene that is left out gets no better
+ * pictures either. */
+function isBlocked({ frame, problem }: PillInput, behind: number): boolean {
+    const unfinished = frame.state !== "lossless" || frame.outdated;
+    return (
+        problem !== null &&
+        (frame.stale ||
+            behind > 0 ||
+            (problem.code === LEFT_OUT ? unfinished : frame.state === "none"))
+    );
+}
+
 function stateOf(input: PillInput, behind: number): PillState {
     const { connection, frame, problem, compiling, moving } = input;
     if (connection === "offline" || connection === "refused") {
         return connection === "offline" ? "offline" : "ended";
     }
-    if (problem !== null && (frame.stale || behind > 0 || frame.state === "none")) {
-        return problem.code === COMPILE ? "kept" : "givenUp";
+    if (isBlocked(input, behind)) {
+        return problem?.code === COMPILE ? "kept" : "givenUp";
     }
     if (compiling) {
         return "compiling";

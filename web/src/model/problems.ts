@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* What is wrong with a document, by place: edits that were refused, and code that does not compile
  * and stands there all the same, while the picture shows the last that did. */
-import { paramAt, type SceneDocument } from "./document.ts";
+import { findResource, type SceneDocument } from "./document.ts";
 import type { Operation, Problem } from "./operation.ts";
 import { cleanPlace, isWithin, nodeOfPlace, resourceOfPlace, resourcePlace } from "./places.ts";
-import type { Schema } from "./schema.ts";
 
 /* Notices about code: it does not compile, that took too long or crashed, it is well again, or is
  * tried again; and a scene that is not drawn. */
@@ -27,6 +26,11 @@ export function isStanding({ code }: { readonly code: string }): boolean {
 /* Is it not tried again before somebody asks for it? */
 export function isGivenUp(code: string): boolean {
     return code === TOO_SLOW || code === CRASHED || code === LEFT_OUT;
+}
+
+/* Would more time help? */
+export function isTooSlow({ code, reason }: Pick<Problem, "code" | "reason">): boolean {
+    return (reason ?? code) === TOO_SLOW;
 }
 
 /* Does it say that what stood at its place has ended? */
@@ -71,15 +75,21 @@ function ownerOf(place: string): string {
           : place;
 }
 
-/* Code that is gone cannot be wrong. */
-export function dropGone(
-    problems: Problems,
-    schema: Schema,
-    document: SceneDocument | null,
-): Problems {
+/* Is the node or resource of a place there? What has none always is. */
+export function isThere(document: SceneDocument, place: string): boolean {
+    const node = nodeOfPlace(place);
+    const resource = resourceOfPlace(place);
+    return (
+        (node === null || document.nodes.has(node)) &&
+        (resource === null || findResource(document, resource.list, resource.name) !== null)
+    );
+}
+
+/* What is gone cannot be wrong. */
+export function dropGone(problems: Problems, document: SceneDocument | null): Problems {
     return problems.size === 0 || document === null
         ? problems
-        : without(problems, (one) => isStanding(one) && !paramAt(schema, document, one.place));
+        : without(problems, (one) => isStanding(one) && !isThere(document, one.place));
 }
 
 /* The first problem at a place or inside of it. */
@@ -92,7 +102,13 @@ export function problemIn(problems: Problems, place: string): Problem | null {
     return null;
 }
 
-/* Code that does not compile. */
+/* What stands in the way of the newest state; first a scene that is not drawn at all. */
+export function foremost(problems: Problems): Problem | null {
+    const standing = brokenCode(problems);
+    return standing.find(({ code }) => code === LEFT_OUT) ?? standing[0] ?? null;
+}
+
+/* What cannot be drawn. */
 export function brokenCode(problems: Problems): readonly Problem[] {
     return problems.size === 0 ? NONE : [...problems.values()].filter(isStanding);
 }

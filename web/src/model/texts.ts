@@ -35,6 +35,7 @@ const TEXTS = {
     "picture.opaqueJpeg": "A JPEG cannot be transparent: choose PNG.",
     "snap.floor": "floor",
     "edit.deleted": "{name} deleted.",
+    "edit.deletedByOther": "{name} deleted by somebody else.",
     "why.pointerBackspace":
         "Backspace resets the value under the pointer. Delete removes the selected nodes.",
     saved: "Everything is saved, revision {revision}.",
@@ -46,4 +47,8 @@ export type TextKey = keyof typeof TEXTS;
 /* The text, with {name} filled in. */
 export function text(key: TextKey, values: Readonly<Record<string, string | number>> = {}): string {
     return TEXTS[key].replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ""));
+}
+
+export function capitalised(name: string): string {
+    return name.charAt(0).toUpperCase() + name.slice(1);
 }

@@ -43,7 +43,10 @@ export function holdBox(
     frame.className = "view-box";
     let rectangle = rectangleOf(press, press);
     return {
-        start: () => element.append(frame),
+        start: () => {
+            stores.view.setState({ hovered: null });
+            element.append(frame);
+        },
         move: (to) => {
             rectangle = rectangleOf(press, to);
             place(frame, rectangle);

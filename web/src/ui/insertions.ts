@@ -9,7 +9,7 @@ import {
     addNode as buildNode,
     typeNaming,
 } from "../model/add.ts";
-import { findResource, type Resource, type SceneDocument } from "../model/document.ts";
+import { findResource, paramAt, type Resource, type SceneDocument } from "../model/document.ts";
 import type { Edit } from "../model/edits.ts";
 import { newLight } from "../model/lights.ts";
 import { ID_PATTERN, type ListName, nodeOfPlace, resourceOfPlace } from "../model/places.ts";
@@ -70,8 +70,9 @@ export function openCode(editor: Editor, place: string): void {
     editor.stores.view.setState({ code: place, drawer: "code" });
 }
 
-/* Shows whatever a place lies in, and the code there. */
+/* Shows whatever a place lies in, and the code there, if there is some. */
 export function showPlace(editor: Editor, place: string, code: boolean): void {
+    const { document, schema } = editor.stores.document.getState();
     const node = nodeOfPlace(place);
     const resource = resourceOfPlace(place);
     if (node !== null) {
@@ -79,7 +80,7 @@ export function showPlace(editor: Editor, place: string, code: boolean): void {
     } else if (resource !== null) {
         editor.show({ kind: "resource", ...resource });
     }
-    if (code) {
+    if (code && document && paramAt(schema, document, place)?.param.type === "code") {
         openCode(editor, place);
     }
 }

@@ -4,6 +4,7 @@ import { nodeLabel, type SceneDocument } from "../model/document.ts";
 import { nodeOfPlace, resourceOfPlace } from "../model/places.ts";
 import type { Param } from "../model/schema.ts";
 import type { RendererInfo } from "../model/stores.ts";
+import { capitalised } from "../model/texts.ts";
 import { t } from "./texts.ts";
 
 const spoken: Record<string, string> = {
@@ -73,8 +74,7 @@ export function outputTitle(name: string): string {
 
 /* With a capital: for headings and menus. */
 export function typeTitle(type: string): string {
-    const text = words(type);
-    return text.charAt(0).toUpperCase() + text.slice(1);
+    return capitalised(words(type));
 }
 
 /* What draws: a device, or the processors where the engine uses none. */

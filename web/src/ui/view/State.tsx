@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What is honest about the picture on screen: how it stands to the newest state, and by which
  * renderer it was drawn. */
-import { CircleAlert, Cpu } from "lucide-react";
+import { CircleAlert, Cpu, RotateCw } from "lucide-react";
 import { useEffect, useState } from "react";
 import type { Problem } from "../../model/operation.ts";
 import { type Pill, pillOf } from "../../model/pill.ts";
-import { brokenCode, isGivenUp, TOO_SLOW } from "../../model/problems.ts";
+import { brokenCode, foremost, isGivenUp, isTooSlow } from "../../model/problems.ts";
 import type { Compiling } from "../../model/stores.ts";
 import { showPlace } from "../insertions.ts";
 import { drawnBy } from "../names.ts";
@@ -15,7 +15,7 @@ import { Tip } from "../widgets/Tip.tsx";
 import "./view.css";
 
 export function StatePill() {
-    const problem = useDocument(({ problems }) => brokenCode(problems)[0] ?? null);
+    const problem = useDocument(({ problems }) => foremost(problems));
     const revision = useDocument((state) => state.revision);
     const waiting = useDocument((state) => state.waiting);
     const { connection, frame, moving, compiling } = useLink((state) => state);
@@ -54,7 +54,7 @@ function textOf(pill: Pill, empty: boolean, problem: Problem | null): string {
         case "ended":
             return t(empty ? "state.endedEmpty" : "state.ended");
         case "givenUp":
-            return t(problem?.code === TOO_SLOW ? "state.tooSlow" : "state.crashed");
+            return t(problem && isTooSlow(problem) ? "state.tooSlow" : "state.crashed");
         case "behind":
             return t("state.behind", { count: behind });
         case "moving":
@@ -82,26 +82,41 @@ function CompilingText({ since, expected }: Compiling) {
           : t("state.compilingNow");
 }
 
-/* The picture is that of the last code that compiled; a press leads to what does not. */
+/* The picture is that of the last code that compiled; a press leads to what does not. What was
+ * given up is tried again on request. */
 export function BrokenPill() {
     const editor = useEditor();
-    const problem = useDocument(({ problems }) => brokenCode(problems)[0] ?? null);
+    const problem = useDocument(({ problems }) => foremost(problems));
     const count = useDocument(({ problems }) => brokenCode(problems).length);
     if (problem === null) {
         return null;
     }
+    const { code, place, message } = problem;
     return (
-        <Tip text={problem.message} note={problem.place} side="top">
-            <button
-                type="button"
-                className="glass pill pill-bad"
-                data-testid="broken"
-                onClick={() => showPlace(editor, problem.place, true)}
-            >
-                <CircleAlert size={14} aria-hidden="true" />
-                {brokenText(problem, count)}
-            </button>
-        </Tip>
+        <>
+            <Tip text={message} note={place} side="top">
+                <button
+                    type="button"
+                    className="glass pill pill-bad"
+                    data-testid="broken"
+                    onClick={() => showPlace(editor, place, true)}
+                >
+                    <CircleAlert size={14} aria-hidden="true" />
+                    {brokenText(problem, count)}
+                </button>
+            </Tip>
+            {isGivenUp(code) && (
+                <button
+                    type="button"
+                    className="glass pill"
+                    data-testid="retry"
+                    onClick={() => editor.link.tryAgain(place)}
+                >
+                    <RotateCw size={14} aria-hidden="true" />
+                    {t("notices.act.retry")}
+                </button>
+            )}
+        </>
     );
 }
 
