@@ -7,7 +7,8 @@
 //                                                           each with nothing compiled before; by
 //                                                           default every example, once
 //
-// A worker that is replaced, or a notice of an error, is a failure: the exit status is 1.
+// A worker that is replaced, a notice of an error, or an example whose poster takes over a second is a
+// failure: the exit status is 1.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import { transformSync } from '../web/node_modules/esbuild/lib/main.js';
@@ -40,6 +41,8 @@ const SCENES = {
     'new volume': own({ id: 'a', type: 'sphere' }, { volumes: [{ id: 'v', type: 'box' }] }),
 };
 
+const POSTER_MS = 1000; // within which an example shows something
+
 let failures = 0;
 const ms = (from, to) => `${((to - from) / 1000).toFixed(1).padStart(7)} s`;
 
@@ -51,7 +54,7 @@ async function coldDaemon() {
     return { daemon, end: () => daemon.stop().then(() => removeDirectory(cache)) };
 }
 
-async function open(daemon, name, body) {
+async function open(daemon, name, body, posterMs = Number.POSITIVE_INFINITY) {
     const start = Date.now();
     const { id } = await ask(daemon, 'POST', '/v1/scenes', body);
     const poster = await fetch(`${daemon.url}/v1/scenes/${id}/poster.jpg`);
@@ -62,10 +65,11 @@ async function open(daemon, name, body) {
     const frame = await live.nextFrame();
     const restarts = await counter(daemon, 'worker_restarts_total');
     const told = live.messages.filter((m) => m.type === 'notice' && m.level === 'error');
-    const bad = restarts > 0 || told.length > 0;
+    const late = posterMs < Number.POSITIVE_INFINITY && (poster.status !== 200 || shown - start > posterMs);
+    const bad = restarts > 0 || told.length > 0 || late;
     failures += bad;
     console.log(
-        `${bad ? 'FAIL' : 'ok  '} ${name.padEnd(24)} poster ${poster.status === 200 ? ms(start, shown) : '       none'}, ` +
+        `${bad ? 'FAIL' : 'ok  '} ${name.padEnd(24)} poster ${poster.status === 200 ? ms(start, shown) : '       none'}${late ? ' (late)' : ''}, ` +
             `own picture ${ms(start, frame.at)}${bad ? `, ${restarts} restarts, ${JSON.stringify(told)}` : ''}`,
     );
     await live.close();
@@ -82,7 +86,7 @@ for (let i = 0; i < Number(tries); i += 1) {
 const { daemon, end } = await coldDaemon();
 const { examples } = await ask(daemon, 'GET', '/v1/examples');
 for (const { id } of examples.filter((one) => wanted.length === 0 || wanted.includes(one.id))) {
-    await open(daemon, id, { from: `example:${id}` });
+    await open(daemon, id, { from: `example:${id}` }, POSTER_MS);
 }
 await end();
 console.log(`${failures} failed`);
