@@ -31,6 +31,7 @@ enum {
     STEADY_MS = 2000,       /* one that lived longer is replaced at once */
     BACKOFF_FIRST_MS = 100, /* else after a pause, doubled each time */
     BACKOFF_MAX_MS = 5000,
+    DYING_MS = 500, /* that a killed worker is waited for at the end of the daemon */
 };
 
 struct chunk {
@@ -287,11 +288,24 @@ static void plan_restart(struct supervisor *supervisor)
     supervisor->next_start = now + supervisor->backoff_ms;
 }
 
+/* Its exit status. Threads of drivers have the least priority, so on a busy machine a killed process
+ * may take seconds to die. The daemon's end does not wait for that: init takes it over. */
+static int reap(const struct supervisor *supervisor)
+{
+    const bool last = atomic_load(&supervisor->stopping);
+    const int64_t end = clock_ms() + DYING_MS;
+    int status = 0;
+
+    while (waitpid(supervisor->pid, &status, last ? WNOHANG : 0) == 0 && clock_ms() < end) {
+        usleep(5000);
+    }
+    return status;
+}
+
 /* Kills what is left of the worker and tells why. `why`: NULL where it ended by itself. */
 static void take_down(struct supervisor *supervisor, const struct supervisor_end *why)
 {
     struct supervisor_end end = why ? *why : (struct supervisor_end){.kind = SUPERVISOR_ENDED};
-    int status = 0;
 
     pthread_mutex_lock(&supervisor->lock);
     close(supervisor->fd);
@@ -303,7 +317,7 @@ static void take_down(struct supervisor *supervisor, const struct supervisor_end
     memset(&supervisor->reader, 0, sizeof supervisor->reader);
     heartbeat_finish(&supervisor->heartbeat);
     kill(supervisor->pid, SIGKILL);
-    waitpid(supervisor->pid, &status, 0);
+    const int status = reap(supervisor);
     supervisor->pid = 0;
     if (!why) {
         describe_exit(status, end.text, sizeof end.text);

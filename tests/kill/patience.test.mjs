@@ -3,7 +3,7 @@
 // replaced, and code that takes too long to compile gets a second try, then its reason, then another
 // try when somebody asks for it.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, test } from 'node:test';
@@ -82,7 +82,7 @@ function starve(pid) {
     return {
         end() {
             endLoops();
-            execFileSync('chrt', ['-a', '-o', '-p', '0', String(pid)]);
+            spawnSync('chrt', ['-a', '-o', '-p', '0', String(pid)]); // of one that has ended, nothing
         },
     };
 }
@@ -138,6 +138,14 @@ test('a process that waits for a processor is not', async () => {
     await live.nextFrame((frame) => frame.seq === live.seq && frame.lossless);
     assert.equal(daemon.worker(), pid);
     await live.close();
+});
+
+test('the end does not wait for a process that dies slowly', async () => {
+    const daemon = await start();
+    const starved = starve(daemon.worker());
+    const { status } = await daemon.kill('SIGTERM');
+    starved.end();
+    assert.equal(status, 0, daemon.errors);
 });
 
 test('code that compiles in a second try leaves no word', async () => {
