@@ -99,6 +99,7 @@ struct code_probe {
     double greatest; /* slope */
     double lipschitz;
     int asked, points;
+    bool slopes_only; /* where it gives no number is no fault; set after code_probe_begin */
 };
 /* `code` and `n` are borrowed as long as it asks. */
 void code_probe_begin(struct code_probe *out, const struct code *code, const double *n,

@@ -153,7 +153,8 @@ bool code_probe_ask(struct code_probe *probe, struct error *err)
     const int index = probe->asked++;
     double p[3];
     point_of(probe, index, p);
-    if (!(shades ? ask_shade(probe, p, index, err) : ask_around(probe, p, index, err))) {
+    if (!(shades ? ask_shade(probe, p, index, err) : ask_around(probe, p, index, err)) &&
+        !probe->slopes_only) {
         return false;
     }
     return probe->asked < probe->points || shades || probe->greatest <= SLACK * probe->lipschitz ||

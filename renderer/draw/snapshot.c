@@ -289,7 +289,7 @@ static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
     }
     if (before && before->engine) {
         snapshot->engine = engine_program_ref(before->engine);
-        snapshot->trial = trial_ref(before->trial);
+        snapshot->trial = trial_follow(&renderer->trials, before->trial, snapshot->field);
     } else if (compiles) {
         snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
                                         &snapshot->warning.error, err);

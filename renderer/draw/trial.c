@@ -7,21 +7,38 @@
 
 static const struct error none;
 
-struct trial *trial_begin(struct trials *trials, struct field *field)
+static struct trial *queue(struct trials *trials, struct field_trial *asks, bool late)
 {
     struct trial **last = &trials->first;
-
-    if (field->code_count + field->shader_count == 0) {
-        return NULL;
-    }
     struct trial *trial = memory_alloc(1, sizeof *trial);
     trial->references = 1;
-    trial->asks = field_trial_create(field);
+    trial->late = late;
+    trial->asks = asks;
     while (*last) {
         last = &(*last)->next;
     }
     *last = trial;
     return trial;
+}
+
+struct trial *trial_begin(struct trials *trials, struct field *field)
+{
+    return field->code_count + field->shader_count > 0
+               ? queue(trials, field_trial_create(field), false)
+               : NULL;
+}
+
+struct trial *trial_follow(struct trials *trials, struct trial *before, struct field *field)
+{
+    if (!before) {
+        return NULL;
+    }
+    struct field_trial *asks = field_trial_create(field);
+    if (trial_is_over(before) && !field_trial_is_same(before->asks, asks)) {
+        return queue(trials, asks, true);
+    }
+    field_trial_destroy(asks);
+    return trial_ref(before);
 }
 
 struct trial *trial_ref(struct trial *trial)
@@ -56,12 +73,12 @@ void trial_unref(struct trials *trials, struct trial *trial)
 
 bool trial_is_over(const struct trial *trial)
 {
-    return !trial || field_trial_is_over(trial->asks);
+    return !trial || trial->late || field_trial_is_over(trial->asks);
 }
 
 const struct error *trial_error(const struct trial *trial)
 {
-    return trial ? field_trial_error(trial->asks) : &none;
+    return trial && !trial->late ? field_trial_error(trial->asks) : &none;
 }
 
 const struct error *trial_warning(const struct trial *trial)

@@ -8,6 +8,7 @@
 
 struct trial {
     int references;
+    bool late; /* the code is drawn already, with other numbers: this one only warns */
     struct field_trial *asks;
     struct trial *next; /* among those that are under way */
 };
@@ -18,6 +19,9 @@ struct trials {
 
 /* Under way; NULL: the field has no code. */
 struct trial *trial_begin(struct trials *trials, struct field *field);
+/* Of the field of a snapshot that takes the program of another one over, with that one's trial: the
+ * same, unless numbers of the code are others. `before` NULL: NULL. */
+struct trial *trial_follow(struct trials *trials, struct trial *before, struct field *field);
 struct trial *trial_ref(struct trial *trial);                 /* NULL: NULL */
 void trial_unref(struct trials *trials, struct trial *trial); /* NULL: nothing */
 bool trial_is_over(const struct trial *trial);                /* NULL: it is */

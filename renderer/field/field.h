@@ -215,12 +215,14 @@ const char *field_leaf_id(const struct field *field, uint32_t number);
  * The first `used` components are taken. Returns how many vec4s it has from there. */
 int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
 
-/* Tries out users' code at many points, with the numbers of its first shape or material, a while at
- * a time. Holds the field. */
+/* Tries out users' code at many points, a while at a time: with the numbers of up to 8 shapes of
+ * each code, and of a shader's first material. Holds the field. */
 struct field_trial;
 #define FIELD_TRIAL_ALL INT64_MAX
 struct field_trial *field_trial_create(struct field *field);
 void field_trial_destroy(struct field_trial *trial); /* NULL: nothing */
+/* Whether both try the same code with the same numbers. */
+bool field_trial_is_same(const struct field_trial *a, const struct field_trial *b);
 /* For about so many microseconds, at least at one point. */
 void field_trial_go_on(struct field_trial *trial, int64_t us);
 bool field_trial_is_over(const struct field_trial *trial);

@@ -9,28 +9,41 @@
 #include "field_code.h"
 #include "protocol/memory.h"
 
-#define BOX_HALF 2.0 /* of the box where a function has none of its own */
+#define BOX_HALF 2.0  /* of the box where a function has none of its own, */
+#define FAR_HALF 32.0 /* and of the one in which only its slope is looked at */
+enum { SHAPES_MAX = 8 /* with different numbers, of one code */ };
 
-/* One code, with the numbers of its first shape or material. */
+/* One code, with the numbers of a shape or material. */
 struct tried {
     const struct field_code *code;
     double numbers[4 * LIMIT_DECLARED];
     double half[3], lipschitz;
+    bool slopes_only;
 };
 
 struct field_trial {
     struct field *field;
     struct tried *tried;
-    size_t count, next;
+    size_t count, capacity, next;
     struct code_probe probe; /* of the one before `next` */
     struct error warning, error;
 };
 
 static struct tried *add(struct field_trial *trial, const struct field_code *code)
 {
+    if (trial->count == trial->capacity) {
+        trial->capacity = 2 * trial->capacity + 4;
+        trial->tried = memory_resize(trial->tried, trial->capacity, sizeof *trial->tried);
+    }
     struct tried *added = &trial->tried[trial->count++];
-    added->code = code;
+    *added = (struct tried){.code = code};
     return added;
+}
+
+static bool is_same(const struct tried *a, const struct tried *b)
+{
+    return a->code->hash == b->code->hash && a->slopes_only == b->slopes_only && memcmp(a->numbers, b->numbers, sizeof a->numbers) == 0 &&
+           memcmp(a->half, b->half, sizeof a->half) == 0 && a->lipschitz == b->lipschitz;
 }
 
 static size_t numbers_of(const struct field_code *code)
@@ -42,24 +55,45 @@ static size_t numbers_of(const struct field_code *code)
     return count;
 }
 
+static struct tried shape_at(const struct field *field, const struct field_instruction *in)
+{
+    const double *n = field->arguments + in->arguments + 12, *cut = n + FIELD_HEAD_NUMBERS;
+    struct tried tried = {.code = &field->codes[in->choices], .lipschitz = cut[3] / n[0]};
+    memcpy(tried.numbers, cut + FIELD_CUT_NUMBERS, numbers_of(tried.code) * sizeof *n);
+    memcpy(tried.half, cut, sizeof tried.half);
+    return tried;
+}
+
+/* Its box, and a large one where it has none of its own. */
+static void add_shape(struct field_trial *trial, const struct tried *shape)
+{
+    const bool endless = shape->half[0] >= FIELD_UNCUT;
+    *add(trial, shape->code) = *shape;
+    if (endless) {
+        struct tried *far = add(trial, shape->code);
+        *far = *shape;
+        far->slopes_only = true;
+    }
+}
+
 static void add_shapes(struct field_trial *trial)
 {
     const struct field *field = trial->field;
-    uint32_t next = 0; /* codes are numbered in the order of their first shapes */
-    for (size_t i = 0; i < field->instruction_count && next < field->code_count; i++) {
+    for (size_t i = 0; i < field->instruction_count; i++) {
         const struct field_instruction *in = &field->instructions[i];
-        if (in->op != FIELD_SHAPE || in->sdf || in->choices != next) {
+        if (in->op != FIELD_SHAPE || in->sdf || field->codes[in->choices].own) {
             continue;
         }
-        const double *n = field->arguments + in->arguments + 12, *cut = n + FIELD_HEAD_NUMBERS;
-        const struct field_code *code = &field->codes[next++];
-        if (code->own) {
-            continue;
+        const struct tried shape = shape_at(field, in);
+        int known = 0;
+        bool again = false;
+        for (size_t k = 0; k < trial->count && !again && known < SHAPES_MAX; k++) {
+            known += trial->tried[k].code == shape.code && !trial->tried[k].slopes_only;
+            again = is_same(&trial->tried[k], &shape);
         }
-        struct tried *tried = add(trial, code);
-        memcpy(tried->numbers, cut + FIELD_CUT_NUMBERS, numbers_of(tried->code) * sizeof *n);
-        memcpy(tried->half, cut, sizeof tried->half);
-        tried->lipschitz = cut[3] / n[0];
+        if (!again && known < SHAPES_MAX) {
+            add_shape(trial, &shape);
+        }
     }
 }
 
@@ -87,7 +121,6 @@ struct field_trial *field_trial_create(struct field *field)
 {
     struct field_trial *trial = memory_alloc(1, sizeof *trial);
     trial->field = field_ref(field);
-    trial->tried = memory_alloc(field->code_count + field->shader_count + 1, sizeof *trial->tried);
     add_shapes(trial);
     add_shaders(trial);
     return trial;
@@ -102,15 +135,26 @@ void field_trial_destroy(struct field_trial *trial)
     }
 }
 
+bool field_trial_is_same(const struct field_trial *a, const struct field_trial *b)
+{
+    bool same = a->count == b->count;
+    for (size_t i = 0; i < a->count && same; i++) {
+        same = is_same(&a->tried[i], &b->tried[i]);
+    }
+    return same;
+}
+
 static void begin_next(struct field_trial *trial)
 {
     const struct tried *tried = &trial->tried[trial->next++];
     double low[3], high[3];
     for (int i = 0; i < 3; i++) {
-        high[i] = tried->half[i] < FIELD_UNCUT ? tried->half[i] : BOX_HALF;
+        const double endless = tried->slopes_only ? FAR_HALF : BOX_HALF;
+        high[i] = tried->half[i] < FIELD_UNCUT ? tried->half[i] : endless;
         low[i] = -high[i];
     }
     code_probe_begin(&trial->probe, tried->code->code, tried->numbers, low, high, tried->lipschitz);
+    trial->probe.slopes_only = tried->slopes_only;
 }
 
 /* A wrong slope is told, and drawn. */

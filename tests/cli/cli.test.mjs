@@ -174,6 +174,17 @@ test('check passes what can be drawn, and warns of it as render does', () => {
     assert.match(checked.err, /^fieldcast: warning: steep\.json: \/nodes\/own\/params\/code: the distance changes by up to /);
 });
 
+test('check warns of a slope that only the second shape has, and of one far from the origin', () => {
+    const primitives = { ball: { params: [{ name: 'k', type: 'float', default: 1 }], code: 'float sdf(vec3 p) { return k * (length(p) - 0.5); }' } };
+    const shape = (k) => ({ type: 'field', params: { primitive: 'ball', k } });
+    const second = { format: 'fieldcast/1', primitives, root: { type: 'union', children: [shape(1), shape(5)] } };
+    const far = { format: 'fieldcast/1', root: field('float sdf(vec3 p) { float d = length(p) - 3.0; return p.x > 2.2 ? 6.0 * d : d; }') };
+    assert.match(succeed(['check', write('second.json', JSON.stringify(second))]).err, /\/primitives\/ball\/code: the distance changes by up to 5 /);
+    assert.match(succeed(['check', write('far.json', JSON.stringify(far))]).err, /\/nodes\/own\/params\/code: the distance changes by up to /);
+    second.root.children.pop();
+    assert.equal(succeed(['check', write('second.json', JSON.stringify(second))]).err, '');
+});
+
 test('a thousand shapes are right, and draw', () => {
     const scene = write('many.json', JSON.stringify({ format: 'fieldcast/1', root: balls(1000) }));
     succeed(['check', scene]);
