@@ -123,7 +123,7 @@ function darkOnGlass({ nameOf, isSeen }) {
         const [red, green, blue] = getComputedStyle(one).color.match(/[\d.]+/g).map(Number);
         return Math.max(red, green, blue) < LIGHT;
     };
-    const onAccent = (one) => one.closest('[data-look=primary], [data-aov]:not([data-aov=color])') !== null;
+    const onAccent = (one) => one.closest('[data-look=primary], .outputs[data-other]') !== null;
     return [...document.querySelectorAll('.glass, .glass button, .glass span')]
         .filter((one) => isSeen(one) && one.textContent.trim() !== '' && !onAccent(one) && isDark(one))
         .map((one) => `dark text on glass: ${nameOf(one)}`);
