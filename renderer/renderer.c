@@ -8,6 +8,7 @@
 
 #include "protocol/memory.h"
 #include "renderer/field/field_check.h"
+#include "stage_trial.h"
 
 enum { POLL_MS = 100 };
 
@@ -92,6 +93,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     if (!open_device(renderer, err)) {
         goto fail;
     }
+    renderer->best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
     renderer_use_stage(renderer, params->stage);
     renderer->draw = draw_create(&renderer->gl, renderer->info.software, params->tile_side);
     renderer->environments = environments_create(&renderer->gl);
@@ -105,6 +107,10 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
                        err) ||
          !program_cache_start(renderer->programs, err))) {
         goto fail;
+    }
+    if (params->stage == RENDER_AUTO && !renderer->info.software) {
+        renderer->best = stage_trial(renderer);
+        renderer_use_stage(renderer, RENDER_AUTO);
     }
     return renderer;
 fail:
@@ -132,9 +138,9 @@ void renderer_destroy(struct renderer *renderer)
 
 void renderer_use_stage(struct renderer *renderer, enum render_stage stage)
 {
-    const enum render_stage best = renderer->info.software ? RENDER_ENGINE : RENDER_COMPUTE;
+    const bool automatic = stage == RENDER_AUTO || renderer->info.none;
 
-    renderer->info.stage = stage == RENDER_AUTO || renderer->info.none ? best : stage;
+    renderer->info.stage = automatic ? renderer->best : stage;
 }
 
 const struct renderer_info *renderer_info(const struct renderer *renderer)

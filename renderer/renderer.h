@@ -26,7 +26,7 @@ struct job;      /* one picture being drawn, tile by tile */
 
 /* What computes pictures. */
 enum render_stage {
-    RENDER_AUTO,     /* the engine where the device is software */
+    RENDER_AUTO,     /* the engine where the device is software, else the faster shaders */
     RENDER_COMPUTE,  /* compute shaders of the device */
     RENDER_FRAGMENT, /* fragment shaders of the device */
     RENDER_ENGINE,   /* vectors of the processors (renderer/engine) */

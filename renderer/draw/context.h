@@ -14,6 +14,7 @@
 struct renderer {
     struct renderer_params params;
     struct renderer_info info;
+    enum render_stage best; /* what RENDER_AUTO is here */
     struct gl_sink sink;
     struct egl egl;
     struct gl gl;

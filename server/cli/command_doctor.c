@@ -92,6 +92,7 @@ static int check_drawing(const struct options *options)
         say(GOOD, "drawing", "by the engine, without a graphics device");
     } else {
         say(GOOD, "drawing", "%s, OpenGL %s, %s", info->name, info->version, info->device);
+        say(GOOD, "stage", "%s", render_stage_names[info->stage]);
     }
     if (info->software) {
         explain_software();

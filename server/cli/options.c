@@ -142,12 +142,12 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_STAGE] = {"stage", 0, "WORD", OPTION_CHOICE, .choice = stage_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
         .doc = "What computes pictures: `compute` or `fragment`, shaders of the device of that "
-               "kind; `engine`, vectors of the processors; `auto` takes compute shaders on a GPU, "
-               "else the engine. Scenes that are too large for compilers of shaders are drawn by "
-               "the engine in any case."},
+               "kind; `engine`, vectors of the processors; `auto` takes the faster shaders of a "
+               "GPU, tried once and kept in --cache, else the engine. Scenes that are too large "
+               "for compilers of shaders are drawn by the engine in any case."},
     [OPTION_CACHE] = {"cache", 0, "DIR", OPTION_PATH, .base = BASE_CACHE, .fallback = "fieldcast",
         .commands = DRAWING, .stored = true,
-        .doc = "Where compiled shaders are kept."},
+        .doc = "Where compiled shaders are kept, and which stage is the faster one."},
     [OPTION_OUTPUT] = {"output", 'o', "FILE", OPTION_PATH,
         .commands = FOR(RENDER) | FOR(IMPORT),
         .doc = "The file to write; `-` is stdout. Needed."},
