@@ -112,27 +112,48 @@ test('edits of one client stay in order, whatever each takes', async () => {
     await live.close();
 });
 
+/** How often a small edit of another scene is applied before each of these, sent just before it. */
+async function timesFirst(scene, client, acts) {
+    let first = 0;
+    for (const act of acts) {
+        const author = await Live.open(daemon, scene, { client }); // who has just worked much is not read at once
+        await author.next('document');
+        const other = await Live.open(daemon, 'other');
+        const before = await counter(daemon, 'edits_total');
+        const edit = act(author);
+        await other.next('applied', { edit: other.set('/nodes/ball/params/radius', 0.5 + first / 10) });
+        first += (await counter(daemon, 'edits_total')) === before + 1;
+        await author.next('applied', { edit });
+        await Promise.all([author.close(), other.close()]);
+    }
+    return first;
+}
+
+const undo = (author) => author.step('undo');
+const redo = (author) => author.step('redo');
+
 test('a small edit does not wait while a step of many operations is taken back or done again', async (t) => {
-    const other = await Live.open(daemon, 'other');
     const client = 'author-of-much';
     const author = await Live.open(daemon, 'many', { client });
     await author.next('applied', { edit: author.change(setAll(0.95)) });
     await author.close();
-    let first = 0;
-    for (const type of ['undo', 'redo', 'undo', 'redo', 'undo']) {
-        const again = await Live.open(daemon, 'many', { client }); // who has just worked much is not read at once
-        const before = await counter(daemon, 'edits_total');
-        const edit = again.step(type);
-        await other.next('applied', { edit: other.set('/nodes/ball/params/radius', 0.5 + first / 10) });
-        first += (await counter(daemon, 'edits_total')) === before + 1;
-        await again.next('applied', { edit });
-        await again.close();
-    }
+    const first = await timesFirst('many', client, [undo, redo, undo, redo, undo]);
     t.diagnostic(`the small edit was first ${first} times of 5`);
     assert.ok(first >= 3, `first ${first} times`);
     const { root } = await ask(daemon, 'GET', '/v1/scenes/many');
     assert.ok(root.children.every(({ params }) => params?.radius !== 0.95));
-    await other.close();
+});
+
+test('a small edit does not wait while one operation removes or inserts many nodes', async (t) => {
+    const document = JSON.parse(largeDocument(NODES));
+    document.root = { id: 'all', type: 'union', children: [document.root] };
+    await ask(daemon, 'POST', '/v1/scenes?id=whole', document);
+    const remove = (author) => author.change([{ op: 'remove', at: '/nodes/root' }]);
+    const first = await timesFirst('whole', 'author-of-one', [remove, undo, redo, undo, redo]);
+    t.diagnostic(`the small edit was first ${first} times of 5`);
+    assert.ok(first >= 3, `first ${first} times`);
+    assert.deepEqual((await ask(daemon, 'GET', '/v1/scenes/whole')).root.children ?? [], []);
+    await ask(daemon, 'DELETE', '/v1/scenes/whole');
 });
 
 test('all or none of many operations are applied', async () => {
