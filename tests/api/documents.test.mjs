@@ -2,6 +2,7 @@
 // Large documents and edits of very many operations hold up nobody but those who wait for them. No
 // clock decides: what matters is who is answered before whom.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
 import { largeDocument } from '../support/large.mjs';
@@ -204,4 +205,26 @@ test('one client has no more than its share of large documents waiting', async (
     const problem = await refused[0].json();
     assert.equal(problem.code, 'share');
     assert.match(problem.detail, new RegExp(`^${SHARE} large tasks of this client wait already; the limit is ${SHARE}$`));
+});
+
+/** Processor time of a process outside the kernel. */
+const userSecondsOf = (pid) => Number(fs.readFileSync(`/proc/${pid}/stat`, 'utf8').split(') ')[1].split(' ')[11]) / 100;
+
+test('a new render process gets the document of a picture without that it is read again', async (t) => {
+    const own = await startDaemon({ driver: 'null', tileMs: 2000 });
+    try {
+        const body = `{"scene":${largeDocument(3 * NODES)},"width":16,"height":16}`;
+        const before = userSecondsOf(own.pid);
+        const picture = fetch(`${own.url}/v1/render`, { method: 'POST', headers: { 'content-type': 'application/json' }, body });
+        await until(async () => (await counter(own, 'images_waiting')) === 1, 'the picture to be asked');
+        await until(async () => (await counter(own, 'documents_waiting')) === 0, 'the end of the reading');
+        const asked = userSecondsOf(own.pid);
+        process.kill(own.worker(), 'SIGKILL');
+        assert.equal((await picture).status, 200);
+        const again = userSecondsOf(own.pid) - asked;
+        t.diagnostic(`${(asked - before).toFixed(2)} s of the processor to read it, ${again.toFixed(2)} s to send it again`);
+        assert.ok(again < (asked - before) / 5, `${again} s`);
+    } finally {
+        await own.stop();
+    }
 });
