@@ -399,6 +399,7 @@ static void hand_over(struct exchange *exchange)
                    &(struct task_order){.scene = id,
                                         .account = exchange->request.client,
                                         .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
+                                                 exchange->route->scene == SCENE_ALL ||
                                                  (named && app->scene_is_heavy(app->hub, id)),
                                         .bounded = true,
                                         .run = run_handler,

@@ -91,6 +91,25 @@ test('other scenes are edited while a large scene is sent to a viewer, stored an
     await live.close();
 });
 
+test('everybody is answered while all scenes are searched for the name of a file', async () => {
+    const file = Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x01\x02\x03\x04', 'latin1');
+    const sent = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: file });
+    const { id: image } = await sent.json();
+    await ask(daemon, 'POST', '/v1/scenes?id=lit', { ...ball, environment: { type: 'image', image } });
+    await Promise.all(
+        ['a', 'b', 'c'].map((id) => ask(daemon, 'PATCH', `/v1/scenes/${id}`, [{ op: 'set', at: '/nodes/node-0/params/radius', value: 0.25 }])),
+    );
+    const order = [];
+    const removed = fetch(`${daemon.url}/v1/assets/${image}`, { method: 'DELETE' }).then(({ status }) => order.push(status));
+    for (let i = 0; i < 3; i += 1) {
+        assert.equal((await fetch(`${daemon.url}/healthz`)).status, 200);
+        assert.equal((await ask(daemon, 'GET', '/v1/scenes/other')).root.id, 'ball');
+    }
+    order.push('others');
+    await removed;
+    assert.deepEqual(order, ['others', 409]);
+});
+
 test('edits of one client stay in order, whatever each takes', async () => {
     const live = await Live.open(daemon, 'many');
     const edits = [];
