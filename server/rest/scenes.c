@@ -418,8 +418,9 @@ void scenes_edit(struct request *request)
 {
     struct error err = {0};
     cJSON *ops = json_parse(request->body ? request->body : "", request->body_length, &err);
-    struct room *room =
-        ops ? hub_lock_room_to_change(request->hub, request->capture[0], &err) : NULL;
+    struct room *room = ops && edit_check(ops, &err)
+                            ? hub_lock_room_to_change(request->hub, request->capture[0], &err)
+                            : NULL;
     struct waiting *waiting = wait_for(request, 200, request->capture[0]);
     bool applied = false;
 
