@@ -335,6 +335,7 @@ static void refuse_memory(struct exchange *exchange)
 {
     char detail[120];
 
+    metric_add(exchange->http->app.metrics, METRIC_BODIES_OVER_LIMIT, 1);
     snprintf(detail, sizeof detail,
              "bodies of requests hold %zu bytes already; the limit is %d bytes",
              exchange->http->bodies.held, LIMIT_BODIES_BYTES);

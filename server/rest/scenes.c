@@ -467,6 +467,7 @@ void scenes_live(struct request *request)
     if (!hub_has_scene(hub, request->capture[0])) {
         response = response_problem(404, "not_found", "", "there is no such scene");
     } else if (ws_count(hub->ws) >= LIMIT_SESSIONS) {
+        metric_add(&hub->metrics, METRIC_SESSIONS_OVER_LIMIT, 1);
         response = response_problem(503, "unavailable", "", "too many live connections are open");
     } else {
         response = response_problem(

@@ -219,6 +219,7 @@ test('one client has no more than its share of large documents waiting', async (
     assert.equal((await first).status, 201);
     const refused = answers.filter(({ status }) => status === 429);
     assert.ok(refused.length > 0, `${answers.map(({ status }) => status)}`);
+    assert.equal(await counter(daemon, 'documents_over_share_total'), refused.length);
     assert.ok(answers.every(({ status }) => status === 429 || status === 201));
     assert.ok(Number(refused[0].headers.get('retry-after')) >= 1);
     const problem = await refused[0].json();
