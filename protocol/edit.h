@@ -22,6 +22,10 @@ bool edit_apply(struct scene *scene, const cJSON *ops, cJSON **out_applied, cJSO
 bool edit_apply_some(struct scene *scene, const cJSON *ops, cJSON **out_applied,
                      cJSON **out_inverse, struct error *err);
 
+/* An estimate of the work of applying `ops`: operations, JSON values that they bring, and nodes
+ * that they remove, move or change. Counts little further than `most`. */
+size_t edit_weight(const struct scene *scene, const cJSON *ops, size_t most);
+
 /* Undo and redo of one scene, a pair of stacks of steps per author. A redo is built when its undo
  * happens, so n undos and n redos give back what was there, others' edits included.
  *
@@ -78,8 +82,8 @@ bool history_take(struct history *history, const char *author, bool redo, struct
                   struct error *err);
 bool history_apply(struct history_move *move, struct scene *scene, struct error *err);
 void history_put(struct history *history, const char *author, bool redo, struct history_move *move);
-/* Operations of the step that would be next; 0: there is none. */
-size_t history_next(const struct history *history, const char *author, bool redo);
+/* Operations of the step that would be next; NULL: there is none. */
+const cJSON *history_next(const struct history *history, const char *author, bool redo);
 void history_depth(const struct history *history, const char *author, size_t *out_undo,
                    size_t *out_redo);
 /* Of the author's step number `index` of a stack, the newest is 0; NULL: there is none. */

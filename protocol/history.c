@@ -275,11 +275,11 @@ void history_depth(const struct history *history, const char *author_name, size_
     *out_redo = author ? author->redo.count : 0;
 }
 
-size_t history_next(const struct history *history, const char *author_name, bool redo)
+const cJSON *history_next(const struct history *history, const char *author_name, bool redo)
 {
     const struct author *author = find_author(history, author_name);
     const struct stack *stack = !author ? NULL : redo ? &author->redo : &author->undo;
-    return stack && stack->count > 0 ? stack->items[stack->count - 1]->count : 0;
+    return stack && stack->count > 0 ? stack->items[stack->count - 1]->ops : NULL;
 }
 
 const char *history_label(const struct history *history, const char *author_name, bool redo,

@@ -12,7 +12,20 @@
 #define METRICS(X)                                                                                 \
     X(HTTP_REQUESTS, "http_requests_total", "counter", "HTTP requests answered")                   \
     X(HTTP_ERRORS, "http_errors_total", "counter", "HTTP requests answered with 4xx or 5xx")       \
-    X(REFUSED, "connections_refused_total", "counter", "Connections refused by the acceptor")      \
+    X(CONNECTIONS_MALFORMED, "connections_malformed_total", "counter",                             \
+      "Connections refused because their first head was malformed or too long")                    \
+    X(CONNECTIONS_LATE, "connections_late_total", "counter",                                       \
+      "Connections refused because their first head took too long")                                \
+    X(CONNECTIONS_OVER_LIMIT, "connections_over_limit_total", "counter",                           \
+      "Connections refused because too many were open")                                            \
+    X(CONNECTIONS_OVER_WAITING, "connections_over_waiting_total", "counter",                       \
+      "Connections refused because too many waited for their first head")                          \
+    X(CONNECTIONS_OVER_DESCRIPTORS, "connections_over_descriptors_total", "counter",               \
+      "Connections refused because no descriptor was free")                                        \
+    X(SESSIONS_OVER_LIMIT, "sessions_over_limit_total", "counter",                                 \
+      "Live connections refused because too many were open")                                       \
+    X(BODIES_OVER_LIMIT, "bodies_over_limit_total", "counter",                                     \
+      "Bodies of requests refused because all of them would have taken too much memory")           \
     X(SESSIONS, "sessions", "gauge", "Live connections")                                           \
     X(SESSIONS_TOTAL, "sessions_total", "counter", "Live connections since the start")             \
     X(ROOMS, "rooms", "gauge", "Open scenes")                                                      \
@@ -30,6 +43,12 @@
     X(IMAGES_WAITING, "images_waiting", "gauge", "Pictures of REST asked and not yet there")       \
     X(DOCUMENTS_WAITING, "documents_waiting", "gauge",                                             \
       "Requests and live messages about documents that wait or are worked on")                     \
+    X(DOCUMENTS_OVER_SHARE, "documents_over_share_total", "counter",                               \
+      "Requests refused because their client had its share of large documents waiting")            \
+    X(DOCUMENTS_OVER_QUEUE, "documents_over_queue_total", "counter",                               \
+      "Requests refused because too many large documents waited")                                  \
+    X(PICKS_GIVEN_UP, "picks_given_up_total", "counter",                                           \
+      "Picks not answered because their client asked for more")                                    \
     X(IMAGES_OVER_SHARE, "images_over_share_total", "counter",                                     \
       "Pictures refused because their client had its share of the queue")                          \
     X(IMAGES_OVER_QUEUE, "images_over_queue_total", "counter",                                     \

@@ -94,6 +94,13 @@ static void insert(struct tasks *tasks, struct task *task)
     *link = task;
 }
 
+static void count(const struct tasks *tasks, enum metric metric, int by)
+{
+    if (tasks->metrics) {
+        metric_add(tasks->metrics, metric, by);
+    }
+}
+
 static bool admits(const struct tasks *tasks, const struct task_order *order, struct error *err)
 {
     int all = 0, own = 0;
@@ -110,6 +117,7 @@ static bool admits(const struct tasks *tasks, const struct task_order *order, st
         return true;
     }
     const bool share = own >= LIMIT_DOCUMENT_SHARE;
+    count(tasks, share ? METRIC_DOCUMENTS_OVER_SHARE : METRIC_DOCUMENTS_OVER_QUEUE, 1);
     error_set(err, share ? ERROR_SHARE : ERROR_UNAVAILABLE, "",
               "%d large tasks%s wait already; the limit is %d", share ? own : all,
               share ? " of this client" : "", share ? LIMIT_DOCUMENT_SHARE : LIMIT_DOCUMENT_QUEUE);
@@ -117,13 +125,6 @@ static bool admits(const struct tasks *tasks, const struct task_order *order, st
         err->retry_ms = 1000;
     }
     return false;
-}
-
-static void count(struct tasks *tasks, int by)
-{
-    if (tasks->metrics) {
-        metric_add(tasks->metrics, METRIC_DOCUMENTS_WAITING, by);
-    }
 }
 
 bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error *err)
@@ -137,7 +138,7 @@ bool tasks_add(struct tasks *tasks, const struct task_order *order, struct error
         task->scene = memory_text(order->scene);
         task->account = memory_text(order->account);
         insert(tasks, task);
-        count(tasks, 1);
+        count(tasks, METRIC_DOCUMENTS_WAITING, 1);
         pthread_cond_broadcast(&tasks->news);
     }
     pthread_mutex_unlock(&tasks->lock);
@@ -171,7 +172,7 @@ static void *run(void *data)
         task->order.run(task->order.data, false);
         pthread_mutex_lock(&tasks->lock);
         tasks->current[thread] = NULL;
-        count(tasks, -1);
+        count(tasks, METRIC_DOCUMENTS_WAITING, -1);
         task_destroy(task);
         pthread_cond_broadcast(&tasks->news); /* others of its scene may go */
     }
@@ -217,7 +218,7 @@ void tasks_stop(struct tasks *tasks)
 
         left = task->next;
         task->order.run(task->order.data, true);
-        count(tasks, -1);
+        count(tasks, METRIC_DOCUMENTS_WAITING, -1);
         task_destroy(task);
     }
 }

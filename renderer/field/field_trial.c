@@ -42,7 +42,8 @@ static struct tried *add(struct field_trial *trial, const struct field_code *cod
 
 static bool is_same(const struct tried *a, const struct tried *b)
 {
-    return a->code->hash == b->code->hash && a->slopes_only == b->slopes_only && memcmp(a->numbers, b->numbers, sizeof a->numbers) == 0 &&
+    return a->code->hash == b->code->hash && a->slopes_only == b->slopes_only &&
+           memcmp(a->numbers, b->numbers, sizeof a->numbers) == 0 &&
            memcmp(a->half, b->half, sizeof a->half) == 0 && a->lipschitz == b->lipschitz;
 }
 

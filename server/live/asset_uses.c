@@ -46,16 +46,44 @@ static void read_text(void *data, const char *scene, const char *text)
 }
 
 /* Under the hub's lock. */
-static void begin(struct hub *hub, struct asset_uses *out)
+static void begin(const struct hub *hub, struct asset_uses *out)
 {
     out->count = hub->assets->count;
     out->items = memory_alloc(out->count, sizeof *out->items);
     for (size_t i = 0; i < out->count; i++) {
         memcpy(out->items[i].id, hub->assets->items[i].id, sizeof out->items[i].id);
     }
+}
+
+/* Under the hub's lock: the first edited room behind the one with the id `after`, by their ids. */
+static struct room *next_edited(const struct hub *hub, const char *after)
+{
+    struct room *next = NULL;
+
     for (struct room *room = hub->rooms; room; room = room->next) {
-        if (room->edits_since_snapshot && !room->deleted) {
-            room_snapshot(room);
+        if (room->edits_since_snapshot && !room->deleted && strcmp(room->id, after) > 0 &&
+            (!next || strcmp(room->id, next->id) < 0)) {
+            next = room;
+        }
+    }
+    return next;
+}
+
+/* Others have the lock between two rooms. */
+static void store_edited(struct hub *hub)
+{
+    char id[LIMIT_ID_BYTES + 1] = "";
+
+    for (struct room *room;;) {
+        hub_lock(hub);
+        room = next_edited(hub, id);
+        if (room) {
+            snprintf(id, sizeof id, "%s", room->id);
+            room_snapshot_apart(room);
+        }
+        hub_unlock(hub);
+        if (!room) {
+            return;
         }
     }
 }
@@ -65,6 +93,7 @@ bool asset_uses_read(struct hub *hub, struct asset_uses *out, struct error *err)
     hub_lock(hub);
     begin(hub, out);
     hub_unlock(hub);
+    store_edited(hub);
     store_flush(hub->store);
     if (!store_list_texts(hub->store, read_text, out, err)) {
         asset_uses_finish(out);

@@ -23,7 +23,7 @@ struct asset_uses {
     size_t count;
 };
 
-/* Reads every scene and waits for the disk. Without the hub's lock. */
+/* Reads every scene and waits for the disk. Without the hub's lock, on threads of tasks alone. */
 bool asset_uses_read(struct hub *hub, struct asset_uses *out, struct error *err);
 void asset_uses_finish(struct asset_uses *names);
 /* Adds what open scenes have named since. Under the hub's lock. */

@@ -57,6 +57,7 @@ static void make_room(struct picker *picker, const struct session *session)
 
         *oldest = gone->next;
         question_destroy(gone);
+        metric_add(&picker->hub->metrics, METRIC_PICKS_GIVEN_UP, 1);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "protocol/asset.h"
 #include "protocol/render_request.h"
 #include "renderer/worker.h"
 
@@ -38,10 +39,11 @@ struct picture_answer {
 };
 
 struct render_order {
-    struct room *room;             /* the scene; or */
-    const char *document;          /* a document for this picture alone */
-    bool portrait;                 /* of which only the nodes count (renderer/portrait.h) */
-    struct render_request request; /* taken */
+    struct room *room; /* the scene; or */
+    char *document;    /* of one for this picture alone: its text, without refused code; taken */
+    char image[ASSET_ID_CHARACTERS + 1]; /* file of the document's environment; "": none */
+    bool portrait;                       /* of which only the nodes count (renderer/portrait.h) */
+    struct render_request request;       /* taken */
     int priority;
     /* Who pays for the time: the id of a live connection, or the address of a client; copied. */
     const char *account;
@@ -58,10 +60,9 @@ struct render_entry {
     struct render_entry *next;
     uint32_t id;
     struct render_order order;
-    char *document; /* a copy of order.document */
-    char *account;  /* a copy of order.account */
-    int64_t asked;  /* clock_ms */
-    int deaths;     /* workers lost to this order, if it belongs to no room */
+    char *account; /* a copy of order.account */
+    int64_t asked; /* clock_ms */
+    int deaths;    /* workers lost to this order, if it belongs to no room */
     bool sent;
     int64_t deadline;
 };

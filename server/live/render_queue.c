@@ -9,9 +9,7 @@
 #include "asset_index.h"
 #include "hub.h"
 #include "image_queue.h"
-#include "protocol/json.h"
 #include "protocol/memory.h"
-#include "protocol/messages.h"
 #include "quarantine.h"
 #include "room_state.h"
 #include "room_sync.h"
@@ -28,7 +26,7 @@ void render_queue_init(struct render_queue *queue)
 static void entry_destroy(struct render_entry *entry)
 {
     render_request_finish(&entry->order.request);
-    free(entry->document);
+    free(entry->order.document);
     free(entry->account);
     free(entry);
 }
@@ -94,15 +92,14 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
         return;
     }
     char name[LIMIT_ID_BYTES + 16];
-    cJSON *document = json_parse(entry->document, strlen(entry->document), NULL);
-    const cJSON *environment = cJSON_GetObjectItemCaseSensitive(document, "environment");
 
-    asset_index_send(hub, json_member_text(environment, "image", ""));
+    asset_index_send(hub, entry->order.image);
     scene_name(entry, name);
-    room_sync_send_scene(hub, &(struct packet_scene){.scene = name,
-                                                     .revision = 1,
-                                                     .portrait = entry->order.portrait,
-                                                     .document = document});
+    const struct packet_scene packet = {.scene = name,
+                                        .revision = 1,
+                                        .portrait = entry->order.portrait,
+                                        .document = cJSON_CreateRaw(entry->order.document)};
+    room_sync_send_scene(hub, &packet);
 }
 
 static struct render_demand render_demand(const struct render_order *order)
@@ -213,6 +210,7 @@ uint32_t render_queue_submit(struct hub *hub, struct render_order *order, struct
 
     if (!admits(hub, order, err)) {
         render_request_finish(&order->request);
+        free(order->document);
         return 0;
     }
     struct render_entry *entry = memory_alloc(1, sizeof *entry);
@@ -220,7 +218,6 @@ uint32_t render_queue_submit(struct hub *hub, struct render_order *order, struct
     queue->last_id = queue->last_id % 0x7fffffff + 1;
     entry->id = queue->last_id;
     entry->order = *order;
-    entry->document = order->document ? memory_text(order->document) : NULL;
     entry->account = memory_text(order->account);
     entry->asked = clock_ms();
     entry->deadline = entry->asked + RENDER_DEADLINE_MS;

@@ -220,7 +220,7 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
 {
     struct room_work work = {0};
     const struct room_order order = {
-        .change = change, .ops = ops, .count = (size_t)cJSON_GetArraySize(ops)};
+        .change = change, .ops = ops, .heavy = room_edit_is_heavy(room, ops)};
     enum room_outcome outcome = room_authors_check_number(room, change, out_revision, err);
 
     if (outcome != ROOM_APPLIED) {
@@ -239,12 +239,17 @@ enum room_outcome room_edit(struct room *room, const struct room_change *change,
     return ROOM_APPLIED;
 }
 
+bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
+{
+    return room_edit_is_heavy(room, history_next(room->history, author, redo));
+}
+
 /* Applies the newest step of the author; the other stack has what takes it back then. */
 static bool move_step(struct room *room, const struct room_change *change, bool redo,
                       struct history_move *move, struct room_work *work, struct error *err)
 {
     const struct room_order order = {
-        .change = change, .move = move, .count = history_next(room->history, change->author, redo)};
+        .change = change, .move = move, .heavy = room_undo_is_heavy(room, change->author, redo)};
     const bool ok = check_open(room, err) &&
                     history_take(room->history, change->author, redo, move, err) &&
                     room_apply(room, &order, work, err);
@@ -283,11 +288,6 @@ enum room_outcome room_undo(struct room *room, const struct room_change *change,
     *out_revision = room->revision;
     room_work_finish(room, &work);
     return ROOM_APPLIED;
-}
-
-bool room_undo_is_heavy(const struct room *room, const char *author, bool redo)
-{
-    return history_next(room->history, author, redo) > ROOM_LIGHT_OPERATIONS;
 }
 
 static void tell_document(struct room *room, const char *text)

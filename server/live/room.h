@@ -16,8 +16,8 @@ struct room *room_load(struct hub *hub, const char *id, const struct store_loade
                        struct error *err);
 void room_destroy(struct room *room);
 /* Checks, orders, applies, stores and announces one edit. `then` runs only after ROOM_APPLIED.
- * Nobody may hold the room. Many operations are applied to a copy without the lock; such edits
- * belong on threads of tasks, and `change` has to stay valid meanwhile. */
+ * Nobody may hold the room. Heavy edits (room_edit_is_heavy) are applied to a copy without the
+ * lock; they belong on threads of tasks, and `change` has to stay valid meanwhile. */
 enum room_outcome room_edit(struct room *room, const struct room_change *change, const cJSON *ops,
                             uint64_t *out_revision, struct error *err);
 /* Undoes or redoes the author's newest step. `*out_skipped`: operations left out because others

@@ -24,6 +24,11 @@ bool room_is_heavy(const struct room *room)
     return room->scene->node_count > TASK_LIGHT_NODES;
 }
 
+bool room_edit_is_heavy(const struct room *room, const cJSON *ops)
+{
+    return edit_weight(room->scene, ops, ROOM_LIGHT_WEIGHT) > ROOM_LIGHT_WEIGHT;
+}
+
 /* --- text --- */
 
 static struct shared_buffer *with_end(const char *text)
@@ -72,7 +77,7 @@ struct shared_buffer *room_text(struct room *room)
     return text;
 }
 
-/* --- many operations --- */
+/* --- edits --- */
 
 static bool apply_operations(struct scene *scene, const struct room_order *order,
                              struct room_work *out, struct error *err)
@@ -140,8 +145,8 @@ static bool apply_to_copy(struct room *room, const struct room_order *order, str
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err)
 {
-    const bool ok = order->count > ROOM_LIGHT_OPERATIONS ? apply_to_copy(room, order, out, err)
-                                                         : apply(room->scene, order, out, err);
+    const bool ok =
+        order->heavy ? apply_to_copy(room, order, out, err) : apply(room->scene, order, out, err);
 
     if (ok) {
         room_forget_text(room);

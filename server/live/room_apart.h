@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Long work on a room's document: printing many nodes, applying many operations to a copy. It runs
+/* Long work on a room's document: printing many nodes, applying heavy edits to a copy. It runs
  * without the hub's lock, while nobody changes the document. Every function is called under the
  * lock; those that release it say so. */
 #ifndef SERVER_ROOM_APART_H
@@ -8,15 +8,15 @@
 #include "room_state.h"
 
 enum {
-    ROOM_LIGHT_OPERATIONS = 256
-}; /* operations of an edit or step; more are applied to a copy */
+    ROOM_LIGHT_WEIGHT = 512 /* edit_weight of an edit or step; a heavier one is applied to a copy */
+};
 
 /* The work: operations, or a step of undo or redo taken from the history. */
 struct room_order {
     const struct room_change *change;
     const cJSON *ops;
     struct history_move *move; /* NULL: the operations */
-    size_t count;              /* of operations, in either case */
+    bool heavy;                /* room_edit_is_heavy of either */
 };
 
 /* The results of an edit. */
@@ -29,6 +29,8 @@ struct room_work {
 
 /* Whether printing or copying the document takes long. */
 bool room_is_heavy(const struct room *room);
+/* Whether applying the operations takes long; NULL: no. */
+bool room_edit_is_heavy(const struct room *room, const cJSON *ops);
 /* Between room_hold and room_release the room stays and the document does not change, also while
  * the lock is free. */
 void room_hold(struct room *room);
@@ -37,7 +39,7 @@ void room_release(struct room *room);
 /* The printed document with its NUL; caller unrefs. A document of many nodes is printed without the
  * lock, on threads of tasks alone, and the text is kept until the next edit. */
 struct shared_buffer *room_text(struct room *room);
-/* Applies the order. Nobody may hold the room. Releases the lock for many operations. */
+/* Applies the order. Nobody may hold the room. Releases the lock for a heavy order. */
 bool room_apply(struct room *room, const struct room_order *order, struct room_work *out,
                 struct error *err);
 /* Frees the results that nobody has taken. Releases the lock if that takes long. */

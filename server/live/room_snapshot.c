@@ -20,6 +20,14 @@ void room_snapshot(struct room *room)
     room_authors_cut(room);
 }
 
+void room_snapshot_apart(struct room *room)
+{
+    if (room_is_heavy(room)) {
+        shared_buffer_unref(room_text(room));
+    }
+    room_snapshot(room);
+}
+
 struct snapshot {
     struct hub *hub;
     char id[LIMIT_ID_BYTES + 1];
@@ -38,8 +46,7 @@ static void store_snapshot(void *data, bool dropped)
     }
     if (room) {
         room->snapshot_soon = false;
-        shared_buffer_unref(room_text(room));
-        room_snapshot(room);
+        room_snapshot_apart(room);
     }
     hub_unlock(hub);
     free(snapshot);

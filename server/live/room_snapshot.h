@@ -7,6 +7,8 @@
 #include "room_state.h"
 
 void room_snapshot(struct room *room);
+/* Prints a large document without the lock: on threads of tasks alone. */
+void room_snapshot_apart(struct room *room);
 /* Stores a snapshot: at once where that is quick, else by a task. */
 void room_snapshot_soon(struct room *room);
 

@@ -182,11 +182,17 @@ static bool changes_document(enum message_kind kind)
     return kind == MESSAGE_EDIT || kind == MESSAGE_UNDO || kind == MESSAGE_REDO;
 }
 
-/* Under the lock: a step of undo or redo that is a task, however short its message is. */
-static bool moves_much(const struct session *session, enum message_kind kind)
+/* Under the lock: an edit or step that is a task, however short its message is. */
+static bool is_heavy(const struct session *session, const struct message *message)
 {
-    return (kind == MESSAGE_UNDO || kind == MESSAGE_REDO) && session->room &&
-           room_undo_is_heavy(session->room, session->client, kind == MESSAGE_REDO);
+    const struct room *room = session->room;
+
+    if (!room || !changes_document(message->kind)) {
+        return false;
+    }
+    return message->kind == MESSAGE_EDIT
+               ? room_edit_is_heavy(room, cJSON_GetObjectItemCaseSensitive(message->json, "ops"))
+               : room_undo_is_heavy(room, session->client, message->kind == MESSAGE_REDO);
 }
 
 /* A change waits for those who hold the document. False, where it is not a task: it would wait, or
@@ -197,7 +203,7 @@ static bool receive_checked(struct session *session, const struct message *messa
     bool done = true;
 
     hub_lock(hub);
-    if (!apart && moves_much(session, message->kind)) {
+    if (!apart && is_heavy(session, message)) {
         session->heavy = true;
         done = false;
     }

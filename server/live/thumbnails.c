@@ -7,6 +7,7 @@
 
 #include "hub.h"
 #include "image_cache.h"
+#include "protocol/code_text.h"
 #include "protocol/id_set.h"
 #include "protocol/json.h"
 #include "protocol/memory.h"
@@ -183,19 +184,20 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
     supervisor_wake(hub->supervisor);
 }
 
+/* Takes `document`. */
 static void draw(struct session *session, const struct thumbnail *item, const char *key,
-                 const char *document)
+                 char *document)
 {
     struct hub *hub = session->hub;
     struct thumbnails *all = hub->thumbnails;
-    struct render_order order = {.document = document,
-                                 .portrait = true,
+    struct render_order order = {.portrait = true,
                                  .priority = RENDER_THUMBNAIL,
                                  .account = ACCOUNT,
                                  .again = true,
                                  .on_done = on_picture,
                                  .data = all};
 
+    order.document = document;
     render_request_init(&order.request);
     record_put(&order.request.picture, "width", item->width);
     record_put(&order.request.picture, "height", thumbnail_height(item->width));
@@ -214,8 +216,12 @@ static void look(struct session *session, struct thumbnail *item)
     char digest[ASSET_ID_CHARACTERS + 1], key[THUMBNAIL_KEY_BYTES] = "-";
     bool known;
     cJSON *part = print_part(room->scene, item, &known);
-    char *text = part ? json_print(part, false) : NULL;
+    char *text;
 
+    if (part && session->hub->code_refused) {
+        code_text_remove(part);
+    }
+    text = part ? json_print(part, false) : NULL;
     cJSON_Delete(part);
     if (text) {
         digest_text(text, strlen(text), digest);
@@ -223,6 +229,7 @@ static void look(struct session *session, struct thumbnail *item)
     }
     if (text && strcmp(key, item->sent) != 0 && !image_cache_find(&all->cache, key)) {
         draw(session, item, key, text);
+        text = NULL;
     } else {
         metric_add(&session->hub->metrics, METRIC_THUMBNAILS_REUSED,
                    text && strcmp(key, item->key) != 0 && strcmp(key, all->key) != 0);

@@ -144,10 +144,10 @@ static bool discard_input(struct acceptor *acceptor, int fd)
     return true; /* it does not stop talking */
 }
 
-static void refuse(struct acceptor *acceptor, struct client *client, int status,
+static void refuse(struct acceptor *acceptor, struct client *client, enum metric reason, int status,
                    const char *message)
 {
-    metric_add(acceptor->metrics, METRIC_REFUSED, 1);
+    metric_add(acceptor->metrics, reason, 1);
     log_debug("acceptor", "refused with %d: %s", status, message);
     send_refusal(client->fd, status, message);
     if (discard_input(acceptor, client->fd)) {
@@ -177,9 +177,10 @@ static void decide(struct acceptor *acceptor, struct client *client, size_t leng
     struct http_head_fault fault;
 
     if (!http_head_read(acceptor->bytes, length, &acceptor->head, &fault)) {
-        refuse(acceptor, client, fault.status, fault.message);
+        refuse(acceptor, client, METRIC_CONNECTIONS_MALFORMED, fault.status, fault.message);
     } else if (acceptor->events.http_count(acceptor->events.data) >= acceptor->events.http_limit) {
-        refuse(acceptor, client, 503, "too many connections are open");
+        refuse(acceptor, client, METRIC_CONNECTIONS_OVER_LIMIT, 503,
+               "too many connections are open");
     } else {
         hand_over(acceptor, client);
     }
@@ -219,9 +220,10 @@ static void look(struct acceptor *acceptor, struct client *client, bool ended)
     if (head > 0) {
         decide(acceptor, client, (size_t)head);
     } else if (head < 0) {
-        refuse(acceptor, client, 400, "the request head holds NUL, or CR or LF alone");
+        refuse(acceptor, client, METRIC_CONNECTIONS_MALFORMED, 400,
+               "the request head holds NUL, or CR or LF alone");
     } else if (length >= LIMIT_HEAD_BYTES) {
-        refuse(acceptor, client, 431, "the request head is too long");
+        refuse(acceptor, client, METRIC_CONNECTIONS_MALFORMED, 431, "the request head is too long");
     } else if (ended) {
         close(release(acceptor, client));
     }
@@ -233,7 +235,7 @@ static void refuse_for_descriptors(struct acceptor *acceptor)
     close(acceptor->reserve_fd);
     int fd = accept4(acceptor->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd >= 0) {
-        metric_add(acceptor->metrics, METRIC_REFUSED, 1);
+        metric_add(acceptor->metrics, METRIC_CONNECTIONS_OVER_DESCRIPTORS, 1);
         send_refusal(fd, 503, "no descriptor is free");
         discard_input(acceptor, fd);
         close(fd);
@@ -269,7 +271,7 @@ static void admit(struct acceptor *acceptor, int fd, const struct sockaddr_stora
     client->deadline = clock_ms() + HEAD_MS;
     list_append(&acceptor->lists[WAITING], client);
     if (epoll_ctl(acceptor->epoll, EPOLL_CTL_ADD, fd, &event) != 0) {
-        refuse(acceptor, client, 503, "no event can be waited for");
+        refuse(acceptor, client, METRIC_CONNECTIONS_OVER_LIMIT, 503, "no event can be waited for");
     }
 }
 
@@ -297,7 +299,8 @@ static void expire(struct acceptor *acceptor)
     struct client *client;
 
     while ((client = acceptor->lists[WAITING].first) && client->deadline <= now) {
-        refuse(acceptor, client, 408, "the request head took longer than 5 seconds");
+        refuse(acceptor, client, METRIC_CONNECTIONS_LATE, 408,
+               "the request head took longer than 5 seconds");
     }
     while ((client = acceptor->lists[LINGERING].first) && client->deadline <= now) {
         close(release(acceptor, client));
@@ -309,7 +312,7 @@ static void expire(struct acceptor *acceptor)
 static void make_room(struct acceptor *acceptor)
 {
     while (acceptor->lists[WAITING].count > UNDECIDED_MAX) {
-        refuse(acceptor, acceptor->lists[WAITING].first, 503,
+        refuse(acceptor, acceptor->lists[WAITING].first, METRIC_CONNECTIONS_OVER_WAITING, 503,
                "too many connections wait for their request");
     }
     while (acceptor->lists[LINGERING].count > UNDECIDED_MAX) {

@@ -335,6 +335,7 @@ static void refuse_memory(struct exchange *exchange)
 {
     char detail[120];
 
+    metric_add(exchange->http->app.metrics, METRIC_BODIES_OVER_LIMIT, 1);
     snprintf(detail, sizeof detail,
              "bodies of requests hold %zu bytes already; the limit is %d bytes",
              exchange->http->bodies.held, LIMIT_BODIES_BYTES);
@@ -399,6 +400,7 @@ static void hand_over(struct exchange *exchange)
                    &(struct task_order){.scene = id,
                                         .account = exchange->request.client,
                                         .heavy = exchange->request.body_length > TASK_LIGHT_BYTES ||
+                                                 exchange->route->scene == SCENE_ALL ||
                                                  (named && app->scene_is_heavy(app->hub, id)),
                                         .bounded = true,
                                         .run = run_handler,

@@ -18,6 +18,7 @@ enum route_scene {
     SCENE_NONE,
     SCENE_NEW,   /* a new one, or one named in the body */
     SCENE_NAMED, /* named by the first capture */
+    SCENE_ALL,   /* all of them: a heavy task */
 };
 
 struct route {

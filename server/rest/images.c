@@ -9,6 +9,7 @@
 #include "protocol/memory.h"
 #include "protocol/messages.h"
 #include "routes.h"
+#include "server/digest.h"
 #include "server/embedded.h"
 #include "server/live/asset_index.h"
 #include "server/live/hub_rooms.h"
@@ -37,7 +38,9 @@ static void waiting_destroy(struct waiting *waiting)
 /* What is to be drawn: one of `room` and `document` is given. */
 struct subject {
     struct room *room;
-    const char *document;
+    char *document;                       /* taken */
+    char digest[ASSET_ID_CHARACTERS + 1]; /* of the document */
+    const char *image;                    /* file of its environment; NULL: none counts */
     bool portrait; /* of the document only the tree counts (renderer/portrait.h) */
 };
 
@@ -56,7 +59,7 @@ static char *make_key(const struct hub *hub, const struct render_request *asked,
     if (room) {
         fprintf(out, "%s %s %" PRIu64, room->id, room->epoch, room->revision);
     } else {
-        fprintf(out, "%s%s", subject->portrait ? "portrait " : "", subject->document);
+        fprintf(out, "%s%s", subject->portrait ? "portrait " : "", subject->digest);
     }
     fclose(out);
     free(text);
@@ -143,7 +146,7 @@ static bool reply_at_once(const struct waiting *waiting)
     return picture != NULL;
 }
 
-/* Under the hub's lock. Takes what is in `asked`. */
+/* Under the hub's lock. Takes what is in `asked`, and the document. */
 static void order(struct request *request, struct render_request *asked,
                   const struct subject *subject)
 {
@@ -159,6 +162,7 @@ static void order(struct request *request, struct render_request *asked,
                                  .on_done = on_picture,
                                  .data = waiting};
 
+    snprintf(order.image, sizeof order.image, "%s", subject->image ? subject->image : "");
     *asked = (struct render_request){0};
     waiting->request = request;
     waiting->hub = request->hub;
@@ -167,6 +171,7 @@ static void order(struct request *request, struct render_request *asked,
     waiting->key = make_key(request->hub, &order.request, subject);
     if (reply_at_once(waiting)) {
         render_request_finish(&order.request);
+        free(order.document);
         waiting_destroy(waiting);
         return;
     }
@@ -193,6 +198,16 @@ static void order_of_room(struct request *request, struct render_request *asked,
     hub_unlock(request->hub);
 }
 
+/* Takes what is in `asked`, and the document. What is long is done before the lock. */
+static void order_text(struct request *request, struct render_request *asked,
+                       struct subject *subject)
+{
+    digest_text(subject->document, strlen(subject->document), subject->digest);
+    hub_lock(request->hub);
+    order(request, asked, subject);
+    hub_unlock(request->hub);
+}
+
 /* Takes `scene`, which may be NULL with `err` saying why. */
 static void order_of_document(struct request *request, struct render_request *asked,
                               struct scene *scene, struct error *err)
@@ -200,13 +215,10 @@ static void order_of_document(struct request *request, struct render_request *as
     if (!scene || !hub_accepts_scene(request->hub, scene, err)) {
         request_reply_error(request, err);
     } else {
-        char *document = scene_print(scene, false);
-
         render_request_see_from(asked, &scene->camera);
-        hub_lock(request->hub);
-        order(request, asked, &(struct subject){.document = document});
-        hub_unlock(request->hub);
-        free(document);
+        order_text(request, asked,
+                   &(struct subject){.document = scene_print(scene, false),
+                                     .image = record_text(&scene->environment, "image")});
     }
     scene_destroy(scene);
 }
@@ -311,14 +323,12 @@ static void order_portrait(struct request *request, struct render_request *asked
     struct scene *scene = scene_parse(text, strlen(text), &err);
 
     if (scene && hub_accepts_scene(request->hub, scene, &err)) {
-        hub_lock(request->hub);
-        order(request, asked, &(struct subject){.document = text, .portrait = true});
-        hub_unlock(request->hub);
+        order_text(request, asked, &(struct subject){.document = text, .portrait = true});
     } else {
         request_reply_error(request, &err);
+        free(text);
     }
     scene_destroy(scene);
-    free(text);
 }
 
 void images_of_entry(struct request *request)

@@ -418,8 +418,9 @@ void scenes_edit(struct request *request)
 {
     struct error err = {0};
     cJSON *ops = json_parse(request->body ? request->body : "", request->body_length, &err);
-    struct room *room =
-        ops ? hub_lock_room_to_change(request->hub, request->capture[0], &err) : NULL;
+    struct room *room = ops && edit_check(ops, &err)
+                            ? hub_lock_room_to_change(request->hub, request->capture[0], &err)
+                            : NULL;
     struct waiting *waiting = wait_for(request, 200, request->capture[0]);
     bool applied = false;
 
@@ -466,6 +467,7 @@ void scenes_live(struct request *request)
     if (!hub_has_scene(hub, request->capture[0])) {
         response = response_problem(404, "not_found", "", "there is no such scene");
     } else if (ws_count(hub->ws) >= LIMIT_SESSIONS) {
+        metric_add(&hub->metrics, METRIC_SESSIONS_OVER_LIMIT, 1);
         response = response_problem(503, "unavailable", "", "too many live connections are open");
     } else {
         response = response_problem(

@@ -224,8 +224,9 @@ struct store_sqlite *store_sqlite_open(const char *file, struct error *err)
     db->statements = memory_alloc(STATEMENT_COUNT, sizeof(sqlite3_stmt *));
     pthread_mutex_init(&db->read_lock, NULL);
     pthread_mutex_init(&db->find_lock, NULL);
+    pthread_mutex_init(&db->scan_lock, NULL);
     if (!open_writer(db, file, err) || !open_reader(&db->reader, file, err) ||
-        !open_reader(&db->finder, file, err)) {
+        !open_reader(&db->finder, file, err) || !open_reader(&db->scanner, file, err)) {
         goto fail;
     }
     look_for_damage(db->writer, db->damage, sizeof db->damage);
@@ -273,8 +274,10 @@ void store_sqlite_close(struct store_sqlite *db)
     }
     sqlite3_finalize(db->find_edit);
     sqlite3_close(db->finder);
+    sqlite3_close(db->scanner);
     sqlite3_close(db->reader);
     sqlite3_close(db->writer); /* the last one checkpoints */
+    pthread_mutex_destroy(&db->scan_lock);
     pthread_mutex_destroy(&db->find_lock);
     pthread_mutex_destroy(&db->read_lock);
     free(db->statements);

@@ -15,6 +15,8 @@ struct store_sqlite {
     sqlite3 *finder; /* of single edits: a scene that is being read delays nobody */
     sqlite3_stmt *find_edit;
     pthread_mutex_t find_lock;
+    sqlite3 *scanner; /* of all texts, for the same reason */
+    pthread_mutex_t scan_lock;
     char damage[200];
 };
 

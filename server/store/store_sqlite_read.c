@@ -19,11 +19,12 @@ static void column_id(sqlite3_stmt *statement, int column, char out[LIMIT_ID_BYT
 _Static_assert((int)ASSET_ID_CHARACTERS == (int)LIMIT_ID_BYTES, "column_id reads both");
 
 /* Calls `row` for each row; `scene` is parameter 1 where the statement has one. */
-static bool query(struct store_sqlite *db, const char *sql, const char *scene, int64_t number,
-                  void (*row)(void *data, sqlite3_stmt *statement), void *data, struct error *err)
+static bool query_on(sqlite3 *reader, const char *sql, const char *scene, int64_t number,
+                     void (*row)(void *data, sqlite3_stmt *statement), void *data,
+                     struct error *err)
 {
     sqlite3_stmt *statement = NULL;
-    int result = sqlite3_prepare_v2(db->reader, sql, -1, &statement, NULL);
+    int result = sqlite3_prepare_v2(reader, sql, -1, &statement, NULL);
 
     if (result == SQLITE_OK) {
         store_sqlite_bind_text(statement, 1, scene);
@@ -33,10 +34,16 @@ static bool query(struct store_sqlite *db, const char *sql, const char *scene, i
         }
     }
     if (result != SQLITE_DONE) {
-        store_sqlite_error(db->reader, sql, err);
+        store_sqlite_error(reader, sql, err);
     }
     sqlite3_finalize(statement);
     return result == SQLITE_DONE;
+}
+
+static bool query(struct store_sqlite *db, const char *sql, const char *scene, int64_t number,
+                  void (*row)(void *data, sqlite3_stmt *statement), void *data, struct error *err)
+{
+    return query_on(db->reader, sql, scene, number, row, data, err);
 }
 
 struct list_call {
@@ -235,14 +242,14 @@ bool store_sqlite_list_texts(struct store_sqlite *db,
 {
     struct text_call call = {each, data};
 
-    pthread_mutex_lock(&db->read_lock);
-    bool ok = query(db,
-                    "SELECT scene, document FROM snapshots AS s WHERE revision ="
-                    " (SELECT max(revision) FROM snapshots WHERE scene = s.scene)"
-                    " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
-                    " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
-                    "", 0, text_row, &call, err);
-    pthread_mutex_unlock(&db->read_lock);
+    pthread_mutex_lock(&db->scan_lock);
+    bool ok = query_on(db->scanner,
+                       "SELECT scene, document FROM snapshots AS s WHERE revision ="
+                       " (SELECT max(revision) FROM snapshots WHERE scene = s.scene)"
+                       " UNION ALL SELECT scene, ops FROM edits AS e WHERE revision >"
+                       " (SELECT max(revision) FROM snapshots WHERE scene = e.scene)",
+                       "", 0, text_row, &call, err);
+    pthread_mutex_unlock(&db->scan_lock);
     return ok;
 }
 

@@ -2,6 +2,7 @@
 // Large documents and edits of very many operations hold up nobody but those who wait for them. No
 // clock decides: what matters is who is answered before whom.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { ask, counter, startDaemon, until } from '../support/daemon.mjs';
 import { largeDocument } from '../support/large.mjs';
@@ -90,6 +91,25 @@ test('other scenes are edited while a large scene is sent to a viewer, stored an
     await live.close();
 });
 
+test('everybody is answered while all scenes are searched for the name of a file', async () => {
+    const file = Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x01\x02\x03\x04', 'latin1');
+    const sent = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: file });
+    const { id: image } = await sent.json();
+    await ask(daemon, 'POST', '/v1/scenes?id=lit', { ...ball, environment: { type: 'image', image } });
+    await Promise.all(
+        ['a', 'b', 'c'].map((id) => ask(daemon, 'PATCH', `/v1/scenes/${id}`, [{ op: 'set', at: '/nodes/node-0/params/radius', value: 0.25 }])),
+    );
+    const order = [];
+    const removed = fetch(`${daemon.url}/v1/assets/${image}`, { method: 'DELETE' }).then(({ status }) => order.push(status));
+    for (let i = 0; i < 3; i += 1) {
+        assert.equal((await fetch(`${daemon.url}/healthz`)).status, 200);
+        assert.equal((await ask(daemon, 'GET', '/v1/scenes/other')).root.id, 'ball');
+    }
+    order.push('others');
+    await removed;
+    assert.deepEqual(order, ['others', 409]);
+});
+
 test('edits of one client stay in order, whatever each takes', async () => {
     const live = await Live.open(daemon, 'many');
     const edits = [];
@@ -112,27 +132,48 @@ test('edits of one client stay in order, whatever each takes', async () => {
     await live.close();
 });
 
+/** How often a small edit of another scene is applied before each of these, sent just before it. */
+async function timesFirst(scene, client, acts) {
+    let first = 0;
+    for (const act of acts) {
+        const author = await Live.open(daemon, scene, { client }); // who has just worked much is not read at once
+        await author.next('document');
+        const other = await Live.open(daemon, 'other');
+        const before = await counter(daemon, 'edits_total');
+        const edit = act(author);
+        await other.next('applied', { edit: other.set('/nodes/ball/params/radius', 0.5 + first / 10) });
+        first += (await counter(daemon, 'edits_total')) === before + 1;
+        await author.next('applied', { edit });
+        await Promise.all([author.close(), other.close()]);
+    }
+    return first;
+}
+
+const undo = (author) => author.step('undo');
+const redo = (author) => author.step('redo');
+
 test('a small edit does not wait while a step of many operations is taken back or done again', async (t) => {
-    const other = await Live.open(daemon, 'other');
     const client = 'author-of-much';
     const author = await Live.open(daemon, 'many', { client });
     await author.next('applied', { edit: author.change(setAll(0.95)) });
     await author.close();
-    let first = 0;
-    for (const type of ['undo', 'redo', 'undo', 'redo', 'undo']) {
-        const again = await Live.open(daemon, 'many', { client }); // who has just worked much is not read at once
-        const before = await counter(daemon, 'edits_total');
-        const edit = again.step(type);
-        await other.next('applied', { edit: other.set('/nodes/ball/params/radius', 0.5 + first / 10) });
-        first += (await counter(daemon, 'edits_total')) === before + 1;
-        await again.next('applied', { edit });
-        await again.close();
-    }
+    const first = await timesFirst('many', client, [undo, redo, undo, redo, undo]);
     t.diagnostic(`the small edit was first ${first} times of 5`);
     assert.ok(first >= 3, `first ${first} times`);
     const { root } = await ask(daemon, 'GET', '/v1/scenes/many');
     assert.ok(root.children.every(({ params }) => params?.radius !== 0.95));
-    await other.close();
+});
+
+test('a small edit does not wait while one operation removes or inserts many nodes', async (t) => {
+    const document = JSON.parse(largeDocument(NODES));
+    document.root = { id: 'all', type: 'union', children: [document.root] };
+    await ask(daemon, 'POST', '/v1/scenes?id=whole', document);
+    const remove = (author) => author.change([{ op: 'remove', at: '/nodes/root' }]);
+    const first = await timesFirst('whole', 'author-of-one', [remove, undo, redo, undo, redo]);
+    t.diagnostic(`the small edit was first ${first} times of 5`);
+    assert.ok(first >= 3, `first ${first} times`);
+    assert.deepEqual((await ask(daemon, 'GET', '/v1/scenes/whole')).root.children ?? [], []);
+    await ask(daemon, 'DELETE', '/v1/scenes/whole');
 });
 
 test('all or none of many operations are applied', async () => {
@@ -178,9 +219,32 @@ test('one client has no more than its share of large documents waiting', async (
     assert.equal((await first).status, 201);
     const refused = answers.filter(({ status }) => status === 429);
     assert.ok(refused.length > 0, `${answers.map(({ status }) => status)}`);
+    assert.equal(await counter(daemon, 'documents_over_share_total'), refused.length);
     assert.ok(answers.every(({ status }) => status === 429 || status === 201));
     assert.ok(Number(refused[0].headers.get('retry-after')) >= 1);
     const problem = await refused[0].json();
     assert.equal(problem.code, 'share');
     assert.match(problem.detail, new RegExp(`^${SHARE} large tasks of this client wait already; the limit is ${SHARE}$`));
+});
+
+/** Processor time of a process outside the kernel. */
+const userSecondsOf = (pid) => Number(fs.readFileSync(`/proc/${pid}/stat`, 'utf8').split(') ')[1].split(' ')[11]) / 100;
+
+test('a new render process gets the document of a picture without that it is read again', async (t) => {
+    const own = await startDaemon({ driver: 'null', tileMs: 2000 });
+    try {
+        const body = `{"scene":${largeDocument(3 * NODES)},"width":16,"height":16}`;
+        const before = userSecondsOf(own.pid);
+        const picture = fetch(`${own.url}/v1/render`, { method: 'POST', headers: { 'content-type': 'application/json' }, body });
+        await until(async () => (await counter(own, 'images_waiting')) === 1, 'the picture to be asked');
+        await until(async () => (await counter(own, 'documents_waiting')) === 0, 'the end of the reading');
+        const asked = userSecondsOf(own.pid);
+        process.kill(own.worker(), 'SIGKILL');
+        assert.equal((await picture).status, 200);
+        const again = userSecondsOf(own.pid) - asked;
+        t.diagnostic(`${(asked - before).toFixed(2)} s of the processor to read it, ${again.toFixed(2)} s to send it again`);
+        assert.ok(again < (asked - before) / 5, `${again} s`);
+    } finally {
+        await own.stop();
+    }
 });

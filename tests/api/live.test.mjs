@@ -533,6 +533,7 @@ describe('frames', () => {
     test('of many questions at once the newest are answered, in their order', async () => {
         const live = await open();
         live.look({ width: 100, height: 100, camera: { position: [0, 0, 6], target: [0, 0, 0] } });
+        const before = await counter(daemon, 'picks_given_up_total');
         for (let pick = 1; pick <= 500; pick += 1) {
             live.say({ type: 'pick', pick, x: 50, y: 50, seq: live.seq });
         }
@@ -540,6 +541,7 @@ describe('frames', () => {
         const answered = live.messages.filter((m) => m.type === 'picked').map((m) => m.pick);
         assert.deepEqual(answered.slice(-8), [493, 494, 495, 496, 497, 498, 499, 500]);
         assert.deepEqual(answered, [...answered].sort((a, b) => a - b));
+        assert.equal((await counter(daemon, 'picks_given_up_total')) - before, 500 - answered.length);
         await live.close();
     });
 

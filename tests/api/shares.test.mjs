@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
 import { ask, counter, sleep, standStill, startDaemon, until } from '../support/daemon.mjs';
+import { largeDocument } from '../support/large.mjs';
 import { Live } from '../support/live.mjs';
 
 const TILE_MS = 10;
@@ -171,6 +172,19 @@ test('one who sends large edits without end leaves half of the time to others', 
     // Edits that arrive together are followed by one rest.
     assert.ok((await counter(daemon, 'connection_rests_total')) > 0, 'it rests');
     await Promise.all([guest.close(), other.close()]);
+});
+
+test('who has sent much work is told how long the server rests', async () => {
+    const whole = JSON.parse(largeDocument(90_000));
+    await ask(daemon, 'POST', '/v1/scenes?id=whole', { ...whole, root: { id: 'all', type: 'union', children: [whole.root] } });
+    const guest = await Live.open(daemon, 'whole');
+    guest.change([{ op: 'remove', at: '/nodes/root' }]);
+    await guest.next('applied', { edit: guest.step('undo') });
+    const { level, retry_ms } = await guest.next('notice', { code: 'share' });
+    assert.equal(level, 'info');
+    assert.ok(retry_ms >= 250 && retry_ms <= 2000, `${retry_ms} ms`);
+    await guest.close();
+    await ask(daemon, 'DELETE', '/v1/scenes/whole');
 });
 
 /** As many as look before the first of them has a picture, and acknowledge none. */

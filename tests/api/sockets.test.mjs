@@ -240,6 +240,12 @@ describe('malformed', () => {
         });
     }
 
+    test('all of these are counted', async () => {
+        const count = await counter(daemon, 'connections_malformed_total');
+        assert.ok(count >= Object.keys(malformed).length, `${count}`);
+        assert.equal(await counter(daemon, 'connections_over_limit_total'), 0);
+    });
+
     // The second request of a connection is parsed by libmicrohttpd; it must not get farther, and what
     // would be its body is no third one.
     const later = ['Host twice', 'two lengths', 'length and chunked', 'unknown coding', 'a tab behind the coding', 'a blank before the colon'];
@@ -347,6 +353,7 @@ describe('slow clients', () => {
         clearInterval(trickle);
         const seconds = (Date.now() - start) / 1000;
         assert.ok(peers.every((peer) => peer.statuses()[0] === 408));
+        assert.ok((await counter(daemon, 'connections_late_total')) >= peers.length);
         assert.ok(seconds > 4, `408 came after ${seconds} s`);
         assert.ok(cpuSecondsOf(daemon.pid) - cpu < 0.5 * seconds, 'waiting costs processor time');
     });
@@ -462,6 +469,7 @@ describe('too many', () => {
         await until(() => peers.every((peer) => peer.statuses().length), 'answers');
         const refused = peers.filter((peer) => peer.statuses()[0] === 503);
         assert.ok((count - refused.length) * size <= limit && refused.length < count / 2, `${refused.length}`);
+        assert.equal(await counter(daemon, 'bodies_over_limit_total'), refused.length);
         assert.ok(refused.every((peer) => /\r\nRetry-After: 1\r\n/i.test(peer.text) && /the limit is 268435456/.test(peer.text)));
         const last = connect();
         last.socket.write(head);
@@ -473,14 +481,19 @@ describe('too many', () => {
     });
 
     test('HTTP connections: the last ones are answered 503, and there is room again when some leave', async () => {
-        const peers = Array.from({ length: 560 }, () => connect());
-        peers.forEach((peer) => peer.socket.write(get()));
-        await until(() => peers.every((peer) => peer.statuses().length === 1), 'answers');
+        const peers = [];
+        while (peers.length < 560) {
+            const some = Array.from({ length: 140 }, () => connect()); // fewer than may wait at once
+            some.forEach((peer) => peer.socket.write(get()));
+            await until(() => some.every((peer) => peer.statuses().length === 1), 'answers');
+            peers.push(...some);
+        }
         const counts = { 200: 0, 503: 0 };
         peers.forEach((peer) => (counts[peer.statuses()[0]] += 1));
         assert.ok(counts[200] > 256 && counts[200] <= 512 && counts[503] === 560 - counts[200], JSON.stringify(counts));
         peers.forEach((peer) => peer.close());
         await until(async () => (await statuses(get()))[0] === 200, 'room');
+        assert.ok((await counter(daemon, 'connections_over_limit_total')) >= counts[503]);
     });
 
     test('heads that never end: who comes later is served', async () => {
@@ -492,6 +505,7 @@ describe('too many', () => {
             assert.deepEqual(await statuses(get()), [200]);
         }
         assert.ok(peers.filter((peer) => !peer.statuses().length).length >= 500, 'most still wait');
+        assert.ok((await counter(daemon, 'connections_over_waiting_total')) > 0);
         peers.forEach((peer) => peer.close());
     });
 
@@ -501,6 +515,7 @@ describe('too many', () => {
         );
         assert.ok(lives.every((live) => live.status.includes(' 101 ')));
         assert.deepEqual(await statuses(handshake(daemon.port, 's')), [503]);
+        assert.equal(await counter(daemon, 'sessions_over_limit_total'), 1);
         await Promise.all(lives.map((live) => live.close()));
         await until(async () => (await counter(daemon, 'sessions')) === 0, 'sessions to end');
     });
@@ -523,6 +538,7 @@ test('without free descriptors there is still an answer', async () => {
             const answer = await fetch(`${tight.url}/healthz`).catch(() => null);
             return answer?.status === 200;
         }, 'recovery');
+        assert.ok((await counter(tight, 'connections_over_descriptors_total')) > 0);
     } finally {
         await tight.stop();
     }

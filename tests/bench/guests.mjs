@@ -109,6 +109,18 @@ const GUESTS = {
         const document = largeDocument(99_000);
         return repeat(() => fetch(`${daemon.url}/v1/scenes/large`, { method: 'PUT', headers: { 'content-type': 'application/json' }, body: document }).catch(() => null));
     },
+    'pictures of documents of 30,000 nodes': (daemon) => {
+        const scene = largeDocument(30_000);
+        return repeat((i) =>
+            fetch(`${daemon.url}/v1/render`, {
+                method: 'POST',
+                headers: { 'content-type': 'application/json' },
+                body: `{"scene":${scene},"width":${16 + (i % 16)},"height":16}`,
+            })
+                .then((answer) => answer.arrayBuffer())
+                .catch(() => null),
+        );
+    },
     'seven hundred half-open connections': (daemon) => {
         const sockets = Array.from({ length: 700 }, () => {
             const socket = net.connect(daemon.port, '127.0.0.1', () => socket.write(handshake(daemon.port, 'other').slice(0, 40)));

@@ -193,10 +193,19 @@ test('a drawing thread that waits for nothing is found, although pings are answe
     await live.close();
 });
 
+/** A picture of the root, drawn by the engine. */
+async function thumbnailOf(live) {
+    live.say({ type: 'thumbnails', nodes: ['root'] });
+    return (await until(() => live.thumbnails[0], 'the thumbnail')).png;
+}
+
 test('stored code is kept but not compiled where code is off', async () => {
     const data = makeDirectory();
     let other = await start({ data });
     await ask(other, 'POST', '/v1/scenes?id=kept', scene(CRASH));
+    const before = await Live.open(other, 'kept');
+    const drawn = await thumbnailOf(before);
+    await before.close();
     await other.stop();
     other = await start({ data, args: ['--code', 'off'] });
     const live = await Live.open(other, 'kept');
@@ -207,6 +216,7 @@ test('stored code is kept but not compiled where code is off', async () => {
     assert.equal(document.primitives.blob.code, CRASH);
     live.look();
     await live.nextFrame((frame) => frame.lossless);
+    assert.ok(!(await thumbnailOf(live)).equals(drawn), 'the engine that draws thumbnails gets no code either');
     live.set(CODE, GOOD);
     assert.equal((await live.next('rejected')).code, 'forbidden');
     // What takes code away comes back by undo, still without being compiled.

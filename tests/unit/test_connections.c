@@ -6,12 +6,19 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include "protocol/limits.h"
 #include "protocol/memory.h"
 #include "server/net/access.h"
 #include "server/net/http_head.h"
+#include "server/net/presence.h"
 #include "server/net/send_queue.h"
 
 /* --- heads --- */
@@ -219,6 +226,34 @@ static void what_waits_is_bounded(void **state)
     send_queue_finish(&queue);
 }
 
+/* --- presence --- */
+
+static unsigned silence_of(int fd)
+{
+    unsigned ms = 0;
+    socklen_t length = sizeof ms;
+
+    assert_int_equal(getsockopt(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, &ms, &length), 0);
+    return ms;
+}
+
+/* A dead line with data that was not acknowledged is found as soon as one without. An answer may be
+ * read as slowly as its client likes. */
+static void waits_for_acknowledgement_only_before_the_answer(void **state)
+{
+    const struct presence presence = {.fd = socket(AF_INET, SOCK_STREAM, 0)};
+    const int epoll = epoll_create1(0);
+
+    (void)state;
+    assert_int_equal(silence_of(presence.fd), 0);
+    assert_true(presence_watch(epoll, &presence, NULL));
+    assert_int_equal(silence_of(presence.fd), 1000 * LIMIT_LIVE_SILENCE);
+    presence_unwatch(epoll, &presence);
+    assert_int_equal(silence_of(presence.fd), 0);
+    close(epoll);
+    close(presence.fd);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -229,6 +264,7 @@ int main(void)
         cmocka_unit_test(texts_go_between_the_parts_of_a_frame),
         cmocka_unit_test(the_newest_frame_wins),
         cmocka_unit_test(what_waits_is_bounded),
+        cmocka_unit_test(waits_for_acknowledgement_only_before_the_answer),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -270,6 +270,55 @@ static void test_counts_hold_in_edits(void **state)
     cJSON_Delete(ops);
 }
 
+static size_t weight_of(const char *text, size_t most)
+{
+    cJSON *ops = edits_parse(text);
+    const size_t weight = edit_weight(scene, ops, most);
+    cJSON_Delete(ops);
+    return weight;
+}
+
+static void test_weight_of_one_operation(void **state)
+{
+    (void)state;
+    assert_int_equal(weight_of("[{'op':'set','at':'/nodes/body/params/radius','value':2}]", 99), 2);
+    assert_int_equal(weight_of("[{'op':'remove','at':'/nodes/neck'}]", 99), 1 + 3);
+    assert_int_equal(weight_of("[{'op':'insert','into':'/nodes/root','value':{'type':'group',"
+                               "'children':[{'type':'sphere'},{'type':'box'}]}}]",
+                               99),
+                     1 + 2 + 1 + 2 * 2);
+    edits_apply(scene, "[{'op':'insert','into':'/primitives','name':'ball','value':{'code':"
+                       "'float sdf(vec3 p) { return length(p) - 1.0; }'}},"
+                       "{'op':'insert','into':'/models','name':'pair','value':"
+                       "{'type':'union','children':[{'type':'sphere'},{'type':'box'}]}}]");
+    assert_int_equal(weight_of("[{'op':'set','at':'/primitives/ball/params','value':[]}]", 99),
+                     2 + scene->node_count);
+    assert_int_equal(weight_of("[{'op':'remove','at':'/models/pair'}]", 99), 1 + 3);
+    assert_int_equal(weight_of("[{'op':'set','at':'/nodes/body/params/model','value':'pair'}]", 99),
+                     2 + scene->node_count);
+}
+
+/* What is removed together with a new group was moved there. */
+static void test_weight_counts_what_is_moved(void **state)
+{
+    (void)state;
+    assert_int_equal(weight_of("[{'op':'insert','into':'/nodes/root','value':{'id':'bin',"
+                               "'type':'group'}},"
+                               "{'op':'move','at':'/nodes/neck','into':'/nodes/bin'},"
+                               "{'op':'remove','at':'/nodes/bin'}]",
+                               99),
+                     3 + 3 + 3);
+}
+
+static void test_weight_stops_at_most(void **state)
+{
+    (void)state;
+    cJSON *ops = many_inserts(LIMIT_OPERATIONS, "/nodes/head");
+    assert_in_range(edit_weight(scene, ops, 500), 501, 510);
+    cJSON_Delete(ops);
+    assert_int_equal(edit_weight(scene, NULL, 500), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +332,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_ids_are_not_used_again, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_depth_holds_in_edits, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_counts_hold_in_edits, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_weight_of_one_operation, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_weight_counts_what_is_moved, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_weight_stops_at_most, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("edit", tests, NULL, NULL);
 }

@@ -146,7 +146,8 @@ static void heavy_ones_are_bounded(void **state)
     struct diary diary;
     sem_t begun, go;
     struct error err = {0};
-    struct tasks *tasks = tasks_create(NULL, NULL);
+    struct metrics metrics = {0};
+    struct tasks *tasks = tasks_create(&metrics, NULL);
     struct errand first = {open_diary(&diary), 'H', &begun, &go}, many = {&diary, 'm', NULL, NULL};
 
     (void)state;
@@ -162,9 +163,19 @@ static void heavy_ones_are_bounded(void **state)
         &err));
     assert_int_equal(err.kind, ERROR_SHARE);
     assert_true(err.retry_ms > 0);
+    assert_int_equal(metric_get(&metrics, METRIC_DOCUMENTS_OVER_SHARE), 1);
+    for (int i = LIMIT_DOCUMENT_SHARE; i < LIMIT_DOCUMENT_QUEUE; i++) {
+        char account[16];
+
+        snprintf(account, sizeof account, "%d", i);
+        assert_true(add(tasks, &many, "", account, true));
+    }
+    assert_false(add(tasks, &many, "", "last", true));
+    assert_int_equal(metric_get(&metrics, METRIC_DOCUMENTS_OVER_QUEUE), 1);
+    assert_int_equal(metric_get(&metrics, METRIC_DOCUMENTS_OVER_SHARE), 1);
     assert_true(add(tasks, &many, "", "many", false));
     sem_post(&go);
-    wait_for(&diary, LIMIT_DOCUMENT_SHARE + 2);
+    wait_for(&diary, LIMIT_DOCUMENT_QUEUE + 2);
     tasks_destroy(tasks);
 }
 
