@@ -78,7 +78,7 @@ endif
 # --- the program ---
 
 # The engine's files are parts of one for each width of vectors; renderer/spmd is a tool of the build.
-apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile sparse skies threads,$(S)/renderer/engine/$(f).c)
+apart := $(wildcard $(S)/renderer/spmd/*.c) $(foreach f,width interpret cells code points textures tile sparse environment_texels threads,$(S)/renderer/engine/$(f).c)
 # The program that finds equations; FLINT is linked with it alone.
 algebra := $(wildcard $(S)/renderer/algebra/*.c)
 sources := $(filter-out $(apart) $(algebra),$(foreach d,protocol renderer server,$(wildcard $(S)/$(d)/*.c $(S)/$(d)/*/*.c)))
@@ -127,9 +127,9 @@ $(OUT)/generated/glsl.c: $(S)/deploy/embed.sh $(glsl) $(OUT)/glsl-names
 
 # GLSL as C over vectors: the shaders that the engine runs, and each instruction of a field.
 spmd := $(OUT)/spmd
-spmd_entries := 'kernel_*' trace paint mixed chosen alone mixture_far is_edge seen_at block_start \
+spmd_entries := 'kernel_*' trace mix_materials mixed chosen alone mixture_far is_edge seen_at block_start \
                 sample_sums pixel_light pixel_color output_of id_bits cell_count cell_next \
-                environment_sky environment_mirror environment_matt
+                environment_sky environment_prefilter environment_irradiance
 spmd_objects := $(call object,$(wildcard $(S)/renderer/spmd/*.c $(S)/protocol/*.c \
                     $(S)/protocol/*/*.c $(S)/renderer/code/*.c $(S)/renderer/field/*.c \
                     $(S)/renderer/sdf/*.c $(S)/renderer/glsl/*.c)) $(OUT)/generated/glsl.o

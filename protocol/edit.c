@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "edit_parts.h"
+#include "edit_internal.h"
 #include "limits.h"
 #include "suggest.h"
 

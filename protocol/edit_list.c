@@ -2,7 +2,7 @@
 /* The operations that change what there is and where: insert, remove, move. */
 #include <string.h>
 
-#include "edit_parts.h"
+#include "edit_internal.h"
 #include "limits.h"
 
 static void add_text_or_null(cJSON *op, const char *name, const char *text)

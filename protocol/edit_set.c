@@ -2,7 +2,7 @@
 /* The operation `set`: one value, a name, or a whole record. Types are edit_type.c. */
 #include <string.h>
 
-#include "edit_parts.h"
+#include "edit_internal.h"
 
 static bool set_value(struct editor *editor, struct record *record, const char *name,
                       const char *at, const cJSON *value)

@@ -4,7 +4,7 @@
  * new type does not know or accept falls to its default, and the inverse sets it again. */
 #include <string.h>
 
-#include "edit_parts.h"
+#include "edit_internal.h"
 
 /* What `from` has set and `type` knows and accepts. A name of one kind is none of another. */
 static struct record converted(const struct record *from, const struct record_type *type)

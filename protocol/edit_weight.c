@@ -2,7 +2,7 @@
 /* How much work an edit is, estimated before it is applied. */
 #include <string.h>
 
-#include "edit_parts.h"
+#include "edit_internal.h"
 
 struct weight {
     const struct scene *scene;

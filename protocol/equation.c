@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "equation_parts.h"
+#include "equation_internal.h"
 
 const struct equation_function equation_functions[EQUATION_FUNCTIONS] = {
     [EQUATION_SIN] = {"sin", 1},     [EQUATION_COS] = {"cos", 1},     [EQUATION_TAN] = {"tan", 1},

@@ -2,7 +2,7 @@
 /* Functions of equations that are written by others. */
 #include <math.h>
 
-#include "equation_parts.h"
+#include "equation_internal.h"
 
 const struct equation_function equation_composites[EQUATION_COMPOSITES] = {
     [EQUATION_HYPOT] = {"hypot", 2},

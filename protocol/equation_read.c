@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "equation_parts.h"
+#include "equation_internal.h"
 #include "memory.h"
 #include "suggest.h"
 #include "utf8.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "history_parts.h"
+#include "history_internal.h"
 #include "limits.h"
 #include "memory.h"
 

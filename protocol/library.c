@@ -7,7 +7,7 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 static const char *const kind_names[LIBRARY_KINDS] = {
     [LIBRARY_PRIMITIVE] = "primitive", [LIBRARY_MATERIAL] = "material", [LIBRARY_MODEL] = "model"};

@@ -81,11 +81,11 @@ struct quality {
     int lens_samples;      /* for each pixel where the camera has an aperture; 0: no blur */
     int shadow_steps;      /* of a ray to a light */
     int occlusion_samples; /* along the normal; 0: none */
-    int ray_depth;         /* times that a ray is mirrored or broken */
-    int rays;              /* mirrored and broken rays of one sample, at most */
-    double ray_least;      /* of what a ray adds to its pixel; less is taken from the environment */
-    int clear_depth;       /* surfaces that light goes through on its way to another */
-    int volume_steps;      /* through a volume */
+    int ray_depth;         /* times that a ray is reflected or refracted */
+    int rays;              /* reflected and refracted rays of one sample, at most */
+    double min_throughput; /* of what a ray adds to its pixel; less is taken from the environment */
+    int transmission_depth; /* surfaces that light goes through on its way to another */
+    int volume_steps;       /* through a volume */
     int volume_shadow_steps;
 };
 
@@ -107,10 +107,10 @@ enum frame_stage {
     FRAME_QUEUE,       /* waiting for other pictures */
     FRAME_ENVIRONMENT, /* light of the environment, when it is new */
     FRAME_MARCH,       /* rays from the camera to their surfaces */
-    FRAME_MATTER,      /* what the surfaces are made of */
+    FRAME_MATERIAL,    /* what the surfaces are made of */
     FRAME_SHADOW,      /* shadows and occlusion */
     FRAME_SHADE,       /* light on surfaces, fog, background, tone mapping */
-    FRAME_RAYS,        /* everything along mirrored and broken rays, and light through glass */
+    FRAME_RAYS,        /* everything along reflected and refracted rays, and light through glass */
     FRAME_VOLUME,
     FRAME_RESOLVE, /* samples to pixels, edges */
     FRAME_READ,    /* to the processor */

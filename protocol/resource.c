@@ -8,7 +8,7 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 #include "suggest.h"
 
 /* clang-format off */

@@ -4,7 +4,7 @@
 
 #include "json.h"
 #include "limits.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 /* --- reading --- */
 

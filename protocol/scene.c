@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 static void keep(void *item)
 {

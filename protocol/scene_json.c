@@ -7,7 +7,7 @@
 #include "json.h"
 #include "limits.h"
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 #include "suggest.h"
 
 bool scene_read_id(const cJSON *json, const char **out, const char *place, struct error *err)

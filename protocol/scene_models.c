@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "limits.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 enum { UNSEEN, OPEN, DONE };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 struct node *node_create(const struct node_type *type, const struct record_type *params)
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 struct part {
     const struct scene *scene;

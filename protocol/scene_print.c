@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writing documents so that they read back the same: what is set, in the order of the tables. */
 #include "json.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 
 void scene_add_record(cJSON *object, const char *name, const struct record *record)
 {

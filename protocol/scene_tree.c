@@ -6,7 +6,7 @@
 
 #include "limits.h"
 #include "memory.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 #include "suggest.h"
 
 /* --- ids --- */

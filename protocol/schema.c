@@ -9,7 +9,7 @@
 #include "messages.h"
 #include "nodes.h"
 #include "picture.h"
-#include "scene_parts.h"
+#include "scene_internal.h"
 #include "surface.h"
 
 #define NAME_PATTERN "^[A-Za-z0-9_.-]{1,64}$"

@@ -28,7 +28,7 @@ struct encoding {
 struct encode_thread *encode_thread_create(int wake_fd, struct error *err);
 /* Drops all pictures, their `data` excepted, which is not freed. */
 void encode_thread_destroy(struct encode_thread *encode_thread);
-/* Begins the next picture of a stream, of these outputs (job_image_shape). The stream stays the
+/* Begins the next picture of a stream, of these outputs (job_image_info). The stream stays the
  * caller's, who leaves it alone until encode_thread_take has given the picture back. NULL and
  * `err` where the format cannot hold them. */
 struct encoding *encode_thread_begin(struct encode_thread *encode_thread,

@@ -22,8 +22,8 @@ struct pick_field {
 struct pick_field *pick_field_create(const struct scene *scene, const char *const *isolated,
                                      size_t isolated_count, struct error *err)
 {
-    const struct field_wish wish = {.isolated = isolated, .isolated_count = isolated_count};
-    struct field *compiled = field_compile_as(scene, &wish, err);
+    const struct field_options options = {.isolated = isolated, .isolated_count = isolated_count};
+    struct field *compiled = field_compile_as(scene, &options, err);
 
     if (!compiled) {
         return NULL;

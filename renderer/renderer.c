@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A renderer's life, its counters, and the whole way of one picture. */
-#include "renderer/draw/context.h"
+#include "renderer/draw/renderer_internal.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -103,7 +103,7 @@ struct renderer *renderer_create(const struct renderer_params *params, struct er
     /* Before the process is confined, where it is going to compile. */
     if (renderer->info.stage != RENDER_ENGINE &&
         (!draw_prepare(renderer->draw,
-                       renderer->info.stage == RENDER_FRAGMENT ? ROAD_FRAGMENT : ROAD_COMPUTE,
+                       renderer->info.stage == RENDER_FRAGMENT ? SHADER_FRAGMENT : SHADER_COMPUTE,
                        err) ||
          !program_cache_start(renderer->programs, err))) {
         goto fail;
@@ -292,7 +292,7 @@ bool renderer_render(struct resident *resident, const struct job_desc *desc,
     if (!job) {
         return false;
     }
-    whole = job_image_shape(job, aov);
+    whole = job_image_info(job, aov);
     whole.pixels = memory_alloc(1, whole.bytes);
     while ((state = job_step(job)) != JOB_DONE && state != JOB_FAILED) {
         if (state == JOB_ROWS) {
@@ -316,8 +316,7 @@ bool renderer_render(struct resident *resident, const struct job_desc *desc,
 bool renderer_check(const struct scene *scene, struct error *out_warning, struct error *err)
 {
     struct field *field = field_compile(scene, err);
-    const bool ok =
-        field && field_check_code(scene, err) && field_try(field, out_warning, err);
+    const bool ok = field && field_check_code(scene, err) && field_try(field, out_warning, err);
 
     field_unref(field);
     return ok;

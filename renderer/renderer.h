@@ -75,7 +75,7 @@ struct renderer_counters {
     uint64_t compilations; /* programs compiled and linked since the start */
     uint64_t cache_hits;   /* scenes whose shape was there already */
     uint64_t tiles, pictures;
-    uint64_t rays; /* mirrored and broken ones */
+    uint64_t rays; /* reflected and refracted ones */
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
@@ -241,7 +241,7 @@ void job_destroy(struct job *job); /* at any time: cancels */
  * all outputs' rows were taken, job_step goes on. */
 struct image job_take_rows(struct job *job, enum aov aov);
 /* What the whole picture of an output will be, without pixels; width 0: it was not asked for. */
-struct image job_image_shape(const struct job *job, enum aov aov);
+struct image job_image_info(const struct job *job, enum aov aov);
 /* create + poll + step until done; for the command line and tests. One output. */
 bool renderer_render(struct resident *resident, const struct job_desc *desc,
                      struct image *out_image, struct error *err);

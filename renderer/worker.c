@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "worker_parts.h"
+#include "worker_internal.h"
 
 enum {
     READ_BYTES = 65536,

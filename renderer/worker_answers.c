@@ -7,7 +7,7 @@
 #include <sys/socket.h>
 
 #include "protocol/memory.h"
-#include "worker_parts.h"
+#include "worker_internal.h"
 
 enum { OUT_KEEPS = 1 << 22 }; /* capacity kept between pictures */
 

@@ -7,7 +7,7 @@
 
 #include "guide.h"
 #include "protocol/memory.h"
-#include "worker_parts.h"
+#include "worker_internal.h"
 
 enum {
     PROGRESS_US = 1000000, /* how often a long picture is told to go on */
@@ -39,7 +39,7 @@ static bool begin_encoding(struct worker *w, struct worker_job *job, struct erro
     struct image shapes[AOV_COUNT];
 
     for (int i = 0; i < AOV_COUNT; i++) {
-        shapes[i] = job_image_shape(job->drawing, (enum aov)i);
+        shapes[i] = job_image_info(job->drawing, (enum aov)i);
         job->width = shapes[i].width ? shapes[i].width : job->width;
         job->height = shapes[i].width ? shapes[i].height : job->height;
     }
@@ -182,7 +182,7 @@ static void hand_rows_over(struct worker *w, struct worker_job *job)
     for (int i = 0; i < AOV_COUNT; i++) {
         const enum aov aov = (enum aov)i;
 
-        if (job_image_shape(job->drawing, aov).width > 0) {
+        if (job_image_info(job->drawing, aov).width > 0) {
             encode_thread_add(w->encode_thread, job->encoding, aov,
                               job_take_rows(job->drawing, aov));
         }

@@ -5,7 +5,7 @@
 
 #include "portrait.h"
 #include "protocol/memory.h"
-#include "worker_parts.h"
+#include "worker_internal.h"
 
 struct worker_scene **worker_find_scene(struct worker *w, const char *name)
 {

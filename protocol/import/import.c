@@ -7,7 +7,7 @@
 
 #include "parts.h"
 #include "protocol/memory.h"
-#include "protocol/scene_parts.h"
+#include "protocol/scene_internal.h"
 
 static bool list_materials(const struct importing *importing, struct import_item *item)
 {

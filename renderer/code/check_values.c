@@ -313,7 +313,7 @@ static bool check_surface_member(struct checker *checker, struct expr *expr)
             expr->field = (uint8_t)i;
             expr->type = type_vector(BASE_FLOAT, surface_members[i].rows);
             expr->effects = expr->a->effects;
-            checker->tree->clear |= strcmp(expr->name->text, "transmission") == 0;
+            checker->tree->transmissive |= strcmp(expr->name->text, "transmission") == 0;
             return check_fold(checker, expr);
         }
         suggest_consider(&suggestion, surface_members[i].name);

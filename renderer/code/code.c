@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "code_parts.h"
+#include "code_internal.h"
 #include "lower.h"
 #include "parser.h"
 #include "protocol/memory.h"
@@ -158,9 +158,9 @@ bool code_gives_surface(const struct code *code)
     return type_is_surface(code->tree.entry->result);
 }
 
-bool code_is_clear(const struct code *code)
+bool code_is_transmissive(const struct code *code)
 {
-    return code_gives_surface(code) && code->tree.clear;
+    return code_gives_surface(code) && code->tree.transmissive;
 }
 
 /* Where something is no number: magenta, as colours are. */

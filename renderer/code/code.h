@@ -72,7 +72,7 @@ double code_distance(const struct code *code, const double p[3], const double *n
 /* Of CODE_SHADE: whether it returns a Surface; and whether it says how much light that lets
  * through. */
 bool code_gives_surface(const struct code *code);
-bool code_is_clear(const struct code *code);
+bool code_is_transmissive(const struct code *code);
 
 struct code_shading {
     double world_position[3], object_position[3], world_normal[3], ray_direction[3], ray_distance;

@@ -8,7 +8,7 @@
 
 #define TEXT(x) #x
 #define TEXT_OF(x) TEXT(x)
-#define HUGE TEXT_OF(JET_MOST)
+#define HUGE TEXT_OF(JET_MAX)
 
 const char equation_sizes[] =
     "vec2 sizes(vec2 x)\n"

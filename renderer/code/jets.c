@@ -12,7 +12,7 @@ enum { LEAST, MOST = 3, VALUE = 6, NUMBERS = 9 }; /* in a jet */
 
 static double bounded(double x)
 {
-    return x < -JET_MOST ? -JET_MOST : x > JET_MOST ? JET_MOST : x;
+    return x < -JET_MAX ? -JET_MAX : x > JET_MAX ? JET_MAX : x;
 }
 
 /* Intervals are (least, greatest). */

@@ -4,12 +4,12 @@
  *
  * Duals are (gradient, value), four numbers. Jets are matrices of three columns: the least slopes
  * along x, y and z in a box, the greatest, and (least value, greatest value, 0). No number of a jet
- * that a function gives exceeds twice JET_MOST. Rules of intervals: Moore, Interval Analysis
+ * that a function gives exceeds twice JET_MAX. Rules of intervals: Moore, Interval Analysis
  * (1966). */
 #ifndef RENDERER_CODE_JETS_H
 #define RENDERER_CODE_JETS_H
 
-#define JET_MOST 1e18 /* as in glsl/jets.glsl */
+#define JET_MAX 1e18 /* as in glsl/jets.glsl */
 
 /* As `whole` of struct builtin; `in` are the arguments. */
 void jet_dual_times(double *out, const double *const in[], int n); /* dual, dual */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "code_parts.h"
+#include "code_internal.h"
 
 /* Points for code of little work, and for code of much. */
 enum { POINTS_MAX = 1000, POINTS_MIN = 60, RUNS_OF_POINT = 10 };

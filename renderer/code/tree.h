@@ -212,7 +212,7 @@ struct tree {
     int number_count; /* of the declared parameters */
     int data_count;   /* elements of primitive.data */
     bool data_used, shading_used;
-    bool clear; /* it says how much light a surface lets through */
+    bool transmissive; /* it says how much light a surface lets through */
     /* GLSL as we write it ourselves, not users' code: with structs, blocks, while and variables
      * outside of functions. parser_whole.c reads what is more; check.h knows nothing of it. */
     bool whole;

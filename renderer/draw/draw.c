@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "draw_parts.h"
+#include "draw_internal.h"
 #include "pace.h"
 #include "protocol/memory.h"
 
@@ -24,7 +24,7 @@ enum {
 #define FLOATS_3 OUT_FLOATS, GL_RGB, GL_FLOAT, 12
 #define FLOATS_4 OUT_FLOATS, GL_RGBA, GL_FLOAT, 16
 
-static const struct draw_form forms[] = {
+static const struct output_format formats[] = {
     {AOV_COLOR, false, OUT_COLOR, BYTES, STAGE_COUNT},
     {AOV_COLOR, true, OUT_LINEAR, FLOATS_4, STAGE_COUNT},
     {AOV_DEPTH, false, OUT_DEPTH, FLOATS_1, STAGE_MARCH},
@@ -32,28 +32,28 @@ static const struct draw_form forms[] = {
     {AOV_NORMAL, false, OUT_NORMAL, BYTES, STAGE_MARCH},
     {AOV_NORMAL, true, OUT_NORMAL_RAW, FLOATS_3, STAGE_MARCH},
     {AOV_POSITION, true, OUT_POSITION, FLOATS_3, STAGE_MARCH},
-    {AOV_ID, false, OUT_ID, BYTES, STAGE_MATTER},
-    {AOV_ID, true, OUT_ID_RAW, OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, STAGE_MATTER},
+    {AOV_ID, false, OUT_ID, BYTES, STAGE_MATERIAL},
+    {AOV_ID, true, OUT_ID_RAW, OUT_UINTS, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, STAGE_MATERIAL},
     {AOV_STEPS, false, OUT_STEPS, BYTES, STAGE_MARCH},
     {AOV_STEPS, true, OUT_STEPS_RAW, FLOATS_1, STAGE_MARCH},
-    {AOV_ALBEDO, false, OUT_ALBEDO, BYTES, STAGE_MATTER},
-    {AOV_ALBEDO, true, OUT_ALBEDO_RAW, FLOATS_3, STAGE_MATTER},
-    {AOV_SPECULAR, false, OUT_SPECULAR, BYTES, STAGE_MATTER},
-    {AOV_SPECULAR, true, OUT_SPECULAR_RAW, FLOATS_3, STAGE_MATTER},
-    {AOV_OPTICAL, false, OUT_OPTICAL, BYTES, STAGE_MATTER},
-    {AOV_OPTICAL, true, OUT_OPTICAL_RAW, FLOATS_4, STAGE_MATTER},
+    {AOV_ALBEDO, false, OUT_ALBEDO, BYTES, STAGE_MATERIAL},
+    {AOV_ALBEDO, true, OUT_ALBEDO_RAW, FLOATS_3, STAGE_MATERIAL},
+    {AOV_SPECULAR, false, OUT_SPECULAR, BYTES, STAGE_MATERIAL},
+    {AOV_SPECULAR, true, OUT_SPECULAR_RAW, FLOATS_3, STAGE_MATERIAL},
+    {AOV_OPTICAL, false, OUT_OPTICAL, BYTES, STAGE_MATERIAL},
+    {AOV_OPTICAL, true, OUT_OPTICAL_RAW, FLOATS_4, STAGE_MATERIAL},
     {AOV_SHADOW, false, OUT_SHADOW, BYTES, STAGE_SHADOW},
     {AOV_SHADOW, true, OUT_SHADOW_RAW, FLOATS_3, STAGE_SHADOW},
     {AOV_OCCLUSION, false, OUT_OCCLUSION, BYTES, STAGE_SHADOW},
     {AOV_OCCLUSION, true, OUT_OCCLUSION_RAW, FLOATS_1, STAGE_SHADOW},
 };
-enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
+enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
-const struct draw_form *draw_form_find(enum aov aov, bool floats)
+const struct output_format *output_format_find(enum aov aov, bool floats)
 {
-    for (size_t i = 0; i < FORM_COUNT; i++) {
-        if (forms[i].aov == aov && forms[i].floats == floats) {
-            return &forms[i];
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        if (formats[i].aov == aov && formats[i].floats == floats) {
+            return &formats[i];
         }
     }
     return NULL;
@@ -69,14 +69,15 @@ struct draw *draw_create(const struct gl *gl, bool software, int tile_side)
     return draw;
 }
 
-bool draw_prepare(struct draw *draw, enum draw_road road, struct error *err)
+bool draw_prepare(struct draw *draw, enum shader_kind shader_kind, struct error *err)
 {
-    if (!draw->prepared[road]) {
-        draw->prepared[road] = road == ROAD_FRAGMENT ? draw_fragment_prepare(draw, err)
-                                                     : draw_compute_prepare(draw, err);
+    if (!draw->prepared[shader_kind]) {
+        draw->prepared[shader_kind] = shader_kind == SHADER_FRAGMENT
+                                          ? draw_fragment_prepare(draw, err)
+                                          : draw_compute_prepare(draw, err);
         draw->gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
-    return draw->prepared[road];
+    return draw->prepared[shader_kind];
 }
 
 void draw_destroy(struct draw *draw)
@@ -84,13 +85,13 @@ void draw_destroy(struct draw *draw)
     if (!draw) {
         return;
     }
-    for (int i = 0; i < DRAW_ROADS * OUTPUT_COUNT; i++) {
+    for (int i = 0; i < SHADER_KINDS * OUTPUT_COUNT; i++) {
         pass_finish(&draw->resolve[i / OUTPUT_COUNT][i % OUTPUT_COUNT], draw->gl);
     }
-    if (draw->prepared[ROAD_COMPUTE]) {
+    if (draw->prepared[SHADER_COMPUTE]) {
         draw_compute_finish(draw);
     }
-    if (draw->prepared[ROAD_FRAGMENT]) {
+    if (draw->prepared[SHADER_FRAGMENT]) {
         draw_fragment_finish(draw);
     }
     free(draw);
@@ -113,9 +114,10 @@ uint64_t draw_rays(const struct draw *draw)
 
 /* --- a picture --- */
 
-int draw_margin(const struct draw_plan *plan)
+int draw_margin(const struct render_settings *settings)
 {
-    return plan->antialiasing == ANTIALIASING_EDGES || plan->antialiasing == ANTIALIASING_ADAPTIVE
+    return settings->antialiasing == ANTIALIASING_EDGES ||
+                   settings->antialiasing == ANTIALIASING_ADAPTIVE
                ? MARGIN
                : 0;
 }
@@ -130,8 +132,8 @@ enum program_stage draw_last_stage(const struct draw_picture *picture)
     enum program_stage last = STAGE_MARCH;
 
     for (int i = 0; i < AOV_COUNT; i++) {
-        const struct draw_form *form = picture->forms[i];
-        last = form && form->last > last ? form->last : last;
+        const struct output_format *format = picture->formats[i];
+        last = format && format->last > last ? format->last : last;
     }
     return last;
 }
@@ -145,12 +147,13 @@ uint64_t draw_now_us(void)
 }
 
 /* What a tile and its margin fit into. */
-static int largest_side(const struct draw *draw, const struct draw_plan *plan)
+static int largest_side(const struct draw *draw, const struct render_settings *settings)
 {
-    const bool full = plan->antialiasing == ANTIALIASING_FULL;
+    const bool full = settings->antialiasing == ANTIALIASING_FULL;
     int side = draw->side;
 
-    for (int samples = full ? plan->samples : 1; samples > 4 && side > TILE_LEAST; samples /= 4) {
+    for (int samples = full ? settings->samples : 1; samples > 4 && side > TILE_LEAST;
+         samples /= 4) {
         side /= 2;
     }
     return side;
@@ -158,12 +161,12 @@ static int largest_side(const struct draw *draw, const struct draw_plan *plan)
 
 int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings)
 {
-    const int side = PACE_LEAST << doublings, most = largest_side(draw, &picture->plan);
+    const int side = PACE_MIN << doublings, most = largest_side(draw, &picture->settings);
 
     if (picture->backend == &draw_engine) {
         return side < most ? side : most;
     }
-    return side < most ? side - 2 * draw_margin(&picture->plan) : most - 2 * MARGIN;
+    return side < most ? side - 2 * draw_margin(&picture->settings) : most - 2 * MARGIN;
 }
 
 static const struct draw_backend *backend_of(const struct draw_scene *scene)
@@ -173,18 +176,19 @@ static const struct draw_backend *backend_of(const struct draw_scene *scene)
                                                  : &draw_compute;
 }
 
-bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
-                const struct draw_form *const wanted[AOV_COUNT], const struct draw_plan *plan,
-                const struct draw_scene *scene, struct error *err)
+bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_uniforms *block,
+                const struct output_format *const wanted[AOV_COUNT],
+                const struct render_settings *settings, const struct draw_scene *scene,
+                struct error *err)
 {
     struct draw_picture picture = {.backend = backend_of(scene),
-                                   .plan = *plan,
-                                   .until = plan->samples,
+                                   .settings = *settings,
+                                   .until = settings->samples,
                                    .lights = block->light_count,
-                                   .clear = block->has_clear};
+                                   .transmissive = block->has_transmissive};
 
     for (int i = 0; i < AOV_COUNT; i++) {
-        picture.forms[i] = wanted[i];
+        picture.formats[i] = wanted[i];
     }
     if (!picture.backend->begin(draw, &picture, scene, block, err)) {
         draw_end(draw, &picture);
@@ -204,7 +208,7 @@ void draw_end(struct draw *draw, struct draw_picture *picture)
 
 void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
 {
-    if (picture->plan.samples > FIRST_ROUND) {
+    if (picture->settings.samples > FIRST_ROUND) {
         picture->backend->keep(draw, picture, region);
         picture->rounds = true;
         picture->until = FIRST_ROUND;
@@ -213,7 +217,7 @@ void draw_in_rounds(struct draw *draw, struct draw_picture *picture, struct tile
 
 bool draw_next_round(struct draw_picture *picture)
 {
-    const int all = picture->plan.samples;
+    const int all = picture->settings.samples;
 
     picture->from = picture->until;
     picture->until = ROUND_GROWTH * picture->from < all ? ROUND_GROWTH * picture->from : all;
@@ -222,9 +226,9 @@ bool draw_next_round(struct draw_picture *picture)
 
 struct picture_rounds draw_rounds(const struct draw_picture *picture)
 {
-    struct picture_rounds rounds = {.done = picture->from >= picture->plan.samples, .count = 1};
+    struct picture_rounds rounds = {.done = picture->from >= picture->settings.samples, .count = 1};
 
-    for (int samples = FIRST_ROUND; picture->rounds && samples < picture->plan.samples;
+    for (int samples = FIRST_ROUND; picture->rounds && samples < picture->settings.samples;
          samples *= ROUND_GROWTH) {
         rounds.count++;
         rounds.done += picture->from >= samples;
@@ -234,7 +238,7 @@ struct picture_rounds draw_rounds(const struct draw_picture *picture)
 
 bool draw_is_sampled(const struct draw_picture *picture)
 {
-    return picture->plan.samples > 1 && picture->forms[AOV_COLOR];
+    return picture->settings.samples > 1 && picture->formats[AOV_COLOR];
 }
 
 /* --- a tile --- */

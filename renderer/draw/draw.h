@@ -7,26 +7,26 @@
 #define RENDERER_DRAW_H
 
 #include "environment.h"
-#include "plan.h"
+#include "render_settings.h"
 #include "renderer/gl/fragment_targets.h"
-#include "renderer/gl/numbers.h"
+#include "renderer/gl/param_buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/targets.h"
 #include "renderer/renderer.h"
 
-enum { DRAW_SLOTS = 2 }; /* tiles of one picture on their way */
+enum { TILES_IN_FLIGHT = 2 }; /* tiles of one picture on their way */
 
 /* Where the samples of a tile lie. Pictures of one sample have a set of their own, so that they may
  * come between two samples of another's tile. */
 enum draw_set { DRAW_SET_ONCE, DRAW_SET_SAMPLED, DRAW_SETS };
 
 /* The shaders that a device draws by. */
-enum draw_road { ROAD_COMPUTE, ROAD_FRAGMENT, DRAW_ROADS };
+enum shader_kind { SHADER_COMPUTE, SHADER_FRAGMENT, SHADER_KINDS };
 
 struct draw; /* targets and passes of one context */
 
 /* An output, and how its pixels come back. */
-struct draw_form {
+struct output_format {
     enum aov aov;
     bool floats;
     enum output output;
@@ -36,8 +36,8 @@ struct draw_form {
     enum program_stage last; /* of the passes that it needs */
 };
 
-/* NULL where the output has no such form. */
-const struct draw_form *draw_form_find(enum aov aov, bool floats);
+/* NULL where the output has no such format. */
+const struct output_format *output_format_find(enum aov aov, bool floats);
 
 struct tile {
     int x, y, width, height; /* pixels of the picture, y down */
@@ -46,7 +46,7 @@ struct tile {
 /* What a tile is drawn from. */
 struct draw_scene {
     struct program *program;
-    const struct numbers *numbers;
+    const struct param_buffer *params;
     struct environment *environment;
     const float *values;                 /* the numbers in memory */
     const struct engine_program *engine; /* NULL: it cannot draw this */
@@ -55,7 +55,7 @@ struct draw_scene {
 enum { DRAW_MARKS = 256 }; /* moments taken in a tile; what is beyond counts with the last */
 
 /* A tile on its way. */
-struct draw_slot {
+struct tile_in_flight {
     GLuint buffers[AOV_COUNT];
     GLuint rays; /* that followed in each column: 0, or drawn by fragment shaders */
     GLsync fence;
@@ -73,16 +73,16 @@ struct draw_backend;
 
 /* One picture's own objects. */
 struct draw_picture {
-    const struct draw_backend *backend;       /* what draws it */
-    enum draw_road road;                      /* of the device, if that does */
-    const struct draw_form *forms[AOV_COUNT]; /* NULL: not asked for */
-    struct draw_plan plan;
+    const struct draw_backend *backend;             /* what draws it */
+    enum shader_kind shader_kind;                   /* of the device, if that does */
+    const struct output_format *formats[AOV_COUNT]; /* NULL: not asked for */
+    struct render_settings settings;
     int lights;
-    bool clear; /* light goes through something */
+    bool transmissive; /* light goes through something */
     GLuint frame;
-    struct frame_block *block;    /* drawn by the engine; else NULL, */
+    struct frame_uniforms *block; /* drawn by the engine; else NULL, */
     struct engine_canvas *canvas; /* and this too */
-    struct draw_slot slots[DRAW_SLOTS];
+    struct tile_in_flight slots[TILES_IN_FLIGHT];
     /* Drawn in rounds: each tile gets samples `from` to `until`, and between two rounds its pixels
      * are kept in textures as large as the region that is drawn. */
     bool rounds;
@@ -96,19 +96,20 @@ struct draw_picture {
 struct draw *draw_create(const struct gl *gl, bool software, int tile_side);
 /* Makes what the device draws with, where it is not there. The first picture that it draws so does
  * it too, and fails where this fails. */
-bool draw_prepare(struct draw *draw, enum draw_road road, struct error *err);
+bool draw_prepare(struct draw *draw, enum shader_kind shader_kind, struct error *err);
 void draw_destroy(struct draw *draw);
 /* The side of a picture's tiles, in pixels: the smallest one, doubled so many times, as far as its
  * samples leave room. In textures a tile shares this side with its margin. */
 int draw_tile_side(const struct draw *draw, const struct draw_picture *picture, int doublings);
 uint64_t draw_compilations(const struct draw *draw);
-/* Mirrored and broken rays that were started. */
+/* Reflected and refracted rays that were started. */
 uint64_t draw_rays(const struct draw *draw);
 
-/* `forms`: for each output NULL or its form. */
-bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_block *block,
-                const struct draw_form *const forms[AOV_COUNT], const struct draw_plan *plan,
-                const struct draw_scene *scene, struct error *err);
+/* `formats`: for each output NULL or its format. */
+bool draw_begin(struct draw *draw, struct draw_picture *out, const struct frame_uniforms *block,
+                const struct output_format *const formats[AOV_COUNT],
+                const struct render_settings *settings, const struct draw_scene *scene,
+                struct error *err);
 void draw_end(struct draw *draw, struct draw_picture *picture);
 /* Its pixels have several samples each. */
 bool draw_is_sampled(const struct draw_picture *picture);

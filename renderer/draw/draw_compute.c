@@ -4,15 +4,15 @@
 
 #include "draw_gl.h"
 #include "tile_clock.h"
-#include "wave.h"
+#include "wavefront.h"
 
 void draw_compute_finish(struct draw *draw)
 {
-    common_finish(&draw->common, draw->gl);
+    static_programs_finish(&draw->static_programs, draw->gl);
     for (int i = 0; i < DRAW_SETS; i++) {
         targets_finish(&draw->targets[i], draw->gl);
     }
-    memset(&draw->common, 0, sizeof draw->common);
+    memset(&draw->static_programs, 0, sizeof draw->static_programs);
     memset(draw->targets, 0, sizeof draw->targets);
 }
 
@@ -23,19 +23,19 @@ bool draw_compute_prepare(struct draw *draw, struct error *err)
     for (int i = 0; ok && i < DRAW_SETS; i++) {
         ok = targets_init(&draw->targets[i], draw->gl, draw->side, err);
     }
-    if (!ok || !common_init(&draw->common, draw->gl, err)) {
+    if (!ok || !static_programs_init(&draw->static_programs, draw->gl, err)) {
         draw_compute_finish(draw);
         return false;
     }
-    draw->compilations += COMMON_COUNT;
+    draw->compilations += STATIC_COUNT;
     return true;
 }
 
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
-                  const struct frame_block *block, struct error *err)
+                  const struct frame_uniforms *block, struct error *err)
 {
     (void)scene;
-    return draw_gl_begin(draw, picture, ROAD_COMPUTE, block, err);
+    return draw_gl_begin(draw, picture, SHADER_COMPUTE, block, err);
 }
 
 static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
@@ -44,93 +44,97 @@ static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct 
 }
 
 /* The tile's sums: from the targets, or back into them. */
-static void keep(const struct wave *wave, const struct draw_picture *picture, bool back)
+static void keep(const struct wavefront *wavefront, const struct draw_picture *picture, bool back)
 {
-    draw_gl_copy_kept(wave->gl, picture, wave->slot->tile, wave->targets->pixels,
-                      wave->targets->counted, back);
+    draw_gl_copy_kept(wavefront->gl, picture, wavefront->slot->tile, wavefront->targets->pixels,
+                      wavefront->targets->counted, back);
 }
 
 /* --- a tile --- */
 
 /* Those outputs that wait for nothing after the stages from `first` to `last`. */
-static void resolve_after(struct draw *draw, struct wave *wave, const struct draw_picture *picture,
-                          enum program_stage first, enum program_stage last)
+static void resolve_after(struct draw *draw, struct wavefront *wavefront,
+                          const struct draw_picture *picture, enum program_stage first,
+                          enum program_stage last)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        const struct draw_form *form = picture->forms[i];
-        if (form && form->last >= first && form->last <= last) {
-            targets_bind_common(wave->targets, wave->gl, &wave->targets->eye, &wave->targets->eye);
-            draw_gl_resolve(draw, picture, wave->slot, &wave->targets->outputs, form);
+        const struct output_format *format = picture->formats[i];
+        if (format && format->last >= first && format->last <= last) {
+            targets_bind_static(wavefront->targets, wavefront->gl, &wavefront->targets->eye,
+                                &wavefront->targets->eye);
+            draw_gl_resolve(draw, picture, wavefront->slot, &wavefront->targets->outputs, format);
         }
     }
-    wave_mark(wave, FRAME_RESOLVE);
+    wavefront_mark(wavefront, FRAME_RESOLVE);
 }
 
-static void draw_passes(struct draw *draw, struct wave *wave, const struct draw_picture *picture)
+static void draw_passes(struct draw *draw, struct wavefront *wavefront,
+                        const struct draw_picture *picture)
 {
     const enum program_stage last = draw_last_stage(picture);
 
-    wave_find(wave, last);
-    resolve_after(draw, wave, picture, STAGE_MARCH, STAGE_MATTER);
+    wavefront_find(wavefront, last);
+    resolve_after(draw, wavefront, picture, STAGE_MARCH, STAGE_MATERIAL);
     if (last >= STAGE_SHADOW) {
-        wave_shadow(wave);
-        resolve_after(draw, wave, picture, STAGE_SHADOW, STAGE_SHADOW);
+        wavefront_shadow(wavefront);
+        resolve_after(draw, wavefront, picture, STAGE_SHADOW, STAGE_SHADOW);
     }
     if (last == STAGE_COUNT) {
-        wave_shade(wave);
+        wavefront_shade(wavefront);
     }
-    if (last == STAGE_COUNT && wave->plan->antialiasing == ANTIALIASING_ADAPTIVE) {
-        wave_find_edges(wave);
+    if (last == STAGE_COUNT && wavefront->settings->antialiasing == ANTIALIASING_ADAPTIVE) {
+        wavefront_detect_edges(wavefront);
     }
 }
 
-static struct wave make_wave(const struct draw *draw, struct draw_picture *picture,
-                             const struct draw_scene *scene, int index)
+static struct wavefront make_wavefront(const struct draw *draw, struct draw_picture *picture,
+                                       const struct draw_scene *scene, int index)
 {
-    struct draw_slot *slot = &picture->slots[index];
-    return (struct wave){
+    struct tile_in_flight *slot = &picture->slots[index];
+    return (struct wavefront){
         .gl = draw->gl,
         .software = draw->software,
         .targets = &draw->targets[draw_set_of(picture)],
-        .common = &draw->common,
+        .static_programs = &draw->static_programs,
         .program = scene->program,
-        .plan = &picture->plan,
+        .settings = &picture->settings,
         .lights = picture->lights,
-        .clear = picture->clear,
-        .tile = draw_gl_place(picture, slot),
+        .transmissive = picture->transmissive,
+        .tile = draw_gl_dispatch(picture, slot),
         .slot = slot,
     };
 }
 
 /* All samples are there, or none is wanted: the tile's pixels start on their way back. */
-static void finish_tile(struct draw *draw, struct wave *wave, const struct draw_picture *picture)
+static void finish_tile(struct draw *draw, struct wavefront *wavefront,
+                        const struct draw_picture *picture)
 {
-    resolve_after(draw, wave, picture, STAGE_COUNT, STAGE_COUNT);
-    if (picture->kept && picture->until < picture->plan.samples) {
-        keep(wave, picture, false);
+    resolve_after(draw, wavefront, picture, STAGE_COUNT, STAGE_COUNT);
+    if (picture->kept && picture->until < picture->settings.samples) {
+        keep(wavefront, picture, false);
     }
-    draw_gl_send(draw, wave->slot);
+    draw_gl_send(draw, wavefront->slot);
 }
 
 static bool draw_tile_passes(struct draw *draw, struct draw_picture *picture,
                              const struct draw_scene *scene, int index, struct error *err)
 {
-    struct wave wave = make_wave(draw, picture, scene, index);
+    struct wavefront wavefront = make_wavefront(draw, picture, scene, index);
 
-    targets_bind(wave.targets, draw->gl);
+    targets_bind(wavefront.targets, draw->gl);
     draw_gl_bind(draw, picture, scene);
-    tile_clock_start(draw->gl, draw->software, wave.slot);
+    tile_clock_start(draw->gl, draw->software, wavefront.slot);
     if (picture->from > 0) {
-        keep(&wave, picture, true);
-        wave_resume(&wave, picture->from);
-        wave.slot->samples = picture->from;
+        keep(&wavefront, picture, true);
+        wavefront_resume(&wavefront, picture->from);
+        wavefront.slot->samples = picture->from;
         return gl_check(draw->gl, "going on with a tile", err);
     }
-    draw_passes(draw, &wave, picture);
+    draw_passes(draw, &wavefront, picture);
     if (draw_is_sampled(picture)) {
-        wave.slot->samples = 1;
+        wavefront.slot->samples = 1;
     } else {
-        finish_tile(draw, &wave, picture);
+        finish_tile(draw, &wavefront, picture);
     }
     return gl_check(draw->gl, "drawing a tile", err);
 }
@@ -138,14 +142,14 @@ static bool draw_tile_passes(struct draw *draw, struct draw_picture *picture,
 static bool sample_again(struct draw *draw, struct draw_picture *picture,
                          const struct draw_scene *scene, int index, struct error *err)
 {
-    struct wave wave = make_wave(draw, picture, scene, index);
-    struct draw_slot *slot = wave.slot;
+    struct wavefront wavefront = make_wavefront(draw, picture, scene, index);
+    struct tile_in_flight *slot = wavefront.slot;
 
-    targets_bind(wave.targets, draw->gl);
+    targets_bind(wavefront.targets, draw->gl);
     draw_gl_bind(draw, picture, scene);
-    tile_clock_resume(draw->gl, draw->software, wave.slot);
-    if (!wave_sample_again(&wave, slot->samples) || ++slot->samples == picture->until) {
-        finish_tile(draw, &wave, picture);
+    tile_clock_resume(draw->gl, draw->software, wavefront.slot);
+    if (!wavefront_resample(&wavefront, slot->samples) || ++slot->samples == picture->until) {
+        finish_tile(draw, &wavefront, picture);
     }
     return gl_check(draw->gl, "drawing a tile again", err);
 }
@@ -163,13 +167,13 @@ static void count_rays(struct draw *draw, enum draw_set set)
 static bool wait_for_tile(struct draw *draw, struct draw_picture *picture, int index,
                           struct error *err)
 {
-    struct draw_slot *slot = &picture->slots[index];
+    struct tile_in_flight *slot = &picture->slots[index];
     const uint64_t start = draw_now_us();
 
     if (!draw_gl_wait(draw, slot, err)) {
         return false;
     }
-    if (picture->plan.rays > 0) {
+    if (picture->settings.rays > 0) {
         count_rays(draw, draw_set_of(picture));
     }
     slot->stage_us[FRAME_READ] += draw_now_us() - start;

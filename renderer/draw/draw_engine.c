@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw_parts.h"
+#include "draw_internal.h"
 #include "protocol/memory.h"
 #include "renderer/engine/engine.h"
 
-static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
+static enum engine_smoothing smoothing_of(const struct render_settings *settings)
 {
-    switch (plan->antialiasing) {
+    switch (settings->antialiasing) {
     case ANTIALIASING_EDGES:
         return ENGINE_BLEND;
     case ANTIALIASING_ADAPTIVE:
@@ -25,18 +25,18 @@ static enum engine_smoothing smoothing_of(const struct draw_plan *plan)
 static bool is_sparse(const struct draw_picture *picture)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (picture->forms[i] && (i != AOV_COLOR || picture->forms[i]->floats)) {
+        if (picture->formats[i] && (i != AOV_COLOR || picture->formats[i]->floats)) {
             return false;
         }
     }
-    return picture->plan.sparse;
+    return picture->settings.sparse;
 }
 
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
-                  const struct frame_block *block, struct error *err)
+                  const struct frame_uniforms *block, struct error *err)
 {
-    const struct engine_sky *skies = scene->environment->skies;
-    const struct draw_plan *plan = &picture->plan;
+    const struct engine_map *maps = scene->environment->maps;
+    const struct render_settings *settings = &picture->settings;
     const enum program_stage last = draw_last_stage(picture);
 
     (void)draw;
@@ -45,13 +45,13 @@ static bool begin(struct draw *draw, struct draw_picture *picture, const struct 
     *picture->block = *block;
     picture->canvas = engine_canvas_create(&(struct engine_picture){
         .program = scene->engine,
-        .numbers = scene->values,
+        .params = scene->values,
         .frame = picture->block,
-        .skies = {&skies[0], &skies[1], &skies[2]},
-        .smoothing = smoothing_of(plan),
-        .margin = draw_margin(plan),
-        .rays = plan->rays,
-        .clear_depth = block->has_clear ? plan->clear_depth : 0,
+        .maps = {&maps[0], &maps[1], &maps[2]},
+        .smoothing = smoothing_of(settings),
+        .margin = draw_margin(settings),
+        .rays = settings->rays,
+        .transmission_depth = block->has_transmissive ? settings->transmission_depth : 0,
         .shadows = last >= STAGE_SHADOW,
         .lights = last == STAGE_COUNT,
         .sparse = is_sparse(picture),
@@ -66,7 +66,7 @@ static void keep(struct draw *draw, struct draw_picture *picture, struct tile re
                        (struct engine_rect){region.x, region.y, region.width, region.height});
 }
 
-static void clear_slot(struct draw_slot *slot)
+static void clear_slot(struct tile_in_flight *slot)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
         free(slot->pixels[i]);
@@ -77,7 +77,7 @@ static void clear_slot(struct draw_slot *slot)
 static void end(struct draw *draw, struct draw_picture *picture)
 {
     (void)draw;
-    for (int i = 0; i < DRAW_SLOTS; i++) {
+    for (int i = 0; i < TILES_IN_FLIGHT; i++) {
         clear_slot(&picture->slots[i]);
     }
     engine_canvas_destroy(picture->canvas);
@@ -85,22 +85,23 @@ static void end(struct draw *draw, struct draw_picture *picture)
 }
 
 /* Of one row of the tile. */
-static size_t row_bytes(const struct draw_form *form, struct tile tile)
+static size_t row_bytes(const struct output_format *format, struct tile tile)
 {
-    return (size_t)form->read_bytes * (size_t)tile.width;
+    return (size_t)format->read_bytes * (size_t)tile.width;
 }
 
 /* Room for an output of the tile. */
-static struct engine_output make_output(struct draw_slot *slot, const struct draw_form *form)
+static struct engine_output make_output(struct tile_in_flight *slot,
+                                        const struct output_format *format)
 {
-    const bool floats = form->kind != OUT_BYTES;
-    const size_t stride = row_bytes(form, slot->tile);
+    const bool floats = format->kind != OUT_BYTES;
+    const size_t stride = row_bytes(format, slot->tile);
 
-    slot->pixels[form->aov] = memory_alloc((size_t)slot->tile.height, stride);
-    return (struct engine_output){.kind = form->output,
-                                  .channels = form->read_bytes / (floats ? 4 : 1),
+    slot->pixels[format->aov] = memory_alloc((size_t)slot->tile.height, stride);
+    return (struct engine_output){.kind = format->output,
+                                  .channels = format->read_bytes / (floats ? 4 : 1),
                                   .floats = floats,
-                                  .pixels = slot->pixels[form->aov],
+                                  .pixels = slot->pixels[format->aov],
                                   .stride = stride};
 }
 
@@ -108,7 +109,7 @@ static struct engine_output make_output(struct draw_slot *slot, const struct dra
 static bool draw_samples(struct draw *draw, struct draw_picture *picture,
                          const struct draw_scene *scene, int index, struct error *err)
 {
-    struct draw_slot *slot = &picture->slots[index];
+    struct tile_in_flight *slot = &picture->slots[index];
     const struct engine_rect tile = {slot->tile.x, slot->tile.y, slot->tile.width,
                                      slot->tile.height};
     const uint64_t start = draw_now_us();
@@ -119,8 +120,8 @@ static bool draw_samples(struct draw *draw, struct draw_picture *picture,
     (void)err;
     clear_slot(slot);
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (picture->forms[i]) {
-            outputs[count++] = make_output(slot, picture->forms[i]);
+        if (picture->formats[i]) {
+            outputs[count++] = make_output(slot, picture->formats[i]);
         }
     }
     draw->more_rays +=
@@ -142,8 +143,8 @@ static bool wait(struct draw *draw, struct draw_picture *picture, int slot, stru
 static bool collect(struct draw *draw, struct draw_picture *picture, int index, enum aov aov,
                     uint8_t *to, size_t stride, struct error *err)
 {
-    const struct draw_slot *slot = &picture->slots[index];
-    const size_t row = row_bytes(picture->forms[aov], slot->tile);
+    const struct tile_in_flight *slot = &picture->slots[index];
+    const size_t row = row_bytes(picture->formats[aov], slot->tile);
 
     (void)draw;
     (void)err;

@@ -32,10 +32,10 @@ bool draw_fragment_prepare(struct draw *draw, struct error *err)
 }
 
 static bool begin(struct draw *draw, struct draw_picture *picture, const struct draw_scene *scene,
-                  const struct frame_block *block, struct error *err)
+                  const struct frame_uniforms *block, struct error *err)
 {
     (void)scene;
-    return draw_gl_begin(draw, picture, ROAD_FRAGMENT, block, err);
+    return draw_gl_begin(draw, picture, SHADER_FRAGMENT, block, err);
 }
 
 static void keep_rounds(struct draw *draw, struct draw_picture *picture, struct tile region)
@@ -60,7 +60,7 @@ static void bind(const struct draw *draw, const struct draw_picture *picture,
 
 /* The tile's sums: from the targets, or back into them. */
 static void keep(const struct draw *draw, const struct draw_picture *picture,
-                 const struct draw_slot *slot, bool back)
+                 const struct tile_in_flight *slot, bool back)
 {
     const GLuint *samples = targets_of(draw, picture)->samples;
 
@@ -69,17 +69,17 @@ static void keep(const struct draw *draw, const struct draw_picture *picture,
 }
 
 static void run(const struct draw *draw, const struct draw_picture *picture,
-                const struct draw_slot *slot, enum fragment_target target, const struct pass *pass,
-                struct pass_args args)
+                const struct tile_in_flight *slot, enum fragment_target target,
+                const struct pass *pass, struct pass_args args)
 {
-    const struct pass_place place = draw_gl_place(picture, slot);
+    const struct dispatch_args dispatch = draw_gl_dispatch(picture, slot);
 
-    fragment_targets_draw(targets_of(draw, picture), draw->gl, target, pass, &place, args);
+    fragment_targets_draw(targets_of(draw, picture), draw->gl, target, pass, &dispatch, args);
 }
 
 /* How far the rays of each block are free. */
 static void find_starts(const struct draw *draw, const struct draw_picture *picture,
-                        const struct draw_scene *scene, struct draw_slot *slot)
+                        const struct draw_scene *scene, struct tile_in_flight *slot)
 {
     run(draw, picture, slot, FRAGMENT_STARTS, program_pass(scene->program, STAGE_STARTS),
         (struct pass_args){0});
@@ -87,29 +87,29 @@ static void find_starts(const struct draw *draw, const struct draw_picture *pict
 }
 
 static void add_sample(const struct draw *draw, const struct draw_picture *picture,
-                       const struct draw_scene *scene, struct draw_slot *slot, int sample)
+                       const struct draw_scene *scene, struct tile_in_flight *slot, int sample)
 {
-    const struct draw_plan *plan = &picture->plan;
+    const struct render_settings *settings = &picture->settings;
     const enum program_stage last = draw_last_stage(picture);
 
     run(draw, picture, slot, FRAGMENT_SAMPLES, program_pass(scene->program, STAGE_SAMPLE),
-        PASS_ARGS(struct trace_args, .sample_index = sample, .rays = plan->rays,
-                  .depth = picture->clear ? plan->clear_depth : 0, .looks = last >= STAGE_SHADOW,
-                  .lights = last == STAGE_COUNT,
-                  .masked = sample > 0 && plan->antialiasing == ANTIALIASING_ADAPTIVE));
+        PASS_ARGS(struct trace_args, .sample_index = sample, .rays = settings->rays,
+                  .depth = picture->transmissive ? settings->transmission_depth : 0,
+                  .shadows = last >= STAGE_SHADOW, .lights = last == STAGE_COUNT,
+                  .masked = sample > 0 && settings->antialiasing == ANTIALIASING_ADAPTIVE));
     tile_clock_mark(draw->gl, draw->software, slot, FRAME_SHADE);
 }
 
-/* Marks the pixels that the plan samples again, of which each had `samples`; 0: one, whose edges
+/* Marks the pixels that the settings sample again, of which each had `samples`; 0: one, whose edges
  * are wanted. */
 static void find_edges(const struct draw *draw, const struct draw_picture *picture,
-                       struct draw_slot *slot, int samples)
+                       struct tile_in_flight *slot, int samples)
 {
-    const struct pass_place place = draw_gl_place(picture, slot);
+    const struct dispatch_args dispatch = draw_gl_dispatch(picture, slot);
 
-    if (picture->plan.antialiasing == ANTIALIASING_ADAPTIVE) {
+    if (picture->settings.antialiasing == ANTIALIASING_ADAPTIVE) {
         run(draw, picture, slot, FRAGMENT_MASK, &draw->mask,
-            PASS_ARGS(struct listing_args, .width = place.width, .height = place.height,
+            PASS_ARGS(struct listing_args, .width = dispatch.width, .height = dispatch.height,
                       .samples = samples));
         tile_clock_mark(draw->gl, draw->software, slot, FRAME_RESOLVE);
     }
@@ -117,10 +117,10 @@ static void find_edges(const struct draw *draw, const struct draw_picture *pictu
 
 /* The number of rays in each column starts on its way back. */
 static void count_rays(const struct draw *draw, const struct draw_picture *picture,
-                       struct draw_slot *slot)
+                       struct tile_in_flight *slot)
 {
     const struct gl *gl = draw->gl;
-    const struct pass_place place = draw_gl_place(picture, slot);
+    const struct dispatch_args dispatch = draw_gl_dispatch(picture, slot);
 
     if (slot->rays == 0) {
         gl->GenBuffers(1, &slot->rays);
@@ -129,30 +129,31 @@ static void count_rays(const struct draw *draw, const struct draw_picture *pictu
                        GL_STREAM_READ);
     }
     run(draw, picture, slot, FRAGMENT_RAYS, &draw->count,
-        PASS_ARGS(struct listing_args, .width = place.width, .height = place.height));
-    draw_gl_read(gl, slot->rays, place.width, 1, GL_RED, GL_FLOAT);
+        PASS_ARGS(struct listing_args, .width = dispatch.width, .height = dispatch.height));
+    draw_gl_read(gl, slot->rays, dispatch.width, 1, GL_RED, GL_FLOAT);
 }
 
 /* They are counted when a tile has all its samples. */
 static bool counts_rays(const struct draw_picture *picture)
 {
-    return picture->plan.rays > 0 && picture->until >= picture->plan.samples;
+    return picture->settings.rays > 0 && picture->until >= picture->settings.samples;
 }
 
 /* All samples are there, or none is wanted: the tile's pixels start on their way back. */
-static void finish_tile(struct draw *draw, struct draw_picture *picture, struct draw_slot *slot)
+static void finish_tile(struct draw *draw, struct draw_picture *picture,
+                        struct tile_in_flight *slot)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (picture->forms[i]) {
+        if (picture->formats[i]) {
             draw_gl_resolve(draw, picture, slot, &targets_of(draw, picture)->outputs,
-                            picture->forms[i]);
+                            picture->formats[i]);
         }
     }
     if (counts_rays(picture)) {
         count_rays(draw, picture, slot);
     }
     tile_clock_mark(draw->gl, draw->software, slot, FRAME_RESOLVE);
-    if (picture->kept && picture->until < picture->plan.samples) {
+    if (picture->kept && picture->until < picture->settings.samples) {
         keep(draw, picture, slot, false);
     }
     draw_gl_send(draw, slot);
@@ -161,7 +162,7 @@ static void finish_tile(struct draw *draw, struct draw_picture *picture, struct 
 static bool draw_first(struct draw *draw, struct draw_picture *picture,
                        const struct draw_scene *scene, int index, struct error *err)
 {
-    struct draw_slot *slot = &picture->slots[index];
+    struct tile_in_flight *slot = &picture->slots[index];
     const bool sampled = draw_is_sampled(picture);
 
     bind(draw, picture, scene);
@@ -185,7 +186,7 @@ static bool draw_first(struct draw *draw, struct draw_picture *picture,
 static bool draw_more(struct draw *draw, struct draw_picture *picture,
                       const struct draw_scene *scene, int index, struct error *err)
 {
-    struct draw_slot *slot = &picture->slots[index];
+    struct tile_in_flight *slot = &picture->slots[index];
 
     bind(draw, picture, scene);
     tile_clock_resume(draw->gl, draw->software, slot);
@@ -199,10 +200,10 @@ static bool draw_more(struct draw *draw, struct draw_picture *picture,
 /* --- the way back --- */
 
 static void fetch_rays(struct draw *draw, const struct draw_picture *picture,
-                       const struct draw_slot *slot)
+                       const struct tile_in_flight *slot)
 {
     const struct gl *gl = draw->gl;
-    const int width = draw_gl_place(picture, slot).width;
+    const int width = draw_gl_dispatch(picture, slot).width;
     const float *columns;
 
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, slot->rays);
@@ -218,7 +219,7 @@ static void fetch_rays(struct draw *draw, const struct draw_picture *picture,
 static bool wait_for_tile(struct draw *draw, struct draw_picture *picture, int index,
                           struct error *err)
 {
-    struct draw_slot *slot = &picture->slots[index];
+    struct tile_in_flight *slot = &picture->slots[index];
     const uint64_t start = draw_now_us();
 
     if (!draw_gl_wait(draw, slot, err)) {

@@ -8,28 +8,28 @@
 
 enum { FENCE_WAIT_MS = 60000 }; /* beyond it the device is taken for lost */
 
-/* The resolve pass of a form. */
-static bool link_resolve(struct draw *draw, enum draw_road road, const struct draw_form *form,
-                         struct error *err)
+/* The resolve pass of a format. */
+static bool link_resolve(struct draw *draw, enum shader_kind shader_kind,
+                         const struct output_format *format, struct error *err)
 {
-    static const struct glsl_file met[DRAW_ROADS][2] = {
-        [ROAD_COMPUTE] = {{"met_load.glsl", "#include \"met_passes.glsl\"\n"}},
-        [ROAD_FRAGMENT] = {{"met_load.glsl", "#include \"met_sample.glsl\"\n"}}};
-    struct pass *pass = &draw->resolve[road][form->output];
+    static const struct glsl_file met[SHADER_KINDS][2] = {
+        [SHADER_COMPUTE] = {{"met_load.glsl", "#include \"met_passes.glsl\"\n"}},
+        [SHADER_FRAGMENT] = {{"met_load.glsl", "#include \"met_sample.glsl\"\n"}}};
+    struct pass *pass = &draw->resolve[shader_kind][format->output];
     char defines[32];
 
     if (pass->program != 0) {
         return true;
     }
-    snprintf(defines, sizeof defines, "#define OUTPUT %d\n", (int)form->output);
+    snprintf(defines, sizeof defines, "#define OUTPUT %d\n", (int)format->output);
     const struct pass_source source = {
-        .defines = defines, .file = "resolve.glsl", .own = met[road]};
+        .defines = defines, .file = "resolve.glsl", .own = met[shader_kind]};
     draw->compilations++;
     return pass_init(pass, draw->gl, &source, err);
 }
 
-static void make_slot(const struct draw *draw, struct draw_slot *slot,
-                      const struct draw_form *const wanted[AOV_COUNT])
+static void make_slot(const struct draw *draw, struct tile_in_flight *slot,
+                      const struct output_format *const wanted[AOV_COUNT])
 {
     const struct gl *gl = draw->gl;
     const GLsizeiptr pixels = (GLsizeiptr)draw->side * draw->side;
@@ -45,25 +45,25 @@ static void make_slot(const struct draw *draw, struct draw_slot *slot,
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-bool draw_gl_begin(struct draw *draw, struct draw_picture *picture, enum draw_road road,
-                   const struct frame_block *block, struct error *err)
+bool draw_gl_begin(struct draw *draw, struct draw_picture *picture, enum shader_kind shader_kind,
+                   const struct frame_uniforms *block, struct error *err)
 {
     const struct gl *gl = draw->gl;
 
-    picture->road = road;
-    if (!draw_prepare(draw, road, err)) {
+    picture->shader_kind = shader_kind;
+    if (!draw_prepare(draw, shader_kind, err)) {
         return false;
     }
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (picture->forms[i] && !link_resolve(draw, road, picture->forms[i], err)) {
+        if (picture->formats[i] && !link_resolve(draw, shader_kind, picture->formats[i], err)) {
             return false;
         }
     }
     gl->GenBuffers(1, &picture->frame);
     gl->BindBuffer(GL_UNIFORM_BUFFER, picture->frame);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_STATIC_DRAW);
-    for (int i = 0; i < DRAW_SLOTS; i++) {
-        make_slot(draw, &picture->slots[i], picture->forms);
+    for (int i = 0; i < TILES_IN_FLIGHT; i++) {
+        make_slot(draw, &picture->slots[i], picture->formats);
     }
     return gl_check(gl, "making the buffers of a picture", err);
 }
@@ -75,8 +75,8 @@ void draw_gl_end(struct draw *draw, struct draw_picture *picture)
     gl->DeleteBuffers(1, &picture->frame);
     gl->DeleteTextures(1, &picture->kept);
     gl->DeleteTextures(1, &picture->kept_counted);
-    for (int i = 0; i < DRAW_SLOTS; i++) {
-        struct draw_slot *slot = &picture->slots[i];
+    for (int i = 0; i < TILES_IN_FLIGHT; i++) {
+        struct tile_in_flight *slot = &picture->slots[i];
         if (slot->fence) {
             gl->DeleteSync(slot->fence);
         }
@@ -101,7 +101,7 @@ void draw_gl_keep(struct draw *draw, struct draw_picture *picture, struct tile r
 void draw_gl_copy_kept(const struct gl *gl, const struct draw_picture *picture, struct tile tile,
                        GLuint pixels, GLuint counted, bool back)
 {
-    const int margin = draw_margin(&picture->plan);
+    const int margin = draw_margin(&picture->settings);
     const int x = tile.x - picture->left, y = tile.y - picture->top;
     const GLuint ours[] = {picture->kept, picture->kept_counted}, targets[] = {pixels, counted};
 
@@ -118,14 +118,15 @@ void draw_gl_copy_kept(const struct gl *gl, const struct draw_picture *picture, 
 
 /* --- a tile --- */
 
-struct pass_place draw_gl_place(const struct draw_picture *picture, const struct draw_slot *slot)
+struct dispatch_args draw_gl_dispatch(const struct draw_picture *picture,
+                                      const struct tile_in_flight *slot)
 {
-    const int margin = draw_margin(&picture->plan);
+    const int margin = draw_margin(&picture->settings);
 
-    return (struct pass_place){.x = slot->tile.x - margin,
-                               .y = slot->tile.y - margin,
-                               .width = slot->tile.width + 2 * margin,
-                               .height = slot->tile.height + 2 * margin};
+    return (struct dispatch_args){.x = slot->tile.x - margin,
+                                  .y = slot->tile.y - margin,
+                                  .width = slot->tile.width + 2 * margin,
+                                  .height = slot->tile.height + 2 * margin};
 }
 
 void draw_gl_bind(const struct draw *draw, const struct draw_picture *picture,
@@ -134,7 +135,7 @@ void draw_gl_bind(const struct draw *draw, const struct draw_picture *picture,
     const struct gl *gl = draw->gl;
 
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, picture->frame);
-    numbers_bind(scene->numbers, gl);
+    param_buffer_bind(scene->params, gl);
     environment_bind(scene->environment, gl);
 }
 
@@ -149,30 +150,30 @@ void draw_gl_read(const struct gl *gl, GLuint buffer, int width, int height, GLe
 }
 
 void draw_gl_resolve(struct draw *draw, const struct draw_picture *picture,
-                     const struct draw_slot *slot, const struct outputs *outputs,
-                     const struct draw_form *form)
+                     const struct tile_in_flight *slot, const struct outputs *outputs,
+                     const struct output_format *format)
 {
     const struct gl *gl = draw->gl;
-    const struct draw_plan *plan = &picture->plan;
-    const struct pass_place place = draw_gl_place(picture, slot);
+    const struct render_settings *settings = &picture->settings;
+    const struct dispatch_args dispatch = draw_gl_dispatch(picture, slot);
 
     gl->Viewport(0, 0, slot->tile.width, slot->tile.height);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, outputs->buffers[form->kind]);
-    pass_draw(&draw->resolve[picture->road][form->output], gl, &place,
-              PASS_ARGS(struct resolve_args, .margin = draw_margin(plan),
-                        .blend_edges = plan->antialiasing == ANTIALIASING_EDGES));
-    draw_gl_read(gl, slot->buffers[form->aov], slot->tile.width, slot->tile.height,
-                 form->read_format, form->read_type);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, outputs->buffers[format->kind]);
+    pass_draw(&draw->resolve[picture->shader_kind][format->output], gl, &dispatch,
+              PASS_ARGS(struct resolve_args, .margin = draw_margin(settings),
+                        .blend_edges = settings->antialiasing == ANTIALIASING_EDGES));
+    draw_gl_read(gl, slot->buffers[format->aov], slot->tile.width, slot->tile.height,
+                 format->read_format, format->read_type);
 }
 
-void draw_gl_send(struct draw *draw, struct draw_slot *slot)
+void draw_gl_send(struct draw *draw, struct tile_in_flight *slot)
 {
     slot->fence = draw->gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     draw->gl->Flush();
     slot->samples = 0;
 }
 
-bool draw_gl_wait(const struct draw *draw, struct draw_slot *slot, struct error *err)
+bool draw_gl_wait(const struct draw *draw, struct tile_in_flight *slot, struct error *err)
 {
     const struct gl *gl = draw->gl;
     const GLenum got = gl->ClientWaitSync(slot->fence, GL_SYNC_FLUSH_COMMANDS_BIT,
@@ -195,8 +196,8 @@ bool draw_gl_collect(struct draw *draw, struct draw_picture *picture, int index,
                      uint8_t *to, size_t stride, struct error *err)
 {
     const struct gl *gl = draw->gl;
-    struct draw_slot *slot = &picture->slots[index];
-    const size_t row = (size_t)slot->tile.width * (size_t)picture->forms[aov]->read_bytes;
+    struct tile_in_flight *slot = &picture->slots[index];
+    const size_t row = (size_t)slot->tile.width * (size_t)picture->formats[aov]->read_bytes;
     const uint64_t start = draw_now_us();
     const uint8_t *from;
 

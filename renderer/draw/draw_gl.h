@@ -4,10 +4,10 @@
 #ifndef RENDERER_DRAW_GL_H
 #define RENDERER_DRAW_GL_H
 
-#include "draw_parts.h"
+#include "draw_internal.h"
 
-bool draw_gl_begin(struct draw *draw, struct draw_picture *picture, enum draw_road road,
-                   const struct frame_block *block, struct error *err);
+bool draw_gl_begin(struct draw *draw, struct draw_picture *picture, enum shader_kind shader_kind,
+                   const struct frame_uniforms *block, struct error *err);
 void draw_gl_end(struct draw *draw, struct draw_picture *picture);
 
 /* Makes textures for the sums of a region; `counted`: the format of those that count samples. */
@@ -18,20 +18,21 @@ void draw_gl_copy_kept(const struct gl *gl, const struct draw_picture *picture, 
                        GLuint pixels, GLuint counted, bool back);
 
 /* Of the slot's tile, with its margin. */
-struct pass_place draw_gl_place(const struct draw_picture *picture, const struct draw_slot *slot);
+struct dispatch_args draw_gl_dispatch(const struct draw_picture *picture,
+                                      const struct tile_in_flight *slot);
 /* Binds what is the same for a whole picture. */
 void draw_gl_bind(const struct draw *draw, const struct draw_picture *picture,
                   const struct draw_scene *scene);
 /* One output becomes pixels and starts on its way back; what it is made of is bound. */
 void draw_gl_resolve(struct draw *draw, const struct draw_picture *picture,
-                     const struct draw_slot *slot, const struct outputs *outputs,
-                     const struct draw_form *form);
+                     const struct tile_in_flight *slot, const struct outputs *outputs,
+                     const struct output_format *format);
 /* What the current framebuffer holds starts on its way back. */
 void draw_gl_read(const struct gl *gl, GLuint buffer, int width, int height, GLenum format,
                   GLenum type);
 /* All of a tile is on its way. */
-void draw_gl_send(struct draw *draw, struct draw_slot *slot);
-bool draw_gl_wait(const struct draw *draw, struct draw_slot *slot, struct error *err);
+void draw_gl_send(struct draw *draw, struct tile_in_flight *slot);
+bool draw_gl_wait(const struct draw *draw, struct tile_in_flight *slot, struct error *err);
 bool draw_gl_collect(struct draw *draw, struct draw_picture *picture, int index, enum aov aov,
                      uint8_t *to, size_t stride, struct error *err);
 

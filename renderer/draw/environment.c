@@ -25,7 +25,7 @@ static uint64_t mix(uint64_t state, const void *bytes, size_t length)
 }
 
 /* What sky_sun() of glsl/sky.glsl looks at. */
-static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
+static uint64_t mix_sun(uint64_t state, const struct frame_uniforms *block)
 {
     for (int i = 0; i < block->light_count; i++) {
         const struct frame_light *light = &block->lights[i];
@@ -38,7 +38,7 @@ static uint64_t mix_sun(uint64_t state, const struct frame_block *block)
     return state;
 }
 
-static uint64_t key_of(const struct frame_block *block, const char *image)
+static uint64_t key_of(const struct frame_uniforms *block, const char *image)
 {
     const int32_t sun = block->effects & EFFECT_SUN;
     uint64_t state = mix(UINT64_C(0xcbf29ce484222325), &block->sky_kind, sizeof block->sky_kind);
@@ -58,31 +58,32 @@ static uint64_t key_of(const struct frame_block *block, const char *image)
 
 /* --- pictures on the device --- */
 
-static GLuint upload(const struct gl *gl, const struct engine_sky *sky)
+static GLuint upload(const struct gl *gl, const struct engine_map *map)
 {
     GLuint texture;
 
     gl->GenTextures(1, &texture);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexStorage2D(GL_TEXTURE_2D, sky->levels, GL_RGBA16F, sky->width, sky->height);
-    texture_set_sky(gl, sky->levels);
+    gl->TexStorage2D(GL_TEXTURE_2D, map->levels, GL_RGBA16F, map->width, map->height);
+    texture_set_environment(gl, map->levels);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    for (int level = 0; level < sky->levels; level++) {
-        gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_sky_side(sky->width, level),
-                          engine_sky_side(sky->height, level), GL_RGBA, GL_HALF_FLOAT,
-                          sky->texels[level]);
+    for (int level = 0; level < map->levels; level++) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, engine_map_side(map->width, level),
+                          engine_map_side(map->height, level), GL_RGBA, GL_HALF_FLOAT,
+                          map->texels[level]);
     }
     return texture;
 }
 
 void environment_bind(struct environment *environment, const struct gl *gl)
 {
-    static const GLenum units[ENGINE_SKIES] = {UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE};
+    static const GLenum units[ENGINE_MAPS] = {UNIT_ENVIRONMENT_MAP, UNIT_SPECULAR_MAP,
+                                              UNIT_IRRADIANCE_MAP};
 
-    for (int i = 0; i < ENGINE_SKIES; i++) {
+    for (int i = 0; i < ENGINE_MAPS; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + units[i]);
         if (environment->textures[i] == 0) {
-            environment->textures[i] = upload(gl, &environment->skies[i]);
+            environment->textures[i] = upload(gl, &environment->maps[i]);
         }
         gl->BindTexture(GL_TEXTURE_2D, environment->textures[i]);
     }
@@ -93,9 +94,9 @@ void environment_bind(struct environment *environment, const struct gl *gl)
 static void destroy(const struct environments *environments, struct environment *environment)
 {
     if (environment->textures[0]) {
-        environments->gl->DeleteTextures(ENGINE_SKIES, environment->textures);
+        environments->gl->DeleteTextures(ENGINE_MAPS, environment->textures);
     }
-    engine_skies_finish(environment->skies);
+    engine_maps_finish(environment->maps);
     free(environment);
 }
 
@@ -127,27 +128,27 @@ static void clean(struct environments *environments)
     }
 }
 
-static struct environment *create(const struct frame_block *block, struct decoded *image)
+static struct environment *create(const struct frame_uniforms *block, struct decoded *image)
 {
     struct environment *environment = memory_alloc(1, sizeof *environment);
 
     if (image) {
-        engine_skies_make(block, image->rgba, image->width, image->height, environment->skies);
+        engine_maps_make(block, image->rgba, image->width, image->height, environment->maps);
         image->rgba = NULL;
     } else {
-        engine_skies_make(block, NULL, 0, 0, environment->skies);
+        engine_maps_make(block, NULL, 0, 0, environment->maps);
     }
-    for (int i = 0; i < ENGINE_SKIES; i++) {
-        environment->bytes += environment->skies[i].bytes;
+    for (int i = 0; i < ENGINE_MAPS; i++) {
+        environment->bytes += environment->maps[i].bytes;
     }
     return environment;
 }
 
-void environment_leave_out(struct frame_block *block)
+void environment_leave_out(struct frame_uniforms *block)
 {
     block->sky_kind = SKY_SOLID;
-    block->sky_turn[0] = 1;
-    block->sky_turn[1] = 0;
+    block->sky_rotation[0] = 1;
+    block->sky_rotation[1] = 0;
     block->sky_brightness = 1;
 }
 
@@ -159,14 +160,14 @@ static uint64_t now_us(void)
     return (uint64_t)now.tv_sec * 1000000 + (uint64_t)now.tv_nsec / 1000;
 }
 
-bool environments_have(struct environments *environments, const struct frame_block *block,
+bool environments_have(struct environments *environments, const struct frame_uniforms *block,
                        const char *image)
 {
     return *find(environments, key_of(block, image)) != NULL;
 }
 
 struct environment *environments_get(struct environments *environments,
-                                     const struct frame_block *block, const char *image,
+                                     const struct frame_uniforms *block, const char *image,
                                      struct decoded *decoded, uint32_t *out_us)
 {
     const uint64_t begun = now_us(), key = key_of(block, image);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The light of what is around a scene, made ready for the passes: the picture itself where there is
- * one, what a surface of each roughness mirrors, and what falls on a matt one (glsl/sky.glsl).
+ * one, what a surface of each roughness reflects, and what falls on a diffuse one (glsl/sky.glsl).
  *
  * Belongs to the drawing thread. Counted; the same surroundings are made ready once, and those used
  * last are kept within LIMIT_PANORAMA_BYTES. What is made: radiance without the sun's disc, before
@@ -11,14 +11,14 @@
 
 #include <stdint.h>
 
-#include "frame.h"
+#include "frame_uniforms.h"
 #include "renderer/engine/engine.h"
 #include "renderer/gl/gl.h"
 #include "renderer/image/decode.h"
 
 struct environment {
-    struct engine_sky skies[ENGINE_SKIES];
-    GLuint textures[ENGINE_SKIES]; /* the same as rgba16f; 0: not on the device */
+    struct engine_map maps[ENGINE_MAPS];
+    GLuint textures[ENGINE_MAPS]; /* the same as rgba16f; 0: not on the device */
     int references;
     uint64_t key;
     size_t bytes; /* in memory */
@@ -31,16 +31,16 @@ struct environments *environments_create(const struct gl *gl);
 void environments_destroy(struct environments *environments); /* NULL: nothing */
 
 /* The same without its picture: one colour. */
-void environment_leave_out(struct frame_block *block);
+void environment_leave_out(struct frame_uniforms *block);
 /* Whether it was made already: then nobody has to read its picture. `image`: the id of the file of
  * a block with SKY_IMAGE; else it means nothing. */
-bool environments_have(struct environments *environments, const struct frame_block *block,
+bool environments_have(struct environments *environments, const struct frame_uniforms *block,
                        const char *image);
 /* What is around a scene with this frame block; a new reference. `decoded`: its picture, where it
  * has one that environments_have does not know; its pixels are taken. `*out_us`: the time it took,
  * 0 where it was ready. */
 struct environment *environments_get(struct environments *environments,
-                                     const struct frame_block *block, const char *image,
+                                     const struct frame_uniforms *block, const char *image,
                                      struct decoded *decoded, uint32_t *out_us);
 /* Binds its pictures to their units, after copying them to the device where they are not there. */
 void environment_bind(struct environment *environment, const struct gl *gl);

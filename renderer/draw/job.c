@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "job_parts.h"
+#include "job_internal.h"
 #include "protocol/memory.h"
 
 enum {
@@ -28,7 +28,7 @@ static enum job_state fail(struct job *job)
 static bool may_have_rounds(const struct job *job)
 {
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (job->forms[i] && i != AOV_COLOR) {
+        if (job->formats[i] && i != AOV_COLOR) {
             return false;
         }
     }
@@ -45,7 +45,7 @@ static int part_of(int length, int side)
 {
     const int count = (length + side - 1) / side;
     const int part = count > 0 ? (length + count - 1) / count : side;
-    const int whole = (part + PACE_LEAST - 1) / PACE_LEAST * PACE_LEAST;
+    const int whole = (part + PACE_MIN - 1) / PACE_MIN * PACE_MIN;
 
     return whole < side ? whole : side;
 }
@@ -83,9 +83,9 @@ static struct draw_scene scene_of(const struct job *job)
 
     return (struct draw_scene){
         .program = snapshot->program,
-        .numbers = snapshot->program ? snapshot_numbers(job->renderer, snapshot) : NULL,
+        .params = snapshot->program ? snapshot_params(job->renderer, snapshot) : NULL,
         .environment = snapshot->environment,
-        .values = snapshot->field->numbers,
+        .values = snapshot->field->params,
         .engine = snapshot->engine,
     };
 }
@@ -94,8 +94,8 @@ static struct draw_scene scene_of(const struct job *job)
 static enum job_state begin(struct job *job)
 {
     const struct snapshot *snapshot = job->snapshot;
-    struct frame_block block = snapshot->frame;
-    struct draw_plan plan;
+    struct frame_uniforms block = snapshot->frame;
+    struct render_settings settings;
 
     switch (snapshot_state(snapshot)) {
     case PROGRAM_PENDING:
@@ -107,9 +107,9 @@ static enum job_state begin(struct job *job)
         break;
     }
     const struct draw_scene scene = scene_of(job);
-    frame_set_camera(&block, &job->camera, job->width, job->height);
-    plan_make(&plan, &block, &snapshot->render, &job->wish, &snapshot->extent);
-    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->forms, &plan, &scene,
+    frame_uniforms_set_camera(&block, &job->camera, job->width, job->height);
+    render_settings_make(&settings, &block, &snapshot->render, &job->request, &snapshot->extent);
+    if (!draw_begin(job->renderer->draw, &job->picture, &block, job->formats, &settings, &scene,
                     &job->error)) {
         return fail(job);
     }
@@ -156,9 +156,9 @@ static void end_tile_start(struct job *job)
 }
 
 /* The slot of the tile that was started last. */
-static const struct draw_slot *last_slot(const struct job *job)
+static const struct tile_in_flight *last_slot(const struct job *job)
 {
-    return &job->picture.slots[(job->started + DRAW_SLOTS - 1) % DRAW_SLOTS];
+    return &job->picture.slots[(job->started + TILES_IN_FLIGHT - 1) % TILES_IN_FLIGHT];
 }
 
 bool job_is_within_tile(const struct job *job)
@@ -212,7 +212,7 @@ static bool learn(struct job *job, const struct tile *tile, int64_t took_us, int
 /* Nothing of the row was handed out yet. */
 static void begin_row_anew(struct job *job)
 {
-    for (int i = 0; i < DRAW_SLOTS; i++) {
+    for (int i = 0; i < TILES_IN_FLIGHT; i++) {
         if (job->picture.slots[i].fence) {
             draw_wait(job->renderer->draw, &job->picture, i, &job->error);
         }
@@ -233,13 +233,13 @@ static bool draw_sample(struct job *job, const struct draw_scene *scene)
     struct draw *draw = job->renderer->draw;
 
     if (job_is_within_tile(job)) {
-        job->steps[(job->started - 1) % DRAW_SLOTS]++;
-        return draw_tile_more(draw, &job->picture, scene, (job->started - 1) % DRAW_SLOTS,
+        job->steps[(job->started - 1) % TILES_IN_FLIGHT]++;
+        return draw_tile_more(draw, &job->picture, scene, (job->started - 1) % TILES_IN_FLIGHT,
                               &job->error);
     }
-    job->steps[job->started % DRAW_SLOTS] = 1;
+    job->steps[job->started % TILES_IN_FLIGHT] = 1;
     choose_width(job);
-    return draw_tile(draw, &job->picture, scene, next_tile(job), job->started++ % DRAW_SLOTS,
+    return draw_tile(draw, &job->picture, scene, next_tile(job), job->started++ % TILES_IN_FLIGHT,
                      &job->error);
 }
 
@@ -273,14 +273,14 @@ static void open_rows(struct job *job, const struct tile *tile)
     const size_t pixels = (size_t)job->region.width * (size_t)tile->height;
 
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (job->forms[i]) {
-            job->rows[i] = memory_alloc(pixels, (size_t)job->forms[i]->read_bytes);
+        if (job->formats[i]) {
+            job->rows[i] = memory_alloc(pixels, (size_t)job->formats[i]->read_bytes);
         }
     }
 }
 
 /* What a GPU took is known only here. */
-static bool learn_from_device(struct job *job, const struct draw_slot *slot, int steps)
+static bool learn_from_device(struct job *job, const struct tile_in_flight *slot, int steps)
 {
     int64_t together = 0;
 
@@ -292,8 +292,8 @@ static bool learn_from_device(struct job *job, const struct draw_slot *slot, int
 
 static bool collect(struct job *job, bool *out_row_ends)
 {
-    const int slot = job->collected % DRAW_SLOTS;
-    const struct draw_slot *from = &job->picture.slots[slot];
+    const int slot = job->collected % TILES_IN_FLIGHT;
+    const struct tile_in_flight *from = &job->picture.slots[slot];
 
     if (!draw_wait(job->renderer->draw, &job->picture, slot, &job->error)) {
         return false;
@@ -302,7 +302,7 @@ static bool collect(struct job *job, bool *out_row_ends)
         open_rows(job, &from->tile);
     }
     for (int i = 0; i < AOV_COUNT; i++) {
-        const size_t bytes = job->forms[i] ? (size_t)job->forms[i]->read_bytes : 0;
+        const size_t bytes = job->formats[i] ? (size_t)job->formats[i]->read_bytes : 0;
         uint8_t *to = job->rows[i] + (size_t)(from->tile.x - job->region.x) * bytes;
 
         if (bytes > 0 && !draw_collect(job->renderer->draw, &job->picture, slot, (enum aov)i, to,
@@ -373,12 +373,12 @@ enum job_state job_step(struct job *job)
         return job->state;
     }
     if ((job_is_within_tile(job) ||
-         (!all_started(job) && job->started - job->collected < DRAW_SLOTS)) &&
+         (!all_started(job) && job->started - job->collected < TILES_IN_FLIGHT)) &&
         !draw_next(job)) {
         return fail(job);
     }
     while (job->state == JOB_RUNNING && !job_is_within_tile(job) &&
-           (all_started(job) || job->started - job->collected == DRAW_SLOTS)) {
+           (all_started(job) || job->started - job->collected == TILES_IN_FLIGHT)) {
         bool row_ends;
 
         if (!collect(job, &row_ends)) {

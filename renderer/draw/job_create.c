@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "job_parts.h"
+#include "job_internal.h"
 #include "protocol/memory.h"
 
 static bool check_side(const char *name, int side, struct error *err)
@@ -55,8 +55,8 @@ static bool find_forms(struct job *job, const struct job_desc *desc, struct erro
         if (!desc->aovs[i] && (any || aov != AOV_COLOR)) {
             continue;
         }
-        job->forms[i] = draw_form_find(aov, desc->as_floats);
-        if (!job->forms[i]) {
+        job->formats[i] = output_format_find(aov, desc->as_floats);
+        if (!job->formats[i]) {
             return error_set(err, ERROR_INVALID, "aov", "%s has raw values alone: format npy",
                              aov_name(aov));
         }
@@ -95,9 +95,9 @@ static void set_desc(struct job *job, const struct job_desc *desc)
     job->careful = desc->careful;
     job->limit_us = (int64_t)tile_ms * 1000 * (desc->patience > 0 ? desc->patience : 1);
     job->level = level_of(job, desc);
-    job->wish = (struct plan_wish){
+    job->request = (struct settings_request){
         .level = desc->level,
-        .samples = job->forms[AOV_COLOR] ? desc->samples : 1,
+        .samples = job->formats[AOV_COLOR] ? desc->samples : 1,
         .transparent = desc->transparent >= 0
                            ? desc->transparent
                            : record_number(&job->snapshot->render, "transparent") != 0,

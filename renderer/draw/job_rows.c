@@ -3,41 +3,41 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "job_parts.h"
+#include "job_internal.h"
 #include "protocol/memory.h"
 
-static bool is_gray(const struct draw_form *form)
+static bool is_gray(const struct output_format *format)
 {
-    return form->aov == AOV_DEPTH && !form->floats;
+    return format->aov == AOV_DEPTH && !format->floats;
 }
 
 static struct image shape_of(const struct job *job, enum aov aov, int height)
 {
-    const struct draw_form *form = job->forms[aov];
+    const struct output_format *format = job->formats[aov];
     struct image image = {.width = job->region.width, .height = height, .channels = 1};
     size_t pixel_bytes = 2;
 
-    if (!form) {
+    if (!format) {
         return (struct image){0};
     }
-    if (is_gray(form)) {
+    if (is_gray(format)) {
         image.format = PIXEL_GRAY16;
     } else {
-        const bool bytes = form->read_type == GL_UNSIGNED_BYTE;
+        const bool bytes = format->read_type == GL_UNSIGNED_BYTE;
 
-        image.format = bytes                         ? PIXEL_RGBA8
-                       : form->read_type == GL_FLOAT ? PIXEL_FLOAT
-                                                     : PIXEL_UINT32;
-        image.channels = !bytes                                      ? form->read_bytes / 4
-                         : aov == AOV_COLOR && job->wish.transparent ? 4
-                                                                     : 3;
-        pixel_bytes = (size_t)form->read_bytes;
+        image.format = bytes                           ? PIXEL_RGBA8
+                       : format->read_type == GL_FLOAT ? PIXEL_FLOAT
+                                                       : PIXEL_UINT32;
+        image.channels = !bytes                                         ? format->read_bytes / 4
+                         : aov == AOV_COLOR && job->request.transparent ? 4
+                                                                        : 3;
+        pixel_bytes = (size_t)format->read_bytes;
     }
     image.bytes = (size_t)image.width * (size_t)height * pixel_bytes;
     return image;
 }
 
-struct image job_image_shape(const struct job *job, enum aov aov)
+struct image job_image_info(const struct job *job, enum aov aov)
 {
     return shape_of(job, aov, job->region.height);
 }
@@ -61,7 +61,7 @@ struct image job_take_rows(struct job *job, enum aov aov)
 
     image.pixels = job->rows[aov];
     job->rows[aov] = NULL;
-    if (job->forms[aov] && is_gray(job->forms[aov])) {
+    if (job->formats[aov] && is_gray(job->formats[aov])) {
         void *raw = image.pixels;
 
         image.pixels = depth_to_gray(raw, image.bytes / 2, job->depth_far);

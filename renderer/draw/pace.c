@@ -44,12 +44,11 @@ struct pace_row pace_begin(const struct pace *pace, enum pace_company company,
 
 int pace_width(const struct pace_row *row, enum pace_company company, int side, int shared_side)
 {
-    const int width =
-        shared_side * shared_side / side / PACE_LEAST * PACE_LEAST; /* as many pixels */
+    const int width = shared_side * shared_side / side / PACE_MIN * PACE_MIN; /* as many pixels */
 
     return row->company == PACE_SHARED || company == PACE_ALONE || shared_side >= side ? side
-           : width > PACE_LEAST                                                        ? width
-                                                                                       : PACE_LEAST;
+           : width > PACE_MIN                                                          ? width
+                                                                                       : PACE_MIN;
 }
 
 void pace_be_careful(struct pace *pace, enum quality_level level)
@@ -72,7 +71,7 @@ void pace_end(struct pace *pace, enum quality_level level, const struct pace_row
     int *doublings = &pace->doublings[row->company][level];
 
     if (row->slowest_us < bounds[row->company].short_us && *doublings <= row->doublings &&
-        row->doublings < PACE_MOST) {
+        row->doublings < PACE_MAX) {
         *doublings = row->doublings + 1;
     }
 }

@@ -14,10 +14,10 @@
 enum pace_company { PACE_ALONE, PACE_SHARED, PACE_COMPANIES };
 
 enum {
-    PACE_LEAST = 8,        /* pixels: the smallest side, a work group */
+    PACE_MIN = 8,          /* pixels: the smallest side, a work group */
     PACE_FIRST = 3,        /* doublings of the smallest side, where nothing is known */
     PACE_FIRST_SHARED = 1, /* in company, where one that is too large keeps others waiting */
-    PACE_MOST = 6,
+    PACE_MAX = 6,
 };
 
 /* Of the row that is drawn: what was known when it began. */

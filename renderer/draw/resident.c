@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes held ready: the newest state, and the newest that can be drawn. */
-#include "context.h"
+#include "renderer_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -71,11 +71,11 @@ static void take_newest(struct resident *resident, struct snapshot *snapshot,
 
 void resident_renew(struct resident *resident)
 {
-    const struct field_wish wish = {.drawn = drawn_field(resident), .patchable = true};
+    const struct field_options options = {.drawn = drawn_field(resident), .patchable = true};
     struct error err = {0};
     uint64_t refused = 0;
     struct snapshot *snapshot = snapshot_create(resident->renderer, resident->scene,
-                                                resident->revision, &wish, &refused, &err);
+                                                resident->revision, &options, &refused, &err);
 
     upload_pool_empty(&resident->uploads, &resident->renderer->gl);
     take_newest(resident, snapshot, &err, refused);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which snapshot of a scene a picture shows; scenes with nodes isolated. */
-#include "context.h"
+#include "renderer_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,15 +57,15 @@ static struct isolated_view *find_view(struct resident *resident, const struct j
 static struct snapshot *make_snapshot(struct resident *resident, const struct job_desc *desc,
                                       struct error *err)
 {
-    const struct field_wish wish = {
+    const struct field_options options = {
         .drawn = resident->newest->field,
         .isolated = desc->isolated,
         .isolated_count = desc->isolated_count,
     };
     uint64_t refused; /* the scene itself is of that shape, or not drawn for it */
 
-    return snapshot_create(resident->renderer, resident->scene, resident->revision, &wish, &refused,
-                           err);
+    return snapshot_create(resident->renderer, resident->scene, resident->revision, &options,
+                           &refused, err);
 }
 
 /* Takes over what has become drawable. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* From a scene to what a picture needs of it. */
-#include "context.h"
+#include "renderer_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,13 +8,13 @@
 #include "protocol/memory.h"
 #include "renderer/field/shader.h"
 
-enum { NUMBERS_LEAST = 64 };
+enum { PARAM_BUFFER_MIN = 64 };
 
 /* The size of the number buffer as programs declare it: a power of two, so that a material more or
  * less does not ask for another program. */
 static size_t number_capacity(const struct field *field)
 {
-    size_t capacity = NUMBERS_LEAST;
+    size_t capacity = PARAM_BUFFER_MIN;
 
     while (capacity < field->vec4_count) {
         capacity *= 2;
@@ -84,7 +84,7 @@ static uint64_t shape_of(const struct field *field, const struct scene *scene, b
 {
     const size_t kind = (scene->volumes.count > 0 ? 1 : 0) + (fragment ? 2 : 0);
 
-    return field->shape_hash ^ ((number_capacity(field) + kind) * UINT64_C(0x9e3779b97f4a7c15));
+    return field->structure_hash ^ ((number_capacity(field) + kind) * UINT64_C(0x9e3779b97f4a7c15));
 }
 
 /* Code that is new is tried out first: what is no number in C is none on the device. NULL and `err`
@@ -108,7 +108,7 @@ static struct program *get_program(struct renderer *renderer, struct field *fiel
     surface = shader_surface(field);
     struct program_source source =
         source_of(field, scene, renderer->info.stage == RENDER_FRAGMENT, map, surface);
-    source.shape_hash = key;
+    source.structure_hash = key;
     source.patience = verdict ? verdict->times : 1;
     program = program_cache_add(renderer->programs, &source);
     free(map);
@@ -127,13 +127,13 @@ static double scene_scale(const struct record *camera)
 }
 
 /* What is hidden is no reason not to draw the rest. */
-static struct field *make_some_field(const struct scene *scene, const struct field_wish *wish,
+static struct field *make_some_field(const struct scene *scene, const struct field_options *options,
                                      struct error *err)
 {
-    struct field *field = field_compile_as(scene, wish, err);
-    struct field_wish less = *wish;
+    struct field *field = field_compile_as(scene, options, err);
+    struct field_options less = *options;
 
-    if (!field && wish->drawn) {
+    if (!field && options->drawn) {
         less.drawn = NULL;
         field = field_compile_as(scene, &less, err);
     }
@@ -141,13 +141,13 @@ static struct field *make_some_field(const struct scene *scene, const struct fie
 }
 
 /* Whether any material asks for rays. */
-static bool has_mirrors(const struct field *field)
+static bool is_reflective(const struct field *field)
 {
     const size_t slots = field->material_count + 2; /* with the default and the floor's */
 
     for (size_t i = 0; i < slots; i++) {
         const float *material =
-            field->numbers + 4 * (field->material_base + i * field->material_stride);
+            field->params + 4 * (field->material_base + i * field->material_stride);
         if (material[FIELD_REFLECTIVITY] > 0 || material[FIELD_TRANSMISSION] > 0) {
             return true;
         }
@@ -156,31 +156,31 @@ static bool has_mirrors(const struct field *field)
 }
 
 /* `limit_loops`: the driver ends long ones. */
-struct frame_extent snapshot_extent(const struct field *field, const struct record *camera,
+struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops)
 {
-    struct frame_extent extent = {.scale = scene_scale(camera),
-                                  .clear = field->clear,
-                                  .mirrors = has_mirrors(field),
+    struct scene_bounds extent = {.scale = scene_scale(camera),
+                                  .transmissive = field->transmissive,
+                                  .reflective = is_reflective(field),
                                   .loop_trips = (int)field->loop_trips,
                                   .limit_loops = limit_loops};
 
     for (int i = 0; i < 3; i++) {
         extent.min[i] = field->bounds.low[i];
         extent.max[i] = field->bounds.high[i];
-        extent.clear_min[i] = field->clear_bounds.low[i];
-        extent.clear_max[i] = field->clear_bounds.high[i];
+        extent.transmissive_min[i] = field->transmissive_bounds.low[i];
+        extent.transmissive_max[i] = field->transmissive_bounds.high[i];
     }
     return extent;
 }
 
 static bool has_fewer_steps(const struct snapshot *snapshot)
 {
-    struct frame_block block = snapshot->frame;
-    struct draw_plan plan;
+    struct frame_uniforms block = snapshot->frame;
+    struct render_settings settings;
 
-    return plan_make(&plan, &block, &snapshot->render, &(struct plan_wish){.level = -1},
-                     &snapshot->extent);
+    return render_settings_make(&settings, &block, &snapshot->render,
+                                &(struct settings_request){.level = -1}, &snapshot->extent);
 }
 
 /* Why a picture that a scene names is not read; false: it may be. */
@@ -224,7 +224,7 @@ static void look_around(struct renderer *renderer, struct snapshot *snapshot,
     const char *image = record_text(&scene->environment, "image");
     struct error problem = {0};
 
-    frame_set_scene(&snapshot->frame, scene, &snapshot->extent);
+    frame_uniforms_set_scene(&snapshot->frame, scene, &snapshot->extent);
     snapshot->fewer_steps = has_fewer_steps(snapshot);
     if (snapshot->frame.sky_kind != SKY_IMAGE ||
         environments_have(renderer->environments, &snapshot->frame, image) ||
@@ -274,9 +274,9 @@ void snapshots_settle(struct renderer *renderer)
 /* A program for the device or for the engine, which draws what is too much for the device's
  * compiler, too. What is made of instructions alone is shared with a snapshot of the same ones
  * (`before`; NULL: none). */
-static bool find_way(struct renderer *renderer, struct snapshot *snapshot,
-                     const struct scene *scene, const struct snapshot *before,
-                     uint64_t *out_refused, struct error *err)
+static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
+                          const struct scene *scene, const struct snapshot *before,
+                          uint64_t *out_refused, struct error *err)
 {
     const struct renderer_verdict *verdict = renderer_find_verdict(renderer, snapshot->shape, "");
     const bool compiles =
@@ -316,23 +316,23 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
     snapshot->upload = upload;
     snapshot->field = field;
     snapshot->shape = shape_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
-    if (!find_way(renderer, snapshot, scene, before, out_refused, err)) {
+    if (!find_back_end(renderer, snapshot, scene, before, out_refused, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
     }
     record_copy(&snapshot->camera, &scene->camera);
     record_copy(&snapshot->render, &scene->render);
     snapshot->extent =
-        snapshot_extent(field, &scene->camera, renderer->info.software && !snapshot->engine);
+        snapshot_bounds(field, &scene->camera, renderer->info.software && !snapshot->engine);
     look_around(renderer, snapshot, scene);
     return snapshot;
 }
 
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, const struct field_wish *wish,
+                                 uint64_t revision, const struct field_options *options,
                                  uint64_t *out_refused, struct error *err)
 {
-    struct field *field = make_some_field(scene, wish, err);
+    struct field *field = make_some_field(scene, options, err);
 
     return field ? make_snapshot(renderer, scene, revision, NULL, upload_create(field), out_refused,
                                  err)
@@ -408,8 +408,8 @@ void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot)
     free(snapshot);
 }
 
-const struct numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot)
+const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot)
 {
-    return upload_numbers(snapshot->upload, &renderer->gl, renderer->info.software,
-                          number_capacity(snapshot->field));
+    return upload_params(snapshot->upload, &renderer->gl, renderer->info.software,
+                         number_capacity(snapshot->field));
 }

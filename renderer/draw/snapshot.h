@@ -13,13 +13,13 @@ struct snapshot {
     int references;
     uint64_t revision;
     struct upload *upload;
-    struct field *field;      /* that of `upload` */
-    uint64_t shape;           /* of the program that the device has, or would have */
-    struct program *program;  /* NULL: the engine draws it */
-    struct record camera;     /* the document's */
-    struct record render;     /* the document's */
-    struct frame_block frame; /* without camera and level */
-    struct frame_extent extent;
+    struct field *field;         /* that of `upload` */
+    uint64_t shape;              /* of the program that the device has, or would have */
+    struct program *program;     /* NULL: the engine draws it */
+    struct record camera;        /* the document's */
+    struct record render;        /* the document's */
+    struct frame_uniforms frame; /* without camera and level */
+    struct scene_bounds extent;
     struct environment *environment; /* NULL while `picture` is read */
     struct picture *picture;         /* that the environment is made of; NULL once it is */
     uint32_t environment_us;         /* time that it took */
@@ -37,7 +37,7 @@ struct renderer;
 /* Finds or starts the program, in which what is hidden has its part where it may. NULL and `err`
  * when the scene is no field, or its shape is refused: then that is in `*out_refused`. */
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, const struct field_wish *wish,
+                                 uint64_t revision, const struct field_options *options,
                                  uint64_t *out_refused, struct error *err);
 /* The scene after a numeric edit, of the snapshot before it; takes the reference of `upload`, which
  * was patched. */
@@ -45,8 +45,8 @@ struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct
                                          uint64_t revision, const struct snapshot *before,
                                          struct upload *upload, uint64_t *out_refused,
                                          struct error *err);
-/* What a field says of where it is. `limit_loops`: as of struct frame_extent. */
-struct frame_extent snapshot_extent(const struct field *field, const struct record *camera,
+/* What a field says of where it is. `limit_loops`: as of struct scene_bounds. */
+struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops);
 struct snapshot *snapshot_ref(struct snapshot *snapshot);
 /* Of its program, of users' code, and of the picture that its environment is made of. */
@@ -60,6 +60,6 @@ void snapshots_settle(struct renderer *renderer);
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
 /* Uploads what is not yet on the device. */
-const struct numbers *snapshot_numbers(struct renderer *renderer, struct snapshot *snapshot);
+const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot);
 
 #endif

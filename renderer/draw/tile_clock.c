@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "tile_clock.h"
 
-#include "draw_parts.h"
+#include "draw_internal.h"
 
-void tile_clock_mark(const struct gl *gl, bool software, struct draw_slot *slot,
+void tile_clock_mark(const struct gl *gl, bool software, struct tile_in_flight *slot,
                      enum frame_stage stage)
 {
     if (software) {
@@ -20,7 +20,7 @@ void tile_clock_mark(const struct gl *gl, bool software, struct draw_slot *slot,
     }
 }
 
-void tile_clock_start(const struct gl *gl, bool software, struct draw_slot *slot)
+void tile_clock_start(const struct gl *gl, bool software, struct tile_in_flight *slot)
 {
     for (int i = 0; i < FRAME_STAGES; i++) {
         slot->stage_us[i] = 0;
@@ -32,7 +32,7 @@ void tile_clock_start(const struct gl *gl, bool software, struct draw_slot *slot
     }
 }
 
-void tile_clock_resume(const struct gl *gl, bool software, struct draw_slot *slot)
+void tile_clock_resume(const struct gl *gl, bool software, struct tile_in_flight *slot)
 {
     slot->last_us = draw_now_us();
     if (!software) {
@@ -40,7 +40,7 @@ void tile_clock_resume(const struct gl *gl, bool software, struct draw_slot *slo
     }
 }
 
-void tile_clock_fetch(const struct gl *gl, struct draw_slot *slot)
+void tile_clock_fetch(const struct gl *gl, struct tile_in_flight *slot)
 {
     GLuint64 before = 0;
 

@@ -26,7 +26,7 @@ void upload_unref(struct upload *upload, const struct gl *gl)
     if (!upload || --upload->references > 0) {
         return;
     }
-    numbers_finish(&upload->numbers, gl);
+    param_buffer_finish(&upload->params, gl);
     field_unref(upload->field);
     free(upload);
 }
@@ -65,19 +65,20 @@ struct upload *upload_patch(struct upload *from, struct upload *spare, const str
     return upload_create(field);
 }
 
-const struct numbers *upload_numbers(struct upload *upload, const struct gl *gl, bool software,
-                                     size_t capacity)
+const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl, bool software,
+                                         size_t capacity)
 {
     const struct field *field = upload->field;
     const struct field_span *stale = &upload->stale;
 
-    if (upload->numbers.buffer + upload->numbers.texture == 0) {
-        numbers_init(&upload->numbers, gl, software, field->numbers, field->vec4_count, capacity);
+    if (upload->params.buffer + upload->params.texture == 0) {
+        param_buffer_init(&upload->params, gl, software, field->params, field->vec4_count,
+                          capacity);
     } else if (stale->first < stale->end) {
-        numbers_update(&upload->numbers, gl, field->numbers, stale->first, stale->end);
+        param_buffer_update(&upload->params, gl, field->params, stale->first, stale->end);
     }
     upload->stale = (struct field_span){0, 0};
-    return &upload->numbers;
+    return &upload->params;
 }
 
 struct upload *upload_pool_spare(const struct upload_pool *pool)

@@ -6,13 +6,13 @@
 #define RENDERER_UPLOAD_H
 
 #include "renderer/field/field_patch.h"
-#include "renderer/gl/numbers.h"
+#include "renderer/gl/param_buffer.h"
 
 struct upload {
     int references;
     struct field *field;
-    struct numbers numbers;  /* none until they are asked for */
-    struct field_span stale; /* those that are others in the field */
+    struct param_buffer params; /* none until they are asked for */
+    struct field_span stale;    /* those that are others in the field */
 };
 
 /* Takes the reference of the field. */
@@ -24,8 +24,8 @@ void upload_unref(struct upload *upload, const struct gl *gl); /* NULL: nothing 
 struct upload *upload_patch(struct upload *from, struct upload *spare, const struct scene *scene,
                             const cJSON *ops);
 /* On the device as in the field. `capacity`: vec4s that programs declare. */
-const struct numbers *upload_numbers(struct upload *upload, const struct gl *gl, bool software,
-                                     size_t capacity);
+const struct param_buffer *upload_params(struct upload *upload, const struct gl *gl, bool software,
+                                         size_t capacity);
 
 /* The last patched ones of a scene: one that is drawn, the newest, and one to write into. */
 enum { UPLOADS_KEPT = 3 };

@@ -37,7 +37,7 @@ static char *text_end(struct text *text)
     return text->bytes;
 }
 
-static char *write_interface(const struct frame_block *frame)
+static char *write_interface(const struct frame_uniforms *frame)
 {
     struct text text;
 
@@ -46,17 +46,17 @@ static char *write_interface(const struct frame_block *frame)
     return text_end(&text);
 }
 
-static char *write_numbers(const struct field *field)
+static char *write_params(const struct field *field)
 {
     struct text text;
 
     text_begin(&text);
-    fputs("#define N(i) numbers[i]\n#define N_ANY(i) numbers[i]\n#define N_FROM(i) numbers[i]\n"
+    fputs("#define P(i) params[i]\n#define P_ANY(i) params[i]\n#define P_FROM(i) params[i]\n"
           "void preload() {}\n"
-          "const vec4 numbers[] = vec4[](\n    ",
+          "const vec4 params[] = vec4[](\n    ",
           text.out);
     for (size_t i = 0; i < field->vec4_count; i++) {
-        interface_write_floats(text.out, "vec4", field->numbers + 4 * i, 4);
+        interface_write_floats(text.out, "vec4", field->params + 4 * i, 4);
         fputs(i + 1 < field->vec4_count ? ",\n    " : ");\n", text.out);
     }
     return text_end(&text);
@@ -65,9 +65,10 @@ static char *write_numbers(const struct field *field)
 /* --- the environment's maps --- */
 
 /* What a directional light makes of a black sky. */
-static struct frame_block sun_alone(const struct frame_block *frame)
+static struct frame_uniforms sun_alone(const struct frame_uniforms *frame)
 {
-    struct frame_block block = {.sky_kind = SKY_GRADIENT, .effects = EFFECT_SUN, .light_count = 1};
+    struct frame_uniforms block = {
+        .sky_kind = SKY_GRADIENT, .effects = EFFECT_SUN, .light_count = 1};
 
     block.max_steps = frame->max_steps;
     block.lights[0] =
@@ -76,13 +77,13 @@ static struct frame_block sun_alone(const struct frame_block *frame)
 }
 
 /* A column of a map that is the same all around: `count` rows. */
-static void write_column(FILE *out, const struct engine_sky *sky, int level, bool last)
+static void write_column(FILE *out, const struct engine_map *map, int level, bool last)
 {
-    const int width = engine_sky_side(sky->width, level);
-    const int height = engine_sky_side(sky->height, level);
+    const int width = engine_map_side(map->width, level);
+    const int height = engine_map_side(map->height, level);
 
     for (int y = 0; y < height; y++) {
-        const uint16_t *texel = sky->texels[level] + (size_t)4 * (size_t)y * (size_t)width;
+        const uint16_t *texel = map->texels[level] + (size_t)4 * (size_t)y * (size_t)width;
         const float color[3] = {half_value(texel[0]), half_value(texel[1]), half_value(texel[2])};
 
         fputs("    ", out);
@@ -91,22 +92,23 @@ static void write_column(FILE *out, const struct engine_sky *sky, int level, boo
     }
 }
 
-/* Mirrored for each roughness, then matt. */
-static void write_columns(FILE *out, const char *name, const struct frame_block *frame)
+/* The specular map for each roughness, then the irradiance. */
+static void write_columns(FILE *out, const char *name, const struct frame_uniforms *frame)
 {
-    struct engine_sky skies[ENGINE_SKIES];
+    struct engine_map maps[ENGINE_MAPS];
 
-    engine_skies_make(frame, NULL, 0, 0, skies);
-    fprintf(out, "#define MIRROR_ROWS %d\n#define MATT_ROWS %d\nconst vec3 %s[] = vec3[](\n",
-            skies[1].height, skies[2].height, name);
-    for (int level = 0; level < MIRROR_LEVELS; level++) {
-        write_column(out, &skies[1], level, false);
+    engine_maps_make(frame, NULL, 0, 0, maps);
+    fprintf(out,
+            "#define SPECULAR_ROWS %d\n#define IRRADIANCE_ROWS %d\nconst vec3 %s[] = vec3[](\n",
+            maps[1].height, maps[2].height, name);
+    for (int level = 0; level < SPECULAR_LEVELS; level++) {
+        write_column(out, &maps[1], level, false);
     }
-    write_column(out, &skies[2], 0, true);
-    engine_skies_finish(skies);
+    write_column(out, &maps[2], 0, true);
+    engine_maps_finish(maps);
 }
 
-static const struct frame_light *sun_of(const struct frame_block *frame)
+static const struct frame_light *sun_of(const struct frame_uniforms *frame)
 {
     for (int i = 0; i < frame->light_count && (frame->effects & EFFECT_SUN); i++) {
         if (frame->lights[i].kind == LIGHT_DIRECTIONAL) {
@@ -118,15 +120,15 @@ static const struct frame_light *sun_of(const struct frame_block *frame)
 
 /* A gradient is the same all around the vertical, the sun's glow around its direction, and so are
  * their means over lobes: a column of each is enough. */
-static void write_gradient(FILE *out, const struct frame_block *frame)
+static void write_gradient(FILE *out, const struct frame_uniforms *frame)
 {
     const struct frame_light *sun = sun_of(frame);
-    struct frame_block plain = *frame;
+    struct frame_uniforms plain = *frame;
 
     plain.effects &= ~EFFECT_SUN;
     write_columns(out, "sky_column", &plain);
     if (sun) {
-        const struct frame_block alone = sun_alone(frame);
+        const struct frame_uniforms alone = sun_alone(frame);
         write_columns(out, "sun_column", &alone);
         fputs("#define SUN ", out);
         interface_write_floats(out, "vec3", sun->position, 3);
@@ -137,15 +139,17 @@ static void write_gradient(FILE *out, const struct frame_block *frame)
     fputs("#include \"webgl_sky.glsl\"\n", out);
 }
 
-static char *write_maps(const struct frame_block *frame)
+static char *write_maps(const struct frame_uniforms *frame)
 {
-    static const char one_color[] = "vec3 sky_mirror_map(vec3 d, float level)\n{\n"
-                                    "    return frame.zenith;\n}\n"
-                                    "vec3 sky_matt_map(vec3 n)\n{\n    return frame.zenith;\n}\n";
+    static const char one_color[] =
+        "vec3 sample_specular_map(vec3 d, float level)\n{\n"
+        "    return frame.zenith;\n}\n"
+        "vec3 sample_irradiance_map(vec3 n)\n{\n    return frame.zenith;\n}\n";
     struct text text;
 
     text_begin(&text);
-    fputs("vec3 sky_pictured(vec3 d, float blur)\n{\n    return frame.zenith;\n}\n", text.out);
+    fputs("vec3 sample_environment_map(vec3 d, float blur)\n{\n    return frame.zenith;\n}\n",
+          text.out);
     if (frame->sky_kind == SKY_GRADIENT) {
         write_gradient(text.out, frame);
     } else {
@@ -163,24 +167,24 @@ static void define_if(FILE *out, const char *name, bool wanted)
     }
 }
 
-static char *write_head(const struct field *field, const struct frame_block *frame,
-                        const struct draw_plan *plan, const double target[3])
+static char *write_head(const struct field *field, const struct frame_uniforms *frame,
+                        const struct render_settings *settings, const double target[3])
 {
     struct text text;
 
-    const int clear_depth = frame->has_clear ? plan->clear_depth : 0;
+    const int transmission_depth = frame->has_transmissive ? settings->transmission_depth : 0;
 
     text_begin(&text);
     fputs("#version 300 es\nprecision highp float;\nprecision highp int;\n\n"
           "/* A picture of a scene of fieldcast. Draw one triangle over all pixels, after setting\n"
           " * `resolution`; `orbit` may stay 0. */\n",
           text.out);
-    fprintf(text.out, "#define SAMPLES %d\n#define RAYS %d\n#define CLEAR_DEPTH %d\n",
-            plan->samples, plan->rays, clear_depth);
-    define_if(text.out, "OPAQUE", clear_depth == 0);
-    define_if(text.out, "PLAIN", !plan->mirrors);
+    fprintf(text.out, "#define SAMPLES %d\n#define RAYS %d\n#define TRANSMISSION_DEPTH %d\n",
+            settings->samples, settings->rays, transmission_depth);
+    define_if(text.out, "OPAQUE", transmission_depth == 0);
+    define_if(text.out, "PLAIN", !settings->reflective);
     define_if(text.out, "USER_SHADERS", field->shader_count > 0);
-    define_if(text.out, "VOLUMES", plan->volumes);
+    define_if(text.out, "VOLUMES", settings->volumes);
     fputs("#define TARGET ", text.out);
     interface_write_floats(
         text.out, "vec3", (const float[]){(float)target[0], (float)target[1], (float)target[2]}, 3);
@@ -188,14 +192,14 @@ static char *write_head(const struct field *field, const struct frame_block *fra
     return text_end(&text);
 }
 
-char *webgl_text(const struct field *field, const struct frame_block *frame,
-                 const struct draw_plan *plan, const double target[3], struct error *err)
+char *webgl_text(const struct field *field, const struct frame_uniforms *frame,
+                 const struct render_settings *settings, const double target[3], struct error *err)
 {
-    char *head = write_head(field, frame, plan, target), *map = shader_map(field);
-    char *surface = shader_surface(field), *numbers = write_numbers(field);
+    char *head = write_head(field, frame, settings, target), *map = shader_map(field);
+    char *surface = shader_surface(field), *params = write_params(field);
     char *interface = write_interface(frame), *maps = write_maps(frame);
     const struct glsl_file own[] = {
-        {"field_map.glsl", map}, {"field_surface.glsl", surface}, {"numbers.glsl", numbers},
+        {"field_map.glsl", map}, {"field_surface.glsl", surface}, {"params.glsl", params},
         {"sky_maps.glsl", maps}, {"interface.glsl", interface},   {NULL, NULL},
     };
     struct shader_text whole;
@@ -210,7 +214,7 @@ char *webgl_text(const struct field *field, const struct frame_block *frame,
     free(head);
     free(map);
     free(surface);
-    free(numbers);
+    free(params);
     free(interface);
     free(maps);
     return ok ? text_end(&text) : NULL;
@@ -223,20 +227,20 @@ char *renderer_webgl(const struct scene *scene, int level, struct error *err)
     char *text = NULL;
 
     if (field && field_try(field, &warning, err)) {
-        const struct frame_extent extent = snapshot_extent(field, &scene->camera, false);
+        const struct scene_bounds extent = snapshot_bounds(field, &scene->camera, false);
         /* Of any size: the shader is told which. */
         const struct camera camera = camera_from_record(&scene->camera, 1, 1);
-        struct frame_block frame;
-        struct draw_plan plan;
+        struct frame_uniforms frame;
+        struct render_settings settings;
 
-        frame_set_scene(&frame, scene, &extent);
-        frame_set_camera(&frame, &camera, 1, 1);
+        frame_uniforms_set_scene(&frame, scene, &extent);
+        frame_uniforms_set_camera(&frame, &camera, 1, 1);
         if (frame.sky_kind == SKY_IMAGE) {
             environment_leave_out(&frame);
         }
-        plan_make(&plan, &frame, &scene->render,
-                  &(struct plan_wish){.level = level, .transparent = 0}, &extent);
-        text = webgl_text(field, &frame, &plan, record_vector(&scene->camera, "target"), err);
+        render_settings_make(&settings, &frame, &scene->render,
+                             &(struct settings_request){.level = level, .transparent = 0}, &extent);
+        text = webgl_text(field, &frame, &settings, record_vector(&scene->camera, "target"), err);
     }
     field_unref(field);
     return text;

@@ -4,13 +4,13 @@
 #ifndef RENDERER_WEBGL_H
 #define RENDERER_WEBGL_H
 
-#include "frame.h"
-#include "plan.h"
+#include "frame_uniforms.h"
+#include "render_settings.h"
 #include "renderer/field/field.h"
 
 /* `target`: what the camera turns around. A picture of the environment is left out. Any thread, no
  * GL. Caller frees; NULL and `err` where a file is missing. */
-char *webgl_text(const struct field *field, const struct frame_block *frame,
-                 const struct draw_plan *plan, const double target[3], struct error *err);
+char *webgl_text(const struct field *field, const struct frame_uniforms *frame,
+                 const struct render_settings *settings, const double target[3], struct error *err);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "lanes_parts.h"
+#include "engine_internal.h"
 #include "protocol/memory.h"
 
 /* In larger fields rays that are far apart share no tape: a sparse picture of the temple (245)

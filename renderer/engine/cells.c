@@ -47,7 +47,7 @@ static uint32_t drops_add(struct cells *cells, size_t count)
 
 /* All that rays reach: their last step may lead as far again as they go. A power of two, so that
  * the cubes' middles are exact. */
-static float root_half(const struct frame_block *frame)
+static float root_half(const struct frame_uniforms *frame)
 {
     float reach = frame->max_distance;
     int exponent;
@@ -145,7 +145,7 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     for (uint32_t i = parent->count; i-- > 0;) {
         const uint32_t word = from[i];
         const struct operation *in = &operations[word & TAPE_INDEX];
-        const bool makes_point = in->op == FIELD_PLACE || in->op == FIELD_MAP;
+        const bool makes_point = in->op == FIELD_TRANSFORM || in->op == FIELD_WARP;
         uint32_t kept = word;
         if (makes_point ? !point[in->out] : !distance[in->a]) {
             i -= in->op == FIELD_LOOP_END ? in->length : 0;
@@ -191,20 +191,20 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
 /* Of the part of the field that a lane is to see; answers which of these see the same. */
 static vb choose_space(struct lanes *c, vb m, int lane)
 {
-    if (c->frame->has_clear) {
-        const float through = c->through_0[lane];
-        c->cells = &c->spaces[through == 0.0f ? 0 : through > 0.0f ? 1 : 2];
-        m &= c->through_0 == through;
+    if (c->frame->has_transmissive) {
+        const float mask = c->field_mask_0[lane];
+        c->cells = &c->spaces[mask == 0.0f ? 0 : mask > 0.0f ? 1 : 2];
+        m &= c->field_mask_0 == mask;
     }
     cells_limit(c);
     return m;
 }
 
-/* `through`: of the lanes that ask. */
-static void cell_split(struct lanes *c, int32_t index, float through)
+/* `mask`: of the lanes that ask. */
+static void cell_split(struct lanes *c, int32_t index, float mask)
 {
     struct machine *const v = c->machine;
-    const vf asked = c->through_0;
+    const vf asked = c->field_mask_0;
     const int32_t children = (int32_t)c->cells->count;
     const struct cell parent = c->cells->at[index];
     const float half = 0.5f * parent.half;
@@ -224,7 +224,7 @@ static void cell_split(struct lanes *c, int32_t index, float through)
             child->corner[i] = parent.corner[i] + (upper << bits);
         }
     }
-    c->through_0 = vf_all(through);
+    c->field_mask_0 = vf_all(mask);
     for (int first = 0; first < 8; first += LANES) {
         vf centre[3] = {0};
         for (int k = 0; k < LANES; k++) {
@@ -241,7 +241,7 @@ static void cell_split(struct lanes *c, int32_t index, float through)
             c->cells->at[children + first + k].distance = v->d[0][k];
         }
     }
-    c->through_0 = asked;
+    c->field_mask_0 = asked;
 }
 
 /* Whether smaller cubes would be worth it. */
@@ -277,7 +277,7 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
 static int32_t child_at(struct lanes *c, int32_t at, const struct spots *s, int lane)
 {
     if (!c->cells->at[at].children) {
-        cell_split(c, at, c->through_0[lane]);
+        cell_split(c, at, c->field_mask_0[lane]);
     }
     const struct cell *cell = &c->cells->at[at];
     const int bit = cell->bits - 1;

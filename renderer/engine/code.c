@@ -524,7 +524,7 @@ static void shade(struct lanes *c, vb m, const struct engine_code *code, vi mate
         memcpy(frame + machine->shading, at, SPMD_Shading * sizeof *at);
     }
     for (int i = 0; i < machine->number_count; i++) {
-        set_number(machine, frame, i, lanes_gather(c->numbers + code->places[i], 4 * material, m));
+        set_number(machine, frame, i, lanes_gather(c->params + code->places[i], 4 * material, m));
     }
     set_no_data(machine, frame);
     walk(c, m, code, frame);

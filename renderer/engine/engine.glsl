@@ -14,7 +14,7 @@
 #include "starts.glsl"
 
 /* Where the materials lie among the numbers. */
-layout(binding = BINDING_NUMBERS) uniform Scene {
+layout(binding = BINDING_PARAMS) uniform Scene {
     int material_base;
     int material_stride;
 } scene;
@@ -23,32 +23,32 @@ layout(binding = BINDING_NUMBERS) uniform Scene {
  * colour; 2: all of a surface; 0: nothing. */
 int ask_shader(int shader, int material, Shading at, out vec4 color, out CodeSurface s);
 
-void apply_shader(Shading at, int material, inout Paint paint)
+void apply_shader(Shading at, int material, inout MaterialValues values)
 {
-    bool unlit = paint.ambient.w > 0.5;
+    bool unlit = values.ambient.w > 0.5;
     vec4 color = vec4(0.0);
     CodeSurface s;
-    int says = ask_shader(int(paint.emission.w), material, at, color, s);
+    int says = ask_shader(int(values.emission.w), material, at, color, s);
     if (says == 2) {
-        paint_surface(paint, code_surface(s), unlit);
+        material_set_surface(values, code_surface(s), unlit);
     } else if (says == 1) {
-        paint_color(paint, code_color(color).rgb, unlit);
+        material_set_color(values, code_color(color).rgb, unlit);
     }
 }
 
 /* What the mixture is made of. */
-void paint(Mixture m, Shading at, out Surface s)
+void mix_materials(Mixture m, Shading at, out Surface s)
 {
     s = surface_begin(m);
     while (m.shares.x > 0.0) {
         int i = scene.material_base + scene.material_stride * int(m.slots.x);
-        Paint paint = Paint(N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),
-                            N_ANY(i + 5));
-        if (paint.emission.w > 0.0) {
+        MaterialValues values = MaterialValues(P_ANY(i), P_ANY(i + 1), P_ANY(i + 2), P_ANY(i + 3),
+                                               P_ANY(i + 4), P_ANY(i + 5));
+        if (values.emission.w > 0.0) {
             at.object_position = m.place_x;
-            apply_shader(at, i, paint);
+            apply_shader(at, i, values);
         }
-        surface_add(s, m, paint);
+        surface_add(s, m, values);
         mixture_next(m);
     }
 }

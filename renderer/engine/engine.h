@@ -14,23 +14,23 @@
 enum { ENGINE_LEVELS = 16 };
 
 /* A picture by longitude and latitude, with smaller ones of it. Linear light. */
-struct engine_sky {
+struct engine_map {
     int width, height, levels;
     uint16_t *texels[ENGINE_LEVELS]; /* of each level, four halves for each */
     size_t bytes;                    /* of all of them */
 };
 
-enum { ENGINE_SKIES = 3 }; /* UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE */
+enum { ENGINE_MAPS = 3 }; /* UNIT_ENVIRONMENT_MAP, UNIT_SPECULAR_MAP, UNIT_IRRADIANCE_MAP */
 
 /* The surroundings of a scene (glsl/environment.glsl): as they are, as surfaces of each roughness
- * mirror them, and as matt ones receive them. `halves`: their picture, four for each texel, row 0
- * on top, finite, 0 and above; allocated, and the skies' own from then on. NULL: the frame block's
+ * reflect them, and as diffuse ones receive them. `halves`: their picture, four for each texel, row
+ * 0 on top, finite, 0 and above; allocated, and the maps' own from then on. NULL: the frame block's
  * colours. */
-void engine_skies_make(const struct frame_block *frame, uint16_t *halves, int width, int height,
-                       struct engine_sky out[ENGINE_SKIES]);
-void engine_skies_finish(struct engine_sky skies[ENGINE_SKIES]);
+void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
+                      struct engine_map out[ENGINE_MAPS]);
+void engine_maps_finish(struct engine_map maps[ENGINE_MAPS]);
 /* Width or height of a level of a picture so wide or high. */
-int engine_sky_side(int side, int level);
+int engine_map_side(int side, int level);
 
 struct engine_program; /* a field, ready to be run */
 
@@ -43,9 +43,9 @@ int engine_lanes(size_t index);
 struct engine_program *engine_program_ref(struct engine_program *program);
 void engine_program_destroy(struct engine_program *program);
 
-/* The field at `count` points, of which there is at least one, by its whole program. `numbers`: of
+/* The field at `count` points, of which there is at least one, by its whole program. `params`: of
  * the field, which may be another of the same shape. */
-void engine_distances(const struct engine_program *program, const float *numbers,
+void engine_distances(const struct engine_program *program, const float *params,
                       const float (*points)[3], size_t count, float *out);
 
 enum { ENGINE_MARGIN = 4 };
@@ -53,15 +53,15 @@ enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL
 
 struct engine_picture {
     const struct engine_program *program;
-    const float *numbers; /* of the field; it may be another of the same shape */
-    const struct frame_block *frame;
-    const struct engine_sky *skies[ENGINE_SKIES];
+    const float *params; /* of the field; it may be another of the same shape */
+    const struct frame_uniforms *frame;
+    const struct engine_map *maps[ENGINE_MAPS];
     enum engine_smoothing smoothing;
-    int margin;           /* pixels around a tile that are drawn too, ENGINE_MARGIN at most */
-    int rays;             /* of a sample after the first */
-    int clear_depth;      /* surfaces that light goes through; 0: none */
-    bool shadows, lights; /* whether they are wanted */
-    bool sparse;          /* one sample, of fewer pixels where that pays; light alone */
+    int margin;             /* pixels around a tile that are drawn too, ENGINE_MARGIN at most */
+    int rays;               /* of a sample after the first */
+    int transmission_depth; /* surfaces that light goes through; 0: none */
+    bool shadows, lights;   /* whether they are wanted */
+    bool sparse;            /* one sample, of fewer pixels where that pays; light alone */
 };
 
 /* What a picture keeps between its tiles: cubes of space with what matters in each, and sums of
@@ -90,7 +90,7 @@ void engine_canvas_destroy(struct engine_canvas *canvas);
 
 /* Draws samples `from` to `until` of a tile; those before `from` are kept ones. Where `from` is not
  * 0 and few pixels are sampled, these are those that had all samples before. One call for a canvas
- * at a time. Answers how many mirrored and broken rays it followed. */
+ * at a time. Answers how many reflected and refracted rays it followed. */
 uint64_t engine_draw(struct engine_canvas *canvas, struct engine_rect tile, int from, int until,
                      const struct engine_output *outputs, size_t count);
 

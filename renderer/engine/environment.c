@@ -4,17 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lanes_parts.h"
+#include "engine_internal.h"
 #include "protocol/memory.h"
 #include "renderer/image/half.h"
 
 enum {
     PLAIN_WIDTH = 128, /* of what is drawn where there is no picture; twice the height */
-    MIRROR_WIDTH = 128,
-    MATT_WIDTH = 32,
+    SPECULAR_WIDTH = 128,
+    IRRADIANCE_WIDTH = 32,
 };
 
-int engine_sky_side(int side, int level)
+int engine_map_side(int side, int level)
 {
     return side >> level > 1 ? side >> level : 1;
 }
@@ -29,15 +29,15 @@ static int levels_of(int width)
 }
 
 /* `first`: the texels of the first level; NULL: they are to be made. */
-static void begin(struct engine_sky *sky, int width, int height, int levels, uint16_t *first)
+static void begin(struct engine_map *map, int width, int height, int levels, uint16_t *first)
 {
-    *sky = (struct engine_sky){.width = width, .height = height, .levels = levels};
+    *map = (struct engine_map){.width = width, .height = height, .levels = levels};
     for (int level = 0; level < levels; level++) {
         const size_t count =
-            (size_t)engine_sky_side(width, level) * (size_t)engine_sky_side(height, level);
+            (size_t)engine_map_side(width, level) * (size_t)engine_map_side(height, level);
         const size_t bytes = 4 * sizeof *first * count;
-        sky->texels[level] = level == 0 && first ? first : memory_alloc(bytes, 1);
-        sky->bytes += bytes;
+        map->texels[level] = level == 0 && first ? first : memory_alloc(bytes, 1);
+        map->bytes += bytes;
     }
 }
 
@@ -61,14 +61,14 @@ static float between(uint16_t first, uint16_t second, float part)
     return value + part * (half_value(second) - value);
 }
 
-static void shrink(struct engine_sky *sky, int level)
+static void shrink(struct engine_map *map, int level)
 {
-    const int from_width = engine_sky_side(sky->width, level - 1);
-    const int from_height = engine_sky_side(sky->height, level - 1);
-    const int width = engine_sky_side(sky->width, level);
-    const int height = engine_sky_side(sky->height, level);
-    const uint16_t *from = sky->texels[level - 1];
-    uint16_t *to = sky->texels[level];
+    const int from_width = engine_map_side(map->width, level - 1);
+    const int from_height = engine_map_side(map->height, level - 1);
+    const int width = engine_map_side(map->width, level);
+    const int height = engine_map_side(map->height, level);
+    const uint16_t *from = map->texels[level - 1];
+    uint16_t *to = map->texels[level];
     for (int y = 0; y < height; y++) {
         const struct pair rows = pair_of(y, from_height, height);
         const uint16_t *const above = from + (size_t)4 * (size_t)rows.first * (size_t)from_width;
@@ -85,8 +85,8 @@ static void shrink(struct engine_sky *sky, int level)
     }
 }
 
-void engine_skies_make(const struct frame_block *frame, uint16_t *halves, int width, int height,
-                       struct engine_sky out[ENGINE_SKIES])
+void engine_maps_make(const struct frame_uniforms *frame, uint16_t *halves, int width, int height,
+                      struct engine_map out[ENGINE_MAPS])
 {
     const struct engine_width *lanes = engine_widest();
     if (!halves) {
@@ -94,25 +94,25 @@ void engine_skies_make(const struct frame_block *frame, uint16_t *halves, int wi
         height = PLAIN_WIDTH / 2;
     }
     begin(&out[0], width, height, levels_of(width > height ? width : height), halves);
-    begin(&out[1], MIRROR_WIDTH, MIRROR_WIDTH / 2, MIRROR_LEVELS, NULL);
-    begin(&out[2], MATT_WIDTH, MATT_WIDTH / 2, 1, NULL);
+    begin(&out[1], SPECULAR_WIDTH, SPECULAR_WIDTH / 2, SPECULAR_LEVELS, NULL);
+    begin(&out[2], IRRADIANCE_WIDTH, IRRADIANCE_WIDTH / 2, 1, NULL);
     if (!halves) {
-        lanes->make_sky(frame, out, 0, 0);
+        lanes->make_map(frame, out, 0, 0);
     }
     for (int level = 1; level < out[0].levels; level++) {
         shrink(&out[0], level);
     }
-    for (int level = 0; level < MIRROR_LEVELS; level++) {
-        lanes->make_sky(frame, out, 1, level);
+    for (int level = 0; level < SPECULAR_LEVELS; level++) {
+        lanes->make_map(frame, out, 1, level);
     }
-    lanes->make_sky(frame, out, 2, 0);
+    lanes->make_map(frame, out, 2, 0);
 }
 
-void engine_skies_finish(struct engine_sky skies[ENGINE_SKIES])
+void engine_maps_finish(struct engine_map maps[ENGINE_MAPS])
 {
-    for (int i = 0; i < ENGINE_SKIES; i++) {
-        for (int level = 0; level < skies[i].levels; level++) {
-            free(skies[i].texels[level]);
+    for (int i = 0; i < ENGINE_MAPS; i++) {
+        for (int level = 0; level < maps[i].levels; level++) {
+            free(maps[i].texels[level]);
         }
     }
 }

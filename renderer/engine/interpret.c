@@ -2,7 +2,7 @@
 /* The interpreter of field programs, and what the generated C asks for. */
 #include <stdlib.h>
 
-#include "lanes_parts.h"
+#include "engine_internal.h"
 #include "protocol/memory.h"
 
 /* --- the field --- */
@@ -102,7 +102,7 @@ static void run_combine(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
     const vf a = v->d[in->a], b = v->d[in->b];
-    const float side = in->seen ? c->numbers[in->seen] : 0.0f;
+    const float side = in->seen ? c->params[in->seen] : 0.0f;
     const vf d = side == 0.0f  ? CALL(combine_function, in->function)(c, v->m, a, b)
                  : side > 0.0f ? b
                                : a;
@@ -138,8 +138,8 @@ static void record(struct machine *v, const struct operation *in, size_t at)
     const vf far = 2.0f * v->radius + loose[0] + loose[1] + (float)in->reach(n) +
                    1e-5f * (vf_abs(a) + vf_abs(b));
     uint32_t first = lanes_bits(a - b > far), second = lanes_bits(b - a > far);
-    if (in->seen && v->c->numbers[in->seen] != 0.0f) {
-        first = v->c->numbers[in->seen] > 0.0f ? 0xff : 0;
+    if (in->seen && v->c->params[in->seen] != 0.0f) {
+        first = v->c->params[in->seen] > 0.0f ? 0xff : 0;
         second = ~first;
     }
     v->drops[at] |= (uint16_t)((first & 0xff) << v->child | (second & 0xff) << (8 + v->child));
@@ -194,7 +194,7 @@ static size_t run_loop_end(struct machine *v, const struct operation *in, size_t
     v->m &= open->left > 0.0f;
     if (lanes_any(v->m)) {
         const struct operation *begin = in - in->length;
-        c->own = c->numbers + 4 * (size_t)begin->numbers;
+        c->own = c->params + 4 * (size_t)begin->params;
         CALL(cell_function, begin->cell)(c, v->m, v->p[begin->point], open->cell, v->p[begin->out]);
         return at - in->length + 1;
     }
@@ -227,7 +227,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             i++;
             continue;
         }
-        c->own = c->numbers + 4 * (size_t)in->numbers;
+        c->own = c->params + 4 * (size_t)in->params;
         switch (in->op) {
         case FIELD_EMPTY:
             v->d[in->a] = vf_all(FIELD_FAR);
@@ -248,17 +248,17 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
         case FIELD_DISTANCE:
             set_distance(v, in->a, CALL(change_function, in->function)(c, v->m, v->d[in->a]));
             break;
-        case FIELD_PLACE:
+        case FIELD_TRANSFORM:
             place(c->own, v->p[in->point], v->p[in->out]);
             break;
-        case FIELD_MAP:
+        case FIELD_WARP:
             CALL(map_function, in->function)(c, v->m, v->p[in->point], v->p[in->out]);
             break;
         case FIELD_AFTER:
             set_distance(
                 v, in->a,
                 vf_max(CALL(after_function, in->function)(c, v->m, v->d[in->a], v->p[in->point]),
-                       vf_all(c->numbers[in->seen])));
+                       vf_all(c->params[in->seen])));
             break;
         case FIELD_LOOP:
             i = run_loop(v, in, i);
@@ -302,23 +302,23 @@ static vf spmd_map(struct lanes *c, vb m, const vf *p)
 
 #define WAITING 3e38f /* the distance of a ray that got no answer */
 
-static int nearest_lane(vb m, vf way)
+static int nearest_lane(vb m, vf distance)
 {
-    return lanes_first(m & ~(way > lanes_least(vf_select(m, way, vf_all(WAITING)))));
+    return lanes_first(m & ~(distance > lanes_least(vf_select(m, distance, vf_all(WAITING)))));
 }
 
 /* One cube's: of the ray that is least far. Others wait until it is where they are, and share its
  * tapes from there. */
-static vf turn(struct lanes *c, vb m, const vf *p, vf way, vf d)
+static vf turn(struct lanes *c, vb m, const vf *p, vf distance, vf d)
 {
     struct machine *const v = c->machine;
     vb held;
-    const struct cell *cell = cell_at(c, m, p, nearest_lane(m, way), &held);
+    const struct cell *cell = cell_at(c, m, p, nearest_lane(m, distance), &held);
     run(machine_of(v, c, held, p), c->cells->tapes + cell->tape, cell->count);
     return vf_select(held, v->d[0], d);
 }
 
-static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf way, bool exact)
+static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf distance, bool exact)
 {
     vf d = vf_all(WAITING);
     if (c->program->count <= BOUND_TAPE) {
@@ -337,7 +337,7 @@ static vf spmd_field_bound(struct lanes *c, vb m, const vf *p, vf way, bool exac
         }
         ask &= ~held;
     }
-    return lanes_any(m) ? turn(c, m, p, way, d) : d;
+    return lanes_any(m) ? turn(c, m, p, distance, d) : d;
 }
 
 static vb spmd_field_waits(struct lanes *c, vb m, vf d)
@@ -359,5 +359,5 @@ static void spmd_surface(struct lanes *c, vb m, const vf *p, const vf *at, vf *o
         select_all(held, v->room[0], whole, MIXTURE);
         left &= ~held;
     }
-    spmd_paint(c, m, whole, at, out);
+    spmd_mix_materials(c, m, whole, at, out);
 }

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* The field at points, without a picture: the whole program, wherever they are. */
 
-static void distances(const struct engine_program *program, const float *numbers,
+static void distances(const struct engine_program *program, const float *params,
                       const float (*points)[3], size_t count, float *out)
 {
-    static const struct frame_block no_frame;
+    static const struct frame_uniforms no_frame;
     static const struct dispatch_block no_dispatch;
     struct scene_block scene = {program->scene.material_base, program->scene.material_stride};
     struct lanes c = {.program = program,
                       .frame = &no_frame,
                       .dispatch = &no_dispatch,
                       .scene = &scene,
-                      .numbers = numbers,
+                      .params = params,
                       .frames = frames_create(program),
                       .machine = aligned_room(sizeof *c.machine)};
     uint32_t *const tape = memory_alloc(program->count, sizeof *tape);

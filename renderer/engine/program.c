@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lanes_parts.h"
+#include "engine_internal.h"
 #include "protocol/memory.h"
 
 /* Of those that the processor has, from the widest; NULL behind the last. */
@@ -69,7 +69,7 @@ static bool first_kernel(const struct field_instruction *in, enum shader_kernel 
     case FIELD_DISTANCE:
         *out = KERNEL_CHANGE;
         return true;
-    case FIELD_MAP:
+    case FIELD_WARP:
         *out = KERNEL_MAP;
         return true;
     case FIELD_AFTER:
@@ -93,7 +93,7 @@ static bool make(const struct engine_program *program, struct operation *out,
                               .b = in->b,
                               .point = in->point,
                               .out = in->out,
-                              .numbers = in->numbers,
+                              .params = in->params,
                               .seen = in->seen};
     out->unsteady = in->op == FIELD_SHAPE && (!in->sdf || in->choices == FIELD_POLYNOMIAL);
     if (in->op == FIELD_SHAPE && !in->sdf) {
@@ -154,7 +154,7 @@ static bool read_one(struct engine_program *program, struct reading *r,
         r->mixed[in->a] = r->mixed[in->b];
         r->steep[in->a] = r->steep[in->b];
     }
-    r->bent += bends && in->op == FIELD_MAP;
+    r->bent += bends && in->op == FIELD_WARP;
     r->bent -= bends && in->op == FIELD_AFTER && r->bent > 0;
     return true;
 }
@@ -208,7 +208,7 @@ static bool make_code(const struct engine_width *width, struct engine_code *out,
         out->calls[i] = (struct engine_call){row->function, row->gives_one, direct_of(s)};
     }
     for (int i = 0; i < code->place_count; i++) {
-        const struct field_place *place = &code->places[i];
+        const struct param_slot *place = &code->places[i];
         for (int k = 0; k < place->count; k++) {
             out->places[count++] = (uint16_t)(block + 4 * place->vec4 + place->component + k);
         }
@@ -259,10 +259,10 @@ struct engine_program *engine_program_create(struct field *field, int lanes, int
     return program;
 }
 
-void engine_distances(const struct engine_program *program, const float *numbers,
+void engine_distances(const struct engine_program *program, const float *params,
                       const float (*points)[3], size_t count, float *out)
 {
-    program->width->distances(program, numbers, points, count, out);
+    program->width->distances(program, params, points, count, out);
 }
 
 struct engine_program *engine_program_ref(struct engine_program *program)

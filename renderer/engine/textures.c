@@ -35,11 +35,11 @@ static vf mix(vf a, vf b, vf part)
     return a * (1 - part) + b * part;
 }
 
-static void sample_level(const struct engine_sky *sky, int level, vb m, vf u, vf v, vf out[4])
+static void sample_level(const struct engine_map *map, int level, vb m, vf u, vf v, vf out[4])
 {
-    const uint16_t *from = sky->texels[level];
-    const int width = engine_sky_side(sky->width, level);
-    const int height = engine_sky_side(sky->height, level);
+    const uint16_t *from = map->texels[level];
+    const int width = engine_map_side(map->width, level);
+    const int height = engine_map_side(map->height, level);
     const vf x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
     const vf left = vf_floor(x), top = vf_floor(y), s = x - left, t = y - top;
     const vi column = vi_of_f(left), row = vi_of_f(top);
@@ -53,16 +53,16 @@ static void sample_level(const struct engine_sky *sky, int level, vb m, vf u, vf
     }
 }
 
-static const struct engine_sky *sky_of(const struct lanes *c, int unit)
+static const struct engine_map *sky_of(const struct lanes *c, int unit)
 {
-    return c->skies[unit == UNIT_PANORAMA ? 0 : unit == UNIT_MIRRORED ? 1 : 2];
+    return c->maps[unit == UNIT_ENVIRONMENT_MAP ? 0 : unit == UNIT_SPECULAR_MAP ? 1 : 2];
 }
 
 static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4])
 {
-    const struct engine_sky *sky = sky_of(c, unit);
+    const struct engine_map *map = sky_of(c, unit);
     /* What is no number is the first level. */
-    const vf at = vf_min(vf_max(vf_zero, level), vf_all((float)(sky->levels - 1)));
+    const vf at = vf_min(vf_max(vf_zero, level), vf_all((float)(map->levels - 1)));
     const vi first = vi_of_f(at);
     const vf part = at - vf_of_i(first);
     for (int k = 0; k < 4; k++) {
@@ -72,9 +72,9 @@ static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level,
         const int level = first[lanes_first(m)];
         const vb same = m & (first == level), between = same & (part > 0);
         vf here[4], next[4];
-        sample_level(sky, level, same, u, v, here);
+        sample_level(map, level, same, u, v, here);
         if (lanes_any(between)) {
-            sample_level(sky, level + 1, between, u, v, next);
+            sample_level(map, level + 1, between, u, v, next);
             for (int k = 0; k < 4; k++) {
                 here[k] = vf_select(between, mix(here[k], next[k], part), here[k]);
             }

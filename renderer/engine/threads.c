@@ -30,8 +30,8 @@ static struct hand *hand_create(struct crew *crew)
     c->frame = picture->frame;
     c->dispatch = &hand->dispatch;
     c->scene = &hand->scene;
-    c->skies = picture->skies;
-    c->numbers = picture->numbers;
+    c->maps = picture->maps;
+    c->params = picture->params;
     c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
     c->frames = frames_create(c->program);
     c->machine = aligned_room(sizeof *c->machine);

@@ -113,8 +113,9 @@ static void add_sample(struct hand *hand, vb m, vi x, vi y, int index)
     const vf pixel[2] = {(vf)(x + hand->left), (vf)(y + hand->top)};
     const vf start = lanes_gather(hand->starts, block_of(hand, x, y), m);
     vf total[4] = {0}, geometry[4] = {0}, met[SPMD_Met] = {0}, light[4] = {0}, counts[2] = {0};
-    const vi rays = spmd_trace(c, m, pixel, start, index, picture->rays, picture->clear_depth,
-                               picture->shadows, picture->lights, total, geometry, met);
+    const vi rays =
+        spmd_trace(c, m, pixel, start, index, picture->rays, picture->transmission_depth,
+                   picture->shadows, picture->lights, total, geometry, met);
     spmd_sample_sums(c, m, total, light, counts);
     if (index == 0) {
         write_met(hand, m, x, y, met);

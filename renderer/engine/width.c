@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* All of the engine that depends on LANES, the width of its vectors. */
-#include "lanes_parts.h"
+#include "engine_internal.h"
 #include "renderer/image/half.h"
 
 #include "spmd.h"
@@ -12,7 +12,7 @@
 #include "textures.c"
 #include "tile.c"
 
-#include "skies.c"
+#include "environment_texels.c"
 #include "threads.c"
 
 #define CALL_ROW(row, base, size, one, function)
@@ -38,4 +38,4 @@ const struct engine_width NAME(LANES) = {LANES,
                                          sizeof calls / sizeof calls[0],
                                          draw,
                                          distances,
-                                         make_sky};
+                                         make_map};

@@ -25,11 +25,11 @@ uint32_t builder_add_vec4s(struct builder *b, size_t count)
     size_t first = field->vec4_count;
     field->vec4_count += count;
     if (b->again) {
-        return (uint32_t)sites_touch(b, SITES_NUMBERS, first, count);
+        return (uint32_t)sites_touch(b, SITES_PARAMS, first, count);
     }
-    field->numbers =
-        reserve(field->numbers, &b->vec4_capacity, field->vec4_count + 1, 4 * sizeof(float));
-    memset(field->numbers + 4 * first, 0, count * 4 * sizeof(float));
+    field->params =
+        reserve(field->params, &b->vec4_capacity, field->vec4_count + 1, 4 * sizeof(float));
+    memset(field->params + 4 * first, 0, count * 4 * sizeof(float));
     return (uint32_t)first;
 }
 
@@ -118,7 +118,7 @@ void builder_rewind(struct builder *b, struct builder_mark mark)
 
 static void hide_shape(struct field *field, const struct field_instruction *in)
 {
-    float *head = field->numbers + 4 * ((size_t)in->numbers + FIELD_MATRIX_VEC4S);
+    float *head = field->params + 4 * ((size_t)in->params + FIELD_MATRIX_VEC4S);
     head[FIELD_LEAF] = head[FIELD_SLOT] = 0;
     head[FIELD_AWAY] = (float)FIELD_FAR;
 }
@@ -128,7 +128,7 @@ static void hide_guard(struct field *field, const struct field_instruction *in)
 {
     static const float nowhere[8] = {
         0, 0, 0, 2, (float)-FIELD_FAR, (float)-FIELD_FAR, (float)-FIELD_FAR};
-    memcpy(field->numbers + 4 * (size_t)in->numbers, nowhere, sizeof nowhere);
+    memcpy(field->params + 4 * (size_t)in->params, nowhere, sizeof nowhere);
 }
 
 void builder_hide(struct builder *b, struct builder_mark mark)
@@ -148,7 +148,7 @@ void builder_hide(struct builder *b, struct builder_mark mark)
         } else if (in->op == FIELD_GUARD) {
             hide_guard(field, in);
         } else if (in->op == FIELD_AFTER) {
-            field->numbers[in->seen] = (float)FIELD_FAR;
+            field->params[in->seen] = (float)FIELD_FAR;
         }
     }
 }
@@ -156,7 +156,7 @@ void builder_hide(struct builder *b, struct builder_mark mark)
 void builder_put(struct builder *b, uint32_t vec4, int component, uint32_t argument, int count,
                  const double *numbers)
 {
-    float *to = b->field->numbers + 4 * (size_t)vec4 + component;
+    float *to = b->field->params + 4 * (size_t)vec4 + component;
     for (int i = 0; i < count; i++) {
         to[i] = (float)numbers[i];
         b->field->arguments[argument + (uint32_t)i] = to[i];
@@ -200,20 +200,20 @@ static void defer_points(struct builder *b, uint32_t vec4, int component, const 
 /* As many points as there were stand where they stood. */
 static void place_again(struct builder *b, uint32_t vec4, int component, const double *numbers)
 {
-    const float *place = b->field->numbers + 4 * (size_t)vec4 + component;
+    const float *place = b->field->params + 4 * (size_t)vec4 + component;
     const size_t first = (size_t)place[0], count = (size_t)place[1];
-    put_points(b->field->numbers + 4 * first, numbers);
-    sites_touch(b, SITES_NUMBERS, first, (count + 1) / 2);
+    put_points(b->field->params + 4 * first, numbers);
+    sites_touch(b, SITES_PARAMS, first, (count + 1) / 2);
 }
 
 /* Whether a list of points, of which there is one at most, is as long as it was. */
 static bool has_room(const struct builder *b, const struct param *params,
-                     const struct value *values, const struct field_place *places, uint32_t vec4)
+                     const struct value *values, const struct param_slot *places, uint32_t vec4)
 {
     for (size_t i = 0; b->again && params[i].name; i++) {
         if (params[i].type == PARAM_POINTS) {
             const size_t at = 4 * ((size_t)vec4 + (size_t)places[i].vec4);
-            const float *place = b->field->numbers + at + places[i].component;
+            const float *place = b->field->params + at + places[i].component;
             return (double)place[1] == values[i].number[0];
         }
     }
@@ -235,10 +235,10 @@ void builder_place_points(struct builder *b)
         const struct builder_points *points = &b->points[i];
         size_t count = (size_t)b->field->arguments[points->argument];
         uint32_t first = builder_add_vec4s(b, (count + 1) / 2);
-        float *place = b->field->numbers + 4 * (size_t)points->vec4 + points->component;
+        float *place = b->field->params + 4 * (size_t)points->vec4 + points->component;
         place[0] = (float)first;
         place[1] = (float)count;
-        put_points(b->field->numbers + 4 * (size_t)first, b->field->arguments + points->argument);
+        put_points(b->field->params + 4 * (size_t)first, b->field->arguments + points->argument);
     }
     free(b->points);
     b->points = NULL;
@@ -248,7 +248,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
                         const struct sdf *sdf, double scale, uint32_t vec4, int used,
                         uint32_t argument)
 {
-    struct field_place places[SDF_PARAMS_MAX];
+    struct param_slot places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX], *from = numbers;
     field_layout(params, used, places);
     if (!has_room(b, params, values, places, vec4)) {
@@ -276,7 +276,7 @@ void builder_put_params(struct builder *b, const struct param *params, const str
             from += 1 + 2 * (int)*from;
             continue;
         }
-        float *to = b->field->numbers + 4 * (size_t)at + places[i].component;
+        float *to = b->field->params + 4 * (size_t)at + places[i].component;
         for (int c = 0; c < places[i].count; c++) {
             to[c] = (float)from[c];
         }

@@ -14,11 +14,11 @@ struct builder_points {
 };
 
 /* The code that a material is shaded by. */
-struct builder_painter {
+struct builder_material_shader {
     const char *text; /* NULL: none */
     bool own, unlit;
-    bool clear; /* light may go through what it shades */
-    int index;  /* in the field's shaders, -1: none, or it does not compile */
+    bool transmissive; /* light may go through what it shades */
+    int index;         /* in the field's shaders, -1: none, or it does not compile */
 };
 
 struct result;
@@ -26,9 +26,9 @@ struct result;
 struct builder {
     struct field *field;
     const struct scene *scene;
-    const struct field *drawn;          /* hidden nodes that stand in it are kept; NULL: none */
-    struct builder_painter *painters;   /* one for each material of the scene */
-    const struct isolation *isolation;  /* NULL: all nodes are seen */
+    const struct field *drawn; /* hidden nodes that stand in it are kept; NULL: none */
+    struct builder_material_shader *material_shaders; /* one for each material of the scene */
+    const struct isolation *isolation;                /* NULL: all nodes are seen */
     const struct node_type *union_type; /* of unions that no node asks for by its name */
     const struct sdf *union_sdf;
     size_t instruction_capacity, vec4_capacity, argument_count, argument_capacity, leaf_capacity,
@@ -38,16 +38,16 @@ struct builder {
     uint32_t index;    /* pre-order in the scene's tree, of the next node */
     uint32_t instance; /* number of the outermost `model` node around, 0: none */
     const struct node *instance_node;
-    bool cutting;     /* what comes is taken away from something else, or bounds it; */
-    bool cuts_clear;  /* and light goes through that */
-    bool hiding;      /* a node around is hidden */
-    bool within;      /* what comes is not to be looked for in `isolation` */
-    size_t depth;     /* nodes around, through models */
-    size_t emitted;   /* nodes so far, in models each time anew */
-    uint64_t trips;   /* loop iterations so far, in the current loop */
-    size_t loops;     /* whose iterations these are, and of which something is seen */
-    bool failed;      /* what follows may be left out */
-    struct error err; /* the first, once failed */
+    bool cutting;           /* what comes is taken away from something else, or bounds it; */
+    bool cuts_transmissive; /* and light goes through that */
+    bool hiding;            /* a node around is hidden */
+    bool within;            /* what comes is not to be looked for in `isolation` */
+    size_t depth;           /* nodes around, through models */
+    size_t emitted;         /* nodes so far, in models each time anew */
+    uint64_t trips;         /* loop iterations so far, in the current loop */
+    size_t loops;           /* whose iterations these are, and of which something is seen */
+    bool failed;            /* what follows may be left out */
+    struct error err;       /* the first, once failed */
 
     /* Where nodes stand (field_sites.h); NULL: that is not kept. */
     struct field_sites *sites;

@@ -15,7 +15,7 @@ static int stored_components(enum param_type type)
     return type == PARAM_ENUM ? 0 : type == PARAM_POINTS ? 2 : param_components(type);
 }
 
-int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX])
+int field_layout(const struct param *params, int used, struct param_slot out[SDF_PARAMS_MAX])
 {
     int taken[SDF_PARAMS_MAX + 1] = {0};
     int vec4s = (used + 3) / 4;
@@ -29,8 +29,8 @@ int field_layout(const struct param *params, int used, struct field_place out[SD
             at++;
         }
         assert(i < SDF_PARAMS_MAX && at < SDF_PARAMS_MAX);
-        out[i] = components ? (struct field_place){at, taken[at], components}
-                            : (struct field_place){-1, 0, 0};
+        out[i] = components ? (struct param_slot){at, taken[at], components}
+                            : (struct param_slot){-1, 0, 0};
         taken[at] += components;
         vec4s = components && at + 1 > vec4s ? at + 1 : vec4s;
     }
@@ -57,7 +57,7 @@ void field_unref(struct field *field)
         return;
     }
     sites_destroy(field->sites);
-    free(field->numbers);
+    free(field->params);
     free(field->arguments);
     if (field->base) {
         field_unref(field->base);

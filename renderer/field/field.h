@@ -5,7 +5,7 @@
  *
  * The shape (instructions, hence GLSL) depends on the types of the nodes and on how they are
  * nested. All else is numbers: transforms, parameters, ids, materials and which node has which, and
- * which nodes are seen. Equal shape_hash: the same GLSL serves both.
+ * which nodes are seen. Equal structure_hash: the same GLSL serves both.
  *
  * A node that is not seen changes nothing of the field, of its boxes and of what GLSL answers: its
  * shapes are FIELD_FAR away, and operations that would tell that from nothing are told their side.
@@ -29,13 +29,13 @@
 #include "renderer/sdf/sdf.h"
 
 enum field_op {
-    FIELD_EMPTY,    /* d[a] = far away */
-    FIELD_SHAPE,    /* d[a] = shape(matrix * p[point]) * scale */
-    FIELD_COMBINE,  /* d[a] = combine(d[a], d[b]) */
-    FIELD_DISTANCE, /* d[a] = change(d[a]) */
-    FIELD_PLACE,    /* p[out] = matrix * p[point] */
-    FIELD_MAP,      /* p[out] = map(p[point]) */
-    FIELD_AFTER,    /* d[a] = after(d[a], p[point]) */
+    FIELD_EMPTY,     /* d[a] = far away */
+    FIELD_SHAPE,     /* d[a] = shape(matrix * p[point]) * scale */
+    FIELD_COMBINE,   /* d[a] = combine(d[a], d[b]) */
+    FIELD_DISTANCE,  /* d[a] = change(d[a]) */
+    FIELD_TRANSFORM, /* p[out] = matrix * p[point] */
+    FIELD_WARP,      /* p[out] = map(p[point]) */
+    FIELD_AFTER,     /* d[a] = after(d[a], p[point]) */
     FIELD_LOOP,     /* d[a] = far away; for each cell around p[point]: p[out] = that cell's point */
     FIELD_LOOP_END, /* d[a] = min(d[a], d[b]) */
     FIELD_GUARD,    /* g = distance of p[point] to a box; unless 0 = g or g < d[a]: to the end */
@@ -54,9 +54,9 @@ struct field_instruction {
     /* What enumerated parameters hold, eight bits each, the last lowest; of a shape of a user's
      * code: which of field.codes it is; of a polynomial FIELD_POLYNOMIAL. */
     uint32_t choices;
-    uint32_t numbers;   /* first vec4 of what it reads */
+    uint32_t params;    /* first vec4 of what it reads */
     uint32_t arguments; /* the same for the C evaluator: index into field.arguments */
-    /* Index into field.numbers, 0: none. Of FIELD_COMBINE its enum field_side; of FIELD_AFTER what
+    /* Index into field.params, 0: none. Of FIELD_COMBINE its enum field_side; of FIELD_AFTER what
      * the distance is at least: FIELD_FAR where nothing is seen of it, else -FIELD_FAR. */
     uint32_t seen;
     /* No part of the shape, for the C evaluator: */
@@ -64,14 +64,16 @@ struct field_instruction {
     enum field_side side;
 };
 
-/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot, clear,
- * away), then its parameters. Blocks of domain modifiers: three rows, then the row's own vec4s.
+/* A shape's block of numbers: three rows of its matrix, then (scale, leaf, material slot,
+ * transmissive, away), then its parameters. Blocks of domain modifiers: three rows, then the row's
+ * own vec4s.
  *
  * `away` is added to the distance: 0, or FIELD_FAR where the shape is not seen.
  *
- * `clear` is 1 where the material lets light through, -1 where it does not, and 0 where the shape
- * cuts another, as every child but the first of a difference or an intersection does. GLSL may look
- * at the solid or at the clear shapes alone (`through` in glsl/through.glsl); C sees all.
+ * `transmissive` is 1 where the material lets light through, -1 where it does not, and 0 where the
+ * shape cuts another, as every child but the first of a difference or an intersection does. GLSL
+ * may look at the opaque or at the transmissive shapes alone (`field_mask` in
+ * glsl/field_mask.glsl); C sees all.
  *
  * Where the shape cuts another, its face is that other's, in the material of the cut: light goes
  * through only where both let it. FIELD_CUTS_... is then added to the slot, a whole number. */
@@ -82,12 +84,12 @@ enum {
     FIELD_SCALE = 0,
     FIELD_LEAF = 1,
     FIELD_SLOT = 2,
-    FIELD_CLEAR = 3,
+    FIELD_TRANSMISSIVE = 3,
     FIELD_AWAY = 4,
 };
-#define FIELD_CUTS_CLEAR 0.25
-#define FIELD_CUTS_SOLID 0.5
-#define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/through.glsl */
+#define FIELD_CUTS_TRANSMISSIVE 0.25
+#define FIELD_CUTS_OPAQUE 0.5
+#define FIELD_FAR 1e9 /* empty space is this far away, as in glsl/field_mask.glsl */
 
 /* Behind the head of a shape of a user's code, which takes two vec4s: (half of the box that cuts
  * it, scale), (unsteady, 0, 0, 0), then what it declares. Distances above `unsteady` alone change
@@ -135,7 +137,7 @@ struct field_leaf {
 
 /* Where a parameter lies in the block of its node; vec4 is -1 where it is not there (choices,
  * texts). */
-struct field_place {
+struct param_slot {
     int vec4, component, count;
 };
 
@@ -144,17 +146,17 @@ struct field_code {
     const char *text; /* only to tell codes apart while compiling */
     bool own;         /* ours (shades.h and equation_code.h in renderer/code), not a user's */
     struct code *code;
-    char place[ERROR_PLACE_BYTES];             /* of the text in the document */
-    uint64_t hash;                             /* of the text and of what it declares */
-    struct field_place places[LIMIT_DECLARED]; /* of what it declares, in a block of `vec4s` */
+    char place[ERROR_PLACE_BYTES];            /* of the text in the document */
+    uint64_t hash;                            /* of the text and of what it declares */
+    struct param_slot places[LIMIT_DECLARED]; /* of what it declares, in a block of `vec4s` */
     int place_count, vec4s;
 };
 
 struct field {
     struct field_instruction *instructions;
     size_t instruction_count;
-    float *numbers;         /* 4 * vec4_count: blocks, one material for each slot, padding */
-    size_t vec4_count;      /* the same for every field of this shape_hash */
+    float *params;          /* 4 * vec4_count: blocks, one material for each slot, padding */
+    size_t vec4_count;      /* the same for every field of this structure_hash */
     size_t material_base;   /* vec4 of slot 0, the default material; slot i + 1 is materials[i] */
     size_t material_stride; /* vec4s of one slot */
     size_t material_count;  /* without the default and the floor's, which is the last */
@@ -169,13 +171,13 @@ struct field {
     uint64_t *members;  /* hashes of the nodes that stand in the program, ascending */
     size_t member_count;
     int point_slots, distance_slots;
-    uint64_t shape_hash;
+    uint64_t structure_hash;
     /* At most so many loop iterations for one evaluation. A driver that bounds a shader's loops
      * must be kept from steps * (1 + loop_trips) above its bound. */
     uint32_t loop_trips;
     struct bounds bounds;               /* of what is seen */
-    struct bounds clear_bounds;         /* of what light goes through in it */
-    bool clear;                         /* there is any of that */
+    struct bounds transmissive_bounds;  /* of what light goes through in it */
+    bool transmissive;                  /* there is any of that */
     const struct field_code *user_code; /* the first that is not ours; NULL: none */
     int references;
     /* For field_patch: the one that was compiled, which owns all but the numbers and arguments of
@@ -189,7 +191,7 @@ struct field {
  * that no float can hold. Hidden nodes are left out. */
 struct field *field_compile(const struct scene *scene, struct error *err);
 /* What else a program is to be. */
-struct field_wish {
+struct field_options {
     /* Hidden nodes that stand in this one stay in the program: where nothing else has changed it
      * has the same shape. NULL: none. */
     const struct field *drawn;
@@ -200,7 +202,7 @@ struct field_wish {
     size_t isolated_count;
     bool patchable; /* field_patch can have it: where nodes stand is kept; not with `isolated` */
 };
-struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
+struct field *field_compile_as(const struct scene *scene, const struct field_options *options,
                                struct error *err);
 struct field *field_ref(struct field *field);
 void field_unref(struct field *field); /* NULL: nothing */
@@ -213,7 +215,7 @@ const char *field_leaf_id(const struct field *field, uint32_t number);
 
 /* The places of parameters (ending with a row whose name is NULL) behind the head of a block.
  * The first `used` components are taken. Returns how many vec4s it has from there. */
-int field_layout(const struct param *params, int used, struct field_place out[SDF_PARAMS_MAX]);
+int field_layout(const struct param *params, int used, struct param_slot out[SDF_PARAMS_MAX]);
 
 /* Tries out users' code at many points, a while at a time: with the numbers of up to 8 shapes of
  * each code, and of a shader's first material. Holds the field. */

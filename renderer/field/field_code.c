@@ -73,7 +73,7 @@ static int add(struct builder *b, const char *text, const struct code_source *so
     added->code = code;
     added->hash = hash_code(source->text, source->params);
     snprintf(added->place, sizeof added->place, "%s", place);
-    struct field_place places[SDF_PARAMS_MAX];
+    struct param_slot places[SDF_PARAMS_MAX];
     added->vec4s = field_layout(source->params, 0, places);
     while (source->params[added->place_count].name) {
         assert(added->place_count < LIMIT_DECLARED);
@@ -216,12 +216,11 @@ bool field_call_of(const struct scene *scene, const struct node *node, struct fi
 
 int field_shader_numbers(const struct field *field, size_t slot, double *out_n)
 {
-    const float *block =
-        field->numbers + 4 * (field->material_base + slot * field->material_stride);
+    const float *block = field->params + 4 * (field->material_base + slot * field->material_stride);
     int shader = (int)block[FIELD_SHADER] - 1;
     int count = 0;
     for (int i = 0; shader >= 0 && i < field->shaders[shader].place_count; i++) {
-        const struct field_place *place = &field->shaders[shader].places[i];
+        const struct param_slot *place = &field->shaders[shader].places[i];
         const float *from = block + 4 * (FIELD_MATERIAL_VEC4S + place->vec4) + place->component;
         for (int c = 0; c < place->count; c++) {
             out_n[count++] = from[c];

@@ -17,7 +17,7 @@ static uint64_t hash_code(uint64_t state, const struct field_code *code)
 }
 
 /* Everything that the GLSL text is made of. */
-static uint64_t shape_hash(const struct field *field)
+static uint64_t structure_hash(const struct field *field)
 {
     uint64_t state = BUILDER_HASH_START;
     for (size_t i = 0; i < field->instruction_count; i++) {
@@ -27,7 +27,7 @@ static uint64_t shape_hash(const struct field *field)
         state = builder_hash(state, (uint32_t)in->a << 16 | in->b);
         state = builder_hash(state, (uint32_t)in->point << 16 | in->out);
         state = builder_hash(state, in->choices);
-        state = builder_hash(state, in->numbers);
+        state = builder_hash(state, in->params);
         state = builder_hash(state, in->seen);
     }
     for (size_t i = 0; i < field->code_count; i++) {
@@ -79,7 +79,7 @@ static void add_floor(struct builder *b, struct result *whole)
     if (record_number(environment, "floor") == 0 || b->failed) {
         return;
     }
-    struct frame frame = frame_create(0, 1, field_floor_slot(b->scene));
+    struct node_frame frame = node_frame_create(0, 1, field_floor_slot(b->scene));
     struct node plane = {.type = node_type_find("plane")};
     record_init(&plane.params, &plane.type->record);
     struct value *offset = &plane.params.values[record_type_find(plane.params.type, "offset")];
@@ -113,7 +113,7 @@ bool field_has_member(const struct field *field, uint64_t hash)
 
 struct field *field_compile(const struct scene *scene, struct error *err)
 {
-    return field_compile_as(scene, &(struct field_wish){.drawn = NULL}, err);
+    return field_compile_as(scene, &(struct field_options){.drawn = NULL}, err);
 }
 
 /* What is the same for a program that is made and for one that is made again. */
@@ -122,7 +122,7 @@ static struct result emit_scene(struct builder *b)
     b->union_type = node_type_find("union");
     b->union_sdf = sdf_find(b->union_type);
     b->site = b->position = SITES_NONE;
-    struct frame frame = frame_create(0, 1, 0);
+    struct node_frame frame = node_frame_create(0, 1, 0);
     struct result whole = field_emit(b, b->scene->root, &frame, 0, FIELD_NOTHING);
     add_floor(b, &whole);
     if (!whole.solid) {
@@ -134,43 +134,44 @@ static struct result emit_scene(struct builder *b)
 static void set_extent(struct field *field, const struct builder *b, const struct result *whole)
 {
     field->bounds = whole->shown ? whole->box : bounds_empty();
-    field->clear_bounds = whole->clear_box;
-    field->clear = whole->clear;
+    field->transmissive_bounds = whole->transmissive_box;
+    field->transmissive = whole->transmissive;
     field->loop_trips = b->trips > UINT32_MAX ? UINT32_MAX : (uint32_t)b->trips;
 }
 
-/* Takes the sites and the painters over, or frees them. */
+/* Takes the sites and the material shaders over, or frees them. */
 static void keep_sites(struct builder *b)
 {
     struct field_sites *sites = b->sites;
     if (!sites || b->failed) {
         sites_destroy(sites);
-        free(b->painters);
+        free(b->material_shaders);
         return;
     }
     sites->slot_count = b->scene->materials.count + 1;
-    sites->painters = b->painters;
-    sites->clear = memory_alloc(sites->slot_count, sizeof *sites->clear);
+    sites->material_shaders = b->material_shaders;
+    sites->transmissive = memory_alloc(sites->slot_count, sizeof *sites->transmissive);
     sites->repaint = memory_alloc(sites->slot_count, sizeof *sites->repaint);
     for (size_t slot = 0; slot < sites->slot_count; slot++) {
-        sites->clear[slot] = field_material_clear(b, slot);
+        sites->transmissive[slot] = field_material_transmissive(b, slot);
     }
     b->field->sites = sites;
 }
 
-struct field *field_compile_as(const struct scene *scene, const struct field_wish *wish,
+struct field *field_compile_as(const struct scene *scene, const struct field_options *options,
                                struct error *err)
 {
     struct field *field = memory_alloc(1, sizeof *field);
     field->references = 1;
-    struct isolation *isolation = isolation_create(scene, wish->isolated, wish->isolated_count);
-    const bool patchable = wish->patchable && !isolation;
+    struct isolation *isolation =
+        isolation_create(scene, options->isolated, options->isolated_count);
+    const bool patchable = options->patchable && !isolation;
     struct builder builder = {.field = field,
                               .scene = scene,
-                              .drawn = wish->drawn,
+                              .drawn = options->drawn,
                               .isolation = isolation,
                               .sites = patchable ? sites_create() : NULL};
-    field_add_painters(&builder);
+    field_add_material_shaders(&builder);
     const struct result whole = emit_scene(&builder);
     isolation_destroy(isolation);
     if (builder.sites) {
@@ -190,29 +191,30 @@ struct field *field_compile_as(const struct scene *scene, const struct field_wis
     field->argument_count = builder.argument_count;
     field->user_code = find_user_code(field);
     field->code_size = sum_code(field);
-    field->shape_hash = shape_hash(field);
+    field->structure_hash = structure_hash(field);
     return field;
 }
 
-/* Materials whose numbers have changed; false: one that is clear is no more, or the other way. */
+/* Materials whose numbers have changed; false: one that is transmissive is no more, or the other
+ * way. */
 static bool repaint(struct builder *b, const struct field *field)
 {
     struct field_sites *sites = b->sites;
     const size_t base = field->material_base, stride = field->material_stride;
     if (sites->floor_changed) {
         field_put_floor(b);
-        sites_touch(b, SITES_NUMBERS, base + sites->slot_count * stride, stride);
+        sites_touch(b, SITES_PARAMS, base + sites->slot_count * stride, stride);
     }
     for (size_t slot = 1; slot < sites->slot_count; slot++) {
         if (!sites->repaint[slot]) {
             continue;
         }
-        if (field_material_clear(b, slot) != sites->clear[slot]) {
+        if (field_material_transmissive(b, slot) != sites->transmissive[slot]) {
             return false;
         }
         b->argument_count = sites->material_arguments + field_material_arguments(b, slot);
         field_put_material(b, slot);
-        sites_touch(b, SITES_NUMBERS, base + slot * stride, stride);
+        sites_touch(b, SITES_PARAMS, base + slot * stride, stride);
         sites->repaint[slot] = false;
     }
     sites->floor_changed = false;
@@ -224,7 +226,7 @@ bool field_run_again(struct field *field, struct field_sites *sites, const struc
     struct field places = *field;
     struct builder builder = {.field = &places,
                               .scene = scene,
-                              .painters = sites->painters,
+                              .material_shaders = sites->material_shaders,
                               .sites = sites,
                               .again = true};
     places.instruction_count = places.vec4_count = 0;

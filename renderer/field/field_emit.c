@@ -28,13 +28,13 @@ static void skip(struct builder *b, const struct node *node)
 static void add_block(struct builder *b, const struct node *node, const struct sdf *sdf,
                       double scale, struct field_instruction *instruction)
 {
-    struct field_place places[SDF_PARAMS_MAX];
-    instruction->numbers =
+    struct param_slot places[SDF_PARAMS_MAX];
+    instruction->params =
         builder_add_vec4s(b, (size_t)field_layout(node->params.type->params, 0, places));
     instruction->arguments = builder_add_arguments(b, SDF_PARAMS_MAX);
     instruction->choices = field_choices(&node->params);
     builder_put_params(b, node->params.type->params, node->params.values, sdf, scale,
-                       instruction->numbers, 0, instruction->arguments);
+                       instruction->params, 0, instruction->arguments);
 }
 
 struct field_instruction field_union_at(const struct builder *b, uint16_t slot)
@@ -52,8 +52,8 @@ static enum field_before before_next(enum field_before before, const struct resu
 
 /* The children and, where there is one, the node's own shape, which is in the slot. */
 static struct result emit_union(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, enum field_before before,
-                                struct result own)
+                                const struct node_frame *frame, uint16_t slot,
+                                enum field_before before, struct result own)
 {
     for (size_t i = 0; i < node->child_count; i++) {
         i = sites_operand(b, i, &own);
@@ -96,7 +96,7 @@ static void add_combine(struct builder *b, struct field_instruction combine, str
             fold->side_vec4 = builder_add_vec4s(b, 1);
         }
         combine.seen = 4 * fold->side_vec4 + (uint32_t)component;
-        b->field->numbers[combine.seen] = (float)combine.side;
+        b->field->params[combine.seen] = (float)combine.side;
     }
     builder_add_instruction(b, combine);
 }
@@ -129,7 +129,7 @@ static void fold_child(struct builder *b, struct fold *fold,
     if (whole->solid) {
         add_combine(b, *combine, fold, child);
     }
-    field_join_clear(whole, child);
+    field_join_transmissive(whole, child);
     whole->box = folded_box(whole, child, rule);
     whole->solid = true;
     whole->shown = whole->shown || child->shown;
@@ -137,7 +137,7 @@ static void fold_child(struct builder *b, struct fold *fold,
 
 /* Folds the children from the left into `slot`. */
 static struct fold emit_folded(struct builder *b, const struct node *node,
-                               struct field_instruction combine, const struct frame *frame,
+                               struct field_instruction combine, const struct node_frame *frame,
                                uint16_t slot)
 {
     enum sdf_rule rule = combine.sdf->rule;
@@ -151,7 +151,8 @@ static struct fold emit_folded(struct builder *b, const struct node *node,
             continue;
         }
         b->cutting = cutting || (fold.count > 0 && rule != SDF_ANY);
-        b->cuts_clear = cutting ? b->cuts_clear : fold.whole.clear || !fold.whole.shown;
+        b->cuts_transmissive =
+            cutting ? b->cuts_transmissive : fold.whole.transmissive || !fold.whole.shown;
         struct result child =
             field_emit(b, node->children[i], frame, slot + fold.whole.solid, FIELD_NOTHING);
         b->cutting = cutting;
@@ -174,7 +175,7 @@ static struct bounds changed_box(const struct node *node, const struct sdf *sdf,
 }
 
 static struct result emit_combine(struct builder *b, const struct node *node, const struct sdf *sdf,
-                                  const struct frame *frame, uint16_t slot)
+                                  const struct node_frame *frame, uint16_t slot)
 {
     struct field_instruction combine = {.op = FIELD_COMBINE, .type = node->type, .sdf = sdf};
     add_block(b, node, sdf, frame->scale, &combine);
@@ -186,7 +187,8 @@ static struct result emit_combine(struct builder *b, const struct node *node, co
 }
 
 static struct result emit_distance(struct builder *b, const struct node *node,
-                                   const struct sdf *sdf, const struct frame *frame, uint16_t slot)
+                                   const struct sdf *sdf, const struct node_frame *frame,
+                                   uint16_t slot)
 {
     struct field_instruction change = {
         .op = FIELD_DISTANCE, .type = node->type, .sdf = sdf, .a = slot};
@@ -201,7 +203,7 @@ static struct result emit_distance(struct builder *b, const struct node *node,
 
 /* Children see a point of their own, in slot point + 2; point + 1 is the modifier's own space. */
 static struct result emit_domain(struct builder *b, const struct node *node, const struct sdf *sdf,
-                                 const struct frame *frame, uint16_t slot)
+                                 const struct node_frame *frame, uint16_t slot)
 {
     const struct sdf_domain *domain = sdf->domain;
     size_t own_count = 4 * (size_t)domain->vec4s;
@@ -214,19 +216,19 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
                                      .sdf = sdf,
                                      .a = slot,
                                      .b = slot,
-                                     .numbers = block,
+                                     .params = block,
                                      .arguments = arguments};
-    next.op = FIELD_PLACE, next.point = frame->point, next.out = own;
+    next.op = FIELD_TRANSFORM, next.point = frame->point, next.out = own;
     builder_add_instruction(b, next);
-    next.numbers += FIELD_MATRIX_VEC4S, next.arguments += 12;
-    next.op = loops ? FIELD_LOOP : FIELD_MAP, next.point = own, next.out = inner;
+    next.params += FIELD_MATRIX_VEC4S, next.arguments += 12;
+    next.op = loops ? FIELD_LOOP : FIELD_WARP, next.point = own, next.out = inner;
     if (loops || domain->map) {
         builder_add_instruction(b, next);
     } else {
         inner = own;
     }
 
-    struct frame inside = frame_create(inner, frame->scale, frame->material);
+    struct node_frame inside = node_frame_create(inner, frame->scale, frame->material);
     uint64_t trips_before = b->trips;
     bool all_again = b->whole;
     b->trips = 0;
@@ -251,7 +253,7 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
     if (domain->after) {
         next.op = FIELD_AFTER, next.b = slot, next.out = own;
         next.seen = 4 * builder_add_vec4s(b, 1);
-        b->field->numbers[next.seen] = (float)-FIELD_FAR;
+        b->field->params[next.seen] = (float)-FIELD_FAR;
         builder_add_instruction(b, next);
     }
     b->trips += trips_before;
@@ -260,8 +262,8 @@ static struct result emit_domain(struct builder *b, const struct node *node, con
 }
 
 static struct result emit_model(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot, enum field_before before,
-                                uint32_t number)
+                                const struct node_frame *frame, uint16_t slot,
+                                enum field_before before, uint32_t number)
 {
     const struct resource *model = node_model(b->scene, node);
     if (!model) {
@@ -302,19 +304,19 @@ static bool continues(const struct builder *b, const struct node *node)
 
 /* What is around isolated nodes is not seen itself. */
 static struct result emit_own_shape(struct builder *b, const struct node *node,
-                                    const struct frame *frame, uint16_t slot, uint32_t number)
+                                    const struct node_frame *frame, uint16_t slot, uint32_t number)
 {
     struct builder_mark mark = builder_mark(b);
     struct result own = field_emit_shape(b, node, frame, slot, number);
     if (own.solid && b->isolation && !b->within) {
-        own.shown = own.clear = false;
+        own.shown = own.transmissive = false;
         builder_hide(b, mark);
     }
     return own;
 }
 
 static struct result emit_joining(struct builder *b, const struct node *node,
-                                  const struct frame *frame, uint16_t slot,
+                                  const struct node_frame *frame, uint16_t slot,
                                   enum field_before before, uint32_t number)
 {
     bool joined = before != FIELD_NOTHING;
@@ -339,7 +341,7 @@ static struct result emit_joining(struct builder *b, const struct node *node,
 }
 
 static struct result emit_apart(struct builder *b, const struct node *node,
-                                const struct frame *frame, uint16_t slot)
+                                const struct node_frame *frame, uint16_t slot)
 {
     const struct sdf *sdf = sdf_find(node->type);
     switch (node->type->kind) {
@@ -356,7 +358,7 @@ static struct result emit_apart(struct builder *b, const struct node *node,
  * pays where there are loops: llvmpipe runs all else whether it is needed or not. Where nothing is
  * seen before, the guard is always 0: the subtree's distance is taken as it is. */
 static void guard(struct builder *b, struct builder_mark mark, enum field_before before,
-                  uint16_t slot, const struct frame *outer, const struct bounds *box)
+                  uint16_t slot, const struct node_frame *outer, const struct bounds *box)
 {
     if (!sites_set_guarded(b, b->trips != mark.trips)) {
         return;
@@ -373,9 +375,9 @@ static void guard(struct builder *b, struct builder_mark mark, enum field_before
     struct field_instruction in = {.op = FIELD_GUARD,
                                    .a = slot,
                                    .point = outer->point,
-                                   .numbers = builder_add_vec4s(b, 2),
+                                   .params = builder_add_vec4s(b, 2),
                                    .arguments = builder_add_arguments(b, 8)};
-    builder_put(b, in.numbers, 0, in.arguments, 8, numbers);
+    builder_put(b, in.params, 0, in.arguments, 8, numbers);
     builder_insert_instruction(b, mark.instructions, in);
     in.op = FIELD_GUARD_END;
     builder_add_instruction(b, in);
@@ -383,12 +385,12 @@ static void guard(struct builder *b, struct builder_mark mark, enum field_before
 }
 
 /* Where a node's numbers, nesting or count leave what can be drawn, with models written out. */
-static void check(struct builder *b, const struct node *node, const struct frame *frame)
+static void check(struct builder *b, const struct node *node, const struct node_frame *frame)
 {
     char place[32 + LIMIT_ID_BYTES];
     struct error err = {0};
     snprintf(place, sizeof place, "/nodes/%s", b->instance ? b->instance_node->id : node->id);
-    if (!frame_is_sane(frame)) {
+    if (!node_frame_is_sane(frame)) {
         snprintf(place, sizeof place, "/nodes/%s/transform", node->id);
         error_set(&err, ERROR_LIMIT, place,
                   "with its parents' transforms it leaves the range of 1e-15 to 1e15");
@@ -425,15 +427,15 @@ static bool is_left_out(const struct builder *b, bool hidden, uint64_t member)
 }
 
 static struct result emit_node(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, enum field_before before,
-                               uint32_t number)
+                               const struct node_frame *frame, uint16_t slot,
+                               enum field_before before, uint32_t number)
 {
     bool joined = before != FIELD_NOTHING;
     if (continues(b, node)) {
         return emit_joining(b, node, frame, slot, before, number);
     }
     struct result result = emit_apart(b, node, frame, slot + joined);
-    result.clear_box = result.box;
+    result.transmissive_box = result.box;
     if (result.solid && joined) {
         builder_add_instruction(b, field_union_at(b, slot));
     }
@@ -441,12 +443,12 @@ static struct result emit_node(struct builder *b, const struct node *node,
 }
 
 static struct result emit_entered(struct builder *b, const struct node *node,
-                                  const struct frame *outer, uint16_t slot,
+                                  const struct node_frame *outer, uint16_t slot,
                                   enum field_before before, struct result result)
 {
     uint32_t number = b->instance ? b->instance : ++b->index;
     double from[12], ratio;
-    struct frame frame = frame_enter(outer, node, from, &ratio);
+    struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
     const char *material = record_text(&node->common, "material");
     if (*material) {
         frame.material = field_material_slot(b->scene, material);
@@ -467,12 +469,12 @@ static struct result emit_entered(struct builder *b, const struct node *node,
         return nothing;
     }
     result.box = bounds_transform(&result.box, from, ratio);
-    result.clear_box = bounds_transform(&result.clear_box, from, ratio);
+    result.transmissive_box = bounds_transform(&result.transmissive_box, from, ratio);
     if (before != FIELD_NOTHING) {
         guard(b, mark, before, slot, outer, &result.box);
     }
     if (result.hidden || result.apart || !result.shown) {
-        result.shown = result.clear = false;
+        result.shown = result.transmissive = false;
         builder_hide(b, mark);
     }
     return result;
@@ -484,15 +486,15 @@ static enum isolated_part part_of(const struct builder *b, const struct node *no
 }
 
 /* What is empty space has to stand somewhere, too. */
-static void check_empty(struct builder *b, const struct node *node, const struct frame *outer)
+static void check_empty(struct builder *b, const struct node *node, const struct node_frame *outer)
 {
     double from[12], ratio;
-    struct frame frame = frame_enter(outer, node, from, &ratio);
+    struct node_frame frame = node_frame_enter(outer, node, from, &ratio);
     const struct resource *model =
         node->type->kind == KIND_MODEL ? node_model(b->scene, node) : NULL;
-    b->failed = b->failed || !frame_is_sane(&frame);
+    b->failed = b->failed || !node_frame_is_sane(&frame);
     if (node->type->kind == KIND_DOMAIN) {
-        frame = frame_create(frame.point, frame.scale, frame.material);
+        frame = node_frame_create(frame.point, frame.scale, frame.material);
     }
     if (model) {
         check_empty(b, model->root, &frame);
@@ -502,7 +504,8 @@ static void check_empty(struct builder *b, const struct node *node, const struct
     }
 }
 
-static bool is_passed_over(struct builder *b, const struct node *node, const struct frame *outer)
+static bool is_passed_over(struct builder *b, const struct node *node,
+                           const struct node_frame *outer)
 {
     if (!sites_has_changed(b)) {
         return true;
@@ -514,7 +517,7 @@ static bool is_passed_over(struct builder *b, const struct node *node, const str
     return false;
 }
 
-struct result field_emit(struct builder *b, const struct node *node, const struct frame *outer,
+struct result field_emit(struct builder *b, const struct node *node, const struct node_frame *outer,
                          uint16_t slot, enum field_before before)
 {
     bool has_part = b->again && sites_has(b, node);

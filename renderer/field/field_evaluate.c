@@ -10,17 +10,17 @@
 enum { MIXED_MAX = 4 };
 
 /* A material's slot, its share of the whole (0: none), and the point in the space of the shape. */
-struct paint {
+struct material_share {
     size_t slot;
     double weight, place[3];
     double cuts; /* FIELD_CUTS_..., or 0 */
 };
 
 /* What is known of a surface besides its distance. */
-struct tint {
+struct material_mix {
     uint32_t leaf;
-    double weight;                  /* of that leaf in what is seen */
-    struct paint paints[MIXED_MAX]; /* the strongest, in that order */
+    double weight;                           /* of that leaf in what is seen */
+    struct material_share shares[MIXED_MAX]; /* the strongest, in that order */
 };
 
 struct loop {
@@ -30,7 +30,7 @@ struct loop {
 
 struct machine {
     const struct field *field;
-    struct tint *tints; /* one for each distance slot; NULL: only the distance is asked for */
+    struct material_mix *mixes; /* of each distance slot; NULL: distance alone */
     double d[FIELD_SLOTS_MAX];
     double p[FIELD_SLOTS_MAX][3];
     struct loop loops[LIMIT_NODE_DEPTH];
@@ -46,7 +46,7 @@ static void place(const double m[12], const double p[3], double out[3])
 
 static const float *material_numbers(const struct field *field, size_t slot)
 {
-    return field->numbers + 4 * (field->material_base + slot * field->material_stride);
+    return field->params + 4 * (field->material_base + slot * field->material_stride);
 }
 
 /* A user's function, asked inside its box alone and cut by it: as in glsl/user.glsl. */
@@ -73,50 +73,52 @@ static void run_shape(struct machine *m, const struct field_instruction *in, con
     n += 12;
     m->d[in->a] = in->sdf ? in->sdf->shape(local, n + FIELD_HEAD_NUMBERS) * n[0]
                           : run_code(m->field, in, local, n);
-    if (!m->tints) {
+    if (!m->mixes) {
         return;
     }
-    m->tints[in->a] = (struct tint){.leaf = (uint32_t)n[FIELD_LEAF], .weight = 1};
-    m->tints[in->a].paints[0] = (struct paint){.slot = (size_t)n[FIELD_SLOT],
-                                               .weight = 1,
-                                               .place = {local[0], local[1], local[2]},
-                                               .cuts = n[FIELD_SLOT] - floor(n[FIELD_SLOT])};
+    m->mixes[in->a] = (struct material_mix){.leaf = (uint32_t)n[FIELD_LEAF], .weight = 1};
+    m->mixes[in->a].shares[0] =
+        (struct material_share){.slot = (size_t)n[FIELD_SLOT],
+                                .weight = 1,
+                                .place = {local[0], local[1], local[2]},
+                                .cuts = n[FIELD_SLOT] - floor(n[FIELD_SLOT])};
 }
 
 /* Takes a material in, in the place of the weakest if it is new. */
-static void add_paint(struct paint paints[MIXED_MAX], const struct paint *more, double share)
+static void add_material_share(struct material_share shares[MIXED_MAX],
+                               const struct material_share *more, double share)
 {
     const double weight = more->weight * share;
     int i = 0;
-    while (i < MIXED_MAX && !(paints[i].weight > 0 && paints[i].slot == more->slot &&
-                              paints[i].cuts == more->cuts)) {
+    while (i < MIXED_MAX && !(shares[i].weight > 0 && shares[i].slot == more->slot &&
+                              shares[i].cuts == more->cuts)) {
         i++;
     }
     if (i < MIXED_MAX) {
-        const double sum = paints[i].weight + weight;
-        paints[i] = weight > paints[i].weight ? *more : paints[i];
-        paints[i].weight = sum;
-    } else if (weight > paints[--i].weight) {
-        paints[i] = *more;
-        paints[i].weight = weight;
+        const double sum = shares[i].weight + weight;
+        shares[i] = weight > shares[i].weight ? *more : shares[i];
+        shares[i].weight = sum;
+    } else if (weight > shares[--i].weight) {
+        shares[i] = *more;
+        shares[i].weight = weight;
     }
-    for (; i > 0 && paints[i].weight > paints[i - 1].weight; i--) {
-        const struct paint before = paints[i - 1];
-        paints[i - 1] = paints[i];
-        paints[i] = before;
+    for (; i > 0 && shares[i].weight > shares[i - 1].weight; i--) {
+        const struct material_share before = shares[i - 1];
+        shares[i - 1] = shares[i];
+        shares[i] = before;
     }
 }
 
-static void mix_tints(struct tint *a, const struct tint *b, double share)
+static void mix_mixes(struct material_mix *a, const struct material_mix *b, double share)
 {
     double wa = a->weight * (1 - share), wb = b->weight * share;
     a->leaf = wb > wa ? b->leaf : a->leaf;
     a->weight = fmax(wa, wb);
     for (int i = 0; i < MIXED_MAX; i++) {
-        a->paints[i].weight *= 1 - share;
+        a->shares[i].weight *= 1 - share;
     }
     for (int i = 0; i < MIXED_MAX; i++) {
-        add_paint(a->paints, &b->paints[i], share);
+        add_material_share(a->shares, &b->shares[i], share);
     }
 }
 
@@ -125,8 +127,8 @@ static void run_side(struct machine *m, const struct field_instruction *in)
 {
     if (in->side == FIELD_SECOND) {
         m->d[in->a] = m->d[in->b];
-        if (m->tints) {
-            m->tints[in->a] = m->tints[in->b];
+        if (m->mixes) {
+            m->mixes[in->a] = m->mixes[in->b];
         }
     }
 }
@@ -139,16 +141,16 @@ static void run_combine(struct machine *m, const struct field_instruction *in, c
         return;
     }
     m->d[in->a] = in->sdf->combine(m->d[in->a], m->d[in->b], n, &share);
-    if (m->tints) {
-        mix_tints(&m->tints[in->a], &m->tints[in->b], share);
+    if (m->mixes) {
+        mix_mixes(&m->mixes[in->a], &m->mixes[in->b], share);
     }
 }
 
 static void run_empty(struct machine *m, uint16_t slot)
 {
     m->d[slot] = FIELD_FAR;
-    if (m->tints) {
-        m->tints[slot] = (struct tint){.weight = 1, .paints = {{.weight = 1}}};
+    if (m->mixes) {
+        m->mixes[slot] = (struct material_mix){.weight = 1, .shares = {{.weight = 1}}};
     }
 }
 
@@ -169,8 +171,8 @@ static size_t run_loop_end(struct machine *m, const struct field_instruction *in
 {
     if (m->d[in->b] < m->d[in->a]) {
         m->d[in->a] = m->d[in->b];
-        if (m->tints) {
-            m->tints[in->a] = m->tints[in->b];
+        if (m->mixes) {
+            m->mixes[in->a] = m->mixes[in->b];
         }
     }
     struct loop *loop = &m->loops[m->depth - 1];
@@ -200,7 +202,7 @@ static double box_distance(const double p[3], const double *n)
 static size_t run_guard(const struct machine *m, const struct field_instruction *in,
                         const double *n, size_t next)
 {
-    double distance = m->tints ? 0 : box_distance(m->p[in->point], n);
+    double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
     if (distance == 0 || distance < m->d[in->a]) {
         return next;
     }
@@ -213,7 +215,7 @@ static size_t run_guard(const struct machine *m, const struct field_instruction 
 
 static void run_guard_end(struct machine *m, const struct field_instruction *in, const double *n)
 {
-    double distance = m->tints ? 0 : box_distance(m->p[in->point], n);
+    double distance = m->mixes ? 0 : box_distance(m->p[in->point], n);
     if (distance > 0) {
         m->d[in->a] = fmax(m->d[in->a], distance);
     }
@@ -252,10 +254,10 @@ static void run(struct machine *m, const double p[3])
         case FIELD_DISTANCE:
             m->d[in->a] = in->sdf->change(m->d[in->a], n);
             break;
-        case FIELD_PLACE:
+        case FIELD_TRANSFORM:
             place(n, m->p[in->point], m->p[in->out]);
             break;
-        case FIELD_MAP:
+        case FIELD_WARP:
             in->sdf->domain->map(m->p[in->point], n, m->p[in->out]);
             break;
         case FIELD_AFTER:
@@ -281,20 +283,20 @@ double field_distance(const struct field *field, const double p[3])
 {
     struct machine machine;
     machine.field = field;
-    machine.tints = NULL;
+    machine.mixes = NULL;
     run(&machine, p);
     return machine.d[0];
 }
 
 /* What a shader says of the point. */
-static void apply_shader(const struct code *code, const struct paint *paint, const double p[3],
-                         const struct field_view *view, const double *numbers,
+static void apply_shader(const struct code *code, const struct material_share *material_share,
+                         const double p[3], const struct field_view *view, const double *numbers,
                          double material[FIELD_MATERIAL_NUMBERS])
 {
     struct code_shading at = {.ray_distance = view->distance};
     double color[4];
     memcpy(at.world_position, p, sizeof at.world_position);
-    memcpy(at.object_position, paint->place, sizeof at.object_position);
+    memcpy(at.object_position, material_share->place, sizeof at.object_position);
     memcpy(at.world_normal, view->normal, sizeof at.world_normal);
     memcpy(at.ray_direction, view->direction, sizeof at.ray_direction);
     if (code_gives_surface(code)) {
@@ -311,35 +313,36 @@ static void apply_shader(const struct code *code, const struct paint *paint, con
 }
 
 /* The numbers of a material at a point. */
-static void paint_material(const struct field *field, const struct paint *paint, const double p[3],
-                           const struct field_view *view, double out[FIELD_MATERIAL_NUMBERS])
+static void shade_material(const struct field *field, const struct material_share *material_share,
+                           const double p[3], const struct field_view *view,
+                           double out[FIELD_MATERIAL_NUMBERS])
 {
-    const float *block = material_numbers(field, paint->slot);
+    const float *block = material_numbers(field, material_share->slot);
     double numbers[4 * LIMIT_DECLARED];
-    const int shader = field_shader_numbers(field, paint->slot, numbers);
+    const int shader = field_shader_numbers(field, material_share->slot, numbers);
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
         out[i] = block[i];
     }
     if (shader >= 0) {
-        apply_shader(field->shaders[shader].code, paint, p, view, numbers, out);
+        apply_shader(field->shaders[shader].code, material_share, p, view, numbers, out);
     }
-    out[FIELD_TRANSMISSION] *= paint->cuts != FIELD_CUTS_SOLID;
+    out[FIELD_TRANSMISSION] *= material_share->cuts != FIELD_CUTS_OPAQUE;
 }
 
 /* The mean of the materials by their shares. The model is that of the first; gloss, which means
  * another thing in each model, the mean of those that share it. */
-static void mix_materials(const struct field *field, const struct paint paints[MIXED_MAX],
+static void mix_materials(const struct field *field, const struct material_share shares[MIXED_MAX],
                           const double p[3], const struct field_view *view,
                           double out[FIELD_MATERIAL_NUMBERS])
 {
     double gloss = 0, alike = 0, sum = 0, model = 0;
     for (int i = 0; i < MIXED_MAX; i++) {
-        sum += paints[i].weight;
+        sum += shares[i].weight;
     }
-    for (int i = 0; i < MIXED_MAX && paints[i].weight > 0; i++) {
-        const double share = paints[i].weight / sum;
+    for (int i = 0; i < MIXED_MAX && shares[i].weight > 0; i++) {
+        const double share = shares[i].weight / sum;
         double material[FIELD_MATERIAL_NUMBERS];
-        paint_material(field, &paints[i], p, view, material);
+        shade_material(field, &shares[i], p, view, material);
         for (int j = 0; j < FIELD_MATERIAL_NUMBERS; j++) {
             out[j] += share * material[j];
         }
@@ -357,14 +360,14 @@ struct field_surface field_surface(const struct field *field, const double p[3],
                                    const struct field_view *view)
 {
     static const struct field_view nowhere = {.distance = 0};
-    struct tint tints[FIELD_SLOTS_MAX];
+    struct material_mix mixes[FIELD_SLOTS_MAX];
     struct machine machine;
     machine.field = field;
-    machine.tints = tints;
+    machine.mixes = mixes;
     run(&machine, p);
-    struct field_surface out = {.distance = machine.d[0], .number = tints[0].leaf};
-    const struct paint *paints = tints[0].paints;
-    mix_materials(field, paints, p, view ? view : &nowhere, out.material);
+    struct field_surface out = {.distance = machine.d[0], .number = mixes[0].leaf};
+    const struct material_share *shares = mixes[0].shares;
+    mix_materials(field, shares, p, view ? view : &nowhere, out.material);
     return out;
 }
 

@@ -43,19 +43,19 @@ static void multiply(const double a[12], const double b[12], double out[12])
     }
 }
 
-struct frame frame_create(uint16_t point, double scale, size_t material)
+struct node_frame node_frame_create(uint16_t point, double scale, size_t material)
 {
-    struct frame frame = {
+    struct node_frame frame = {
         .scale = scale, .slot_scale = scale, .point = point, .material = material};
     memcpy(frame.matrix, identity, sizeof identity);
     memcpy(frame.back, identity, sizeof identity);
     return frame;
 }
 
-struct frame frame_enter(const struct frame *outer, const struct node *node, double out_from[12],
-                         double *out_ratio)
+struct node_frame node_frame_enter(const struct node_frame *outer, const struct node *node,
+                                   double out_from[12], double *out_ratio)
 {
-    struct frame frame = *outer;
+    struct node_frame frame = *outer;
     double to[12], least, greatest;
     node_matrices(node, to, out_from, &least, &greatest);
     multiply(to, outer->matrix, frame.matrix);
@@ -66,7 +66,7 @@ struct frame frame_enter(const struct frame *outer, const struct node *node, dou
 }
 
 /* Far inside what a float holds: products of two such numbers must not overflow. */
-bool frame_is_sane(const struct frame *frame)
+bool node_frame_is_sane(const struct node_frame *frame)
 {
     bool sane = frame->scale > 1e-15;
     for (int i = 0; i < 12; i++) {

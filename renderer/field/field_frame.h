@@ -7,7 +7,7 @@
 #include "renderer/sdf/bounds.h"
 
 /* A node sees the point in one of the program's point slots: local = matrix * point. */
-struct frame {
+struct node_frame {
     double matrix[12], back[12]; /* back: from local to the slot's space */
     double scale;                /* from local lengths to the scene's */
     double slot_scale;           /* from the slot's lengths to the scene's */
@@ -16,14 +16,14 @@ struct frame {
 };
 
 /* A frame whose local space is that of the point slot. */
-struct frame frame_create(uint16_t point, double scale, size_t material);
+struct node_frame node_frame_create(uint16_t point, double scale, size_t material);
 
 /* Inside `outer`, by the node's transform. `out_from` takes local points to the space of `outer`,
  * `*out_ratio` tells how much more it stretches one way than another. */
-struct frame frame_enter(const struct frame *outer, const struct node *node, double out_from[12],
-                         double *out_ratio);
+struct node_frame node_frame_enter(const struct node_frame *outer, const struct node *node,
+                                   double out_from[12], double *out_ratio);
 
 /* Far inside what a float holds: products of two such numbers must not overflow. */
-bool frame_is_sane(const struct frame *frame);
+bool node_frame_is_sane(const struct node_frame *frame);
 
 #endif

@@ -38,12 +38,12 @@ static double transmission_of(const struct record *record)
                : 0;
 }
 
-bool field_material_clear(const struct builder *b, size_t slot)
+bool field_material_transmissive(const struct builder *b, size_t slot)
 {
     const struct resource_list *materials = &b->scene->materials;
     const struct resource *material =
         slot > 0 && slot <= materials->count ? materials->items[slot - 1] : NULL;
-    return material && (material->shader ? b->painters[slot - 1].clear
+    return material && (material->shader ? b->material_shaders[slot - 1].transmissive
                                          : transmission_of(&material->record) > 0);
 }
 
@@ -90,7 +90,7 @@ static void put_phong(float *to, const struct record *record)
     put_checker(to, record);
 }
 
-/* What is mirrored at normal incidence, of a metal its colour, else by Fresnel's equations. */
+/* What is reflected at normal incidence, of a metal its colour, else by Fresnel's equations. */
 static void put_standard(float *to, const struct record *record)
 {
     const double *base = record_vector(record, "base_color");
@@ -184,58 +184,59 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
     }
     to[FIELD_GLOSS] = surface->roughness;
     to[FIELD_REFLECTIVITY] = most;
-    /* What may be clear always is a little: see glsl/mixture.glsl. */
+    /* What may be transmissive always is a little: see glsl/mixture.glsl. */
     to[FIELD_TRANSMISSION] =
         fmax(surface->transmission, to[FIELD_TRANSMISSION] > 0 ? 1.0 / 255 : 0);
     to[FIELD_IOR] = surface->ior;
     to[FIELD_MODEL] = MODEL_STANDARD;
 }
 
-static struct builder_painter painter_of(const struct resource *material)
+static struct builder_material_shader material_shader_of(const struct resource *material)
 {
     const struct resource *shader = material->shader;
     const struct shade *own = shader ? NULL : shade_find(material->record.type->name);
-    struct builder_painter painter = {.own = own != NULL, .index = -1};
+    struct builder_material_shader material_shader = {.own = own != NULL, .index = -1};
     if (material->users > 0 && shader) {
-        painter.text = record_text(&shader->record, "code");
-        painter.unlit = record_is(&shader->record, "lighting", "unlit");
+        material_shader.text = record_text(&shader->record, "code");
+        material_shader.unlit = record_is(&shader->record, "lighting", "unlit");
     } else if (material->users > 0 && own) {
-        painter.text = own->text;
-        painter.unlit = own->unlit;
+        material_shader.text = own->text;
+        material_shader.unlit = own->unlit;
     }
-    return painter;
+    return material_shader;
 }
 
-static void add_painter(struct builder *b, const struct resource *material,
-                        struct builder_painter *painter)
+static void add_material_shader(struct builder *b, const struct resource *material,
+                                struct builder_material_shader *material_shader)
 {
     char place[ERROR_PLACE_BYTES] = "";
     if (material->shader) {
         snprintf(place, sizeof place, "/shaders/%s/code", material->shader->name);
     }
-    painter->index =
-        field_code_add(b, CODE_SHADE, painter->text, material->record.type->params, place);
-    if (painter->index >= 0) {
-        struct field_code *shader = &b->field->shaders[painter->index];
-        shader->own = painter->own;
-        painter->clear = !painter->unlit && code_is_clear(shader->code);
+    material_shader->index =
+        field_code_add(b, CODE_SHADE, material_shader->text, material->record.type->params, place);
+    if (material_shader->index >= 0) {
+        struct field_code *shader = &b->field->shaders[material_shader->index];
+        shader->own = material_shader->own;
+        material_shader->transmissive =
+            !material_shader->unlit && code_is_transmissive(shader->code);
     }
 }
 
 /* And leaves room for what they read. */
-void field_add_painters(struct builder *b)
+void field_add_material_shaders(struct builder *b)
 {
     const struct resource_list *materials = &b->scene->materials;
     size_t most = 0;
-    b->painters = memory_alloc(materials->count + 1, sizeof *b->painters);
+    b->material_shaders = memory_alloc(materials->count + 1, sizeof *b->material_shaders);
     for (size_t i = 0; i < materials->count; i++) {
-        struct builder_painter *painter = &b->painters[i];
-        *painter = painter_of(materials->items[i]);
-        if (painter->text) {
-            add_painter(b, materials->items[i], painter);
+        struct builder_material_shader *material_shader = &b->material_shaders[i];
+        *material_shader = material_shader_of(materials->items[i]);
+        if (material_shader->text) {
+            add_material_shader(b, materials->items[i], material_shader);
         }
-        if (painter->index >= 0) {
-            size_t vec4s = (size_t)b->field->shaders[painter->index].vec4s;
+        if (material_shader->index >= 0) {
+            size_t vec4s = (size_t)b->field->shaders[material_shader->index].vec4s;
             most = vec4s > most ? vec4s : most;
         }
     }
@@ -244,16 +245,16 @@ void field_add_painters(struct builder *b)
 
 /* What the shader reads, where its colour goes, and what it may do besides. */
 static void put_painter(struct builder *b, uint32_t vec4, const struct record *record,
-                        const struct builder_painter *painter)
+                        const struct builder_material_shader *material_shader)
 {
-    const struct field_code *shader = &b->field->shaders[painter->index];
-    float *to = b->field->numbers + 4 * (size_t)vec4;
+    const struct field_code *shader = &b->field->shaders[material_shader->index];
+    float *to = b->field->params + 4 * (size_t)vec4;
     uint32_t arguments = builder_add_arguments(b, SDF_NUMBERS_MAX);
-    to[FIELD_SHADER] = (float)(painter->index + 1);
-    to[FIELD_UNLIT] = painter->unlit;
-    if (!painter->unlit && code_gives_surface(shader->code)) {
+    to[FIELD_SHADER] = (float)(material_shader->index + 1);
+    to[FIELD_UNLIT] = material_shader->unlit;
+    if (!material_shader->unlit && code_gives_surface(shader->code)) {
         to[FIELD_REFLECTIVITY] = 1;
-        to[FIELD_TRANSMISSION] = painter->clear;
+        to[FIELD_TRANSMISSION] = material_shader->transmissive;
     }
     builder_put_params(b, record->type->params, record->values, NULL, 1,
                        vec4 + FIELD_MATERIAL_VEC4S, 0, arguments);
@@ -265,7 +266,7 @@ enum { PADDING = 256 };
 static float *slot_numbers(const struct builder *b, size_t slot)
 {
     const struct field *field = b->field;
-    return field->numbers + 4 * (field->material_base + slot * field->material_stride);
+    return field->params + 4 * (field->material_base + slot * field->material_stride);
 }
 
 void field_put_floor(const struct builder *b)
@@ -276,13 +277,13 @@ void field_put_floor(const struct builder *b)
 void field_put_material(struct builder *b, size_t slot)
 {
     const struct resource *material = b->scene->materials.items[slot - 1];
-    const struct builder_painter *painter = &b->painters[slot - 1];
+    const struct builder_material_shader *material_shader = &b->material_shaders[slot - 1];
     float *to = slot_numbers(b, slot);
     put_nothing(to);
     put_material(to, &material->record);
-    if (painter->index >= 0) {
+    if (material_shader->index >= 0) {
         put_painter(b, (uint32_t)(b->field->material_base + slot * b->field->material_stride),
-                    &material->record, painter);
+                    &material->record, material_shader);
     }
 }
 
@@ -290,7 +291,7 @@ size_t field_material_arguments(const struct builder *b, size_t slot)
 {
     size_t before = 0;
     for (size_t i = 1; i < slot; i++) {
-        before += b->painters[i - 1].index >= 0;
+        before += b->material_shaders[i - 1].index >= 0;
     }
     return before * SDF_NUMBERS_MAX;
 }

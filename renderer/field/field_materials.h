@@ -10,10 +10,10 @@ size_t field_material_slot(const struct scene *scene, const char *name);
 /* The slot of the environment's floor. */
 size_t field_floor_slot(const struct scene *scene);
 /* Compiles the shaders of materials that are used: before all else. The caller frees
- * b->painters. */
-void field_add_painters(struct builder *b);
+ * b->material_shaders. */
+void field_add_material_shaders(struct builder *b);
 /* Whether light goes through the material in a slot, at some places at least. */
-bool field_material_clear(const struct builder *b, size_t slot);
+bool field_material_transmissive(const struct builder *b, size_t slot);
 /* What a shader's surface is as a material's numbers, which are there already. */
 void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surface *surface);
 

@@ -141,17 +141,17 @@ static void widen(struct field_span *span, size_t first, size_t end)
 
 static void widen_by(struct field_span *span, const struct sites_patch *patch)
 {
-    for (size_t i = 0; i < patch->counts[SITES_NUMBERS]; i++) {
-        widen(span, patch->ranges[SITES_NUMBERS][i].first, patch->ranges[SITES_NUMBERS][i].end);
+    for (size_t i = 0; i < patch->counts[SITES_PARAMS]; i++) {
+        widen(span, patch->ranges[SITES_PARAMS][i].first, patch->ranges[SITES_PARAMS][i].end);
     }
 }
 
 static void copy_patch(struct field *to, const struct field *from, const struct sites_patch *patch)
 {
-    for (size_t i = 0; i < patch->counts[SITES_NUMBERS]; i++) {
-        const struct sites_range *range = &patch->ranges[SITES_NUMBERS][i];
-        memcpy(to->numbers + 4 * range->first, from->numbers + 4 * range->first,
-               (range->end - range->first) * 4 * sizeof *to->numbers);
+    for (size_t i = 0; i < patch->counts[SITES_PARAMS]; i++) {
+        const struct sites_range *range = &patch->ranges[SITES_PARAMS][i];
+        memcpy(to->params + 4 * range->first, from->params + 4 * range->first,
+               (range->end - range->first) * 4 * sizeof *to->params);
     }
     for (size_t i = 0; i < patch->counts[SITES_ARGUMENTS]; i++) {
         const struct sites_range *range = &patch->ranges[SITES_ARGUMENTS][i];
@@ -176,7 +176,7 @@ static bool is_near(const struct field_sites *sites, const struct field *to)
 
 static void copy_all(struct field *to, const struct field *from, struct field_span *out_changed)
 {
-    memcpy(to->numbers, from->numbers, from->vec4_count * 4 * sizeof *to->numbers);
+    memcpy(to->params, from->params, from->vec4_count * 4 * sizeof *to->params);
     if (from->argument_count > 0) {
         memcpy(to->arguments, from->arguments, from->argument_count * sizeof *to->arguments);
     }
@@ -205,7 +205,7 @@ static struct field *copy(struct field *from, struct field_span *out_changed)
     to->references = 1;
     to->base = field_ref(from->base ? from->base : from);
     to->sites = NULL;
-    to->numbers = memory_alloc(from->vec4_count + SITES_ROOM, 4 * sizeof *to->numbers);
+    to->params = memory_alloc(from->vec4_count + SITES_ROOM, 4 * sizeof *to->params);
     to->arguments = memory_alloc(from->argument_count + SITES_ROOM, sizeof *to->arguments);
     copy_all(to, from, out_changed);
     return to;

@@ -25,7 +25,7 @@
 
 #include "field.h"
 
-/* From one vec4 of field.numbers to before another. */
+/* From one vec4 of field.params to before another. */
 struct field_span {
     size_t first, end;
 };

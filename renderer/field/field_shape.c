@@ -45,22 +45,22 @@ static void add_leaf(struct builder *b, uint32_t number, const struct node *node
 }
 
 /* What is common to all shapes, in front of their parameters. */
-static void fill_head(const struct builder *b, const struct frame *frame, double slope,
+static void fill_head(const struct builder *b, const struct node_frame *frame, double slope,
                       uint32_t number, double out_head[FIELD_HEAD_NUMBERS])
 {
-    bool clear = field_material_clear(b, frame->material);
-    const double cuts = b->cuts_clear ? FIELD_CUTS_CLEAR : FIELD_CUTS_SOLID;
+    bool transmissive = field_material_transmissive(b, frame->material);
+    const double cuts = b->cuts_transmissive ? FIELD_CUTS_TRANSMISSIVE : FIELD_CUTS_OPAQUE;
     out_head[FIELD_SCALE] = frame->scale / slope;
     out_head[FIELD_LEAF] = number;
     out_head[FIELD_SLOT] = (double)frame->material + (b->cutting ? cuts : 0);
-    out_head[FIELD_CLEAR] = b->cutting ? 0 : clear ? 1 : -1;
+    out_head[FIELD_TRANSMISSIVE] = b->cutting ? 0 : transmissive ? 1 : -1;
     out_head[FIELD_AWAY] = 0;
 }
 
 static void emit_shape(struct builder *b, const struct node *node, const struct sdf *sdf,
-                       const struct frame *frame, uint16_t slot, uint32_t number)
+                       const struct node_frame *frame, uint16_t slot, uint32_t number)
 {
-    struct field_place places[SDF_PARAMS_MAX];
+    struct param_slot places[SDF_PARAMS_MAX];
     double numbers[SDF_NUMBERS_MAX];
     int vec4s = field_layout(node->params.type->params, FIELD_HEAD_NUMBERS, places);
     int count = prepared_numbers(node, sdf, numbers);
@@ -82,7 +82,7 @@ static void emit_shape(struct builder *b, const struct node *node, const struct 
                                                           .a = slot,
                                                           .point = frame->point,
                                                           .choices = field_choices(&node->params),
-                                                          .numbers = block,
+                                                          .params = block,
                                                           .arguments = arguments});
 }
 
@@ -131,7 +131,7 @@ static void fill_form(const struct field_call *call, const double *numbers, int 
 
 /* An equation that is a polynomial: its coefficients are numbers of the field. */
 static struct result emit_polynomial(struct builder *b, const struct node *node,
-                                     const struct frame *frame, uint16_t slot, uint32_t number,
+                                     const struct node_frame *frame, uint16_t slot, uint32_t number,
                                      const struct field_call *call, const struct equation *equation)
 {
     enum { LETTERS = 5 }; /* behind size, radius and thickness */
@@ -164,14 +164,14 @@ static struct result emit_polynomial(struct builder *b, const struct node *node,
                                                           .a = slot,
                                                           .point = frame->point,
                                                           .choices = FIELD_POLYNOMIAL,
-                                                          .numbers = block,
+                                                          .params = block,
                                                           .arguments = arguments});
     return (struct result){.solid = true, .shown = true, .box = box};
 }
 
 /* A shape of a user's code: like another, but cut by a box and with its parameters apart. */
 static struct result emit_code(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, uint32_t number,
+                               const struct node_frame *frame, uint16_t slot, uint32_t number,
                                const struct field_call *call)
 {
     const int index = field_call_add(b, call);
@@ -201,13 +201,13 @@ static struct result emit_code(struct builder *b, const struct node *node,
                                                           .a = slot,
                                                           .point = frame->point,
                                                           .choices = (uint32_t)index,
-                                                          .numbers = block,
+                                                          .params = block,
                                                           .arguments = arguments});
     return (struct result){.solid = true, .shown = true, .box = box};
 }
 
 static struct result emit_called(struct builder *b, const struct node *node,
-                                 const struct frame *frame, uint16_t slot, uint32_t number)
+                                 const struct node_frame *frame, uint16_t slot, uint32_t number)
 {
     struct field_call call;
     struct result result = {0};
@@ -228,7 +228,7 @@ static struct result emit_called(struct builder *b, const struct node *node,
 }
 
 struct result field_emit_shape(struct builder *b, const struct node *node,
-                               const struct frame *frame, uint16_t slot, uint32_t number)
+                               const struct node_frame *frame, uint16_t slot, uint32_t number)
 {
     struct result result = {.solid = true, .shown = true};
     if (node->type->kind == KIND_CODE || node->type->kind == KIND_EQUATION) {
@@ -238,14 +238,15 @@ struct result field_emit_shape(struct builder *b, const struct node *node,
         emit_shape(b, node, sdf, frame, slot, number);
         result.box = shape_box(node, sdf);
     }
-    result.clear = result.solid && !b->cutting && field_material_clear(b, frame->material);
-    result.clear_box = result.box;
+    result.transmissive =
+        result.solid && !b->cutting && field_material_transmissive(b, frame->material);
+    result.transmissive_box = result.box;
     return result;
 }
 
 void field_join(struct result *to, const struct result *from)
 {
-    field_join_clear(to, from);
+    field_join_transmissive(to, from);
     if (from->shown) {
         to->box = to->shown ? bounds_union(to->box, from->box) : from->box;
     } else if (!to->solid) {
@@ -255,10 +256,12 @@ void field_join(struct result *to, const struct result *from)
     to->shown = to->shown || from->shown;
 }
 
-void field_join_clear(struct result *to, const struct result *from)
+void field_join_transmissive(struct result *to, const struct result *from)
 {
-    if (from->clear) {
-        to->clear_box = to->clear ? bounds_union(to->clear_box, from->clear_box) : from->clear_box;
-        to->clear = true;
+    if (from->transmissive) {
+        to->transmissive_box = to->transmissive
+                                   ? bounds_union(to->transmissive_box, from->transmissive_box)
+                                   : from->transmissive_box;
+        to->transmissive = true;
     }
 }

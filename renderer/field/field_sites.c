@@ -17,8 +17,8 @@ void sites_destroy(struct field_sites *sites)
     if (sites) {
         free(sites->at);
         free(sites->table);
-        free(sites->painters);
-        free(sites->clear);
+        free(sites->material_shaders);
+        free(sites->transmissive);
         free(sites->repaint);
         free(sites);
     }
@@ -60,8 +60,8 @@ static bool is_same_box(const struct bounds *a, const struct bounds *b)
 static bool is_same_result(const struct result *a, const struct result *b)
 {
     return a->hidden == b->hidden && a->apart == b->apart && a->solid == b->solid &&
-           a->shown == b->shown && a->clear == b->clear && is_same_box(&a->box, &b->box) &&
-           is_same_box(&a->clear_box, &b->clear_box);
+           a->shown == b->shown && a->transmissive == b->transmissive &&
+           is_same_box(&a->box, &b->box) && is_same_box(&a->transmissive_box, &b->transmissive_box);
 }
 
 /* --- nodes --- */
@@ -249,7 +249,7 @@ static bool is_same_instruction(const struct field_instruction *a,
 {
     return a->op == b->op && a->type == b->type && a->sdf == b->sdf && a->a == b->a &&
            a->b == b->b && a->point == b->point && a->out == b->out && a->choices == b->choices &&
-           a->numbers == b->numbers && a->arguments == b->arguments && a->seen == b->seen &&
+           a->params == b->params && a->arguments == b->arguments && a->seen == b->seen &&
            a->side == b->side;
 }
 
@@ -263,7 +263,7 @@ void sites_compare(struct builder *b, size_t index, const struct field_instructi
 size_t sites_touch(struct builder *b, enum sites_list list, size_t first, size_t count)
 {
     const struct field *there = b->field->base;
-    const size_t most = list == SITES_NUMBERS ? there->vec4_count : there->argument_count;
+    const size_t most = list == SITES_PARAMS ? there->vec4_count : there->argument_count;
     struct sites_patch *patch = &b->sites->patches[b->sites->version % SITES_PATCHES];
     struct sites_range *ranges = patch->ranges[list];
     const size_t used = patch->counts[list];

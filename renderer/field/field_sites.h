@@ -44,7 +44,7 @@ struct site {
     struct result before; /* what the operands of the union before it came to */
 };
 
-enum sites_list { SITES_NUMBERS /* vec4s */, SITES_ARGUMENTS, SITES_LISTS };
+enum sites_list { SITES_PARAMS /* vec4s */, SITES_ARGUMENTS, SITES_LISTS };
 enum { SITES_RANGES_MAX = 64, SITES_PATCHES = 8 };
 
 /* What a patch has written. */
@@ -61,12 +61,12 @@ struct field_sites {
     size_t count, capacity;
     uint32_t *table; /* sites by the address of their node, made with the first patch */
     size_t table_size;
-    struct builder_painter *painters; /* as of the builder */
-    size_t slot_count;                /* of materials, with the default's */
-    bool *clear;                      /* of each material's slot, whether light goes through, */
-    bool *repaint;                    /* and whether its numbers have changed */
-    bool changed, floor_changed;      /* anything of the field; the floor */
-    size_t material_arguments;        /* where those of materials begin */
+    struct builder_material_shader *material_shaders; /* as of the builder */
+    size_t slot_count;                                /* of materials, with the default's */
+    bool *transmissive;          /* of each material's slot, whether light goes through, */
+    bool *repaint;               /* and whether its numbers have changed */
+    bool changed, floor_changed; /* anything of the field; the floor */
+    size_t material_arguments;   /* where those of materials begin */
     struct sites_patch patches[SITES_PATCHES]; /* the last ones; patch n is in n % SITES_PATCHES */
     uint64_t version;                          /* patches so far */
 };

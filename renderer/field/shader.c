@@ -22,7 +22,7 @@ struct writer {
 static void write_params(const struct writer *w, const struct field_instruction *in, uint32_t vec4,
                          int used)
 {
-    struct field_place places[SDF_PARAMS_MAX];
+    struct param_slot places[SDF_PARAMS_MAX];
     const struct param *params = in->type->record.params;
     int choice = 0;
     field_layout(params, used, places);
@@ -33,7 +33,7 @@ static void write_params(const struct writer *w, const struct field_instruction 
         if (params[i].type == PARAM_ENUM) {
             fprintf(w->out, ", %u", in->choices >> (8 * --choice) & 0xff);
         } else if (places[i].vec4 >= 0) {
-            fprintf(w->out, ", N(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
+            fprintf(w->out, ", P(%u).%.*s", vec4 + (uint32_t)places[i].vec4, places[i].count,
                     "xyzw" + places[i].component);
         }
     }
@@ -44,7 +44,7 @@ static void write_places(const struct writer *w, const struct field_code *code, 
                          uint32_t first)
 {
     for (int i = 0; i < code->place_count; i++) {
-        const struct field_place *place = &code->places[i];
+        const struct param_slot *place = &code->places[i];
         uint32_t vec4 = first + (uint32_t)place->vec4;
         fprintf(w->out, ", %s%u).%.*s", base, vec4, place->count, "xyzw" + place->component);
     }
@@ -53,7 +53,7 @@ static void write_places(const struct writer *w, const struct field_code *code, 
 static void write_vec4s(const struct writer *w, uint32_t first, int count)
 {
     for (int i = 0; i < count; i++) {
-        fprintf(w->out, ", N(%u)", first + (uint32_t)i);
+        fprintf(w->out, ", P(%u)", first + (uint32_t)i);
     }
 }
 
@@ -70,7 +70,7 @@ static void write_distance(const struct writer *w, uint16_t slot)
 static void write_local(const struct writer *w, const struct field_instruction *in)
 {
     fprintf(w->out, "local(p%u", in->point);
-    write_vec4s(w, in->numbers, FIELD_MATRIX_VEC4S);
+    write_vec4s(w, in->params, FIELD_MATRIX_VEC4S);
     fprintf(w->out, ")");
 }
 
@@ -79,51 +79,51 @@ static void write_code_point(const struct writer *w, const struct field_instruct
 {
     fprintf(w->out, "within(");
     write_local(w, in);
-    fprintf(w->out, ", N(%u))", in->numbers + FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
+    fprintf(w->out, ", P(%u))", in->params + FIELD_MATRIX_VEC4S + FIELD_HEAD_VEC4S);
 }
 
 /* Its answer, cut by its box; without a field that is d. */
 static void write_code(const struct writer *w, const struct field_instruction *in)
 {
-    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
+    uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
     fprintf(w->out, "unless_away(cut(");
     if (w->field->codes) {
         fprintf(w->out, "user_%u(", in->choices);
         write_code_point(w, in);
-        write_places(w, &w->field->codes[in->choices], "N(", cut + FIELD_CUT_VEC4S);
+        write_places(w, &w->field->codes[in->choices], "P(", cut + FIELD_CUT_VEC4S);
     } else {
         fprintf(w->out, "code_distance(d");
     }
-    fprintf(w->out, ") * N(%u).x, ", head);
+    fprintf(w->out, ") * P(%u).x, ", head);
     write_local(w, in);
-    fprintf(w->out, ", N(%u)), N(%u).x)", cut, head + 1);
+    fprintf(w->out, ", P(%u)), P(%u).x)", cut, head + 1);
 }
 
 static void write_shape(struct writer *w, const struct field_instruction *in)
 {
-    uint32_t head = in->numbers + FIELD_MATRIX_VEC4S;
+    uint32_t head = in->params + FIELD_MATRIX_VEC4S;
     if (w->surface && w->field->shader_count > 0) {
         fprintf(w->out, "o%u = ", in->a);
         write_local(w, in);
         fprintf(w->out, ";\n");
     }
-    fprintf(w->out, w->surface ? "h%u = vec3(hidden(" : "d%u = hidden(", in->a);
+    fprintf(w->out, w->surface ? "h%u = vec3(masked(" : "d%u = masked(", in->a);
     if (in->choices == FIELD_POLYNOMIAL) {
         fprintf(w->out, "polynomial(");
         write_local(w, in);
-        fprintf(w->out, ", %u) * N(%u).x", head + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S, head);
+        fprintf(w->out, ", %u) * P(%u).x", head + FIELD_HEAD_VEC4S + FIELD_CUT_VEC4S, head);
     } else if (in->sdf) {
         fprintf(w->out, "%s(", in->type->glsl);
         write_local(w, in);
         fprintf(w->out, in->type->kind == KIND_FLAT ? ".xy" : "");
         write_params(w, in, head, FIELD_HEAD_NUMBERS);
-        fprintf(w->out, ") * N(%u).x", head);
+        fprintf(w->out, ") * P(%u).x", head);
     } else {
         write_code(w, in);
     }
-    fprintf(w->out, ", N(%u).w, N(%u).x)", head, head + 1);
+    fprintf(w->out, ", P(%u).w, P(%u).x)", head, head + 1);
     if (w->surface) {
-        fprintf(w->out, ", N(%u).yz)", head);
+        fprintf(w->out, ", P(%u).yz)", head);
     }
     fprintf(w->out, ";\n");
     w->mixed[in->a] = false;
@@ -138,14 +138,14 @@ static void write_call(const struct writer *w, const struct field_instruction *i
         fprintf(w->out, ", ");
         write_distance(w, in->b);
     }
-    write_params(w, in, in->numbers, 0);
+    write_params(w, in, in->params, 0);
     fprintf(w->out, ")");
 }
 
-/* "N(7).y" */
+/* "P(7).y" */
 static void write_number(const struct writer *w, uint32_t index)
 {
-    fprintf(w->out, "N(%u).%c", index / 4, "xyzw"[index % 4]);
+    fprintf(w->out, "P(%u).%c", index / 4, "xyzw"[index % 4]);
 }
 
 /* What two distances make. */
@@ -237,7 +237,7 @@ static void write_after(const struct writer *w, const struct field_instruction *
     fprintf(w->out, " = max(%s_after(", in->type->glsl);
     write_distance(w, in->a);
     fprintf(w->out, ", p%u", in->point);
-    write_vec4s(w, in->numbers, in->sdf->domain->vec4s);
+    write_vec4s(w, in->params, in->sdf->domain->vec4s);
     fprintf(w->out, "), ");
     write_number(w, in->seen);
     fprintf(w->out, ");\n");
@@ -247,7 +247,7 @@ static void write_domain_call(const struct writer *w, const struct field_instruc
                               const char *suffix, const char *extra)
 {
     fprintf(w->out, "%s%s(p%u%s", in->type->glsl, suffix, in->point, extra);
-    write_vec4s(w, in->numbers, in->sdf->domain->vec4s);
+    write_vec4s(w, in->params, in->sdf->domain->vec4s);
     fprintf(w->out, ");\n");
 }
 
@@ -302,9 +302,9 @@ static void write_guard(const struct writer *w, const struct field_instruction *
 {
     if (!w->surface) {
         fprintf(w->out,
-                "float g%zu = guard(p%u, N(%u), N(%u));\n"
+                "float g%zu = guard(p%u, P(%u), P(%u));\n"
                 "for (int k%zu = guard_rounds(g%zu, d%u); k%zu > 0; k%zu--) {\n",
-                name, in->point, in->numbers, in->numbers + 1, name, name, in->a, name, name);
+                name, in->point, in->params, in->params + 1, name, name, in->a, name, name);
     }
 }
 
@@ -334,12 +334,12 @@ static void write_instructions(struct writer *w)
         case FIELD_DISTANCE:
             write_change(w, in);
             break;
-        case FIELD_PLACE:
+        case FIELD_TRANSFORM:
             fprintf(w->out, "p%u = ", in->out);
             write_local(w, in);
             fprintf(w->out, ";\n");
             break;
-        case FIELD_MAP:
+        case FIELD_WARP:
             fprintf(w->out, "p%u = ", in->out);
             write_domain_call(w, in, "", "");
             break;
@@ -373,19 +373,19 @@ static void write_slots(const struct writer *w, const char *type, const char *na
 }
 
 /* What the material in a slot is by its shader. */
-static void write_paint(const struct writer *w)
+static void write_apply_shader(const struct writer *w)
 {
     const struct field *field = w->field;
     fprintf(w->out,
-            "void apply_shader(Shading at, float slot, inout Paint paint)\n{\n"
+            "void apply_shader(Shading at, float slot, inout MaterialValues values)\n{\n"
             "int i = %zu + %zu * int(slot);\n"
-            "int shader = int(paint.emission.w);\nbool unlit = paint.ambient.w > 0.5;\n",
+            "int shader = int(values.emission.w);\nbool unlit = values.ambient.w > 0.5;\n",
             field->material_base, field->material_stride);
     for (size_t i = 0; i < field->shader_count; i++) {
         bool whole = code_gives_surface(field->shaders[i].code);
-        fprintf(w->out, "if (shader == %zu) {\npaint_%s(paint, shade_%zu(at", i + 1,
+        fprintf(w->out, "if (shader == %zu) {\nmaterial_set_%s(values, shade_%zu(at", i + 1,
                 whole ? "surface" : "color", i);
-        write_places(w, &field->shaders[i], "N_ANY(i + ", FIELD_MATERIAL_VEC4S);
+        write_places(w, &field->shaders[i], "P_ANY(i + ", FIELD_MATERIAL_VEC4S);
         fprintf(w->out, whole ? "), unlit);\n}\n" : ").rgb, unlit);\n}\n");
     }
     fprintf(w->out, "}\n");
@@ -412,19 +412,18 @@ static void write_functions(const struct writer *w)
 /* Materials are read here alone, and each shader stands here alone. */
 static void write_materials(const struct writer *w)
 {
-    fprintf(
-        w->out,
-        "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
-        "int i = %zu + %zu * int(m0.slots.x);\n"
-        "Paint paint = Paint(N_ANY(i), N_ANY(i + 1), N_ANY(i + 2), N_ANY(i + 3), N_ANY(i + 4),\n"
-        "N_ANY(i + 5));\n",
-        w->field->material_base, w->field->material_stride);
+    fprintf(w->out,
+            "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
+            "int i = %zu + %zu * int(m0.slots.x);\n"
+            "MaterialValues values = MaterialValues(P_ANY(i), P_ANY(i + 1), P_ANY(i + 2),\n"
+            "P_ANY(i + 3), P_ANY(i + 4), P_ANY(i + 5));\n",
+            w->field->material_base, w->field->material_stride);
     if (w->field->shader_count > 0) {
         fputs("at.object_position = m0.place_x;\n"
-              "apply_shader(at, m0.slots.x, paint);\n",
+              "apply_shader(at, m0.slots.x, values);\n",
               w->out);
     }
-    fputs("surface_add(s, m0, paint);\nmixture_next(m0);\n}\n", w->out);
+    fputs("surface_add(s, m0, values);\nmixture_next(m0);\n}\n", w->out);
 }
 
 static void write_map(struct writer *w)
@@ -445,7 +444,7 @@ static void write_surface(struct writer *w)
     write_functions(w);
     write_codes(w, field->shaders, field->shader_count, "shade", FIRST_SHADER);
     if (field->shader_count > 0) {
-        write_paint(w);
+        write_apply_shader(w);
     }
     fprintf(w->out, "void surface(vec3 p0, Shading at, out Surface s)\n{\n");
     write_slots(w, "vec3", "p", 1, field->point_slots);

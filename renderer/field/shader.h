@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* GLSL text of a field program. Pure: no GL, no numbers in the text (they come through N). */
+/* GLSL text of a field program. Pure: no GL, no numbers in the text (they come through P). */
 #ifndef RENDERER_SHADER_H
 #define RENDERER_SHADER_H
 
@@ -9,8 +9,8 @@
 
 /* `float map(vec3 p)`: the distance. Caller frees.
  *
- * The text includes what it calls, and numbers.glsl for N(i), the vec4 number i of field->numbers,
- * where i is a constant, and N_ANY(i), where it need not be. */
+ * The text includes what it calls, and params.glsl for P(i), the vec4 number i of field->params,
+ * where i is a constant, and P_ANY(i), where it need not be. */
 char *shader_map(const struct field *field);
 
 /* `void surface(vec3 p, Shading at, out Surface s)`: leaf and material at a hit (glsl/surface.glsl;
@@ -18,7 +18,7 @@ char *shader_map(const struct field *field);
  * texts may stand in one program. */
 char *shader_surface(const struct field *field);
 
-/* What one kind of instruction does, as a function of its own, whose numbers are own_number(i) from
+/* What one kind of instruction does, as a function of its own, whose numbers are own_param(i) from
  * 0 on: what an interpreter of field programs calls (renderer/engine).
  *
  *   SHAPE float(vec3 p)   COMBINE, SHARE float(float a, float b)   CHANGE float(float d)

@@ -86,13 +86,13 @@ static int blocks_of(int length)
 
 void fragment_targets_draw(const struct fragment_targets *targets, const struct gl *gl,
                            enum fragment_target target, const struct pass *pass,
-                           const struct pass_place *place, struct pass_args args)
+                           const struct dispatch_args *dispatch, struct pass_args args)
 {
     const bool starts = target == FRAGMENT_STARTS;
-    const int width = starts ? blocks_of(place->width) : place->width;
-    const int height = starts                    ? blocks_of(place->height)
+    const int width = starts ? blocks_of(dispatch->width) : dispatch->width;
+    const int height = starts                    ? blocks_of(dispatch->height)
                        : target == FRAGMENT_RAYS ? 1
-                                                 : place->height;
+                                                 : dispatch->height;
 
     gl->BindFramebuffer(GL_FRAMEBUFFER, targets->buffers[target]);
     gl->Viewport(0, 0, width, height);
@@ -100,6 +100,6 @@ void fragment_targets_draw(const struct fragment_targets *targets, const struct 
         gl->Enable(GL_BLEND);
         gl->BlendFunc(GL_ONE, GL_ONE);
     }
-    pass_draw(pass, gl, place, args);
+    pass_draw(pass, gl, dispatch, args);
     gl->Disable(GL_BLEND);
 }

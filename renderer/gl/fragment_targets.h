@@ -33,6 +33,6 @@ void fragment_targets_clear(const struct fragment_targets *targets, const struct
 /* Into one of them; to FRAGMENT_SAMPLES it is added. */
 void fragment_targets_draw(const struct fragment_targets *targets, const struct gl *gl,
                            enum fragment_target target, const struct pass *pass,
-                           const struct pass_place *place, struct pass_args args);
+                           const struct dispatch_args *dispatch, struct pass_args args);
 
 #endif

@@ -133,12 +133,12 @@ void pass_finish(struct pass *pass, const struct gl *gl)
 
 /* Members of a struct with a location of its own have those that follow it (OpenGL 4.3, 4.4.3);
  * what a program does not use is passed over. */
-static void use(const struct pass *pass, const struct gl *gl, const struct pass_place *place,
+static void use(const struct pass *pass, const struct gl *gl, const struct dispatch_args *dispatch,
                 struct pass_args args)
 {
     gl->UseProgram(pass->program);
-    gl->Uniform2i(0, place->x, place->y);
-    gl->Uniform1i(1, (GLint)place->mode);
+    gl->Uniform2i(0, dispatch->x, dispatch->y);
+    gl->Uniform1i(1, (GLint)dispatch->mode);
     gl->Uniform1i(2, 0);
     for (int i = 0; i < args.count; i++) {
         gl->Uniform1i(ARGS_LOCATION + i, args.values[i]);
@@ -150,27 +150,28 @@ static GLuint parts(int length, int part)
     return (GLuint)((length + part - 1) / part);
 }
 
-void pass_draw(const struct pass *pass, const struct gl *gl, const struct pass_place *place,
+void pass_draw(const struct pass *pass, const struct gl *gl, const struct dispatch_args *dispatch,
                struct pass_args args)
 {
-    use(pass, gl, place, args);
+    use(pass, gl, dispatch, args);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 /* Blocks lie where they do in the whole picture, so a tile may touch one more than it is long. */
-void pass_compute(const struct pass *pass, const struct gl *gl, const struct pass_place *place,
-                  struct pass_args args)
+void pass_compute(const struct pass *pass, const struct gl *gl,
+                  const struct dispatch_args *dispatch, struct pass_args args)
 {
-    const int more = place->mode == PASS_COARSE ? BLOCK_SIDE : 0;
-    const int side = place->mode == PASS_COARSE ? GROUP_SIDE * BLOCK_SIDE : GROUP_SIDE;
+    const int more = dispatch->mode == PASS_COARSE ? BLOCK_SIDE : 0;
+    const int side = dispatch->mode == PASS_COARSE ? GROUP_SIDE * BLOCK_SIDE : GROUP_SIDE;
 
-    use(pass, gl, place, args);
-    if (place->mode == PASS_LIST) {
-        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIST, place->list);
-        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, place->list);
+    use(pass, gl, dispatch, args);
+    if (dispatch->mode == PASS_LIST) {
+        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIST, dispatch->list);
+        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch->list);
         gl->DispatchComputeIndirect(0);
     } else {
-        gl->DispatchCompute(parts(place->width + more, side), parts(place->height + more, side), 1);
+        gl->DispatchCompute(parts(dispatch->width + more, side),
+                            parts(dispatch->height + more, side), 1);
     }
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                       GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |

@@ -13,7 +13,7 @@
 #include "renderer/glsl/interface.h"
 
 /* What a pass is told of where it is at. */
-struct pass_place {
+struct dispatch_args {
     int x, y, width, height; /* of the tile with its margin, in pixels of the picture */
     enum pass_mode mode;
     GLuint list; /* PASS_LIST: buffer of glsl/group.glsl, with the arguments of the dispatch */
@@ -25,7 +25,7 @@ struct pass_args {
     int count;
 };
 
-/* PASS_ARGS(struct clear_args, .light = 2), for the call that it stands in. */
+/* PASS_ARGS(struct transmission_args, .light = 2), for the call that it stands in. */
 #define PASS_ARGS(type, ...)                                                                       \
     ((struct pass_args){(const int32_t *)&(type){__VA_ARGS__},                                     \
                         (int)(sizeof(type) / sizeof(int32_t))})
@@ -46,10 +46,10 @@ bool pass_init(struct pass *out_pass, const struct gl *gl, const struct pass_sou
                struct error *err);
 void pass_finish(struct pass *pass, const struct gl *gl);
 /* Draws into the current framebuffer. */
-void pass_draw(const struct pass *pass, const struct gl *gl, const struct pass_place *place,
+void pass_draw(const struct pass *pass, const struct gl *gl, const struct dispatch_args *dispatch,
                struct pass_args args);
-/* Runs a compute shader over the samples of the place. */
-void pass_compute(const struct pass *pass, const struct gl *gl, const struct pass_place *place,
-                  struct pass_args args);
+/* Runs a compute shader over the samples of the dispatch. */
+void pass_compute(const struct pass *pass, const struct gl *gl,
+                  const struct dispatch_args *dispatch, struct pass_args args);
 
 #endif

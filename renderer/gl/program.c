@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "program_parts.h"
+#include "program_internal.h"
 #include "protocol/limits.h"
 #include "protocol/memory.h"
 
@@ -132,13 +132,13 @@ static void evict(struct program_cache *cache)
     }
 }
 
-struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash)
+struct program *program_cache_find(struct program_cache *cache, uint64_t structure_hash)
 {
     struct program *found = NULL;
 
     pthread_mutex_lock(&cache->lock);
     for (struct program *p = cache->first; p && !found; p = p->next) {
-        if (p->shape_hash == shape_hash) {
+        if (p->structure_hash == structure_hash) {
             found = p;
         }
     }
@@ -156,7 +156,7 @@ struct program *program_cache_add(struct program_cache *cache, const struct prog
     struct program *program = memory_alloc(1, sizeof *program);
 
     program->cache = cache;
-    program->shape_hash = source->shape_hash;
+    program->structure_hash = source->structure_hash;
     program->map_text = memory_text(source->map_text);
     program->surface_text = memory_text(source->surface_text);
     program->number_count = source->number_count;
@@ -210,7 +210,7 @@ void program_unref(struct program_cache *cache, struct program *program)
 
 uint64_t program_shape(const struct program *program)
 {
-    return program->shape_hash;
+    return program->structure_hash;
 }
 
 bool program_is_fragment(const struct program *program)

@@ -18,7 +18,7 @@ enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 /* What is compiled for each shape: glsl/NAME_pass.glsl. */
 enum program_stage {
     STAGE_MARCH,
-    STAGE_MATTER,
+    STAGE_MATERIAL,
     STAGE_SHADOW,
     STAGE_VOLUME, /* only where there are volumes */
     STAGE_COUNT,  /* of compute shaders; those of fragment shaders: */
@@ -34,7 +34,7 @@ struct program; /* reference counted */
 struct program_cache;
 
 struct program_source {
-    uint64_t shape_hash;
+    uint64_t structure_hash;
     const char *map_text, *surface_text; /* of shader.h; copied */
     size_t number_count;                 /* vec4s in the buffer; at least 1 */
     bool user_shaders;                   /* USER_SHADERS is defined */
@@ -61,7 +61,7 @@ bool program_cache_start(struct program_cache *cache, struct error *err);
 void program_cache_destroy(struct program_cache *cache);
 
 /* A new reference, or NULL where the shape is not known yet. */
-struct program *program_cache_find(struct program_cache *cache, uint64_t shape_hash);
+struct program *program_cache_find(struct program_cache *cache, uint64_t structure_hash);
 /* Starts compiling. A new reference. */
 struct program *program_cache_add(struct program_cache *cache, const struct program_source *source);
 /* The program with code of users that is to be compiled next: one at a time, beside those without.

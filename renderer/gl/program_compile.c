@@ -2,8 +2,8 @@
 /* The threads that compile programs, and what they take next. */
 #include <stdlib.h>
 
-#include "numbers.h"
-#include "program_parts.h"
+#include "param_buffer.h"
+#include "program_internal.h"
 #include "protocol/memory.h"
 #include "warm_targets.h"
 
@@ -13,8 +13,8 @@ enum {
 };
 
 const char *const program_stage_names[PROGRAM_STAGES] = {
-    [STAGE_MARCH] = "march",   [STAGE_MATTER] = "matter", [STAGE_SHADOW] = "shadow",
-    [STAGE_VOLUME] = "volume", [STAGE_STARTS] = "starts", [STAGE_SAMPLE] = "sample"};
+    [STAGE_MARCH] = "march",   [STAGE_MATERIAL] = "material", [STAGE_SHADOW] = "shadow",
+    [STAGE_VOLUME] = "volume", [STAGE_STARTS] = "starts",     [STAGE_SAMPLE] = "sample"};
 
 enum { FILE_NAME_BYTES = 32 };
 
@@ -35,7 +35,7 @@ static const char *define_volumes(bool volumes)
     return volumes ? "#define VOLUMES\n" : "";
 }
 
-/* What glsl/numbers.glsl wants to know, and what there is. */
+/* What glsl/params.glsl wants to know, and what there is. */
 static char *make_defines(const struct gl *gl, const struct program *program, bool software)
 {
     char *text = NULL;
@@ -45,20 +45,20 @@ static char *make_defines(const struct gl *gl, const struct program *program, bo
     if (!out) {
         abort();
     }
-    fprintf(out, "#define NUMBERS_COUNT %zu\n#define NUMBERS_ROW %d\n%s%s%s", program->number_count,
-            NUMBERS_ROW,
-            numbers_in_texture(gl, software, program->number_count) ? "#define NUMBERS_IN_TEXTURE\n"
-                                                                    : "",
+    fprintf(out, "#define PARAMS_COUNT %zu\n#define PARAMS_ROW %d\n%s%s%s", program->number_count,
+            PARAM_BUFFER_ROW,
+            param_buffer_in_texture(gl, software, program->number_count)
+                ? "#define PARAMS_IN_TEXTURE\n"
+                : "",
             define_users(program->user_shaders), define_volumes(program->volumes));
     if (software && program->map_count > 0 && program->map_count <= PRELOAD_MAX) {
-        fprintf(out, "#define NUMBERS_PRELOADED %zu\n#define NUMBERS_PRELOAD(X)",
-                program->map_count);
+        fprintf(out, "#define PARAMS_PRELOADED %zu\n#define PARAMS_PRELOAD(X)", program->map_count);
         for (size_t i = 0; i < program->map_count; i++) {
             fprintf(out, " X(%zu)", i);
         }
         fputc('\n', out);
         if (!program->fragment) {
-            fprintf(out, "#define NUMBERS_SHARED %zu\n",
+            fprintf(out, "#define PARAMS_SHARED %zu\n",
                     program->map_count < SHARED_MAX ? program->map_count : SHARED_MAX);
         }
     }
@@ -91,7 +91,7 @@ char *program_text(const struct program_source *source, enum program_stage stage
     char file[FILE_NAME_BYTES], head[128];
 
     write_file_name(stage, file);
-    snprintf(head, sizeof head, "#version 430 core\n#define NUMBERS_COUNT %zu\n%s%s",
+    snprintf(head, sizeof head, "#version 430 core\n#define PARAMS_COUNT %zu\n%s%s",
              source->number_count, define_users(source->user_shaders),
              define_volumes(source->volumes));
     return include_resolve(&text, head, file, own, err) ? text.text : NULL;
@@ -103,19 +103,19 @@ static void warm_up(const struct program_cache *cache, const struct warm_targets
                     const struct pass *pass)
 {
     const struct gl *gl = cache->gl;
-    const struct frame_block block = {
+    const struct frame_uniforms block = {
         .camera.size = {1, 1}, .max_steps = 1, .bounds_max = {1, 1, 1}, .max_distance = 1};
-    struct numbers numbers;
+    struct param_buffer params;
     GLuint frame = 0;
 
     gl->GenBuffers(1, &frame);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
-    numbers_init(&numbers, gl, cache->egl->software, NULL, 0, program->number_count);
-    numbers_bind(&numbers, gl);
+    param_buffer_init(&params, gl, cache->egl->software, NULL, 0, program->number_count);
+    param_buffer_bind(&params, gl);
     warm_targets_run(targets, gl, stage, pass);
     gl->Finish();
-    numbers_finish(&numbers, gl);
+    param_buffer_finish(&params, gl);
     gl->DeleteBuffers(1, &frame);
 }
 

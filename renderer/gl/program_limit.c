@@ -5,11 +5,11 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "program_parts.h"
+#include "program_internal.h"
 #include "protocol/limits.h"
 
 enum { LOOK_MS = 100 };
-static const double PACE_MOST = 8; /* a machine slower than that is not believed */
+static const double PACE_MAX = 8; /* a machine slower than that is not believed */
 
 static int64_t clock_in_ms(clockid_t clock)
 {
@@ -26,7 +26,7 @@ static double pace_of(const struct program_cache *cache)
     for (size_t i = 0; i < cache->pace_count && i < PROGRAM_PACES; i++) {
         pace = fmax(pace, cache->paces[i]);
     }
-    return fmin(pace, PACE_MOST);
+    return fmin(pace, PACE_MAX);
 }
 
 static void add_pace(struct program_cache *cache, double pace)
@@ -122,7 +122,7 @@ static bool check(struct program_cache *cache, struct compiler *compiler, int64_
     const int64_t spent = program_ms(cache, program), most = limit_ms(cache, program);
 
     if (still || spent > most) {
-        *out = (struct program_stuck){program->shape_hash, still, (int)spent, (int)most};
+        *out = (struct program_stuck){program->structure_hash, still, (int)spent, (int)most};
     }
     return still || spent > most;
 }

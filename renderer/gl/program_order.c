@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which program is compiled next. */
-#include "program_parts.h"
+#include "program_internal.h"
 #include "protocol/limits.h"
 
 enum {
@@ -10,8 +10,8 @@ enum {
     ONE_SHAPE_MS = 900,
     ALL_SHAPES_MS = 29000,
     ONE_CODE_MS = 450, /* of LIMIT_CODE_SIZE; as much again times how often that is there */
-    /* A whole sample has march and material twice, the second time for light through clear things.
-     * One shape: 3.2 s, where compute shaders take 0.9 s. */
+    /* A whole sample has march and material twice, the second time for light through transmissive
+     * objects. One shape: 3.2 s, where compute shaders take 0.9 s. */
     FRAGMENT_TIMES = 4,
 };
 

@@ -16,20 +16,20 @@ static const struct {
     GLenum format;
 } textures[] = {
 #define SET(name)                                                                                  \
-    {offsetof(struct targets, name.from), GL_RGBA32F},                                             \
-        {offsetof(struct targets, name.along), GL_RGBA32F},                                        \
+    {offsetof(struct targets, name.origin), GL_RGBA32F},                                           \
+        {offsetof(struct targets, name.direction), GL_RGBA32F},                                    \
         {offsetof(struct targets, name.geometry), GL_RGBA32F},                                     \
-        {offsetof(struct targets, name.matter), GL_RGBA32UI},                                      \
-        {offsetof(struct targets, name.more), GL_RGBA32UI},                                        \
-        {offsetof(struct targets, name.weight), GL_RGBA32F},                                       \
-        {offsetof(struct targets, name.medium), GL_RGBA16F},                                       \
+        {offsetof(struct targets, name.material0), GL_RGBA32UI},                                   \
+        {offsetof(struct targets, name.material1), GL_RGBA32UI},                                   \
+        {offsetof(struct targets, name.throughput), GL_RGBA32F},                                   \
+        {offsetof(struct targets, name.absorption), GL_RGBA16F},                                   \
     {                                                                                              \
         offsetof(struct targets, name.steps), GL_RG32F                                             \
     }
     SET(eye),
     SET(light),
 #undef SET
-    {offsetof(struct targets, haze), GL_RGBA16F},
+    {offsetof(struct targets, inscattering), GL_RGBA16F},
     {offsetof(struct targets, total), GL_RGBA32F},
     {offsetof(struct targets, pixels), GL_RGBA32F},
     {offsetof(struct targets, counted), GL_RG32F},
@@ -128,7 +128,7 @@ void targets_bind(const struct targets *targets, const struct gl *gl)
 {
     gl->BindVertexArray(targets->vertices);
     texture_bind(gl, UNIT_TOTAL, targets->total);
-    texture_bind(gl, UNIT_HAZE, targets->haze);
+    texture_bind(gl, UNIT_INSCATTERING, targets->inscattering);
     texture_bind(gl, UNIT_PIXELS, targets->pixels);
     texture_bind(gl, UNIT_COUNTED, targets->counted);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_VISIBILITY);
@@ -140,11 +140,11 @@ void targets_bind(const struct targets *targets, const struct gl *gl)
 
 static void bind_set(const struct gl *gl, const struct ray_set *set)
 {
-    texture_bind(gl, UNIT_RAY_FROM, set->from);
-    texture_bind(gl, UNIT_RAY_ALONG, set->along);
+    texture_bind(gl, UNIT_RAY_ORIGIN, set->origin);
+    texture_bind(gl, UNIT_RAY_DIRECTION, set->direction);
     texture_bind(gl, UNIT_GEOMETRY, set->geometry);
-    texture_bind(gl, UNIT_MATTER, set->matter);
-    texture_bind(gl, UNIT_MORE, set->more);
+    texture_bind(gl, UNIT_MATERIAL0, set->material0);
+    texture_bind(gl, UNIT_MATERIAL1, set->material1);
     texture_bind(gl, UNIT_STEPS, set->steps);
 }
 
@@ -153,24 +153,24 @@ void targets_bind_field(const struct targets *targets, const struct gl *gl,
 {
     bind_set(gl, set);
     bind_image(gl, IMAGE_GEOMETRY, set->geometry, GL_RGBA32F);
-    bind_image(gl, IMAGE_MATTER, set->matter, GL_RGBA32UI);
-    bind_image(gl, IMAGE_MORE, set->more, GL_RGBA32UI);
+    bind_image(gl, IMAGE_MATERIAL0, set->material0, GL_RGBA32UI);
+    bind_image(gl, IMAGE_MATERIAL1, set->material1, GL_RGBA32UI);
     bind_image(gl, IMAGE_STEPS, set->steps, GL_RG32F);
     bind_image(gl, IMAGE_STARTS, targets->starts, GL_R32F);
     bind_image(gl, IMAGE_VISIBILITY, targets->visibility, GL_RGBA16F);
-    bind_image(gl, IMAGE_HAZE, targets->haze, GL_RGBA16F);
+    bind_image(gl, IMAGE_INSCATTERING, targets->inscattering, GL_RGBA16F);
 }
 
-void targets_bind_common(const struct targets *targets, const struct gl *gl,
+void targets_bind_static(const struct targets *targets, const struct gl *gl,
                          const struct ray_set *read, const struct ray_set *write)
 {
     bind_set(gl, read);
-    bind_image(gl, IMAGE_RAY_FROM, write->from, GL_RGBA32F);
-    bind_image(gl, IMAGE_RAY_ALONG, write->along, GL_RGBA32F);
-    bind_image(gl, IMAGE_WEIGHT, write->weight, GL_RGBA32F);
-    bind_image(gl, IMAGE_MEDIUM, write->medium, GL_RGBA16F);
+    bind_image(gl, IMAGE_RAY_ORIGIN, write->origin, GL_RGBA32F);
+    bind_image(gl, IMAGE_RAY_DIRECTION, write->direction, GL_RGBA32F);
+    bind_image(gl, IMAGE_THROUGHPUT, write->throughput, GL_RGBA32F);
+    bind_image(gl, IMAGE_ABSORPTION, write->absorption, GL_RGBA16F);
     bind_image(gl, IMAGE_TOTAL, targets->total, GL_RGBA32F);
-    bind_image(gl, IMAGE_SEEN, targets->visibility, GL_RGBA16F);
+    bind_image(gl, IMAGE_STATIC_VISIBILITY, targets->visibility, GL_RGBA16F);
     bind_image(gl, IMAGE_PIXELS, targets->pixels, GL_RGBA32F);
     bind_image(gl, IMAGE_COUNTED, targets->counted, GL_RG32F);
 }

@@ -9,29 +9,30 @@
 
 /* Of each sample: its ray, and what that met. */
 struct ray_set {
-    GLuint from, along;            /* rgba32f: glsl/ray_load.glsl */
-    GLuint geometry, matter, more; /* rgba32f, rgba32ui twice: glsl/gbuffer.glsl */
-    GLuint weight, medium;         /* rgba32f, rgba16f: glsl/stack.glsl, glsl/clear_pass.glsl */
-    GLuint steps;                  /* rg32f: of the march, and the surface's curvature */
+    GLuint origin, direction;              /* rgba32f: glsl/ray_load.glsl */
+    GLuint geometry, material0, material1; /* rgba32f, rgba32ui twice: glsl/gbuffer.glsl */
+    GLuint throughput,
+        absorption; /* rgba32f, rgba16f: glsl/stack.glsl, glsl/transmission_pass.glsl */
+    GLuint steps;   /* rg32f: of the march, and the surface's curvature */
 };
 
 /* Lists of samples. */
 enum target_list {
     LIST_EDGES, /* those that are sampled again */
-    LIST_RAYS,  /* those with a mirrored or broken ray, and the next ones */
+    LIST_RAYS,  /* those with a reflected or refracted ray, and the next ones */
     LIST_RAYS_NEXT,
-    LIST_CLEAR, /* those with a ray to a light, and the next ones */
-    LIST_CLEAR_NEXT,
+    LIST_TRANSMISSION, /* those with a ray to a light, and the next ones */
+    LIST_TRANSMISSION_NEXT,
     LIST_COUNT
 };
 
 struct targets {
     int side;             /* in samples; a multiple of GROUP_SIDE */
     struct ray_set eye;   /* rays that end in the eye */
-    struct ray_set light; /* rays to lights, through clear things */
+    struct ray_set light; /* rays to lights, through transmissive objects */
     GLuint starts;        /* r32f, one texel for each block of march_pass.glsl */
     GLuint visibility;    /* rgba16f, a layer for each light */
-    GLuint haze;          /* rgba16f */
+    GLuint inscattering;  /* rgba16f */
     GLuint total, pixels; /* rgba32f: light of the sample, and summed up over the pixel's */
     GLuint counted;       /* r32f: samples of the pixel */
     struct outputs outputs;
@@ -53,7 +54,7 @@ void targets_bind(const struct targets *targets, const struct gl *gl);
 void targets_bind_field(const struct targets *targets, const struct gl *gl,
                         const struct ray_set *set);
 /* The same for the other passes: `read` is read, `write` is written. */
-void targets_bind_common(const struct targets *targets, const struct gl *gl,
+void targets_bind_static(const struct targets *targets, const struct gl *gl,
                          const struct ray_set *read, const struct ray_set *write);
 /* Empties a list and binds it as the one that is added to. */
 void targets_begin_list(const struct targets *targets, const struct gl *gl, enum target_list list);

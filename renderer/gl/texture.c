@@ -31,7 +31,7 @@ GLuint texture_create_layers(const struct gl *gl, GLenum format, int side, int l
     return texture;
 }
 
-void texture_set_sky(const struct gl *gl, int levels)
+void texture_set_environment(const struct gl *gl, int levels)
 {
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                       levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);

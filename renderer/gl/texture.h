@@ -18,7 +18,7 @@ GLuint texture_create(const struct gl *gl, GLenum format, int width, int height)
 GLuint texture_create_layers(const struct gl *gl, GLenum format, int side, int layers);
 /* Of the bound texture, with so many levels, a picture of what is around: longitudes meet,
  * latitudes end. */
-void texture_set_sky(const struct gl *gl, int levels);
+void texture_set_environment(const struct gl *gl, int levels);
 void texture_bind(const struct gl *gl, GLenum unit, GLuint texture);
 
 /* Of the current context alone. 0: the driver cannot draw into these formats. */

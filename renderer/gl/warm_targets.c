@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 #include "warm_targets.h"
 
-static const GLenum sky_units[WARM_SKIES] = {UNIT_PANORAMA, UNIT_MIRRORED, UNIT_IRRADIANCE};
+static const GLenum sky_units[WARM_MAPS] = {UNIT_ENVIRONMENT_MAP, UNIT_SPECULAR_MAP,
+                                            UNIT_IRRADIANCE_MAP};
 
 static void make_skies(struct warm_targets *targets, const struct gl *gl)
 {
-    for (int i = 0; i < WARM_SKIES; i++) {
-        const int levels = sky_units[i] == UNIT_IRRADIANCE ? 1 : 2;
+    for (int i = 0; i < WARM_MAPS; i++) {
+        const int levels = sky_units[i] == UNIT_IRRADIANCE_MAP ? 1 : 2;
 
         gl->ActiveTexture(GL_TEXTURE0 + sky_units[i]);
-        gl->GenTextures(1, &targets->skies[i]);
-        gl->BindTexture(GL_TEXTURE_2D, targets->skies[i]);
+        gl->GenTextures(1, &targets->maps[i]);
+        gl->BindTexture(GL_TEXTURE_2D, targets->maps[i]);
         gl->TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, 4, 2);
-        texture_set_sky(gl, levels);
+        texture_set_environment(gl, levels);
     }
 }
 
@@ -32,30 +33,30 @@ void warm_targets_finish(struct warm_targets *targets, const struct gl *gl)
 {
     targets_finish(&targets->passes, gl);
     fragment_targets_finish(&targets->fragment, gl);
-    gl->DeleteTextures(WARM_SKIES, targets->skies);
+    gl->DeleteTextures(WARM_MAPS, targets->maps);
     *targets = (struct warm_targets){0};
 }
 
 void warm_targets_run(const struct warm_targets *targets, const struct gl *gl,
                       enum program_stage stage, const struct pass *pass)
 {
-    const struct pass_place place = {.width = GROUP_SIDE, .height = GROUP_SIDE};
+    const struct dispatch_args dispatch = {.width = GROUP_SIDE, .height = GROUP_SIDE};
 
     if (stage < STAGE_COUNT) {
         targets_bind(&targets->passes, gl);
         targets_bind_field(&targets->passes, gl, &targets->passes.eye);
-        pass_compute(pass, gl, &place, PASS_ARGS(struct sample_args, .sample_index = 0));
+        pass_compute(pass, gl, &dispatch, PASS_ARGS(struct sample_args, .sample_index = 0));
         return;
     }
     fragment_targets_bind(&targets->fragment, gl);
-    for (int i = 0; i < WARM_SKIES; i++) {
-        texture_bind(gl, sky_units[i], targets->skies[i]);
+    for (int i = 0; i < WARM_MAPS; i++) {
+        texture_bind(gl, sky_units[i], targets->maps[i]);
     }
     if (stage == STAGE_STARTS) {
-        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_STARTS, pass, &place,
+        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_STARTS, pass, &dispatch,
                               (struct pass_args){0});
     } else {
-        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_SAMPLES, pass, &place,
+        fragment_targets_draw(&targets->fragment, gl, FRAGMENT_SAMPLES, pass, &dispatch,
                               PASS_ARGS(struct trace_args, .sample_index = 0));
     }
 }

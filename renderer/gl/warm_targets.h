@@ -8,13 +8,13 @@
 #include "program.h"
 #include "targets.h"
 
-enum { WARM_SKIES = 3 };
+enum { WARM_MAPS = 3 };
 
 struct warm_targets {
     bool has_passes, has_fragment; /* whether those are there: */
     struct targets passes;
     struct fragment_targets fragment;
-    GLuint skies[WARM_SKIES]; /* with the state of an environment's */
+    GLuint maps[WARM_MAPS]; /* with the state of an environment's */
 };
 
 /* `fragment`: for fragment shaders. */

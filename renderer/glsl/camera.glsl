@@ -57,8 +57,8 @@ Ray camera_sample(ivec2 pixel, int i)
 {
     Ray ray = camera_ray(vec2(pixel) + sample_place(i));
     if (camera.lens_radius > 0.0) {
-        float way = camera.focus_distance / dot(ray.direction, camera.forward);
-        vec3 sharp = ray.origin + ray.direction * way;
+        float distance = camera.focus_distance / dot(ray.direction, camera.forward);
+        vec3 sharp = ray.origin + ray.direction * distance;
         vec2 lens = camera.lens_radius * lens_place(pixel, i, frame.samples);
         ray.origin += normalize(camera.right) * lens.x + normalize(camera.up) * lens.y;
         ray.direction = normalize(sharp - ray.origin);

@@ -5,13 +5,13 @@
 #include "group.glsl"
 
 layout(location = ARGS_LOCATION) uniform SampleArgs args;
-layout(rgba32f, binding = IMAGE_RAY_FROM) writeonly uniform image2D out_ray_from;
-layout(rgba32f, binding = IMAGE_RAY_ALONG) writeonly uniform image2D out_ray_along;
+layout(rgba32f, binding = IMAGE_RAY_ORIGIN) writeonly uniform image2D out_ray_origin;
+layout(rgba32f, binding = IMAGE_RAY_DIRECTION) writeonly uniform image2D out_ray_direction;
 
 void main()
 {
     ivec2 here = group_place();
     Ray ray = camera_sample(dispatch.origin + here, args.sample_index);
-    imageStore(out_ray_from, here, ray_from(ray));
-    imageStore(out_ray_along, here, ray_along(ray));
+    imageStore(out_ray_origin, here, pack_ray_origin(ray));
+    imageStore(out_ray_direction, here, pack_ray_direction(ray));
 }

@@ -9,7 +9,7 @@
 #define CODE_WALL 0.015625 /* how far the walls of patterns are beyond whole numbers */
 #define CODE_OCTAVES 8
 
-/* Distances and colours beyond these are none: the FAR of glsl/through.glsl, and half floats. */
+/* Distances and colours beyond these are none: the FAR of glsl/field_mask.glsl, and half floats. */
 #define CODE_FAR 1e9
 #define CODE_BRIGHT 65504.0
 

@@ -2,6 +2,7 @@
 /* What the text of a field calls (renderer/field/shader.c). */
 
 #include "code.glsl"
+#include "field_mask.glsl"
 #include "flat.glsl"
 #include "fractals.glsl"
 #include "guard.glsl"
@@ -10,6 +11,5 @@
 #include "polynomial.glsl"
 #include "shapes.glsl"
 #include "solids.glsl"
-#include "through.glsl"
 #include "user.glsl"
 #include "warps.glsl"

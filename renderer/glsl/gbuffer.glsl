@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What the march and matter passes leave for the others, 48 bytes for each sample:
+/* What the march and material passes leave for the others, 48 bytes for each sample:
  *
  *   geometry  rgba32f   normal, distance along the ray (INFINITY: nothing hit; below 0: from inside
- *                       of something clear, something solid)
- *   matter    rgba32ui  x  diffuse.r, diffuse.g       two halves
+ *                       of something transmissive, something opaque)
+ *   material0 rgba32ui  x  diffuse.r, diffuse.g       two halves
  *                       y  diffuse.b, gloss           two halves
  *                       z  specular, model            10 bits each, 2 bits
  *                       w  ior, transmission, reflectivity   a half, 8 bits each
- *   more      rgba32ui  x  emission                   shared exponent
+ *   material1 rgba32ui  x  emission                   shared exponent
  *                       y  ambient, 1 where painted   10 bits each, 2 bits
  *                       z  absorption                 shared exponent
  *                       w  id
@@ -25,8 +25,8 @@
 uint shared_pack(vec3 color)
 {
     vec3 c = clamp(color, 0.0, SHARED_MAX);
-    float most = 1.001 * max(c.r, max(c.g, c.b));
-    int exponent = clamp((floatBitsToInt(most) >> 23) - 127, -16, 15);
+    float largest = 1.001 * max(c.r, max(c.g, c.b));
+    int exponent = clamp((floatBitsToInt(largest) >> 23) - 127, -16, 15);
     uvec3 parts = uvec3(c * exp2(float(8 - exponent)) + 0.5);
     return parts.r | parts.g << 9 | parts.b << 18 | uint(exponent + 16) << 27;
 }
@@ -49,33 +49,33 @@ vec3 parts_unpack(uint word)
     return vec3(uvec3(word, word >> 10, word >> 20) & 1023u) / 1023.0;
 }
 
-void surface_pack(Surface s, out uvec4 matter, out uvec4 more)
+void surface_pack(Surface s, out uvec4 material0, out uvec4 material1)
 {
     vec3 diffuse = min(s.diffuse, HALF_MAX);
     uint parts = packUnorm4x8(vec4(0.0, 0.0, s.transmission, s.reflectivity));
     uint ior = packHalf2x16(vec2(s.ior, 0.0));
-    matter = uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
-                   parts_pack(s.specular, s.model), ior | parts);
-    more = uvec4(shared_pack(s.emission), parts_pack(s.ambient, s.painted ? 1 : 0),
-                 shared_pack(s.absorption), s.id);
+    material0 = uvec4(packHalf2x16(diffuse.rg), packHalf2x16(vec2(diffuse.b, s.gloss)),
+                      parts_pack(s.specular, s.model), ior | parts);
+    material1 = uvec4(shared_pack(s.emission), parts_pack(s.ambient, s.opaque_cut ? 1 : 0),
+                      shared_pack(s.absorption), s.id);
 }
 
-Surface surface_unpack(uvec4 matter, uvec4 more)
+Surface surface_unpack(uvec4 material0, uvec4 material1)
 {
-    vec2 y = unpackHalf2x16(matter.y);
-    vec4 parts = unpackUnorm4x8(matter.w);
+    vec2 y = unpackHalf2x16(material0.y);
+    vec4 parts = unpackUnorm4x8(material0.w);
     Surface s;
-    s.diffuse = vec3(unpackHalf2x16(matter.x), y.x);
+    s.diffuse = vec3(unpackHalf2x16(material0.x), y.x);
     s.gloss = y.y;
-    s.specular = parts_unpack(matter.z);
-    s.model = int(matter.z >> 30);
-    s.ior = unpackHalf2x16(matter.w).x;
+    s.specular = parts_unpack(material0.z);
+    s.model = int(material0.z >> 30);
+    s.ior = unpackHalf2x16(material0.w).x;
     s.transmission = parts.z;
     s.reflectivity = parts.w;
-    s.emission = shared_unpack(more.x);
-    s.ambient = parts_unpack(more.y);
-    s.painted = more.y >> 30 == 1u;
-    s.absorption = shared_unpack(more.z);
-    s.id = more.w;
+    s.emission = shared_unpack(material1.x);
+    s.ambient = parts_unpack(material1.y);
+    s.opaque_cut = material1.y >> 30 == 1u;
+    s.absorption = shared_unpack(material1.z);
+    s.id = material1.w;
     return s;
 }

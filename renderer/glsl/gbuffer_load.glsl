@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What the march and matter passes left of a sample. */
+/* What the march and material passes left of a sample. */
 
 #include "gbuffer.glsl"
 #include "geometry_load.glsl"
 
-layout(binding = UNIT_MATTER) uniform usampler2D matter;
-layout(binding = UNIT_MORE) uniform usampler2D more;
+layout(binding = UNIT_MATERIAL0) uniform usampler2D material0;
+layout(binding = UNIT_MATERIAL1) uniform usampler2D material1;
 
 Surface surface_load(ivec2 here)
 {
-    return surface_unpack(texelFetch(matter, here, 0), texelFetch(more, here, 0));
+    return surface_unpack(texelFetch(material0, here, 0), texelFetch(material1, here, 0));
 }

@@ -22,8 +22,8 @@ struct constant {
 static const struct constant kinds[] = {
     SKY_KINDS(CONSTANT) SHADOW_KINDS(CONSTANT) DENSITY_KINDS(CONSTANT) TONE_MAPS(CONSTANT)
     LIGHT_KINDS(CONSTANT) VOLUME_KINDS(CONSTANT) SURFACE_MODELS(CONSTANT) FRAME_EFFECTS(CONSTANT)
-    PASS_MODES(CONSTANT) CLEAR_PHASES(CONSTANT) OUTPUTS(CONSTANT)
-    CONSTANT(BLOCK_BITS) CONSTANT(BLOCK_SIDE) CONSTANT(STACK_DEPTH) CONSTANT(MIRROR_LEVELS)
+    PASS_MODES(CONSTANT) TRANSMISSION_PHASES(CONSTANT) OUTPUTS(CONSTANT)
+    CONSTANT(BLOCK_BITS) CONSTANT(BLOCK_SIDE) CONSTANT(STACK_DEPTH) CONSTANT(SPECULAR_LEVELS)
     CONSTANT(STEPS_WHITE) CONSTANT(STEPS_COLORS)
     {0},
 };
@@ -31,7 +31,7 @@ static const struct constant kinds[] = {
 /* Of a program that is a part of ours. */
 static const struct constant places[] = {
     UNIFORM_BLOCKS(CONSTANT) STORAGE_BLOCKS(CONSTANT) TEXTURE_UNITS(CONSTANT)
-    FIELD_IMAGES(CONSTANT) COMMON_IMAGES(CONSTANT) SAMPLE_TEXTURES(CONSTANT)
+    FIELD_IMAGES(CONSTANT) STATIC_IMAGES(CONSTANT) SAMPLE_TEXTURES(CONSTANT)
     CONSTANT(GROUP_SIDE) CONSTANT(GROUP_SIZE) CONSTANT(ARGS_LOCATION)
     {0},
 };
@@ -44,9 +44,9 @@ static const char structs[] =
 
 static const char args[] =
     "struct SampleArgs {\n" SAMPLE_ARGS(ARG) "};\n"
-    "struct ClearArgs {\n" CLEAR_ARGS(ARG) "};\n"
+    "struct TransmissionArgs {\n" TRANSMISSION_ARGS(ARG) "};\n"
     "struct ShadeArgs {\n" SHADE_ARGS(ARG) "};\n"
-    "struct GatherArgs {\n" GATHER_ARGS(ARG) "};\n"
+    "struct AccumulateArgs {\n" ACCUMULATE_ARGS(ARG) "};\n"
     "struct ListingArgs {\n" LISTING_ARGS(ARG) "};\n"
     "struct ResolveArgs {\n" RESOLVE_ARGS(ARG) "};\n"
     "struct TraceArgs {\n" TRACE_ARGS(ARG) "};\n";
@@ -165,7 +165,7 @@ static int at_least_one(int count)
     return count > 0 ? count : 1;
 }
 
-void interface_write_constant(FILE *out, const struct frame_block *row)
+void interface_write_constant(FILE *out, const struct frame_uniforms *row)
 {
     const int lights = at_least_one(row->light_count), volumes = at_least_one(row->volume_count);
 

@@ -33,11 +33,11 @@
     X(PASS_TILE)   /* all of the tile's */                                                         \
     X(PASS_COARSE) /* one for each block: march alone */                                           \
     X(PASS_LIST)   /* those of a list: group.glsl */
-/* What a ray through clear things does next: clear_pass.glsl. */
-#define CLEAR_PHASES(X)                                                                            \
-    X(CLEAR_AIM)  /* it is sent towards the light */                                               \
-    X(CLEAR_STEP) /* through the surface that it met */                                            \
-    X(CLEAR_END)  /* the same for the last time */
+/* What a ray through transmissive objects does next: transmission_pass.glsl. */
+#define TRANSMISSION_PHASES(X)                                                                     \
+    X(TRANSMISSION_AIM)  /* it is sent towards the light */                                        \
+    X(TRANSMISSION_STEP) /* through the surface that it met */                                     \
+    X(TRANSMISSION_END)  /* the same for the last time */
 
 /* What becomes of a pixel: outputs.glsl. RAW: numbers, instead of colours for a screen. */
 #define OUTPUTS(X)                                                                                 \
@@ -64,22 +64,22 @@
 
 /* --- bindings --- */
 
-#define UNIFORM_BLOCKS(X) X(BINDING_FRAME) X(BINDING_NUMBERS)
+#define UNIFORM_BLOCKS(X) X(BINDING_FRAME) X(BINDING_PARAMS)
 #define STORAGE_BLOCKS(X) X(BINDING_LIST) X(BINDING_NEXT) X(BINDING_STACK)
 /* Textures that are read. */
 #define TEXTURE_UNITS(X)                                                                           \
     X(UNIT_GEOMETRY)                                                                               \
-    X(UNIT_MATTER)                                                                                 \
-    X(UNIT_MORE)                                                                                   \
-    X(UNIT_NUMBERS)                                                                                \
+    X(UNIT_MATERIAL0)                                                                              \
+    X(UNIT_MATERIAL1)                                                                              \
+    X(UNIT_PARAMS)                                                                                 \
     X(UNIT_TOTAL)                                                                                  \
-    X(UNIT_RAY_FROM)                                                                               \
-    X(UNIT_RAY_ALONG)                                                                              \
+    X(UNIT_RAY_ORIGIN)                                                                             \
+    X(UNIT_RAY_DIRECTION)                                                                          \
     X(UNIT_VISIBILITY)                                                                             \
-    X(UNIT_PANORAMA)                                                                               \
-    X(UNIT_MIRRORED)                                                                               \
-    X(UNIT_IRRADIANCE)                                                                             \
-    X(UNIT_HAZE)                                                                                   \
+    X(UNIT_ENVIRONMENT_MAP)                                                                        \
+    X(UNIT_SPECULAR_MAP)                                                                           \
+    X(UNIT_IRRADIANCE_MAP)                                                                         \
+    X(UNIT_INSCATTERING)                                                                           \
     X(UNIT_STEPS)                                                                                  \
     X(UNIT_PIXELS)                                                                                 \
     X(UNIT_COUNTED)                                                                                \
@@ -94,19 +94,19 @@
  * others, and those that make environments have sets of their own. */
 #define FIELD_IMAGES(X)                                                                            \
     X(IMAGE_GEOMETRY)                                                                              \
-    X(IMAGE_MATTER)                                                                                \
-    X(IMAGE_MORE)                                                                                  \
+    X(IMAGE_MATERIAL0)                                                                             \
+    X(IMAGE_MATERIAL1)                                                                             \
     X(IMAGE_STEPS)                                                                                 \
     X(IMAGE_STARTS)                                                                                \
     X(IMAGE_VISIBILITY)                                                                            \
-    X(IMAGE_HAZE)
-#define COMMON_IMAGES(X)                                                                           \
-    X(IMAGE_RAY_FROM)                                                                              \
-    X(IMAGE_RAY_ALONG)                                                                             \
-    X(IMAGE_WEIGHT)                                                                                \
-    X(IMAGE_MEDIUM)                                                                                \
+    X(IMAGE_INSCATTERING)
+#define STATIC_IMAGES(X)                                                                           \
+    X(IMAGE_RAY_ORIGIN)                                                                            \
+    X(IMAGE_RAY_DIRECTION)                                                                         \
+    X(IMAGE_THROUGHPUT)                                                                            \
+    X(IMAGE_ABSORPTION)                                                                            \
     X(IMAGE_TOTAL)                                                                                 \
-    X(IMAGE_SEEN) /* visibility */                                                                 \
+    X(IMAGE_STATIC_VISIBILITY)                                                                     \
     X(IMAGE_PIXELS)                                                                                \
     X(IMAGE_COUNTED)
 /* What sample_pass.glsl writes, and the textures are read as afterwards. X(name, unit) */
@@ -165,11 +165,11 @@
     X(vec3, bounds_min) /* nothing is outside of these */                                          \
     X(float, exposure)                                                                             \
     X(vec3, bounds_max)                                                                            \
-    X(float, max_distance) /* along a ray */                                                       \
-    X(vec3, clear_min)     /* what light goes through is inside of these */                        \
-    X(int, has_clear)                                                                              \
-    X(vec3, clear_max)                                                                             \
-    X(float, min_throughput) /* what a mirrored or broken ray adds at least */                     \
+    X(float, max_distance)    /* along a ray */                                                    \
+    X(vec3, transmissive_min) /* what light goes through is inside of these */                     \
+    X(int, has_transmissive)                                                                       \
+    X(vec3, transmissive_max)                                                                      \
+    X(float, min_throughput) /* what a reflected or refracted ray adds at least */                 \
     X(vec3, zenith)          /* the colour of a solid environment */                               \
     X(float, ambient)        /* intensity of the environment's light */                            \
     X(vec3, horizon)                                                                               \
@@ -178,7 +178,7 @@
     X(float, occlusion_strength)                                                                   \
     X(vec3, fog_color)                                                                             \
     X(float, fog_density)                                                                          \
-    X(vec2, sky_turn) /* cosine and sine of the picture's rotation */                              \
+    X(vec2, sky_rotation) /* cosine and sine of the picture's rotation */                          \
     X(float, sky_brightness)                                                                       \
     X(float, fog_thinning) /* 1 / height; 0: it does not thin */                                   \
     X(float, fog_base)                                                                             \
@@ -206,14 +206,14 @@
 #define SAMPLE_ARGS(X)                                                                             \
     X(sample_index) /* of its pixel */                                                             \
     X(first)        /* the rays come from the camera */
-#define CLEAR_ARGS(X)                                                                              \
+#define TRANSMISSION_ARGS(X)                                                                       \
     X(light)                                                                                       \
-    X(phase) /* CLEAR_... */
+    X(phase) /* TRANSMISSION_... */
 #define SHADE_ARGS(X)                                                                              \
     X(first)                                                                                       \
-    X(last) /* no rays follow */                                                                   \
-    X(haze) /* there are volumes */
-#define GATHER_ARGS(X) X(sample_index)
+    X(last)    /* no rays follow */                                                                \
+    X(volumes) /* there are volumes */
+#define ACCUMULATE_ARGS(X) X(sample_index)
 #define LISTING_ARGS(X)                                                                            \
     X(width)                                                                                       \
     X(height)  /* of the tile with its margin */                                                   \
@@ -223,11 +223,11 @@
     X(blend_edges)
 #define TRACE_ARGS(X)                                                                              \
     X(sample_index)                                                                                \
-    X(rays)   /* after the first */                                                                \
-    X(depth)  /* surfaces between what is met and a light */                                       \
-    X(looks)  /* shadows are wanted, */                                                            \
-    X(lights) /* light too */                                                                      \
-    X(masked) /* for the pixels of a mask */
+    X(rays)    /* after the first */                                                               \
+    X(depth)   /* surfaces between what is met and a light */                                      \
+    X(shadows) /* shadows are wanted, */                                                           \
+    X(lights)  /* light too */                                                                     \
+    X(masked)  /* for the pixels of a mask */
 
 /* --- the same in C --- */
 
@@ -245,13 +245,13 @@
 enum surface_model { SURFACE_MODELS(INTERFACE_NAME) };
 enum { FRAME_EFFECTS(INTERFACE_VALUE) };
 enum pass_mode { PASS_MODES(INTERFACE_NAME) };
-enum { CLEAR_PHASES(INTERFACE_NAME) };
+enum { TRANSMISSION_PHASES(INTERFACE_NAME) };
 enum output { OUTPUTS(INTERFACE_NAME) OUTPUT_COUNT };
 enum { UNIFORM_BLOCKS(INTERFACE_NAME) };
 enum { STORAGE_BLOCKS(INTERFACE_NAME) };
 enum { TEXTURE_UNITS(INTERFACE_NAME) UNIT_COUNT };
 enum { FIELD_IMAGES(INTERFACE_NAME) };
-enum { COMMON_IMAGES(INTERFACE_NAME) };
+enum { STATIC_IMAGES(INTERFACE_NAME) };
 enum { SAMPLE_TEXTURES(INTERFACE_FIRST) SAMPLE_TEXTURE_COUNT };
 enum {
     GROUP_SIZE = 64, /* of a work group: GROUP_SIDE x GROUP_SIDE samples */
@@ -259,7 +259,7 @@ enum {
     BLOCK_BITS = 3,
     BLOCK_SIDE = 1 << BLOCK_BITS, /* pixels that share a start: march_pass.glsl */
     STACK_DEPTH = 8,              /* rays of a sample that wait: stack.glsl */
-    MIRROR_LEVELS = 4,            /* of roughness, in the environment as mirrors show it */
+    SPECULAR_LEVELS = 4,          /* of roughness, in the specular map */
     ARGS_LOCATION = 4,            /* of a pass's args; those of the dispatch begin at 0 */
 };
 
@@ -272,7 +272,7 @@ struct frame_volume {
 struct frame_camera {
     CAMERA_MEMBERS(INTERFACE_MEMBER)
 };
-struct frame_block {
+struct frame_uniforms {
     struct frame_camera camera;
     FRAME_MEMBERS(INTERFACE_MEMBER)
     struct frame_light lights[LIMIT_LIGHTS];
@@ -282,14 +282,14 @@ struct frame_block {
 struct sample_args {
     SAMPLE_ARGS(INTERFACE_ARG)
 };
-struct clear_args {
-    CLEAR_ARGS(INTERFACE_ARG)
+struct transmission_args {
+    TRANSMISSION_ARGS(INTERFACE_ARG)
 };
 struct shade_args {
     SHADE_ARGS(INTERFACE_ARG)
 };
-struct gather_args {
-    GATHER_ARGS(INTERFACE_ARG)
+struct accumulate_args {
+    ACCUMULATE_ARGS(INTERFACE_ARG)
 };
 struct listing_args {
     LISTING_ARGS(INTERFACE_ARG)
@@ -305,7 +305,7 @@ struct trace_args {
 void interface_write(FILE *out);
 /* The same for a program that nobody gives anything: `frame` is a constant, `camera` and `dispatch`
  * are variables that begin with this picture's values. */
-void interface_write_constant(FILE *out, const struct frame_block *row);
+void interface_write_constant(FILE *out, const struct frame_uniforms *row);
 /* A number as GLSL writes it; TYPE(a, b, ...). */
 void interface_write_float(FILE *out, float value);
 void interface_write_floats(FILE *out, const char *type, const float *values, int count);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Duals and jets of equations (renderer/code/jets.h): products, sums and chain rules. */
 
-#define JET_MOST 1e18
+#define JET_MAX 1e18
 
 vec4 jet_dual_times(vec4 a, vec4 b)
 {
@@ -15,15 +15,15 @@ vec4 jet_dual_of(vec4 a, float value, float slope)
 
 vec2 jet_bounded(vec2 x)
 {
-    return clamp(x, -JET_MOST, JET_MOST);
+    return clamp(x, -JET_MAX, JET_MAX);
 }
 
 /* The slopes of a jet times an interval. */
 mat3 jet_slopes(mat3 a, vec2 by)
 {
     vec3 p = a[0] * by.x, q = a[0] * by.y, r = a[1] * by.x, s = a[1] * by.y;
-    return mat3(max(min(min(p, q), min(r, s)), -JET_MOST),
-                min(max(max(p, q), max(r, s)), JET_MOST), vec3(0.0));
+    return mat3(max(min(min(p, q), min(r, s)), -JET_MAX), min(max(max(p, q), max(r, s)), JET_MAX),
+                vec3(0.0));
 }
 
 mat3 jet_times(mat3 a, mat3 b)
@@ -44,7 +44,7 @@ mat3 jet_scaled(mat3 a, float s)
 {
     vec3 p = a[0] * s, q = a[1] * s;
     vec2 v = a[2].xy * s;
-    return mat3(max(min(p, q), -JET_MOST), min(max(p, q), JET_MOST),
+    return mat3(max(min(p, q), -JET_MAX), min(max(p, q), JET_MAX),
                 vec3(jet_bounded(vec2(min(v.x, v.y), max(v.x, v.y))), 0.0));
 }
 

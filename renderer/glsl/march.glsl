@@ -6,8 +6,8 @@
 
 struct Hit {
     bool hit;
-    bool solid; /* what it met was looked for alone: in something clear, or close to its surface */
-    float free; /* nothing is nearer */
+    bool opaque; /* met alone: inside something transmissive, or close to its surface */
+    float free;  /* nothing is nearer */
     float t;
     vec3 normal; /* towards where the ray comes from */
     int steps;
@@ -64,9 +64,9 @@ float curvature_of(float mean, vec2 wave, float e, float rounding)
  * Last, where it is wanted: curvature, by the field at five places around the normal.
  * Of five, neither the mean nor the wave of two turns changes when the circle is tilted.
  *
- * A ray inside of something clear goes until the way out or something solid in there, whichever
- * comes first: each of its steps takes two rounds of the loop, one for either field. */
-Hit march(Ray ray, float start, float cone, int most)
+ * A ray inside of something transmissive goes until the way out or something opaque in there,
+ * whichever comes first: each of its steps takes two rounds of the loop, one for either field. */
+Hit march(Ray ray, float start, float cone, int max_steps)
 {
     vec2 span = bounds_span(ray.origin, ray.direction);
     bool single = cone == 0.0;
@@ -76,8 +76,8 @@ Hit march(Ray ray, float start, float cone, int most)
     float far_off = greatest(ray.origin);
     float ahead = 0.0; /* length of the step being tried */
     float radius = 0.0, root = 0.0, slope = -1.0, grade = -1.0;
-    int left = end >= t ? (ray.inside ? 2 * most : most) : 0, taken = 0;
-    bool hit = false, solid = false, early = false, straight = false;
+    int left = end >= t ? (ray.inside ? 2 * max_steps : max_steps) : 0, taken = 0;
+    bool hit = false, opaque = false, early = false, straight = false;
     vec3 base = ray.origin, gradient = vec3(0.0);
     float e = 0.0, rest = 0.0, free = t, out_there = FAR;
     float level = 0.0, steep = 1.0;
@@ -87,10 +87,10 @@ Hit march(Ray ray, float start, float cone, int most)
 
     for (int round = zero; round < 4; round++) {
         for (int i = zero; i < left; i++) {
-            bool clear = ray.inside && (round == 0 ? (i & 1) == 0 : !solid);
+            bool transmissive = ray.inside && (round == 0 ? (i & 1) == 0 : !opaque);
             early = round == 0 ? t + ahead < ray.start : early;
             bool fresh = ahead == 0.0 || (t < ray.start && !early);
-            through = clear ? -FAR : ray.inside || early ? FAR : 0.0;
+            field_mask = transmissive ? -FAR : ray.inside || early ? FAR : 0.0;
             vec3 corner = vec3((((i + 3) >> 1) & 1), ((i >> 1) & 1), (i & 1)) * 2.0 - 1.0;
             corner = round == 3 ? east * around.x + north * around.y : corner;
             vec3 offset = round == 0 ? ray.direction * (t + ahead) : corner * e;
@@ -99,7 +99,7 @@ Hit march(Ray ray, float start, float cone, int most)
                 i--;
                 continue;
             }
-            d = clear ? -d : d;
+            d = transmissive ? -d : d;
             gradient += corner * d;
             rest += 0.25 * d;
             if (round == 3) {
@@ -107,19 +107,19 @@ Hit march(Ray ray, float start, float cone, int most)
                                  2.0 * around.x * around.y);
                 around = FIFTH * around;
             }
-            if (round > 0 || clear) {
+            if (round > 0 || transmissive) {
                 out_there = early ? FAR : d;
                 continue;
             }
             taken++;
-            float print = footprint(ray, t + ahead), grain = GRAIN * (far_off + t);
-            /* Where both are, the solid one is seen, not some of each. */
-            solid = d < out_there + 0.02 * print;
+            float footprint = pixel_footprint(ray, t + ahead), grain = GRAIN * (far_off + t);
+            /* Where both are, the opaque one is seen, not some of each. */
+            opaque = d < out_there + 0.02 * footprint;
             d = min(d, out_there);
             float last = ahead, change = d - radius;
             bool even = single && abs(change - grade * last) < 0.1 * last;
             straight = single && !fresh && abs(change - grade * last) < 0.01 * abs(change);
-            bool back = last > radius + abs(d) + max(even ? GAP * print : 0.0, 2.0 * grain);
+            bool back = last > radius + abs(d) + max(even ? GAP * footprint : 0.0, 2.0 * grain);
             bool inside = single && !back && d < 0.0 && !fresh, stay = back || inside;
             grade = back || fresh ? -1.0 : change / last;
             slope = back || fresh ? -1.0 : mix(slope, grade, 0.3);
@@ -128,27 +128,28 @@ Hit march(Ray ray, float start, float cone, int most)
             /* From t to where the line meets the surface, and so far from an end of it. */
             root = radius / max(-grade, 1e-6);
             float aside = inside ? min(root, last - root) : root;
-            bool met = !back && aside * (aside + last) < AT_SURFACE * print * print;
-            float room = radius - cone * print;
-            hit = single ? met || radius < grain : room < 0.4 * cone * print;
+            bool met = !back && aside * (aside + last) < AT_SURFACE * footprint * footprint;
+            float room = radius - cone * footprint;
+            hit = single ? met || radius < grain : room < 0.4 * cone * footprint;
             root = hit && !met ? 0.0 : max(root, 0.0);
             if (hit || t > end) {
                 break;
             }
-            float gap = min(GAP * print, root > 16.0 * print ? print : 2.0 * radius + 0.07 * print);
+            float gap = min(GAP * footprint,
+                            root > 16.0 * footprint ? footprint : 2.0 * radius + 0.07 * footprint);
             float reach = (2.0 * radius + (even ? gap : 0.0)) / (1.0 - slope);
-            ahead = inside ? root : max(radius, min(reach, root + 0.01 * print));
+            ahead = inside ? root : max(radius, min(reach, root + 0.01 * footprint));
             ahead = single ? max(ahead, 2.0 * grain) : room / (1.0 + widening);
-            /* Not beyond where it looks for clear things too. */
+            /* Not beyond where it looks for transmissive objects too. */
             ahead = t < ray.start ? min(max(radius, 2.0 * grain), ray.start - t) : ahead;
         }
         if (round == 0) {
             free = t;
             hit = hit || (straight && grade < 0.0);
             t += hit ? root : max(radius, 0.0);
-            hit = (hit || root < 3.0 * footprint(ray, t)) && t <= end && left > 0;
+            hit = (hit || root < 3.0 * pixel_footprint(ray, t)) && t <= end && left > 0;
             base = ray.origin + ray.direction * (hit ? t : 0.0);
-            e = 0.1 * footprint(ray, t) + 2e-5 * greatest(base);
+            e = 0.1 * pixel_footprint(ray, t) + 2e-5 * greatest(base);
             left = hit && single ? 4 : 0;
         } else if (round == 1) {
             bool edge = abs(rest) > 0.0075 * length(gradient);
@@ -163,7 +164,7 @@ Hit march(Ray ray, float start, float cone, int most)
             left = smoothly ? 5 : 0;
             uphill = gradient;
             base = ray.origin + ray.direction * t;
-            e = 0.5 * footprint(ray, t);
+            e = 0.5 * pixel_footprint(ray, t);
             east = normalize(abs(uphill.y) < abs(uphill.x) ? vec3(-uphill.z, 0.0, uphill.x)
                                                            : vec3(0.0, uphill.z, -uphill.y));
             north = normalize(cross(uphill, east));
@@ -173,7 +174,7 @@ Hit march(Ray ray, float start, float cone, int most)
             rest = 0.0;
         }
     }
-    through = 0.0;
+    field_mask = 0.0;
     float length_of = length(uphill), curvature = 0.0;
     vec3 normal = length_of > 0.0 ? uphill / length_of : -ray.direction;
     if (smoothly) {
@@ -182,6 +183,6 @@ Hit march(Ray ray, float start, float cone, int most)
     }
     /* Behind an edge that the ray only brushed, the field leads away from the eye. */
     normal = normalize(normal - ray.direction * max(dot(normal, ray.direction) + 0.02, 0.0));
-    return Hit(hit, solid && (ray.inside || early), free, hit ? t : INFINITY, normal, taken,
+    return Hit(hit, opaque && (ray.inside || early), free, hit ? t : INFINITY, normal, taken,
                curvature);
 }

@@ -27,7 +27,7 @@ void main()
     if (coarse) {
         imageStore(starts, here, vec4(found.free));
     } else {
-        float t = found.solid ? -max(found.t, 1e-30) : found.t;
+        float t = found.opaque ? -max(found.t, 1e-30) : found.t;
         imageStore(out_geometry, here, vec4(found.hit ? found.normal : vec3(0.0), t));
         imageStore(out_steps, here, vec4(float(found.steps), found.curvature, 0.0, 0.0));
     }

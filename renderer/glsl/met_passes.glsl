@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the first sample of a pixel met, as march, matter and shadow pass left it. */
+/* What the first sample of a pixel met, as march, material and shadow pass left it. */
 
 #include "camera.glsl"
 #include "gbuffer_load.glsl"
@@ -15,7 +15,7 @@ Met met_load(ivec2 here)
     Ray ray = camera_sample(dispatch.origin + here, 0);
     vec3 place = ray.origin + ray.direction * g.w;
     return Met(g.w < INFINITY, g.xyz, g.w, place, texelFetch(steps, here, 0).x, surface_load(here),
-               visibility_mean(here), openness(here));
+               visibility_mean(here), ambient_visibility_of(here));
 }
 
 uint met_id(ivec2 here)

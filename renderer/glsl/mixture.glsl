@@ -2,8 +2,8 @@
 /* What is known of a surface besides its distance, and how it mixes. */
 
 #include "code.glsl"
+#include "field_mask.glsl"
 #include "surface.glsl"
-#include "through.glsl"
 
 /* Where surfaces are only chosen, never mixed, they are vec3(distance, leaf, material slot). A
  * Mixture knows of its four strongest materials where they lie in the table and how much they
@@ -127,63 +127,65 @@ Surface surface_begin(inout Mixture m)
 }
 
 /* Parts of a slot: its shape cuts something (renderer/field/field.h). */
-#define CUTS_CLEAR 0.25
-#define CUTS_SOLID 0.5
+#define CUTS_TRANSMISSIVE 0.25
+#define CUTS_OPAQUE 0.5
 
 /* A material's numbers as surface_add takes them, which its shader changes. */
-struct Paint {
+struct MaterialValues {
     vec4 diffuse_gloss, specular, emission, ambient, optics, absorption;
 };
 
 #ifdef USER_SHADERS
 /* With the colour that a shader gives. */
-void paint_color(inout Paint paint, vec3 color, bool unlit)
+void material_set_color(inout MaterialValues values, vec3 color, bool unlit)
 {
-    paint.diffuse_gloss.rgb += unlit ? vec3(0.0) : color;
-    paint.emission.rgb += unlit ? color : vec3(0.0);
+    values.diffuse_gloss.rgb += unlit ? vec3(0.0) : color;
+    values.emission.rgb += unlit ? color : vec3(0.0);
 }
 
-/* All of it is what a shader says. What may be clear always is a little, so that light on its way
- * to other things finds it. In C: field_put_surface. */
-void paint_surface(inout Paint paint, CodeSurface c, bool unlit)
+/* All of it is what a shader says. What may be transmissive always is a little, so that light on
+ * its way to other things finds it. In C: field_put_surface. */
+void material_set_surface(inout MaterialValues values, CodeSurface c, bool unlit)
 {
     if (unlit) {
-        paint.emission.rgb += c.color + c.emission;
+        values.emission.rgb += c.color + c.emission;
         return;
     }
-    float r = (c.ior - 1.0) / (c.ior + 1.0), least = paint.optics.y > 0.0 ? 1.0 / 255.0 : 0.0;
-    vec3 mirrored = mix(vec3(max(r * r, c.reflectivity)), c.color, c.metallic);
-    float most = max(mirrored.r, max(mirrored.g, mirrored.b));
-    paint.diffuse_gloss = vec4(c.color * (1.0 - c.metallic), c.roughness);
-    paint.specular = vec4(mirrored, 0.0);
-    paint.emission = vec4(c.emission, 0.0);
-    paint.ambient = vec4(1.0);
-    paint.optics = vec4(most, max(c.transmission, least), c.ior, float(MODEL_STANDARD));
-    paint.absorption = vec4(c.absorption, 0.0);
+    float r = (c.ior - 1.0) / (c.ior + 1.0),
+          min_transmission = values.optics.y > 0.0 ? 1.0 / 255.0 : 0.0;
+    vec3 specular = mix(vec3(max(r * r, c.reflectivity)), c.color, c.metallic);
+    float reflectivity = max(specular.r, max(specular.g, specular.b));
+    values.diffuse_gloss = vec4(c.color * (1.0 - c.metallic), c.roughness);
+    values.specular = vec4(specular, 0.0);
+    values.emission = vec4(c.emission, 0.0);
+    values.ambient = vec4(1.0);
+    values.optics =
+        vec4(reflectivity, max(c.transmission, min_transmission), c.ior, float(MODEL_STANDARD));
+    values.absorption = vec4(c.absorption, 0.0);
 }
 #endif
 
 /* Adds the strongest material, of these numbers. The model is that of the first; gloss, which means
  * another thing in each model, is the mean of those that share it, and m.weight is their part. */
-void surface_add(inout Surface s, inout Mixture m, Paint paint)
+void surface_add(inout Surface s, inout Mixture m, MaterialValues values)
 {
     float share = m.shares.x, cuts = fract(m.slots.x);
-    int model = int(paint.optics.w);
-    float goes_through = cuts == CUTS_SOLID ? 0.0 : paint.optics.y;
-    s.painted = s.model < 0 ? cuts == CUTS_CLEAR && goes_through == 0.0 : s.painted;
+    int model = int(values.optics.w);
+    float goes_through = cuts == CUTS_OPAQUE ? 0.0 : values.optics.y;
+    s.opaque_cut = s.model < 0 ? cuts == CUTS_TRANSMISSIVE && goes_through == 0.0 : s.opaque_cut;
     s.model = s.model < 0 ? model : s.model;
     if (model == s.model) {
         m.weight += share;
-        s.gloss = mix(s.gloss, paint.diffuse_gloss.w, share / m.weight);
+        s.gloss = mix(s.gloss, values.diffuse_gloss.w, share / m.weight);
     }
-    s.diffuse += share * paint.diffuse_gloss.rgb;
-    s.specular += share * paint.specular.rgb;
-    s.emission += share * paint.emission.rgb;
-    s.ambient += share * paint.ambient.rgb;
-    s.reflectivity += share * paint.optics.x;
+    s.diffuse += share * values.diffuse_gloss.rgb;
+    s.specular += share * values.specular.rgb;
+    s.emission += share * values.emission.rgb;
+    s.ambient += share * values.ambient.rgb;
+    s.reflectivity += share * values.optics.x;
     s.transmission += share * goes_through;
-    s.ior += share * paint.optics.z;
-    s.absorption += share * paint.absorption.rgb;
+    s.ior += share * values.optics.z;
+    s.absorption += share * values.absorption.rgb;
 }
 
 /* Leaves the strongest material behind. */

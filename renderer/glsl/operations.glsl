@@ -98,30 +98,30 @@ float blend_greater(float x, float k, int kernel, float order)
 }
 
 /* The lesser by the greater of two distances, both above 0. */
-float power_ratio(float least, float most)
+float power_ratio(float lower, float upper)
 {
-    return max(least, 1e-30) / max(most, 1e-30);
+    return max(lower, 1e-30) / max(upper, 1e-30);
 }
 
 /* The smooth minimum. */
 float smin(float a, float b, float k, int kernel, float order)
 {
-    float least = min(a, b), most = max(a, b);
+    float lower = min(a, b), upper = max(a, b);
     if (kernel == KERNEL_POWER) {
-        float part = exp2(k * log2(power_ratio(least, most)));
-        return least > 0.0 ? least * exp2(-log2(1.0 + part) / k) : least;
+        float part = exp2(k * log2(power_ratio(lower, upper)));
+        return lower > 0.0 ? lower * exp2(-log2(1.0 + part) / k) : lower;
     }
-    return least - blend_depth(most - least, k, kernel, order);
+    return lower - blend_depth(upper - lower, k, kernel, order);
 }
 
 /* Share of b in the smooth minimum: its derivative by b, by the sum of both. */
 float smin_share(float a, float b, float k, int kernel, float order)
 {
-    float least = min(a, b), most = max(a, b);
-    float greater = blend_greater(most - least, k, kernel, order);
+    float lower = min(a, b), upper = max(a, b);
+    float greater = blend_greater(upper - lower, k, kernel, order);
     if (kernel == KERNEL_POWER) {
-        float share = exp2((k + 1.0) * log2(power_ratio(least, most)));
-        greater = least > 0.0 ? share / (1.0 + share) : 0.0;
+        float share = exp2((k + 1.0) * log2(power_ratio(lower, upper)));
+        greater = lower > 0.0 ? share / (1.0 + share) : 0.0;
     }
     return b < a ? 1.0 - greater : greater;
 }

@@ -8,12 +8,12 @@
 struct Met {
     bool hit;
     vec3 normal;
-    float distance; /* below 0: something solid, from inside of something clear */
+    float distance; /* below 0: something opaque, from inside of something transmissive */
     vec3 place;
     float steps;
     Surface surface;
-    vec3 lights; /* part of the light that arrives, of all lights together that throw shadows */
-    float open;  /* part of the environment's */
+    vec3 lights; /* part of the light that arrives, of all lights together that cast shadows */
+    float ambient_visibility; /* part of the environment's */
 };
 
 /* Neighbouring ids get hues far apart: steps of the golden ratio. */
@@ -75,9 +75,9 @@ vec4 output_of(int kind, Met m)
     } else if (kind == OUT_SHADOW || kind == OUT_SHADOW_RAW) {
         return vec4(m.hit ? m.lights : vec3(1.0), 1.0);
     } else if (kind == OUT_OCCLUSION) {
-        return vec4(vec3(m.hit ? m.open : 1.0), 1.0);
+        return vec4(vec3(m.hit ? m.ambient_visibility : 1.0), 1.0);
     } else if (kind == OUT_OCCLUSION_RAW) {
-        return vec4(m.hit ? m.open : 1.0);
+        return vec4(m.hit ? m.ambient_visibility : 1.0);
     }
     return o;
 }

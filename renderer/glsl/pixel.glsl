@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the samples of a pixel make together. */
 
-#include "edges.glsl"
+#include "edge_detect.glsl"
 #include "screen.glsl"
 
 /* Edges are mixed with what is around them, the more the stronger they are (Sabino, Andrade, Clua,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Surfaces by polynomials (renderer/sdf/polynomial.h), as in renderer/sdf/polynomial.c. */
 
-#include "numbers.glsl"
+#include "params.glsl"
 
 /* Around p up to the third order: (value, bounds of the first, second and third order). Series in
  * the ways along x, y and z are cut at that order: `s` in z, `r` in y and z, `a` in all. */
@@ -12,21 +12,21 @@ vec4 polynomial_orders(vec3 p, int at, int degree)
     vec2 a2 = vec2(0.0), a5 = vec2(0.0), a7 = vec2(0.0), r2;
     float a3 = 0.0, a6 = 0.0, a8 = 0.0, a9 = 0.0, r3;
     for (int i = 0; i <= degree; i++) {
-        int rows = int(N_FROM(at).x);
+        int rows = int(P_FROM(at).x);
         at++;
         r0 = vec4(0.0);
         r1 = vec3(0.0);
         r2 = vec2(0.0);
         r3 = 0.0;
         for (int j = 0; j < rows; j++) {
-            c = N_FROM(at);
+            c = P_FROM(at);
             at++;
             int more = int(c.x);
             s = vec4(c.y, 0.0, 0.0, 0.0);
             s = s * p.z + vec4(c.z, s.xyz);
             s = s * p.z + vec4(c.w, s.xyz);
             for (int k = 0; k < more; k++) {
-                c = N_FROM(at);
+                c = P_FROM(at);
                 at++;
                 s = s * p.z + vec4(c.x, s.xyz);
                 s = s * p.z + vec4(c.y, s.xyz);
@@ -63,7 +63,7 @@ float polynomial_rest(int at, int count, float radius)
 {
     float sum = 0.0;
     for (int i = 0; i < count; i++) {
-        vec4 c = N_FROM(at + i);
+        vec4 c = P_FROM(at + i);
         sum = (((sum * radius + c.x) * radius + c.y) * radius + c.z) * radius + c.w;
     }
     return sum;
@@ -76,11 +76,11 @@ vec2 polynomial_change(vec3 b, float fourth, float r)
                 ((4.0 * fourth * r + 3.0 * b.z) * r + 2.0 * b.y) * r + b.x);
 }
 
-/* The way on which f may change by `f`, at most `most`: Newton's method from above, where it
+/* The way on which f may change by `f`, at most `limit`: Newton's method from above, where it
  * converges, then the chord, which is below. */
-float polynomial_way(float f, vec3 b, float fourth, float most)
+float polynomial_distance(float f, vec3 b, float fourth, float limit)
 {
-    float r = min(min(f / b.x, sqrt(f / b.y)), min(sqrt(sqrt(f / max(fourth, 1e-18))), most));
+    float r = min(min(f / b.x, sqrt(f / b.y)), min(sqrt(sqrt(f / max(fourth, 1e-18))), limit));
     for (int i = 0; i < 3; i++) {
         vec2 change = polynomial_change(b, fourth, r);
         r -= max(change.x - f, 0.0) / change.y;
@@ -89,11 +89,11 @@ float polynomial_way(float f, vec3 b, float fourth, float most)
 }
 
 /* A sheet: |f| at most half of the thickness times the slope within a grain. */
-float polynomial_sheet(float f, vec3 b, float fourth, float thickness, float grain, float most)
+float polynomial_sheet(float f, vec3 b, float fourth, float thickness, float grain, float limit)
 {
     float half_thickness = 0.5 * thickness;
     float begin = half_thickness * polynomial_change(b, fourth, grain).y;
-    float s = most, whole = begin;
+    float s = limit, whole = begin;
     for (int i = 0; i < 4; i++) {
         float t = s + grain;
         float bend = (12.0 * fourth * t + 6.0 * b.z) * t + 2.0 * b.y;
@@ -108,18 +108,18 @@ float polynomial_sheet(float f, vec3 b, float fourth, float thickness, float gra
 /* Within the clip, in parts of its extent. */
 float polynomial_within(vec3 p, int at)
 {
-    vec4 form = N_FROM(at + 1), steps = N_FROM(at + 2);
+    vec4 form = P_FROM(at + 1), steps = P_FROM(at + 2);
     int count = int(form.w), rest = at + 3;
     vec4 orders = polynomial_orders(p, rest + count, int(form.z));
     vec3 b = max(orders.yzw, 1e-18);
     float f = abs(orders.x), fourth = 0.0, radius = length(p);
-    float most = polynomial_way(f, b, 0.0, steps.y), d = most;
+    float limit = polynomial_distance(f, b, 0.0, steps.y), d = limit;
     if (count > 0) {
-        fourth = polynomial_rest(rest, count, radius + most + steps.z);
-        float less = polynomial_way(f, b, fourth, most);
-        float between = sqrt(less * most);
+        fourth = polynomial_rest(rest, count, radius + limit + steps.z);
+        float less = polynomial_distance(f, b, fourth, limit);
+        float between = sqrt(less * limit);
         float other = polynomial_rest(rest, count, radius + between + steps.z);
-        float more = polynomial_way(f, b, other, between);
+        float more = polynomial_distance(f, b, other, between);
         d = max(less, more);
         fourth = more > less ? other : fourth;
     }
@@ -131,12 +131,12 @@ float polynomial_within(vec3 p, int at)
 
 float polynomial(vec3 p, int at)
 {
-    vec4 clip = N_FROM(at);
-    float radius = N_FROM(at + 1).x;
+    vec4 clip = P_FROM(at);
+    float radius = P_FROM(at + 1).x;
     bool ball = radius > 0.0;
     vec3 near = ball ? p * min(1.0, radius / max(length(p), 1e-18)) : clamp(p, -clip.xyz, clip.xyz);
     float outside = distance(p, near);
-    if (outside > N_FROM(at + 2).x) {
+    if (outside > P_FROM(at + 2).x) {
         return outside;
     }
     vec3 faces = abs(p) - clip.xyz;

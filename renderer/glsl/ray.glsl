@@ -6,38 +6,38 @@
 struct Ray {
     vec3 origin;
     vec3 direction; /* of length 1 */
-    float way;      /* from the eye to the origin */
+    float distance; /* from the eye to the origin */
     bool inside;    /* of something that light goes through */
     float start;    /* nothing that light goes through is met before: it comes out of its surface */
 };
 
 /* A ray that is to be followed later. */
-struct Waiting {
-    vec4 from;   /* origin, way */
-    vec4 along;  /* direction, start; below 0 outside */
-    vec4 weight; /* what its light counts; w: cone_pack() */
-    vec4 medium; /* rgb: absorption where it is */
+struct QueuedRay {
+    vec4 origin;     /* origin, distance */
+    vec4 direction;  /* direction, start; below 0 outside */
+    vec4 throughput; /* what its light counts; w: cone_pack() */
+    vec4 absorption; /* rgb: where it is */
 };
 
-Ray ray_of(vec4 from, vec4 along)
+Ray ray_of(vec4 origin, vec4 direction)
 {
-    return Ray(from.xyz, along.xyz, from.w, along.w > 0.0, abs(along.w));
+    return Ray(origin.xyz, direction.xyz, origin.w, direction.w > 0.0, abs(direction.w));
 }
 
-vec4 ray_from(Ray ray)
+vec4 pack_ray_origin(Ray ray)
 {
-    return vec4(ray.origin, ray.way);
+    return vec4(ray.origin, ray.distance);
 }
 
-vec4 ray_along(Ray ray)
+vec4 pack_ray_direction(Ray ray)
 {
     return vec4(ray.direction, ray.inside ? max(ray.start, 1e-30) : -ray.start);
 }
 
 /* Radius of a pixel's footprint at distance t along the ray. */
-float footprint(Ray ray, float t)
+float pixel_footprint(Ray ray, float t)
 {
-    return camera.pixel_radius * (camera.orthographic != 0 ? 1.0 : ray.way + t);
+    return camera.pixel_radius * (camera.orthographic != 0 ? 1.0 : ray.distance + t);
 }
 
 /* A ray stands for a cone: `spread` is how much wider it gets, in diameter, over a unit of way;
@@ -51,10 +51,10 @@ float eye_spread()
 /* Diameter of the cone at t, as if it had been the eye's until the ray's origin. */
 float cone_width(Ray ray, float t, float spread)
 {
-    return 2.0 * footprint(ray, t) + (spread - eye_spread()) * t;
+    return 2.0 * pixel_footprint(ray, t) + (spread - eye_spread()) * t;
 }
 
-/* How often a ray was mirrored or broken, and its spread, in one number. */
+/* How often a ray was reflected or refracted, and its spread, in one number. */
 float cone_pack(int depth, float spread)
 {
     return float(depth) + 0.5 + 0.4 * clamp(spread, -1.0, 1.0);
@@ -70,10 +70,10 @@ float cone_spread(float word)
     return (fract(word) - 0.5) / 0.4;
 }
 
-/* Where a ray looks for other clear things, that came by `ray` to a surface at t and goes through
- * it along a direction whose cosine to the normal is c, less than 0: not far behind, for it may be
- * thin, and within its rounding. */
+/* Where a ray looks for other transmissive objects, that came by `ray` to a surface at t and goes
+ * through it along a direction whose cosine to the normal is c, less than 0: not far behind, for it
+ * may be thin, and within its rounding. */
 float start_behind(Ray ray, float t, float c)
 {
-    return footprint(ray, t) * min(-0.75 / c, 3.0);
+    return pixel_footprint(ray, t) * min(-0.75 / c, 3.0);
 }

@@ -3,10 +3,11 @@
 
 #include "ray.glsl"
 
-layout(binding = UNIT_RAY_FROM) uniform sampler2D rays_from;  /* origin, way from the eye to it */
-layout(binding = UNIT_RAY_ALONG) uniform sampler2D rays_along; /* as Waiting.along */
+layout(binding = UNIT_RAY_ORIGIN) uniform sampler2D ray_origins; /* w: distance from the eye */
+layout(binding = UNIT_RAY_DIRECTION) uniform sampler2D ray_directions; /* as in QueuedRay */
 
 Ray ray_load(ivec2 here)
 {
-    return ray_of(texelFetch(rays_from, max(here, 0), 0), texelFetch(rays_along, max(here, 0), 0));
+    return ray_of(texelFetch(ray_origins, max(here, 0), 0),
+                  texelFetch(ray_directions, max(here, 0), 0));
 }

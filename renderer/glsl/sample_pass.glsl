@@ -25,7 +25,7 @@ void add_sample(ivec2 here)
     vec4 total, g;
     Met met;
     int rays = trace(pixel, texelFetch(starts, block, 0).x, args.sample_index, args.rays,
-                     args.depth, args.looks == 1, args.lights == 1, total, g, met);
+                     args.depth, args.shadows == 1, args.lights == 1, total, g, met);
     Surface s = met.surface;
 
     vec2 counts;
@@ -38,7 +38,7 @@ void add_sample(ivec2 here)
         out_diffuse = vec4(s.diffuse, met.steps);
         out_specular = vec4(s.specular, float(s.id));
         out_optical = vec4(s.reflectivity, s.ior, s.transmission, optical_of(s).w);
-        out_lights = vec4(met.lights, met.open);
+        out_lights = vec4(met.lights, met.ambient_visibility);
     }
 }
 

@@ -1,53 +1,54 @@
 /* SPDX-License-Identifier: MIT */
 /* What of each light, and of the environment's, comes to a place of a surface. What light goes
- * through throws no shadow here: clear_pass.glsl colours its light. */
+ * through casts no shadow here: transmission_pass.glsl colours its light. */
 
 #include "field_bound.glsl"
 #include "lights.glsl"
 
-/* Where answers go (shadow_store.glsl, sample_store.glsl): the part of the environment's light,
+/* Where answers go (shadow_sink.glsl, sample_sink.glsl): the part of the environment's light,
  * then that of each light, with the former beside it. */
-void store_openness(float open);
-void store_visibility(int light, float seen, float open);
+void store_ambient_visibility(float ambient_visibility);
+void store_visibility(int light, float visibility, float ambient_visibility);
 
 /* A ray on its way to a light. */
-struct Passage {
-    float far, print; /* its end; what counts as nothing */
-    float k;          /* sharpness of the shadow */
-    float x;          /* where the distance is wanted next */
-    float at, radius; /* the last place on its way, and the distance there */
-    float ahead;      /* the step that is tried */
-    float slope;      /* of the distance, for a hard shadow */
-    vec2 a, b, c;     /* for a soft one: (1, distance) / way at the last three places */
-    bool again;       /* x lies behind `at` */
-    float seen;       /* part of the light so far */
+struct ShadowRay {
+    float far, footprint; /* its end; what counts as nothing */
+    float k;              /* sharpness of the shadow */
+    float x;              /* where the distance is wanted next */
+    float at, radius;     /* the last place on its way, and the distance there */
+    float ahead;          /* the step that is tried */
+    float slope;          /* of the distance, for a hard shadow */
+    vec2 a, b, c;         /* for a soft one: (1, distance) / way at the last three places */
+    bool refined;         /* x lies behind `at` */
+    float visibility;     /* part of the light so far */
 };
 
 /* As if the surface were flat where the ray begins, `lift` above it. */
-Passage passage(float near, float far, float print, float k, float lambert, float lift)
+ShadowRay shadow_ray_begin(float near, float far, float footprint, float k, float lambert,
+                           float lift)
 {
     vec2 flat_there = vec2(0.0, lambert), higher = vec2(1.0, lift) / near;
-    return Passage(far, print, k, near, near, 0.0, 0.0, -1.0, flat_there + 4.0 * higher,
-                   flat_there + 3.0 * higher, flat_there + 2.0 * higher, false, 1.0);
+    return ShadowRay(far, footprint, k, near, near, 0.0, 0.0, -1.0, flat_there + 4.0 * higher,
+                     flat_there + 3.0 * higher, flat_there + 2.0 * higher, false, 1.0);
 }
 
 /* Sphere tracing with stretched steps, as in march.glsl. False at the end. */
-bool hard_step(inout Passage s, float d)
+bool hard_step(inout ShadowRay s, float d)
 {
     bool back = s.ahead > s.radius + abs(d);
     s.slope = back ? -1.0 : s.ahead > 0.0 ? mix(s.slope, (d - s.radius) / s.ahead, 0.3) : s.slope;
     s.at = back ? s.at : s.x;
     s.radius = back ? s.radius : d;
-    s.seen = s.at <= s.far && s.radius < 0.05 * s.print ? 0.0 : 1.0;
-    s.ahead = max(back ? s.radius : s.radius * max(1.0, 2.0 / (1.0 - s.slope)), 0.5 * s.print);
+    s.visibility = s.at <= s.far && s.radius < 0.05 * s.footprint ? 0.0 : 1.0;
+    s.ahead = max(back ? s.radius : s.radius * max(1.0, 2.0 / (1.0 - s.slope)), 0.5 * s.footprint);
     s.x = s.at + s.ahead;
-    return s.seen > 0.0 && s.at <= s.far;
+    return s.visibility > 0.0 && s.at <= s.far;
 }
 
 /* Out of steps: as if all went on as it went. */
-float hard_end(Passage s)
+float hard_end(ShadowRay s)
 {
-    return s.at <= s.far && s.radius + s.slope * (s.far - s.at) < 0.0 ? 0.0 : s.seen;
+    return s.at <= s.far && s.radius + s.slope * (s.far - s.at) < 0.0 ? 0.0 : s.visibility;
 }
 
 /* Where lines through two places before and two behind meet: xy of each is (1, distance) / way, in
@@ -56,28 +57,28 @@ float hard_end(Passage s)
 vec2 turning_point(vec2 a, vec2 b, vec2 c, vec2 d)
 {
     float fall = (b.y - a.y) / (b.x - a.x), rise = (d.y - c.y) / (d.x - c.x);
-    float bend = fall - rise;
-    float x = b.x + (b.y - c.y + rise * (c.x - b.x)) / min(-bend, -1e-9);
-    return vec2(x, bend > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
+    float closing = fall - rise;
+    float x = b.x + (b.y - c.y + rise * (c.x - b.x)) / min(-closing, -1e-9);
+    return vec2(x, closing > 0.0 && x < b.x && x > c.x ? b.y + fall * (x - b.x) : FAR);
 }
 
 /* The part seen of a light's disc follows from the least ratio of distance to way (Quilez: Soft
  * shadows in raymarched SDFs, 2010): from 1 / k on, all of it. It is dark within the hard shadow,
  * so that nothing thin lets light through. Between two samples the ratio may be less than at both,
  * which showed as rings: where it seems to turn the ray looks again. False at the end. */
-bool soft_step(inout Passage s, float d)
+bool soft_step(inout ShadowRay s, float d)
 {
     vec2 now = vec2(1.0, d) / s.x, turn = turning_point(s.a, s.b, s.c, now);
     bool inside = s.x <= s.far;
-    s.seen = inside ? min(s.seen, s.k * now.y) : s.seen;
-    bool dark = inside && (d < 0.05 * s.print || s.seen < 0.01);
-    bool back = !s.again && s.k * turn.y < 0.99 * s.seen && turn.x * s.far > 1.0;
+    s.visibility = inside ? min(s.visibility, s.k * now.y) : s.visibility;
+    bool dark = inside && (d < 0.05 * s.footprint || s.visibility < 0.01);
+    bool back = !s.refined && s.k * turn.y < 0.99 * s.visibility && turn.x * s.far > 1.0;
 
-    s.seen = dark ? 0.0 : s.seen;
-    if (!s.again) {
+    s.visibility = dark ? 0.0 : s.visibility;
+    if (!s.refined) {
         /* Finer than the disc where it matters; things much smaller do not. */
-        float disc = s.x / s.k, coarse = 0.3 + 30.0 * s.print / (s.x + 30.0 * s.print);
-        s.ahead = max(d * clamp(0.25 * d / disc, 0.5, 1.0), max(0.5 * s.print, coarse * disc));
+        float disc = s.x / s.k, coarse = 0.3 + 30.0 * s.footprint / (s.x + 30.0 * s.footprint);
+        s.ahead = max(d * clamp(0.25 * d / disc, 0.5, 1.0), max(0.5 * s.footprint, coarse * disc));
         s.a = s.b;
         s.b = s.c;
         s.c = now;
@@ -87,7 +88,7 @@ bool soft_step(inout Passage s, float d)
     next = s.at < s.far ? min(next, s.far) : next;
     s.x = back ? 1.0 / turn.x : next;
     s.at = back ? s.at : next;
-    s.again = back;
+    s.refined = back;
     return on;
 }
 
@@ -104,11 +105,11 @@ float occlusion_place(int i, float start)
 
 /* A straight way from a place. */
 struct Sight {
-    vec3 from, along; /* direction, of length 1 */
-    float near, far;  /* what is not between does not count */
-    float print;      /* so much is as good as nothing */
-    float sharpness;  /* of a soft shadow */
-    float lambert, lift; /* cosine to the surface's normal, and the place's height over it */
+    vec3 from, direction; /* direction, of length 1 */
+    float near, far;      /* what is not between does not count */
+    float footprint;      /* so much is as good as nothing */
+    float sharpness;      /* of a soft shadow */
+    float lambert, lift;  /* cosine to the surface's normal, and the place's height over it */
 };
 
 /* Of a sight whose openness is asked for, along a normal. */
@@ -118,12 +119,12 @@ struct Sight {
  * What else a ray may meet has to be looked at here too, and in march(). */
 float visible(Sight sight, int kind, int steps)
 {
-    Passage s = passage(sight.near, sight.far, sight.print, sight.sharpness, sight.lambert,
-                        sight.lift);
+    ShadowRay s = shadow_ray_begin(sight.near, sight.far, sight.footprint, sight.sharpness,
+                                   sight.lambert, sight.lift);
     float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
 
     for (int i = zero; i < steps; i++) {
-        float d = field_bound(sight.from + sight.along * x, x, true);
+        float d = field_bound(sight.from + sight.direction * x, x, true);
         if (field_waits(d)) {
             i--;
             continue;
@@ -139,40 +140,46 @@ float visible(Sight sight, int kind, int steps)
             }
         }
     }
-    float open = max(1.0 - frame.occlusion_strength * dark / float(max(steps, 1)), 0.0);
-    return kind == SIGHT_OPEN ? open : kind == SHADOW_HARD ? hard_end(s) : s.seen;
+    float ambient_visibility =
+        max(1.0 - frame.occlusion_strength * dark / float(max(steps, 1)), 0.0);
+    return kind == SIGHT_OPEN    ? ambient_visibility
+           : kind == SHADOW_HARD ? hard_end(s)
+                                 : s.visibility;
 }
 
 /* In a loop of one round for occlusion and one for each light, so that map() stands in the program
  * once. The rays of soft shadows go on beyond the bounds, as far as these may still cover a part of
  * the disc. */
-void look(vec3 p, vec3 n, float print, bool hit)
+void trace_visibility(vec3 p, vec3 n, float footprint, bool hit)
 {
-    float near = 2.0 * print, lift = 1.5 * print, open = 1.0;
+    float near = 2.0 * footprint, lift = 1.5 * footprint, ambient_visibility = 1.0;
 
-    through = FAR;
+    field_mask = FAR;
     for (int round = zero - 1; round < frame.light_count; round++) {
         bool outward = round < 0;
         Light light = frame.lights[max(round, 0)];
         Incoming comes = incoming(light, p);
         int kind = (frame.effects & EFFECT_SHADOWS) != 0 ? light.shadow : SHADOW_NONE;
         float lambert = dot(n, comes.direction);
-        vec3 along = outward ? n : comes.direction, base = outward ? p : p + n * lift;
-        float room = kind == SHADOW_SOFT ? bounds_span(base, along).y / light.sharpness : 0.0;
-        float leaves = box_span(frame.bounds_min - room, frame.bounds_max + room, base, along).y;
+        vec3 direction = outward ? n : comes.direction, base = outward ? p : p + n * lift;
+        float room = kind == SHADOW_SOFT ? bounds_span(base, direction).y / light.sharpness : 0.0;
+        float leaves =
+            box_span(frame.bounds_min - room, frame.bounds_max + room, base, direction).y;
         float far = min(min(comes.reach - light.radius, leaves), frame.max_distance);
         bool lit = lambert > 0.0 && any(greaterThan(comes.color, vec3(0.0)));
-        bool looks = lit && kind != SHADOW_NONE && far > near;
-        int steps = outward ? frame.occlusion_samples : looks ? frame.shadow_steps : 0;
-        Sight sight = Sight(base, along, near, far, print, light.sharpness, lambert, lift);
+        bool traced = lit && kind != SHADOW_NONE && far > near;
+        int steps = outward ? frame.occlusion_samples : traced ? frame.shadow_steps : 0;
+        Sight sight = Sight(base, direction, near, far, footprint, light.sharpness, lambert, lift);
 
-        float seen = visible(sight, outward ? SIGHT_OPEN : kind, hit ? steps : 0);
+        float visibility = visible(sight, outward ? SIGHT_OPEN : kind, hit ? steps : 0);
         if (outward) {
-            open = seen;
-            store_openness(open);
+            ambient_visibility = visibility;
+            store_ambient_visibility(ambient_visibility);
         } else {
-            seen = kind == SHADOW_NONE ? 1.0 : lit ? seen * seen * (3.0 - 2.0 * seen) : 0.0;
-            store_visibility(round, seen, open);
+            visibility = kind == SHADOW_NONE ? 1.0
+                         : lit               ? visibility * visibility * (3.0 - 2.0 * visibility)
+                                             : 0.0;
+            store_visibility(round, visibility, ambient_visibility);
         }
     }
 }

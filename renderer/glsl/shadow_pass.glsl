@@ -4,7 +4,7 @@
 #include "field_pass.glsl"
 #include "gbuffer_load.glsl"
 #include "shadow.glsl"
-#include "shadow_store.glsl"
+#include "shadow_sink.glsl"
 
 void main()
 {
@@ -15,5 +15,6 @@ void main()
     Ray ray = ray_load(store_here);
     bool hit = !idle && abs(g.w) < INFINITY;
     float t = hit ? abs(g.w) : 0.0;
-    look(ray.origin + ray.direction * t, hit ? g.xyz : vec3(0.0, 1.0, 0.0), footprint(ray, t), hit);
+    trace_visibility(ray.origin + ray.direction * t, hit ? g.xyz : vec3(0.0, 1.0, 0.0),
+                     pixel_footprint(ray, t), hit);
 }

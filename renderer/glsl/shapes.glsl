@@ -29,8 +29,8 @@ float sd_box(vec3 p, vec3 size)
 /* A ball with three radii: the greater of two bounds, of which the box is not near the surface. */
 float sd_ellipsoid(vec3 p, vec3 radii)
 {
-    float least = min(radii.x, min(radii.y, radii.z));
-    return max((length(p / radii) - 1.0) * least, sd_box(p, 2.0 * radii) - least / 16.0);
+    float smallest = min(radii.x, min(radii.y, radii.z));
+    return max((length(p / radii) - 1.0) * smallest, sd_box(p, 2.0 * radii) - smallest / 16.0);
 }
 
 /* A cuboid whose rounding lies inside `size`; radius at most half of the least length. */
@@ -44,10 +44,11 @@ float sd_box_frame(vec3 p, vec3 size, float thickness)
 {
     vec3 q = abs(p) - 0.5 * size, along = max(q, 0.0);
     vec3 across = max(max(q, -thickness - q), 0.0);
-    vec3 open = mix(max(q + thickness, 0.0), vec3(1e9), lessThanEqual(0.5 * size, vec3(thickness)));
+    vec3 openings =
+        mix(max(q + thickness, 0.0), vec3(1e9), lessThanEqual(0.5 * size, vec3(thickness)));
     float outside = min(length(vec3(along.x, across.yz)),
                         min(length(vec3(along.y, across.xz)), length(vec3(along.z, across.xy))));
-    float depth = min(length(open.xy), min(length(open.yz), length(open.zx)));
+    float depth = min(length(openings.xy), min(length(openings.yz), length(openings.zx)));
     return outside > 0.0 ? outside : max(max(q.x, max(q.y, q.z)), -depth);
 }
 

@@ -36,9 +36,9 @@ vec3 sky_plain(vec3 direction, float disc)
 }
 
 /* From what is seen to what is in the picture, which may be turned. */
-vec3 sky_turned(vec3 d)
+vec3 sky_rotated(vec3 d)
 {
-    vec2 turn = frame.sky_turn;
+    vec2 turn = frame.sky_rotation;
     return vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
 }
 
@@ -48,7 +48,7 @@ vec3 sky_blurred(vec3 direction, float blur)
     if (frame.sky_kind != SKY_IMAGE) {
         return sky_plain(direction, 0.0);
     }
-    return frame.sky_brightness * sky_pictured(sky_turned(direction), blur);
+    return frame.sky_brightness * sample_environment_map(sky_rotated(direction), blur);
 }
 
 /* What a ray sees that hits nothing. */
@@ -57,27 +57,27 @@ vec3 sky(vec3 direction, float spread)
     return frame.sky_kind == SKY_IMAGE ? sky_blurred(direction, spread) : sky_plain(direction, 1.0);
 }
 
-/* Light that falls on a matt surface, over pi. */
+/* Light that falls on a diffuse surface, over pi. */
 vec3 sky_irradiance(vec3 n)
 {
-    return frame.ambient * frame.sky_brightness * sky_matt_map(sky_turned(n));
+    return frame.ambient * frame.sky_brightness * sample_irradiance_map(sky_rotated(n));
 }
 
-/* Spread of a cone that something rough mirrored: ray.glsl. */
+/* Spread of a cone that something rough reflected: ray.glsl. */
 float rough_spread(float spread, float roughness)
 {
     float lobe = 2.0 * roughness * roughness;
     return (spread < 0.0 ? -1.0 : 1.0) * length(vec2(spread, lobe));
 }
 
-/* What a surface mirrors that looks along `direction`, by a cone of `spread`. */
-vec3 sky_mirrored(vec3 direction, float roughness, float spread)
+/* What a surface reflects that looks along `direction`, by a cone of `spread`. */
+vec3 sky_specular(vec3 direction, float roughness, float spread)
 {
-    float level = clamp(roughness, 0.0, 1.0) * float(MIRROR_LEVELS) - 1.0;
-    float low = max(floor(level), 0.0), high = min(low + 1.0, float(MIRROR_LEVELS - 1));
-    vec3 turned = sky_turned(direction);
+    float level = clamp(roughness, 0.0, 1.0) * float(SPECULAR_LEVELS) - 1.0;
+    float low = max(floor(level), 0.0), high = min(low + 1.0, float(SPECULAR_LEVELS - 1));
+    vec3 rotated = sky_rotated(direction);
     vec3 sharp = sky_blurred(direction, rough_spread(spread, roughness));
-    vec3 a = frame.sky_brightness * sky_mirror_map(turned, low);
-    vec3 b = frame.sky_brightness * sky_mirror_map(turned, high);
+    vec3 a = frame.sky_brightness * sample_specular_map(rotated, low);
+    vec3 b = frame.sky_brightness * sample_specular_map(rotated, high);
     return frame.ambient * (level < 0.0 ? mix(sharp, a, level + 1.0) : mix(a, b, level - low));
 }

@@ -6,14 +6,14 @@
 #include "constants.glsl"
 #include "interface.glsl"
 
-/* What is around the scene; what mirrors show of it, mip level i for the roughness
- * (i + 1) / MIRROR_LEVELS; and its irradiance / pi. */
-layout(binding = UNIT_PANORAMA) uniform sampler2D sky_picture;
-layout(binding = UNIT_MIRRORED) uniform sampler2D sky_mirror;
-layout(binding = UNIT_IRRADIANCE) uniform sampler2D sky_matt;
+/* What is around the scene; what surfaces reflect of it, mip level i for the roughness
+ * (i + 1) / SPECULAR_LEVELS; and its irradiance / pi. */
+layout(binding = UNIT_ENVIRONMENT_MAP) uniform sampler2D environment_map;
+layout(binding = UNIT_SPECULAR_MAP) uniform sampler2D specular_map;
+layout(binding = UNIT_IRRADIANCE_MAP) uniform sampler2D irradiance_map;
 
 /* Longitude and latitude, 0 to 1. */
-vec2 sky_place(vec3 d)
+vec2 map_coordinates(vec3 d)
 {
     float side = abs(d.x) + abs(d.z) > 0.0 ? atan(d.x, -d.z) : 0.0;
     return vec2(0.5 + side / (2.0 * PI), acos(clamp(d.y, -1.0, 1.0)) / PI);
@@ -21,26 +21,26 @@ vec2 sky_place(vec3 d)
 
 /* One mip level of a picture with a row at each pole. Its size is not asked of the driver: llvmpipe
  * would answer all lanes for the level of the first. */
-vec3 sky_made(sampler2D made, vec3 d, float level)
+vec3 sample_map(sampler2D made, vec3 d, float level)
 {
-    vec2 place = sky_place(d);
+    vec2 place = map_coordinates(d);
     float rows = float(max(textureSize(made, 0).y >> int(level), 1));
     return textureLod(made, vec2(place.x, (place.y * (rows - 1.0) + 0.5) / rows), level).rgb;
 }
 
 /* What is around the scene, over about the angle `blur`. */
-vec3 sky_pictured(vec3 d, float blur)
+vec3 sample_environment_map(vec3 d, float blur)
 {
-    float texel = PI / float(textureSize(sky_picture, 0).y);
-    return textureLod(sky_picture, sky_place(d), log2(max(abs(blur) / texel, 1.0))).rgb;
+    float texel = PI / float(textureSize(environment_map, 0).y);
+    return textureLod(environment_map, map_coordinates(d), log2(max(abs(blur) / texel, 1.0))).rgb;
 }
 
-vec3 sky_mirror_map(vec3 d, float level)
+vec3 sample_specular_map(vec3 d, float level)
 {
-    return sky_made(sky_mirror, d, level);
+    return sample_map(specular_map, d, level);
 }
 
-vec3 sky_matt_map(vec3 n)
+vec3 sample_irradiance_map(vec3 n)
 {
-    return sky_made(sky_matt, n, 0.0);
+    return sample_map(irradiance_map, n, 0.0);
 }

@@ -47,10 +47,10 @@ float sd_tetrahedron(vec3 p, float radius)
     const mat3 axes = mat3(0.577350269, 0.577350269, -0.577350269, 0.816496581, -0.408248290,
                            0.408248290, 0.0, 0.707106781, 0.707106781);
     vec3 a = abs(p);
-    float least = min(a.x, min(a.y, a.z));
+    float smallest = min(a.x, min(a.y, a.z));
     bool odd = (p.x < 0.0) != ((p.y < 0.0) != (p.z < 0.0));
     vec3 q = vec3(max(a.x, max(a.y, a.z)), max(min(a.x, a.y), min(max(a.x, a.y), a.z)),
-                  odd ? -least : least);
+                  odd ? -smallest : smallest);
     return regular(q, axes, radius * vec3(0.333333333, 0.471404521, 0.816496581));
 }
 

@@ -5,16 +5,16 @@
 #include "list.glsl"
 #include "ray.glsl"
 
-layout(rgba32f, binding = IMAGE_RAY_FROM) writeonly uniform image2D out_ray_from;
-layout(rgba32f, binding = IMAGE_RAY_ALONG) writeonly uniform image2D out_ray_along;
-layout(rgba32f, binding = IMAGE_WEIGHT) uniform image2D weights; /* as Waiting.weight */
-layout(rgba16f, binding = IMAGE_MEDIUM) uniform image2D media;   /* absorption where the ray is */
+layout(rgba32f, binding = IMAGE_RAY_ORIGIN) writeonly uniform image2D out_ray_origin;
+layout(rgba32f, binding = IMAGE_RAY_DIRECTION) writeonly uniform image2D out_ray_direction;
+layout(rgba32f, binding = IMAGE_THROUGHPUT) uniform image2D throughputs; /* as in QueuedRay */
+layout(rgba16f, binding = IMAGE_ABSORPTION) uniform image2D absorptions; /* where the ray is */
 
 layout(std430, binding = BINDING_STACK) buffer Stack {
     uint rays;  /* started since the counter was made */
     uint width; /* of the tile */
     uint unused[2];
-    Waiting waiting[]; /* STACK_DEPTH for each sample; medium.w of the first: how many wait */
+    QueuedRay queued[]; /* STACK_DEPTH for each sample; absorption.w of the first: how many wait */
 };
 
 int stack_base(ivec2 here)
@@ -24,35 +24,35 @@ int stack_base(ivec2 here)
 
 int stack_count(ivec2 here)
 {
-    return int(waiting[stack_base(here)].medium.w);
+    return int(queued[stack_base(here)].absorption.w);
 }
 
 void stack_set_count(ivec2 here, int count)
 {
-    waiting[stack_base(here)].medium.w = float(count);
+    queued[stack_base(here)].absorption.w = float(count);
 }
 
-void stack_put(ivec2 here, int i, Waiting ray)
+void stack_put(ivec2 here, int i, QueuedRay ray)
 {
     int at = stack_base(here) + i;
-    waiting[at].from = ray.from;
-    waiting[at].along = ray.along;
-    waiting[at].weight = ray.weight;
-    waiting[at].medium.rgb = ray.medium.rgb; /* w may be the count */
+    queued[at].origin = ray.origin;
+    queued[at].direction = ray.direction;
+    queued[at].throughput = ray.throughput;
+    queued[at].absorption.rgb = ray.absorption.rgb; /* w may be the count */
 }
 
-Waiting stack_get(ivec2 here, int i)
+QueuedRay stack_get(ivec2 here, int i)
 {
-    return waiting[stack_base(here) + i];
+    return queued[stack_base(here) + i];
 }
 
 /* The sample goes on with this ray. */
-void ray_go(ivec2 here, Waiting ray)
+void set_ray(ivec2 here, QueuedRay ray)
 {
-    imageStore(out_ray_from, here, ray.from);
-    imageStore(out_ray_along, here, ray.along);
-    imageStore(weights, here, ray.weight);
-    imageStore(media, here, vec4(ray.medium.rgb, 0.0));
+    imageStore(out_ray_origin, here, ray.origin);
+    imageStore(out_ray_direction, here, ray.direction);
+    imageStore(throughputs, here, ray.throughput);
+    imageStore(absorptions, here, vec4(ray.absorption.rgb, 0.0));
     list_add(here);
     atomicAdd(rays, 1u);
 }

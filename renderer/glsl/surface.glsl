@@ -6,7 +6,7 @@
 struct Surface {
     vec3 ambient; /* part of the environment's light taken up */
     vec3 diffuse;
-    vec3 specular; /* of the highlight; of standard: what is mirrored at normal incidence */
+    vec3 specular; /* of the highlight; of standard: what is reflected at normal incidence */
     vec3 emission;
     vec3 absorption; /* of light inside, for each unit of length */
     float gloss;     /* shininess; of standard: roughness */
@@ -14,13 +14,13 @@ struct Surface {
     float transmission; /* part of the light that goes through */
     float ior;
     int model;
-    bool painted; /* the cut of something clear, which light does not go through */
-    uint id; /* 1 + pre-order index of the leaf */
+    bool opaque_cut; /* the cut of something transmissive, which light does not go through */
+    uint id;         /* 1 + pre-order index of the leaf */
 };
 
 /* What is left of white light that goes through the outside, into it. The colour of a standard
  * surface dyes it, as glTF's does; a phong surface that hides little has little of its colour. */
-vec3 dye(Surface s)
+vec3 transmission_tint(Surface s)
 {
     return s.model == MODEL_STANDARD ? s.diffuse : vec3(1.0);
 }

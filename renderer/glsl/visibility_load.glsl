@@ -12,7 +12,7 @@ vec3 visibility_of(ivec2 here, int light)
 }
 
 /* Part of the environment's light that arrives. */
-float openness(ivec2 here)
+float ambient_visibility_of(ivec2 here)
 {
     return texelFetch(visibility, ivec3(here, 0), 0).a;
 }

@@ -3,7 +3,7 @@
 
 vec3 visibility_of(ivec2 here, int light);
 
-/* Part of the light that arrives, of all lights together that throw shadows. */
+/* Part of the light that arrives, of all lights together that cast shadows. */
 vec3 visibility_mean(ivec2 here)
 {
     vec3 sum = vec3(0.0);

@@ -8,7 +8,7 @@
 #include "ray.glsl"
 #include "sky.glsl"
 
-/* Takes a part of a lamp's light from the surface at the ray's end: volume_store.glsl. */
+/* Takes a part of a lamp's light from the surface at the ray's end: volume_sink.glsl. */
 void dim_visibility(int light, float part);
 
 /* What is at one place; all but the density is for each unit of it. */
@@ -26,9 +26,9 @@ vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
         return box_span(-volume.extent, volume.extent, from, direction);
     }
     /* In lengths of the radii it is the unit ball. */
-    vec3 place = from / volume.extent, way = direction / volume.extent;
-    float part = 1.0 / dot(way, way), middle = -dot(place, way) * part;
-    vec3 aside = place + middle * way;
+    vec3 place = from / volume.extent, scaled = direction / volume.extent;
+    float part = 1.0 / dot(scaled, scaled), middle = -dot(place, scaled) * part;
+    vec3 aside = place + middle * scaled;
     float half_way = (1.0 - dot(aside, aside)) * part;
     return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
 }
@@ -43,8 +43,8 @@ float volume_rim(Volume volume, vec3 from)
     }
     vec3 radii = volume.extent, place = from / radii;
     float k = length(place), slope = length(place / radii);
-    float least = min(radii.x, min(radii.y, radii.z));
-    return (1.0 - k) * (slope > 0.0 ? mix(least, k / slope, min(k, 1.0)) : least);
+    float smallest = min(radii.x, min(radii.y, radii.z));
+    return (1.0 - k) * (slope > 0.0 ? mix(smallest, k / slope, min(k, 1.0)) : smallest);
 }
 
 /* Sum of octaves, each with twice the frequency and half of the height of the one before, and
@@ -116,8 +116,8 @@ Crossing crossing(vec3 origin, vec3 direction, float at, float far)
 }
 
 /* Part of the light that is scattered to where its way is bent by an angle (Henyey and Greenstein:
- * Diffuse radiation in the galaxy, 1941). In the unit of lamps: a white matt surface that faces one
- * has its colour. */
+ * Diffuse radiation in the galaxy, 1941). In the unit of lamps: a white diffuse surface that faces
+ * one has its colour. */
 float phase(float cosine, float g)
 {
     return 0.25 * (1.0 - g * g) * pow(max(1.0 + g * g - 2.0 * g * cosine, 1e-6), -1.5);
@@ -131,7 +131,7 @@ struct Walk {
     float sharpness;   /* of the scene's shadow; 0: none is looked for */
 };
 
-/* How sharp a lamp's shadows are in the air; 0: it throws none. */
+/* How sharp a lamp's shadows are in the air; 0: it casts none. */
 float shadow_sharpness(Light light)
 {
     int kind = (frame.effects & EFFECT_SHADOWS) != 0 ? light.shadow : SHADOW_NONE;
@@ -171,10 +171,10 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
         Incoming lamp = incoming(frame.lights[i], p);
         Walk walk = walk_towards(frame.lights[i], lamp, p, on_surface);
         float end = i < frame.light_count ? walk.end : -1.0;
-        float at = 0.0, smoky = 0.0, gone = 0.0, depth = 0.0, before = 0.0, open = 1.0;
+        float at = 0.0, smoky = 0.0, gone = 0.0, depth = 0.0, before = 0.0, visibility = 1.0;
 
         for (int k = zero; k <= 3 * frame.volume_light_steps; k++) {
-            through = k == 0 ? 0.0 : FAR;
+            field_mask = k == 0 ? 0.0 : FAR;
             float d = map(p + lamp.direction * at);
             Smoke smoke = smoke_at(p + lamp.direction * at, d);
             if (k == 0) {
@@ -182,9 +182,9 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
             } else {
                 depth += 0.5 * smoky * (before + smoke.density);
                 gone += smoky;
-                open = walk.sharpness > 0.0 ? min(open, walk.sharpness * d / at) : 1.0;
+                visibility = walk.sharpness > 0.0 ? min(visibility, walk.sharpness * d / at) : 1.0;
             }
-            if (at >= end || open < 0.004 || !(on_surface || here.density > 0.0)) {
+            if (at >= end || visibility < 0.004 || !(on_surface || here.density > 0.0)) {
                 break;
             }
             bool in_smoke = at >= walk.first && at < walk.last;
@@ -197,15 +197,16 @@ vec3 scattered(vec3 p, vec3 view, bool on_surface, out Smoke here)
         }
         /* Out of steps, as close to a surface: as if all went on as it went. */
         float left = exp(-depth * (gone > 0.0 ? (walk.last - walk.first) / gone : 1.0));
-        open = max(open, 0.0);
+        visibility = max(visibility, 0.0);
         if (on_surface && i < frame.light_count && shadow_sharpness(frame.lights[i]) > 0.0) {
             dim_visibility(i, left);
         }
-        sum += i < frame.light_count ? lamp.color * left * open * open * (3.0 - 2.0 * open) *
-                                 phase(dot(view, lamp.direction), here.anisotropy)
-                           : vec3(0.0);
+        sum += i < frame.light_count
+                   ? lamp.color * left * visibility * visibility * (3.0 - 2.0 * visibility) *
+                         phase(dot(view, lamp.direction), here.anisotropy)
+                   : vec3(0.0);
     }
-    through = 0.0;
+    field_mask = 0.0;
     return sum;
 }
 
@@ -223,7 +224,7 @@ vec3 sky_mean()
  * each is taken to be everywhere as it is in its middle, and summed up in closed form (Hillaire:
  * Physically based and unified volumetric rendering in Frostbite, SIGGRAPH 2015 course). Then the
  * light on the surface at t is dimmed. */
-vec4 haze(Ray ray, float t, float part)
+vec4 inscattering(Ray ray, float t, float part)
 {
     bool hit = t < INFINITY;
     float far = ray.inside ? 0.0 : min(t, frame.max_distance), left = 1.0;

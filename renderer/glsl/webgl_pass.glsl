@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A whole picture by one fragment shader of WebGL 2, without textures or buffers. SAMPLES of each
- * pixel, RAYS of each sample after the first, CLEAR_DEPTH surfaces between what is met and a light;
- * the camera looks at TARGET. */
+ * pixel, RAYS of each sample after the first, TRANSMISSION_DEPTH surfaces between what is met and a
+ * light; the camera looks at TARGET. */
 
 #include "webgl_builtins.glsl"
 
@@ -54,7 +54,7 @@ void main()
         vec2 one;
         Met met;
         stack_set_count(pixel, 0);
-        trace(pixel, 0.0, i, RAYS, CLEAR_DEPTH, true, true, total, g, met);
+        trace(pixel, 0.0, i, RAYS, TRANSMISSION_DEPTH, true, true, total, g, met);
         sample_sums(total, light, one);
         sum += light;
         count += one;

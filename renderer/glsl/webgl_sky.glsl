@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The maps of an environment without a picture, where there are no textures: columns, because each
  * part of it is the same all around an axis. `sky_column` from straight up to straight down,
- * `sun_column` from SUN to its opposite: MIRROR_ROWS for the first roughness, half as many for each
- * further one, then MATT_ROWS. */
+ * `sun_column` from SUN to its opposite: SPECULAR_ROWS for the first roughness, half as many for
+ * each further one, then IRRADIANCE_ROWS. */
 
 #include "constants.glsl"
 
@@ -33,13 +33,14 @@ vec3 sky_map(vec3 d, int first, int count)
     return sky_part(first, count, d.y) + SUN_COLOR * sun_part(first, count, dot(d, SUN));
 }
 
-vec3 sky_mirror_map(vec3 d, float level)
+vec3 sample_specular_map(vec3 d, float level)
 {
-    int count = MIRROR_ROWS >> int(level);
-    return sky_map(d, 2 * (MIRROR_ROWS - count), count);
+    int count = SPECULAR_ROWS >> int(level);
+    return sky_map(d, 2 * (SPECULAR_ROWS - count), count);
 }
 
-vec3 sky_matt_map(vec3 n)
+vec3 sample_irradiance_map(vec3 n)
 {
-    return sky_map(n, 2 * MIRROR_ROWS - (MIRROR_ROWS >> (MIRROR_LEVELS - 1)), MATT_ROWS);
+    return sky_map(n, 2 * SPECULAR_ROWS - (SPECULAR_ROWS >> (SPECULAR_LEVELS - 1)),
+                   IRRADIANCE_ROWS);
 }

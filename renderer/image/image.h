@@ -41,7 +41,7 @@ bool image_encode(const struct image *image, const struct encode_params *params,
  * color.png, depth.png and so on; they wait in temporary files meanwhile. Any thread, one at a
  * time. */
 struct picture_file;
-/* `shapes`: those of job_image_shape. `out` stays the caller's. NULL and `err` where the format
+/* `shapes`: those of job_image_info. `out` stays the caller's. NULL and `err` where the format
  * cannot hold them. */
 struct picture_file *picture_file_create(const struct image shapes[AOV_COUNT],
                                          const struct encode_params *params, FILE *out,

@@ -34,7 +34,7 @@ static const struct spmd_builtin builtins[] = {
     {"texelFetch", GIVES_VEC4, WRITTEN_SPECIAL}, {"textureLod", GIVES_VEC4, WRITTEN_SPECIAL},
     {"textureSize", GIVES_IVEC2, WRITTEN_SPECIAL},
     /* Number i of the scene's vec4s, and of the instruction's own. */
-    {"number", GIVES_VEC4, WRITTEN_SPECIAL}, {"own_number", GIVES_VEC4, WRITTEN_SPECIAL},
+    {"param", GIVES_VEC4, WRITTEN_SPECIAL}, {"own_param", GIVES_VEC4, WRITTEN_SPECIAL},
 };
 /* clang-format on */
 
@@ -212,7 +212,7 @@ static struct value texture_size(struct emit *e, const struct value *args)
     return out;
 }
 
-static struct value number(struct emit *e, const struct value *args, const char *where)
+static struct value param(struct emit *e, const struct value *args, const char *where)
 {
     struct value out = emit_values(e, 4);
     const struct component at = args[0].at[0];
@@ -262,8 +262,8 @@ static struct value special(struct emit *e, const char *name, const struct value
            : strcmp(name, "all") == 0             ? together(e, args, OP_AND)
            : strcmp(name, "uintBitsToFloat") == 0 ? bits(e, args, BASE_FLOAT)
            : strcmp(name, "floatBitsToUint") == 0 ? bits(e, args, BASE_UINT)
-           : strcmp(name, "number") == 0          ? number(e, args, "numbers")
-                                                  : number(e, args, "own");
+           : strcmp(name, "param") == 0           ? param(e, args, "params")
+                                                  : param(e, args, "own");
 }
 
 struct value emit_builtin(struct emit *e, struct expr *expr)

@@ -16,12 +16,12 @@
 /* What of the field is asked for is renderer/engine's; numbers lie in memory. */
 static const struct glsl_file own[] = {
     {"field_map.glsl", "float map(vec3 p);\n"},
-    {"field_bound.glsl", "float field_bound(vec3 p, float way, bool exact);\n"
+    {"field_bound.glsl", "float field_bound(vec3 p, float distance, bool exact);\n"
                          "bool field_waits(float d);\n"},
     {"field_surface.glsl", "#include \"surface.glsl\"\n"
                            "void surface(vec3 p, Shading at, out Surface s);\n"},
-    {"numbers.glsl", "#define N(i) own_number(i)\n#define N_ANY(i) number(i)\n"
-                     "#define N_FROM(i) own_number(i)\n"},
+    {"params.glsl", "#define P(i) own_param(i)\n#define P_ANY(i) param(i)\n"
+                    "#define P_FROM(i) own_param(i)\n"},
     {NULL, NULL},
 };
 

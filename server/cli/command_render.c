@@ -74,7 +74,7 @@ static bool add_rows(struct job *job, struct picture_file *file, struct error *e
 {
     bool ok = true;
     for (int i = 0; i < AOV_COUNT; i++) {
-        if (job_image_shape(job, (enum aov)i).width > 0) {
+        if (job_image_info(job, (enum aov)i).width > 0) {
             struct image rows = job_take_rows(job, (enum aov)i);
             ok = ok && picture_file_add(file, (enum aov)i, &rows, err);
             image_finish(&rows);
@@ -108,7 +108,7 @@ static bool write_picture(struct renderer *renderer, struct job *job,
     struct image shapes[AOV_COUNT];
     struct file_writer writer;
     for (int i = 0; i < AOV_COUNT; i++) {
-        shapes[i] = job_image_shape(job, (enum aov)i);
+        shapes[i] = job_image_info(job, (enum aov)i);
     }
     if (!file_writer_open(&writer, path, err)) {
         return false;

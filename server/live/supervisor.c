@@ -288,8 +288,8 @@ static void plan_restart(struct supervisor *supervisor)
     supervisor->next_start = now + supervisor->backoff_ms;
 }
 
-/* Its exit status. Threads of drivers have the least priority, so on a busy machine a killed process
- * may take seconds to die. The daemon's end does not wait for that: init takes it over. */
+/* Its exit status. Threads of drivers have the least priority, so on a busy machine a killed
+ * process may take seconds to die. The daemon's end does not wait for that: init takes it over. */
 static int reap(const struct supervisor *supervisor)
 {
     const bool last = atomic_load(&supervisor->stopping);

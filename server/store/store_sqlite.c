@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "protocol/memory.h"
-#include "store_sqlite_parts.h"
+#include "store_sqlite_internal.h"
 
 /* What each version of the tables adds to the one before. */
 static const char *const schema[] = {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "protocol/memory.h"
-#include "store_sqlite_parts.h"
+#include "store_sqlite_internal.h"
 
 static char *column_text(sqlite3_stmt *statement, int column)
 {

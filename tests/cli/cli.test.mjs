@@ -279,7 +279,7 @@ test('shader prints the GLSL of a pass, whole', () => {
     assert.match(text, /void main\(\)/);
     assert.doesNotMatch(text, /#include/);
     assert.doesNotMatch(text, /void surface\(/);
-    assert.match(succeed(['shader', '--pass', 'matter', 'example:snowman']).out, /void surface\(/);
+    assert.match(succeed(['shader', '--pass', 'material', 'example:snowman']).out, /void surface\(/);
     assert.match(succeed(['shader', '--pass', 'sample', 'example:snowman']).out, /int trace\(/);
     const sphere = succeed(['shader', write('sphere.json', SPHERE)]).out;
     assert.notEqual(sphere, text);

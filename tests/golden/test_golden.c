@@ -31,7 +31,14 @@
 
 #define ROOT "tests/golden"
 
-enum { CASES = 182, CASES_MAX = 400, WIDTH = 160, HEIGHT = 120, PATH_BYTES = 1024, NAME_BYTES = 256 };
+enum {
+    CASES = 182,
+    CASES_MAX = 400,
+    WIDTH = 160,
+    HEIGHT = 120,
+    PATH_BYTES = 1024,
+    NAME_BYTES = 256
+};
 
 struct golden {
     char group[NAME_BYTES], name[NAME_BYTES], title[2 * NAME_BYTES];

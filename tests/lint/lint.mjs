@@ -8,7 +8,7 @@ import path from 'node:path';
 
 import { checkCircles, checkDrawing, checkImports, checkIncludes, checkUnused } from './arrows.mjs';
 import { checkCommits } from './commits.mjs';
-import { OLD_NAMES } from './names.mjs';
+import { OLD_GLSL_NAMES, OLD_NAMES } from './names.mjs';
 import { checkTidy } from './tidy.mjs';
 
 const FUNCTION_LINES = { c: 60, script: 120 };
@@ -190,6 +190,21 @@ function checkNames(files) {
     search(own.filter((file) => SOURCE.test(file) || TEXT.test(file)), pattern, see);
 }
 
+function checkNamesGlsl(files) {
+    const pattern = new RegExp(`\\b(${OLD_GLSL_NAMES.map(([old]) => old).join('|')})\\b`);
+    const renamed = new Map(OLD_GLSL_NAMES);
+    for (const file of files.filter((name) => /^renderer\/.*\.glsl$/.test(name))) {
+        const text = fs.readFileSync(path.join(root, file), 'utf8');
+        const code = text.replace(/\/\*[^]*?\*\//g, (comment) => comment.replace(/[^\n]/g, ' '));
+        for (const [index, line] of code.split('\n').entries()) {
+            const old = pattern.exec(line)?.[1];
+            if (old) {
+                report(file, index + 1, 'name', `${old} is called ${renamed.get(old)} in GLSL`);
+            }
+        }
+    }
+}
+
 // --- other tools ---
 
 function run(rule, program, args, options = {}) {
@@ -255,6 +270,7 @@ checkText(files);
 checkEscapes(files);
 checkSizeof(files);
 checkNames(files);
+checkNamesGlsl(files);
 if (checkCommits(root, (commit, message) => faults.push(`${commit}: commit: ${message}`), process.argv[3]) === 0) {
     console.log('not checked: no commit, for the history from where the rule begins is not here');
 }

@@ -83,7 +83,7 @@ static void only_mirrors_get_mirrored_rays(void **state)
     drawn_finish(&mirror);
 }
 
-/* Through glass one ray is broken and one mirrored, at most. */
+/* Through glass one ray is refracted and one reflected, at most. */
 static void only_glass_gets_broken_rays(void **state)
 {
     struct drawn glass = draw(SCENE(GLASS, ON));

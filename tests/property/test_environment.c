@@ -38,7 +38,7 @@ static const char questions_glsl[] =
     "    answers[gl_GlobalInvocationID.x] =\n"
     "        what == 0 ? vec4(sky(d, eye_spread()), 0.0)\n"
     "        : what == 1 ? vec4(sky_irradiance(d), 0.0)\n"
-    "        : what == 2 ? vec4(sky_mirrored(d, q.what.y, 0.0), 0.0) : fog(ray, q.what.y);\n"
+    "        : what == 2 ? vec4(sky_specular(d, q.what.y, 0.0), 0.0) : fog(ray, q.what.y);\n"
     "}\n";
 
 static struct egl egl;
@@ -76,7 +76,7 @@ static int tear_down(void **state)
 
 /* --- asking --- */
 
-static void ask(const struct frame_block *block, struct environment *environment,
+static void ask(const struct frame_uniforms *block, struct environment *environment,
                 const struct question *questions, size_t count, float (*answers)[4])
 {
     environment_bind(environment, &gl);
@@ -102,7 +102,7 @@ static struct question question(int what, double number, double x, double y, dou
         .what = (float)what, .number = (float)number, .direction = {(float)x, (float)y, (float)z}};
 }
 
-static struct environment *get(const struct frame_block *block, const struct asset *image,
+static struct environment *get(const struct frame_uniforms *block, const struct asset *image,
                                uint32_t *out_us)
 {
     const char *id = image ? image->id : "";
@@ -118,7 +118,7 @@ static struct environment *get(const struct frame_block *block, const struct ass
 }
 
 /* One answer about one direction. */
-static void ask_one(struct frame_block *block, struct asset *image, struct question question,
+static void ask_one(struct frame_uniforms *block, struct asset *image, struct question question,
                     float answer[4])
 {
     uint32_t us;
@@ -128,13 +128,13 @@ static void ask_one(struct frame_block *block, struct asset *image, struct quest
     environment_unref(environments, environment);
 }
 
-static struct frame_block plain_block(int kind)
+static struct frame_uniforms plain_block(int kind)
 {
-    return (struct frame_block){.ambient = 1,
-                                .sky_turn = {1, 0},
-                                .sky_brightness = 1,
-                                .max_distance = 200,
-                                .sky_kind = kind};
+    return (struct frame_uniforms){.ambient = 1,
+                                   .sky_rotation = {1, 0},
+                                   .sky_brightness = 1,
+                                   .max_distance = 200,
+                                   .sky_kind = kind};
 }
 
 static void set3(float *out, float r, float g, float b)
@@ -222,7 +222,7 @@ static void test_uniform(void **state)
 
     (void)state;
     for (int kind = SKY_GRADIENT; kind <= SKY_IMAGE; kind++) {
-        struct frame_block block = plain_block(kind);
+        struct frame_uniforms block = plain_block(kind);
 
         set3(block.zenith, 1, 1, 1);
         set3(block.horizon, 1, 1, 1);
@@ -254,7 +254,7 @@ static void test_half_white(void **state)
 
     (void)state;
     for (int i = 0; i < 200; i++) {
-        struct frame_block block = plain_block(SKY_IMAGE);
+        struct frame_uniforms block = plain_block(SKY_IMAGE);
         double d[3];
         float answer[4];
 
@@ -296,7 +296,7 @@ static void smooth_color(const double d[3], double rgb[3])
 static void test_mirrored(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
-    struct frame_block block = plain_block(SKY_IMAGE);
+    struct frame_uniforms block = plain_block(SKY_IMAGE);
 
     (void)state;
     for (int i = 0; i < 60; i++) {
@@ -337,7 +337,7 @@ static void test_sides(void **state)
 
     (void)state;
     for (int i = 0; i < 300; i++) {
-        struct frame_block block = plain_block(SKY_IMAGE);
+        struct frame_uniforms block = plain_block(SKY_IMAGE);
         const double turn = i % 5 * 1.3;
         double d[3], rgb[3];
         float answer[4];
@@ -346,8 +346,8 @@ static void test_sides(void **state)
         if (fabs(d[0]) < 0.15 || fabs(d[1]) < 0.15 || fabs(d[2]) < 0.15) {
             continue; /* between two colours */
         }
-        block.sky_turn[0] = (float)cos(turn);
-        block.sky_turn[1] = (float)sin(turn);
+        block.sky_rotation[0] = (float)cos(turn);
+        block.sky_rotation[1] = (float)sin(turn);
         block.sky_brightness = 3;
         sides_color(d, rgb);
         ask_one(&block, file,
@@ -365,7 +365,7 @@ static void test_sides(void **state)
 static void test_seams(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
-    struct frame_block block = plain_block(SKY_IMAGE);
+    struct frame_uniforms block = plain_block(SKY_IMAGE);
 
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -394,7 +394,7 @@ static void test_seams(void **state)
 /* The sun's disc is seen, and gives no light besides the directional light's own. */
 static void test_sun(void **state)
 {
-    struct frame_block block = plain_block(SKY_GRADIENT);
+    struct frame_uniforms block = plain_block(SKY_GRADIENT);
     const struct frame_light sun = {.position = {0, 0.6f, -0.8f}, .color = {1000, 1000, 1000}};
     float seen[4], mirrored[4], without[4];
 
@@ -415,13 +415,13 @@ static void test_sun(void **state)
 static void test_kept(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
-    struct frame_block block = plain_block(SKY_IMAGE);
+    struct frame_uniforms block = plain_block(SKY_IMAGE);
     struct environment *first, *second;
     uint32_t us;
 
     (void)state;
     first = get(&block, file, &us);
-    block.sky_turn[1] = 0.5f;
+    block.sky_rotation[1] = 0.5f;
     block.camera.eye[0] = 7;
     second = get(&block, file, &us);
     assert_ptr_equal(first, second);
@@ -449,7 +449,7 @@ static double let_through(double density, double thinning, double base, double y
 
 static void test_fog(void **state)
 {
-    struct frame_block block = plain_block(SKY_SOLID);
+    struct frame_uniforms block = plain_block(SKY_SOLID);
 
     (void)state;
     set3(block.fog_color, 0.5f, 0.25f, 1);
@@ -483,7 +483,7 @@ static void test_fog_far(void **state)
 
     (void)state;
     for (int i = 0; i < 50; i++) {
-        struct frame_block block = plain_block(SKY_SOLID);
+        struct frame_uniforms block = plain_block(SKY_SOLID);
         struct question q = question(ASK_FOG, INFINITY, 1, slopes[i / 5 % 5], 0);
         float answer[4];
 

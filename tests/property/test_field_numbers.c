@@ -46,8 +46,8 @@ static void numbers_lie_where_the_header_says(void **state)
     };
     size_t own = sizeof want / sizeof want[0];
     for (size_t i = 0; i < own; i++) {
-        if (field->numbers[i] != want[i]) {
-            fail_msg("number %zu is %g instead of %g", i, (double)field->numbers[i],
+        if (field->params[i] != want[i]) {
+            fail_msg("number %zu is %g instead of %g", i, (double)field->params[i],
                      (double)want[i]);
         }
     }
@@ -57,9 +57,9 @@ static void numbers_lie_where_the_header_says(void **state)
         1,      0.5f,  0.25f, 0,  0.5f, 0,     2, 0, 0, 0.5f, 4.60517f, 0,
     };
     for (int i = 0; i < FIELD_MATERIAL_NUMBERS; i++) {
-        assert_float_equal(field->numbers[own + 2 * FIELD_MATERIAL_NUMBERS + i], material[i], 1e-6);
+        assert_float_equal(field->params[own + 2 * FIELD_MATERIAL_NUMBERS + i], material[i], 1e-6);
     }
-    assert_true(field->numbers[own] > 0.79f); /* the default's diffuse */
+    assert_true(field->params[own] > 0.79f); /* the default's diffuse */
     pair_finish(&pair);
 }
 
@@ -110,7 +110,7 @@ static void numeric_edits_keep_the_shape(void **state)
     const struct random_limits limits = {.depth = 4};
     struct scene *scene = random_scene(&random, node_type_find("smooth_union"), &limits);
     struct field *field = compile_field(scene);
-    const uint64_t shape = field->shape_hash;
+    const uint64_t shape = field->structure_hash;
     char *map = shader_map(field), *surface = shader_surface(field);
     field_unref(field);
     for (int i = 0; i < 1000; i++) {
@@ -132,7 +132,7 @@ static void numeric_edits_keep_the_shape(void **state)
             random_numbers(&random, node, &limits);
         }
         field = compile_field(scene);
-        assert_true(field->shape_hash == shape);
+        assert_true(field->structure_hash == shape);
         if (i % 50 == 0) {
             char *map_now = shader_map(field), *surface_now = shader_surface(field);
             assert_string_equal(map, map_now);
@@ -180,7 +180,7 @@ static void structural_changes_change_the_shape(void **state)
     uint64_t hashes[COUNT];
     for (size_t i = 0; i < COUNT; i++) {
         struct pair pair = pair_of(roots[i], "");
-        hashes[i] = pair.field->shape_hash;
+        hashes[i] = pair.field->structure_hash;
         for (size_t j = 0; j < i; j++) {
             if (hashes[j] == hashes[i]) {
                 fail_msg("the same shape:\n%s\n%s", roots[i], roots[j]);
@@ -191,7 +191,7 @@ static void structural_changes_change_the_shape(void **state)
     /* Hidden nodes are no part of it, nor are groups of one. */
     struct pair a = pair_of("{'type':'union','children':[" HIDDEN "," BALL("") "]}", "");
     struct pair b = pair_of("{'type':'group','children':[" BALL("") "]}", "");
-    assert_true(a.field->shape_hash == hashes[1] && b.field->shape_hash == hashes[1]);
+    assert_true(a.field->structure_hash == hashes[1] && b.field->structure_hash == hashes[1]);
     pair_finish(&a);
     pair_finish(&b);
     /* Unions of unions are one. */
@@ -199,7 +199,7 @@ static void structural_changes_change_the_shape(void **state)
     b = pair_of("{'type':'union','children':[" BALL("") ",{'type':'group','children':[" BALL(
                     "") "," BALL("") "]}]}",
                 "");
-    assert_true(a.field->shape_hash == b.field->shape_hash);
+    assert_true(a.field->structure_hash == b.field->structure_hash);
     pair_finish(&a);
     pair_finish(&b);
 }

@@ -95,12 +95,12 @@ struct plan {
 
 static void change_numbers(struct random *random, size_t index, const struct random_limits *limits)
 {
-    const uint64_t shape = batch.fields[index]->shape_hash;
+    const uint64_t shape = batch.fields[index]->structure_hash;
     do {
         random_numbers(random, batch.scenes[index]->root, limits);
         field_unref(batch.fields[index]);
         batch.fields[index] = compile_field(batch.scenes[index]);
-        assert_true(batch.fields[index]->shape_hash == shape);
+        assert_true(batch.fields[index]->structure_hash == shape);
     } while (batch.fields[index]->loop_trips > LOOPS_MAX);
 }
 

@@ -168,7 +168,7 @@ static struct field *compile_after(const struct scene *scene, const struct field
                                    const struct isolated *isolated)
 {
     struct error err = {0};
-    const struct field_wish wish = {
+    const struct field_options wish = {
         .drawn = drawn, .isolated = isolated->ids, .isolated_count = isolated->count};
     struct field *field = field_compile_as(scene, &wish, &err);
     if (!field) {
@@ -212,9 +212,9 @@ static void assert_same_field(struct random *random, const struct scene *scene,
                               const struct field *a, const struct field *b)
 {
     assert_same_box(&a->bounds, &b->bounds);
-    assert_int_equal(a->clear, b->clear);
-    if (a->clear) {
-        assert_same_box(&a->clear_bounds, &b->clear_bounds);
+    assert_int_equal(a->transmissive, b->transmissive);
+    if (a->transmissive) {
+        assert_same_box(&a->transmissive_bounds, &b->transmissive_bounds);
     }
     for (int i = 0; i < POINTS; i++) {
         double p[3];
@@ -246,7 +246,7 @@ static void check_seen(struct random *random, const struct scene *scene, const s
 {
     struct scene *less = pruned(scene, isolated);
     struct field *kept = compile_after(scene, drawn, isolated), *want = compile_field(less);
-    assert_true(kept->shape_hash == drawn->shape_hash);
+    assert_true(kept->structure_hash == drawn->structure_hash);
     assert_same_field(random, scene, kept, want);
     field_unref(kept);
     field_unref(want);
@@ -382,7 +382,7 @@ static void models_code_and_the_floor_are_no_exception(void **state)
 static uint64_t shape_after(const struct scene *scene, const struct field *drawn)
 {
     struct field *field = compile_after(scene, drawn, &none);
-    uint64_t shape = field->shape_hash;
+    uint64_t shape = field->structure_hash;
     field_unref(field);
     return shape;
 }
@@ -412,7 +412,8 @@ static void nodes_of_models_are_isolated_in_all_instances(void **state)
     assert_true(distance_at(nobody, 0.3, 0.2, 0.1) == distance_at(drawn, 0.3, 0.2, 0.1));
     assert_true(fabs(distance_at(rest, 0, 1, 0) + 0.5) < 1e-6);
     assert_true(fabs(distance_at(rest, 0, -1, 0)) < 1e-6);
-    assert_true(code->shape_hash == drawn->shape_hash && rest->shape_hash == drawn->shape_hash);
+    assert_true(code->structure_hash == drawn->structure_hash &&
+                rest->structure_hash == drawn->structure_hash);
     field_unref(rest);
     field_unref(nobody);
     field_unref(two);
@@ -430,14 +431,14 @@ static void what_was_never_drawn_is_left_out(void **state)
     show(scene_find(scene, "cut"), false);
     struct field *drawn = compile_field(scene);
     show(scene_find(scene, "bead"), false);
-    assert_true(shape_after(scene, drawn) == drawn->shape_hash);
+    assert_true(shape_after(scene, drawn) == drawn->structure_hash);
     show(scene_find(scene, "cut"), true);
-    assert_true(shape_after(scene, drawn) != drawn->shape_hash);
+    assert_true(shape_after(scene, drawn) != drawn->structure_hash);
     show(scene_find(scene, "cut"), false);
 
     struct node *code = scene_find(scene, "code");
     show(code, false);
-    assert_true(shape_after(scene, drawn) == drawn->shape_hash);
+    assert_true(shape_after(scene, drawn) == drawn->structure_hash);
     cJSON *broken = cJSON_CreateString("no code");
     assert_true(
         record_set(&code->params, record_type_find(code->params.type, "code"), broken, "", &err));
@@ -500,7 +501,7 @@ static void check_round(struct random *random, const struct probe *probe,
         struct isolated isolated = isolate_some(random, batch->scenes[i]);
         isolated.count *= random_below(random, 2);
         batch->kept[i] = compile_after(batch->scenes[i], batch->drawn[i], &isolated);
-        assert_true(batch->kept[i]->shape_hash == batch->drawn[i]->shape_hash);
+        assert_true(batch->kept[i]->structure_hash == batch->drawn[i]->structure_hash);
     }
     probe_run(probe, program, batch->kept, batch->count, points, GLSL_POINTS, answers);
     for (size_t i = 0; i < batch->count * GLSL_POINTS; i++) {

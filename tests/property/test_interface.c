@@ -12,7 +12,7 @@
 
 #include "protocol/nodes.h"
 #include "protocol/scene.h"
-#include "renderer/draw/frame.h"
+#include "renderer/draw/frame_uniforms.h"
 #include "renderer/gl/pass.h"
 #include "tests/support/formula.h"
 #include "tests/support/json_text.h"
@@ -24,15 +24,15 @@ struct member {
     size_t offset;    /* of the struct in C */
 };
 
-#define FRAME_ROW(type, member) {"Frame." #member, offsetof(struct frame_block, member)},
+#define FRAME_ROW(type, member) {"Frame." #member, offsetof(struct frame_uniforms, member)},
 #define CAMERA_ROW(type, member)                                                                   \
-    {"Frame.camera." #member, offsetof(struct frame_block, camera.member)},
+    {"Frame.camera." #member, offsetof(struct frame_uniforms, camera.member)},
 #define LIGHT_ROW(type, member)                                                                    \
-    {"Frame.lights[0]." #member, offsetof(struct frame_block, lights[0].member)},                  \
-        {"Frame.lights[3]." #member, offsetof(struct frame_block, lights[3].member)},
+    {"Frame.lights[0]." #member, offsetof(struct frame_uniforms, lights[0].member)},               \
+        {"Frame.lights[3]." #member, offsetof(struct frame_uniforms, lights[3].member)},
 #define VOLUME_ROW(type, member)                                                                   \
-    {"Frame.volumes[0]." #member, offsetof(struct frame_block, volumes[0].member)},                \
-        {"Frame.volumes[1]." #member, offsetof(struct frame_block, volumes[1].member)},
+    {"Frame.volumes[0]." #member, offsetof(struct frame_uniforms, volumes[0].member)},             \
+        {"Frame.volumes[1]." #member, offsetof(struct frame_uniforms, volumes[1].member)},
 
 static const struct member members[] = {CAMERA_MEMBERS(CAMERA_ROW) FRAME_MEMBERS(FRAME_ROW)
                                             LIGHT_MEMBERS(LIGHT_ROW) VOLUME_MEMBERS(VOLUME_ROW)};
@@ -82,16 +82,16 @@ static void members_lie_where_the_driver_reads_them(void **state)
 /* --- rows --- */
 
 /* A scene with one resource of a type. */
-static struct frame_block block_of(const char *list, const char *type)
+static struct frame_uniforms block_of(const char *list, const char *type)
 {
     char text[256];
-    struct frame_block block;
+    struct frame_uniforms block;
 
     snprintf(text, sizeof text,
              "{'format': 'fieldcast/1', '%s': [{'type': '%s'}], 'root': {'type': 'sphere'}}", list,
              type);
     struct scene *scene = json_text_valid_scene(text);
-    frame_set_scene(&block, scene, &(struct frame_extent){.scale = 1});
+    frame_uniforms_set_scene(&block, scene, &(struct scene_bounds){.scale = 1});
     scene_destroy(scene);
     return block;
 }
@@ -111,7 +111,7 @@ static void every_type_of_light_gives_light(void **state)
 
     (void)state;
     for (; light_types[count].name; count++) {
-        const struct frame_block block = block_of("lights", light_types[count].name);
+        const struct frame_uniforms block = block_of("lights", light_types[count].name);
         const struct frame_light *light = &block.lights[0];
         struct formula_row row = {.b = {0, -1, 0}, .c = {light->rim_cosine, light->fade_cosine}};
 
@@ -133,7 +133,7 @@ static void every_type_of_volume_has_its_extent(void **state)
 
     (void)state;
     for (; volume_types[count].name; count++) {
-        const struct frame_block block = block_of("volumes", volume_types[count].name);
+        const struct frame_uniforms block = block_of("volumes", volume_types[count].name);
 
         assert_int_equal(block.volume_count, 1);
         assert_int_equal(block.volumes[0].kind,
@@ -148,10 +148,10 @@ static void every_type_of_volume_has_its_extent(void **state)
 /* A file with main() around it, and what it leaves to the pass that includes it. */
 static void write_alone(const char *name, char *out, size_t size)
 {
-    static const char store[] = "#include \"sample_store.glsl\"\n";
+    static const char store[] = "#include \"sample_sink.glsl\"\n";
     const struct {
         const char *name, *rest;
-    } rows[] = {{"paths.glsl", store},
+    } rows[] = {{"secondary_rays.glsl", store},
                 {"shade.glsl", store},
                 {"shadow.glsl", store},
                 {"visibility_mean.glsl", store},
@@ -182,7 +182,7 @@ static void each_file_is_whole_by_itself(void **state)
                                         {"field_surface.glsl", surface},
                                         {"alone.glsl", text},
                                         {NULL, NULL}};
-        const struct pass_source source = {false, "#define NUMBERS_COUNT 1\n", "alone.glsl", own};
+        const struct pass_source source = {false, "#define PARAMS_COUNT 1\n", "alone.glsl", own};
         struct pass linked;
         struct error err = {0};
 

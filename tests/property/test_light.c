@@ -43,7 +43,7 @@ static void bends_as_snell_says(void **state)
         }
         formula_run("#include \"optics.glsl\"\n"
                     "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n    vec3 bent;\n"
-                    "    bool goes = bend(a.xyz, vec3(0.0, 1.0, 0.0), b.x, bent);\n"
+                    "    bool goes = refract_ray(a.xyz, vec3(0.0, 1.0, 0.0), b.x, bent);\n"
                     "    return vec4(bent, goes ? 1.0 : 0.0);\n}\n",
                     rows, ANGLES);
         for (int i = 0; i < ANGLES; i++) {
@@ -86,8 +86,8 @@ static void mirrors_as_fresnel_says(void **state)
     formula_run("#include \"optics.glsl\"\n"
                 "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
                 "    vec3 f = fresnel(vec3(a.z, a.w, 1.0), a.x);\n"
-                "    return vec4(f.xy, interface_mirror(a.y, a.x, false),\n"
-                "                interface_mirror(a.y, a.x, true));\n}\n",
+                "    return vec4(f.xy, fresnel_dielectric(a.y, a.x, false),\n"
+                "                fresnel_dielectric(a.y, a.x, true));\n}\n",
                 rows, ANGLES);
     for (int i = 0; i < ANGLES; i++) {
         const double angle = angle_at(i), x5 = pow(1 - cos(angle), 5);

@@ -59,11 +59,12 @@ static void light_may_go_either_way(void **state)
         set_above(&random, rows[i].a);
         set_above(&random, rows[i].b);
     }
-    formula_run(SURFACE "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
-                        "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
-                        "    Surface s = made(c);\n"
-                        "    return vec4(reflected(s, n, a.xyz, b.xyz).x / b.z,\n"
-                        "                reflected(s, n, b.xyz, a.xyz).x / a.z, 0.0, 0.0);\n}\n",
+    formula_run(SURFACE
+                "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
+                "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
+                "    Surface s = made(c);\n"
+                "    return vec4(brdf_times_cosine(s, n, a.xyz, b.xyz).x / b.z,\n"
+                "                brdf_times_cosine(s, n, b.xyz, a.xyz).x / a.z, 0.0, 0.0);\n}\n",
                 rows, ROWS);
     for (int i = 0; i < ROWS; i++) {
         const double there = rows[i].out[0], back = rows[i].out[1];
@@ -76,32 +77,33 @@ static void light_may_go_either_way(void **state)
 
 /* All that goes to `view` of light 1 from everywhere: half of the directions are chosen by the
  * cosine, half by the facets that would mirror them, together as Veach says (balance heuristic). */
-static const char ask_all[] = SURFACE
-    "#define SIDE 96\n"
-    "vec3 n = vec3(0.0, 0.0, 1.0);\n"
-    "float chance_facet(vec3 view, vec3 towards, float a2)\n{\n"
-    "    vec3 h = normalize(view + towards);\n"
-    "    float d = 1.0 - h.z * h.z * (1.0 - a2);\n"
-    "    return a2 * h.z / (PI * d * d * 4.0 * dot(view, h));\n}\n"
-    "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
-    "    Surface s = made(c);\n"
-    "    vec3 view = vec3(sqrt(1.0 - a.x * a.x), 0.0, a.x);\n"
-    "    float gloss = roughness(s), a2 = max(pow(gloss, 4.0), 1e-5), sum = 0.0;\n"
-    "    for (int i = 0; i < SIDE * SIDE; i++) {\n"
-    "        vec2 u = (vec2(i % SIDE, i / SIDE) + 0.5) / float(SIDE);\n"
-    "        vec2 turn = vec2(cos(2.0 * PI * u.y), sin(2.0 * PI * u.y));\n"
-    "        vec3 matt = vec3(sqrt(u.x) * turn, sqrt(1.0 - u.x));\n"
-    "        float z2 = (1.0 - u.x) / (1.0 + (a2 - 1.0) * u.x);\n"
-    "        vec3 shiny = reflect(-view, vec3(sqrt(1.0 - z2) * turn, sqrt(z2)));\n"
-    "        for (int j = 0; j < 2; j++) {\n"
-    "            vec3 l = j == 0 ? matt : shiny;\n"
-    "            float chance = l.z / PI + chance_facet(view, l, a2);\n"
-    "            sum += l.z > 0.0 ? reflected(s, n, view, l).x / chance : 0.0;\n"
-    "        }\n"
-    "    }\n"
-    "    vec3 around = surroundings(s, n, view, 1.0, vec3(1.0), vec3(1.0), 0.0);\n"
-    "    vec3 rest = surroundings(s, n, view, 1.0, vec3(1.0), vec3(1.0), 1.0);\n"
-    "    return vec4(sum / float(SIDE * SIDE), around.x, rest.x, mirror_part(s, n, view).x);\n}\n";
+static const char ask_all[] =
+    SURFACE "#define SIDE 96\n"
+            "vec3 n = vec3(0.0, 0.0, 1.0);\n"
+            "float chance_facet(vec3 view, vec3 towards, float a2)\n{\n"
+            "    vec3 h = normalize(view + towards);\n"
+            "    float d = 1.0 - h.z * h.z * (1.0 - a2);\n"
+            "    return a2 * h.z / (PI * d * d * 4.0 * dot(view, h));\n}\n"
+            "vec4 ask(vec4 a, vec4 b, vec4 c)\n{\n"
+            "    Surface s = made(c);\n"
+            "    vec3 view = vec3(sqrt(1.0 - a.x * a.x), 0.0, a.x);\n"
+            "    float gloss = roughness(s), a2 = max(pow(gloss, 4.0), 1e-5), sum = 0.0;\n"
+            "    for (int i = 0; i < SIDE * SIDE; i++) {\n"
+            "        vec2 u = (vec2(i % SIDE, i / SIDE) + 0.5) / float(SIDE);\n"
+            "        vec2 turn = vec2(cos(2.0 * PI * u.y), sin(2.0 * PI * u.y));\n"
+            "        vec3 matt = vec3(sqrt(u.x) * turn, sqrt(1.0 - u.x));\n"
+            "        float z2 = (1.0 - u.x) / (1.0 + (a2 - 1.0) * u.x);\n"
+            "        vec3 shiny = reflect(-view, vec3(sqrt(1.0 - z2) * turn, sqrt(z2)));\n"
+            "        for (int j = 0; j < 2; j++) {\n"
+            "            vec3 l = j == 0 ? matt : shiny;\n"
+            "            float chance = l.z / PI + chance_facet(view, l, a2);\n"
+            "            sum += l.z > 0.0 ? brdf_times_cosine(s, n, view, l).x / chance : 0.0;\n"
+            "        }\n"
+            "    }\n"
+            "    vec3 around = environment_light(s, n, view, 1.0, vec3(1.0), vec3(1.0), 0.0);\n"
+            "    vec3 rest = environment_light(s, n, view, 1.0, vec3(1.0), vec3(1.0), 1.0);\n"
+            "    return vec4(sum / float(SIDE * SIDE), around.x, rest.x,\n"
+            "                specular_reflectance(s, n, view).x);\n}\n";
 
 enum { ROUGH = 9, COSINES = 10 };
 
@@ -185,7 +187,7 @@ static void rays_bring_the_mirror_image(void **state)
     }
 }
 
-/* Phong's and Blinn's have no energy to conserve, but their matt part does. */
+/* Phong's and Blinn's have no energy to conserve, but their diffuse part does. */
 static void matt_phong_is_lambert(void **state)
 {
     struct formula_row rows[2 * COSINES];

@@ -53,7 +53,7 @@ static void random_points(float out[POINTS][3])
 }
 
 /* What GLSL says of the points. */
-static void ask(const struct field *field, float through, float (*points)[3], size_t count,
+static void ask(const struct field *field, float field_mask, float (*points)[3], size_t count,
                 struct probe_answer *out)
 {
     struct error err = {0};
@@ -61,7 +61,7 @@ static void ask(const struct field *field, float through, float (*points)[3], si
     struct probe_program program;
     struct field *const fields[] = {(struct field *)field};
     assert_true(probe_init(&probe, &err));
-    probe.through = through;
+    probe.field_mask = field_mask;
     if (!probe_program_init(&program, &probe, fields, 1, true, false, &err)) {
         fail_msg("%s", err.message);
     }
@@ -258,13 +258,13 @@ static struct pair clear_scene(const char *transmission, const char *plate, cons
 }
 
 /* Looking at one kind alone is looking at a scene without the other. */
-static void assert_sees(const struct field *all, float through, const struct field *left,
+static void assert_sees(const struct field *all, float field_mask, const struct field *left,
                         const char *what)
 {
     static float points[POINTS][3];
     static struct probe_answer answers[POINTS];
     random_points(points);
-    ask(all, through, points, POINTS, answers);
+    ask(all, field_mask, points, POINTS, answers);
     for (int i = 0; i < POINTS; i++) {
         const double p[3] = {points[i][0], points[i][1], points[i][2]};
         double want = field_distance(left, p);
@@ -304,21 +304,21 @@ static void what_is_clear_lies_in_its_box(void **state)
 {
     (void)state;
     struct pair all = clear_scene("0.8", "", "true", "true");
-    const struct bounds *box = &all.field->clear_bounds;
-    assert_true(all.field->clear);
+    const struct bounds *box = &all.field->transmissive_bounds;
+    assert_true(all.field->transmissive);
     /* The ball with the bite, the blend as a whole, the veils; not the plate above. */
     assert_true(box->high[0] >= 2 && box->high[0] < 2.1);
     assert_true(box->low[1] <= -2.3 && box->low[1] > -2.4);
     assert_true(box->high[1] >= 0.5 && box->high[1] < 0.9);
     pair_finish(&all);
     struct pair none = clear_scene("0", "", "true", "false");
-    assert_false(none.field->clear);
+    assert_false(none.field->transmissive);
     pair_finish(&none);
     /* A solid cut by a glass is solid. */
     struct pair cut = pair_of("'materials':{'g':{'shader':'phong','properties':{'opacity':0}}},",
                               "{'type':'difference','children':[{'type':'sphere'},"
                               "{'type':'box','material':'g'}]}");
-    assert_false(cut.field->clear);
+    assert_false(cut.field->transmissive);
     pair_finish(&cut);
 }
 
@@ -327,7 +327,7 @@ static void transmission_compiles_nothing(void **state)
     (void)state;
     struct pair some = clear_scene("0.001", "", "true", "true");
     struct pair none = clear_scene("0", "glass", "true", "true");
-    assert_true(some.field->shape_hash == none.field->shape_hash);
+    assert_true(some.field->structure_hash == none.field->structure_hash);
     pair_finish(&some);
     pair_finish(&none);
 }
@@ -365,8 +365,8 @@ static void the_floor_is_a_leaf_of_its_own(void **state)
     assert_true(field->bounds.high[1] >= 0.5);
 
     struct pair other = floor_scene("2", "0", root), without = pair_of("", root);
-    assert_true(other.field->shape_hash == field->shape_hash);
-    assert_true(without.field->shape_hash != field->shape_hash);
+    assert_true(other.field->structure_hash == field->structure_hash);
+    assert_true(without.field->structure_hash != field->structure_hash);
     assert_true(bounds_is_finite(&without.field->bounds));
     pair_finish(&pair);
     pair_finish(&other);

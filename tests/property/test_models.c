@@ -219,7 +219,7 @@ static void numbers_of_code_compile_nothing(void **state)
               "'children':[{'type':'field','params':{"
               "'code':'float sdf(vec3 p) { return max(length(p) - 0.3, p.y); }'}}]}]}");
     struct field *a = compile_field(scene), *b = compile_field(other);
-    assert_true(a->shape_hash == b->shape_hash);
+    assert_true(a->structure_hash == b->structure_hash);
     field_unref(a);
     field_unref(b);
     scene_destroy(scene);

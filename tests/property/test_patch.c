@@ -32,7 +32,7 @@ static void assert_same_instructions(const struct field *a, const struct field *
         const struct field_instruction *x = &a->instructions[i], *y = &b->instructions[i];
         assert_true(x->op == y->op && x->type == y->type && x->sdf == y->sdf && x->a == y->a &&
                     x->b == y->b && x->point == y->point && x->out == y->out &&
-                    x->choices == y->choices && x->numbers == y->numbers && x->seen == y->seen &&
+                    x->choices == y->choices && x->params == y->params && x->seen == y->seen &&
                     x->arguments == y->arguments && x->hidden == y->hidden && x->side == y->side);
     }
 }
@@ -59,16 +59,16 @@ static void assert_same_answers(struct random *random, const struct field *a, co
 
 static void assert_same_field(struct random *random, const struct field *a, const struct field *b)
 {
-    assert_true(a->shape_hash == b->shape_hash);
+    assert_true(a->structure_hash == b->structure_hash);
     assert_int_equal(a->vec4_count, b->vec4_count);
-    if (memcmp(a->numbers, b->numbers, a->vec4_count * 4 * sizeof *a->numbers) != 0) {
+    if (memcmp(a->params, b->params, a->vec4_count * 4 * sizeof *a->params) != 0) {
         fail_msg("other numbers after %s", last_edit);
     }
     assert_same_instructions(a, b);
     assert_same_box(&a->bounds, &b->bounds);
-    assert_int_equal(a->clear, b->clear);
-    if (a->clear) {
-        assert_same_box(&a->clear_bounds, &b->clear_bounds);
+    assert_int_equal(a->transmissive, b->transmissive);
+    if (a->transmissive) {
+        assert_same_box(&a->transmissive_bounds, &b->transmissive_bounds);
     }
     assert_int_equal(a->loop_trips, b->loop_trips);
     assert_int_equal(a->argument_count, b->argument_count);
@@ -101,8 +101,8 @@ struct life {
 
 static float *copy_numbers(const struct field *field)
 {
-    const size_t size = field->vec4_count * 4 * sizeof *field->numbers;
-    return memcpy(malloc(size), field->numbers, size);
+    const size_t size = field->vec4_count * 4 * sizeof *field->params;
+    return memcpy(malloc(size), field->params, size);
 }
 
 /* The picture is drawn: its field may be written over. */
@@ -111,7 +111,7 @@ static void let_go(struct life *life, struct held_field *held)
     if (!held->field) {
         return;
     }
-    assert_memory_equal(held->field->numbers, held->numbers,
+    assert_memory_equal(held->field->params, held->numbers,
                         held->field->vec4_count * 4 * sizeof *held->numbers);
     free(held->numbers);
     if (held->field->references > 1 || life->spare) {
@@ -131,7 +131,7 @@ static void hold(struct life *life, struct field *field)
 
 static struct field *compile(const struct life *life, const struct field *drawn)
 {
-    return field_compile_as(life->scene, &(struct field_wish){.drawn = drawn, .patchable = true},
+    return field_compile_as(life->scene, &(struct field_options){.drawn = drawn, .patchable = true},
                             NULL);
 }
 
@@ -141,7 +141,7 @@ static void assert_within(const struct field *field, const float *before,
 {
     for (size_t i = 0; i < field->vec4_count; i++) {
         if (i < changed->first || i >= changed->end) {
-            assert_memory_equal(field->numbers + 4 * i, before + 4 * i, 4 * sizeof *before);
+            assert_memory_equal(field->params + 4 * i, before + 4 * i, 4 * sizeof *before);
         }
     }
 }
@@ -181,7 +181,7 @@ static bool is_of_light(const cJSON *ops)
 /* Only what changes more than numbers need not be patched. */
 static void check_refusal(const struct life *life, const struct field *fresh, const cJSON *ops)
 {
-    if (life->newest->shape_hash == fresh->shape_hash && !is_of_light(ops)) {
+    if (life->newest->structure_hash == fresh->structure_hash && !is_of_light(ops)) {
         char *text = json_print(ops, false), *root = root_text(life->scene);
         fail_msg("not patched: %s\n%s", text, root);
     }

@@ -257,7 +257,7 @@ static void the_program_depends_on_the_degree(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct field *field = field_of(rows[i].text, rows[i].more);
-        assert_int_equal(field->shape_hash == first->shape_hash, rows[i].same);
+        assert_int_equal(field->structure_hash == first->structure_hash, rows[i].same);
         field_unref(field);
     }
     field_unref(first);

@@ -353,7 +353,7 @@ static void steps_are_shown_by_their_scale(void **state)
     image_finish(&raw);
 }
 
-/* A ball before the ground, and two lights: the mean is taken over those that throw shadows. */
+/* A ball before the ground, and two lights: the mean is taken over those that cast shadows. */
 static void shadows_are_those_of_lights_that_throw_some(void **state)
 {
     static const char *const lights[] = {

@@ -58,7 +58,7 @@ static const struct view views[] = {
 };
 enum {
     VIEWS = sizeof views / sizeof views[0],
-    FIRST_VIEW = 2, /* of the compositions: seen so, no eye is inside of something solid */
+    FIRST_VIEW = 2, /* of the compositions: seen so, no eye is inside of something opaque */
     COMPUTED = 9,   /* the first compositions, which are thin, hollow or overlapping */
 };
 

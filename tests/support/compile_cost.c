@@ -12,10 +12,10 @@
 #include "compiled.h"
 #include "drawing.h"
 #include "protocol/json.h"
-#include "renderer/draw/context.h"
+#include "renderer/draw/renderer_internal.h"
 #include "renderer/field/shader.h"
 
-enum { NUMBERS_LEAST = 64 }; /* vec4s, as programs of snapshot.c */
+enum { PARAM_BUFFER_MIN = 64 }; /* vec4s, as programs of snapshot.c */
 
 struct renderer *compile_cost_renderer(void)
 {
@@ -27,10 +27,11 @@ struct renderer *compile_cost_renderer(void)
 static struct program *add(struct program_cache *cache, const struct field *field)
 {
     static uint64_t shapes;
-    const size_t capacity = field->vec4_count < NUMBERS_LEAST ? NUMBERS_LEAST : field->vec4_count;
+    const size_t capacity =
+        field->vec4_count < PARAM_BUFFER_MIN ? PARAM_BUFFER_MIN : field->vec4_count;
     char *map = shader_map(field), *surface = shader_surface(field);
     struct program *program =
-        program_cache_add(cache, &(struct program_source){.shape_hash = ++shapes,
+        program_cache_add(cache, &(struct program_source){.structure_hash = ++shapes,
                                                           .map_text = map,
                                                           .surface_text = surface,
                                                           .number_count = capacity,

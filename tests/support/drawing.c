@@ -74,7 +74,7 @@ struct drawing drawing_outputs(struct renderer *renderer, struct resident *resid
 
     assert_non_null(job);
     for (int aov = 0; aov < AOV_COUNT; aov++) {
-        drawing.of[aov] = job_image_shape(job, (enum aov)aov);
+        drawing.of[aov] = job_image_info(job, (enum aov)aov);
         drawing.of[aov].pixels = calloc(1, drawing.of[aov].bytes);
     }
     for (enum job_state state; (state = job_step(job)) != JOB_DONE;) {

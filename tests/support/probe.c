@@ -43,9 +43,9 @@ static const char head_block[] =
 static const char head_texture[] = "layout(binding = 1) uniform samplerBuffer numbers;\n"
                                    "#define AT(i) texelFetch(numbers, i)\n";
 static const char head_access[] = "int first_number;\n"
-                                  "#define N_ANY(i) AT(first_number + (i))\n"
-                                  "#define N_FROM(i) N_ANY(i)\n"
-                                  "#define N(i) AT(FIRST + (i))\n";
+                                  "#define P_ANY(i) AT(first_number + (i))\n"
+                                  "#define P_FROM(i) P_ANY(i)\n"
+                                  "#define P(i) AT(FIRST + (i))\n";
 static const char head[] =
     "#include \"field.glsl\"\n#include \"mixture.glsl\"\n"
     "#define zero 0\nlayout(local_size_x = GROUP) in;\n"
@@ -85,7 +85,7 @@ static void write_question(FILE *out, size_t index, size_t first, bool surface)
     fprintf(out, "at += %du * count;\n", ANSWER_VEC4S);
 }
 
-static char *program_text(struct field *const *fields, size_t count, bool surface, float through)
+static char *program_text(struct field *const *fields, size_t count, bool surface, float field_mask)
 {
     char *text;
     size_t length, numbers;
@@ -105,8 +105,8 @@ static char *program_text(struct field *const *fields, size_t count, bool surfac
             "uint at = %du * uint(i);\nSurface s;\n"
             "vec3 p = vec3(texelFetch(points, 3 * i).r, texelFetch(points, 3 * i + 1).r,\n"
             "              texelFetch(points, 3 * i + 2).r);\n"
-            "through = float(%.9g);\n",
-            ANSWER_VEC4S, (double)through);
+            "field_mask = float(%.9g);\n",
+            ANSWER_VEC4S, (double)field_mask);
     numbers = 0;
     for (size_t i = 0; i < count; i++) {
         write_question(out, i, numbers, surface);
@@ -140,12 +140,12 @@ bool probe_program_init(struct probe_program *program, const struct probe *probe
                         struct error *err)
 {
     char *defines = make_defines(fields, count), *numbers;
-    char *text = program_text(fields, count, surface, probe->through);
+    char *text = program_text(fields, count, surface, probe->field_mask);
     struct pass pass = {0};
     if (asprintf(&numbers, "%s%s", in_block ? head_block : head_texture, head_access) < 0) {
         abort();
     }
-    const struct glsl_file own[] = {{"probe.glsl", text}, {"numbers.glsl", numbers}, {NULL, NULL}};
+    const struct glsl_file own[] = {{"probe.glsl", text}, {"params.glsl", numbers}, {NULL, NULL}};
     const struct pass_source source = {true, defines, "probe.glsl", own};
     const bool ok = pass_init(&pass, &probe->gl, &source, err);
     *program = (struct probe_program){.program = pass.program, .surface = surface};
@@ -182,7 +182,7 @@ static void set_numbers(const struct probe *probe, struct field *const *fields, 
     }
     float *all = memory_alloc(vec4s, 4 * sizeof *all), *to = all;
     for (size_t i = 0; i < count; i++) {
-        memcpy(to, fields[i]->numbers, fields[i]->vec4_count * 4 * sizeof *all);
+        memcpy(to, fields[i]->params, fields[i]->vec4_count * 4 * sizeof *all);
         to += 4 * fields[i]->vec4_count;
     }
     set_buffer(probe, NUMBERS, GL_RGBA32F, all, vec4s * 4 * sizeof *all);

@@ -12,7 +12,7 @@ struct probe {
     struct egl egl;
     struct gl gl;
     GLuint buffers[3], views[2]; /* points, numbers, answers */
-    float through;               /* of programs made from now on: glsl/through.glsl */
+    float field_mask;            /* of programs made from now on: glsl/field_mask.glsl */
 };
 
 /* One program for several fields, which compiles faster than one for each: the text around them is

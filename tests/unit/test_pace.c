@@ -76,7 +76,7 @@ static void sides_have_ends(void **state)
     for (int i = 0; i < 20; i++) {
         row_of(pace, PACE_ALONE, QUALITY_STILL, QUICK_US);
     }
-    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, PACE_MOST);
+    assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_STILL).doublings, PACE_MAX);
     for (int i = 0; i < 20; i++) {
         row_of(pace, PACE_ALONE, QUALITY_STILL, SLOW_US);
     }
@@ -93,7 +93,7 @@ static void what_is_out_of_date_changes_nothing(void **state)
     (void)state;
     small.doublings = 0;
     pace_end(pace, QUALITY_DRAFT, &small);
-    large.doublings = PACE_MOST;
+    large.doublings = PACE_MAX;
     pace_learn(pace, QUALITY_DRAFT, &large, SLOW_US);
     assert_int_equal(pace_begin(pace, PACE_ALONE, QUALITY_DRAFT).doublings, PACE_FIRST);
     pace_unref(pace);

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "protocol/limits.h"
-#include "renderer/gl/program_parts.h"
+#include "renderer/gl/program_internal.h"
 
 enum { SHAPES = 400, CODE_MS = 100, LEAP_MS = 500 };
 
@@ -23,7 +23,7 @@ static int reset(void **state)
 {
     (void)state;
     program = (struct program){
-        .shape_hash = 7, .shape_count = SHAPES, .user_code = true, .stages = 1, .patience = 1};
+        .structure_hash = 7, .shape_count = SHAPES, .user_code = true, .stages = 1, .patience = 1};
     cache = (struct program_cache){.lock = PTHREAD_MUTEX_INITIALIZER, .code_ms = CODE_MS};
     cache.compilers[0] =
         (struct compiler){.thread = pthread_self(), .cache = &cache, .program = &program};
@@ -51,7 +51,7 @@ static int bound(void)
     program.spent_ms = INT32_MAX / 2;
     assert_true(look(&stuck));
     assert_false(stuck.still);
-    assert_int_equal(stuck.shape, program.shape_hash);
+    assert_int_equal(stuck.shape, program.structure_hash);
     program.spent_ms = stuck.limit_ms / 2;
     assert_false(look(&stuck));
     program.spent_ms = stuck.limit_ms + 1;

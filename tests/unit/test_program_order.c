@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "protocol/limits.h"
-#include "renderer/gl/program_parts.h"
+#include "renderer/gl/program_internal.h"
 
 enum { SMALL = 10, BIG = 400, STAGES = 3 };
 

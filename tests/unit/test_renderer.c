@@ -14,7 +14,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "renderer/code/code.h"
-#include "renderer/draw/context.h"
+#include "renderer/draw/renderer_internal.h"
 #include "renderer/pick.h"
 #include "tests/support/drawing.h"
 #include "tests/support/json_text.h"
@@ -369,7 +369,7 @@ static void take_rows(struct job *job, struct image images[AOV_COUNT])
     for (int i = 0; i < AOV_COUNT; i++) {
         struct image rows;
 
-        if (job_image_shape(job, (enum aov)i).width == 0) {
+        if (job_image_info(job, (enum aov)i).width == 0) {
             continue;
         }
         rows = job_take_rows(job, (enum aov)i);
@@ -420,7 +420,7 @@ static void test_outputs_together(void **state)
     job = job_create(resident, &desc, NULL);
     assert_non_null(job);
     for (int i = 0; i < AOV_COUNT; i++) {
-        const struct image shape = job_image_shape(job, (enum aov)i);
+        const struct image shape = job_image_info(job, (enum aov)i);
 
         assert_int_equal(shape.channels, aov_row((enum aov)i)->channels);
         assert_int_equal(shape.format, aov_row((enum aov)i)->whole ? PIXEL_UINT32 : PIXEL_FLOAT);

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* Nodes of an equation while it is read. Private to equation*.c. */
+#ifndef PROTOCOL_EQUATION_INTERNAL_H
+#define PROTOCOL_EQUATION_INTERNAL_H
+
+#include "equation.h"
+
+/* The index of a node like this one, which is added unless it is there. False: there are too
+ * many, LIMIT_EQUATION_NODES, or LIMIT_EQUATION_WEIGHT of them written out. */
+bool equation_add(struct equation *equation, struct equation_node node, uint16_t *out);
+
+/* Functions that are written by others; `pow` is an operator. */
+enum equation_composite {
+    EQUATION_HYPOT,
+    EQUATION_CLAMP,
+    EQUATION_MIX,
+    EQUATION_LOG2,
+    EQUATION_POW,
+    EQUATION_FRACT,
+    EQUATION_MOD,
+    EQUATION_STEP,
+    EQUATION_SMOOTHSTEP,
+    EQUATION_CHEB, /* its first argument is known, and whole */
+    EQUATION_COMPOSITES,
+};
+extern const struct equation_function equation_composites[EQUATION_COMPOSITES];
+/* Its nodes for these arguments, all but pow(). False: they are too many. */
+bool equation_compose(struct equation *equation, enum equation_composite which, const uint16_t *in,
+                      uint16_t *out);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* Fills the uniform block that describes a picture: camera, limits, lights, environment. */
+#ifndef RENDERER_FRAME_UNIFORMS_H
+#define RENDERER_FRAME_UNIFORMS_H
+
+#include <stdint.h>
+
+#include "camera.h"
+#include "renderer/glsl/interface.h"
+
+/* What the field says about where it is. */
+struct scene_bounds {
+    double min[3], max[3];                           /* may be infinite */
+    double transmissive_min[3], transmissive_max[3]; /* of what light goes through */
+    bool transmissive;                               /* whether there is any */
+    bool reflective;  /* something reflects, or light goes through it */
+    double scale;     /* size of what is of interest; occlusion reaches a part */
+    int loop_trips;   /* loop iterations in one evaluation */
+    bool limit_loops; /* the driver counts iterations: llvmpipe stops at 65,535 */
+};
+
+/* Lights, volumes, environment, and those render settings that no level changes. */
+void frame_uniforms_set_scene(struct frame_uniforms *block, const struct scene *scene,
+                              const struct scene_bounds *extent);
+/* The camera for a picture of this size; with it the lens. */
+void frame_uniforms_set_camera(struct frame_uniforms *block, const struct camera *camera, int width,
+                               int height);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* The inside of a job, for the files job*.c. */
+#ifndef RENDERER_JOB_INTERNAL_H
+#define RENDERER_JOB_INTERNAL_H
+
+#include "renderer_internal.h"
+
+/* A row of tiles. */
+struct row {
+    int y;      /* from the top of the region */
+    int x;      /* of the tile that is started next */
+    int side;   /* of its tiles, at most */
+    int height; /* of its tiles, */
+    int width;  /* and of the one that is started next */
+    struct pace_row pace;
+};
+
+struct job {
+    struct renderer *renderer;
+    struct snapshot *snapshot;
+    struct camera camera;
+    const struct output_format *formats[AOV_COUNT]; /* NULL: not asked for */
+    struct settings_request request;
+    bool in_rounds;
+    enum job_state state;
+    int width, height; /* of the whole picture */
+    struct job_region region;
+    enum quality_level level;
+    struct pace *pace;
+    bool careful;
+    int64_t limit_us;           /* that a sample of the smallest tile may take of the processors */
+    struct row row;             /* that is being started */
+    int started, collected;     /* tiles */
+    int steps[TILES_IN_FLIGHT]; /* samples drawn of the tile in each slot */
+    int rows_height;            /* of the row of tiles collected last */
+    bool begun;                 /* `picture` is valid */
+    struct draw_picture picture;
+    uint8_t *rows[AOV_COUNT]; /* of the row of tiles that is collected; NULL: taken, or none yet */
+    double depth_far;
+    struct job_times times;
+    struct error error;
+};
+
+#endif

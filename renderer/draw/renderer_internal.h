@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* The inside of struct renderer and struct resident, for the files of this layer that make them up:
+ * renderer.c, resident.c, snapshot.c, job.c. */
+#ifndef RENDERER_INTERNAL_H
+#define RENDERER_INTERNAL_H
+
+#include "draw.h"
+#include "pace.h"
+#include "pictures.h"
+#include "renderer/gl/egl.h"
+#include "renderer/renderer.h"
+#include "snapshot.h"
+
+struct renderer {
+    struct renderer_params params;
+    struct renderer_info info;
+    enum render_stage best; /* what RENDER_AUTO is here */
+    struct gl_sink sink;
+    struct egl egl;
+    struct gl gl;
+    struct draw *draw;
+    struct environments *environments;
+    struct asset *assets; /* a list */
+    struct pictures *pictures;
+    struct snapshot *waiting; /* for a picture; a list */
+    struct trials trials;
+    struct program_cache *programs;
+    struct resident *residents; /* a list */
+    struct renderer_counters counters;
+    bool shared; /* see renderer_share */
+    struct renderer_verdict *verdicts;
+    size_t verdict_count;
+    bool told_compile; /* on_compile was called with a shape, and not yet with 0 */
+    bool told_read;    /* the same of on_read */
+};
+
+enum { ISOLATIONS_KEPT = 8 }; /* of a scene; the least recently used go beyond this */
+
+/* A scene with nodes isolated: of the same program as the scene itself. */
+struct isolated_view {
+    char *key;                 /* the ids, a line each; NULL: free */
+    uint64_t renewals;         /* of the resident when `newest` was made */
+    uint64_t last_use;         /* counts jobs */
+    struct snapshot *newest;   /* NULL: not made yet */
+    struct snapshot *drawable; /* the newest whose program is ready; NULL: none yet */
+};
+
+struct resident {
+    struct renderer *renderer;
+    struct resident *next;
+    struct scene *scene;
+    uint64_t revision;
+    struct snapshot *newest;    /* NULL while the scene is no field */
+    struct snapshot *drawable;  /* the newest whose program is ready; NULL: none yet */
+    struct upload_pool uploads; /* of the newest's shape */
+    struct error error;
+    struct pace *pace;
+    uint64_t refused_shape;  /* why there is no newest, if that is it; else 0 */
+    uint64_t renewals, uses; /* counted */
+    struct isolated_view isolated[ISOLATIONS_KEPT];
+};
+
+/* Of a shape, or with an id of a file; NULL: nothing is known of it. */
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
+                                               const char *image);
+
+/* A snapshot of the scene as it is now becomes the newest. */
+void resident_renew(struct resident *resident);
+/* What a picture shows: the newest state, or unless that is asked for (`exact`) the newest that can
+ * be drawn. Borrowed until the resident changes. NULL and `err`: nothing. */
+struct snapshot *resident_snapshot(struct resident *resident, const struct job_desc *desc,
+                                   struct error *err);
+void resident_forget_views(struct resident *resident);
+
+void renderer_log(const struct renderer *renderer, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#endif

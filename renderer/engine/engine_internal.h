@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+/* Between the files of the engine that are compiled for a width of vectors. */
+#ifndef RENDERER_ENGINE_INTERNAL_H
+#define RENDERER_ENGINE_INTERNAL_H
+
+#include "engine.h"
+#ifdef LANES
+#include "lanes.h"
+#endif
+#include "renderer/code/machine.h"
+#include "renderer/field/shader.h"
+
+struct operation {
+    uint8_t op;           /* enum field_op */
+    bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
+    bool prunes;          /* FIELD_COMBINE: an operand may be left out */
+    bool unsteady;        /* FIELD_SHAPE: it has a number FIELD_UNSTEADY */
+    uint8_t rule, kernel; /* FIELD_COMBINE: enum sdf_rule; its choice */
+    uint16_t a, b, point, out;
+    uint32_t params, seen;
+    uint32_t length; /* of a loop: operations from its first to its last */
+    double (*reach)(const double *n);
+    void (*function)(void), (*share)(void), (*cell)(void);
+    const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
+};
+
+/* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
+ * alone. */
+enum { TAPE_INDEX = 0x3fffffff, TAPE_MOVE = 0x40000000 };
+#define TAPE_NEGATE 0x80000000u
+
+/* A cube, and what of the program matters in it. */
+struct cell {
+    int32_t corner[3];        /* its least coordinates, in units of the grid */
+    uint8_t bits;             /* its side is 2 to so many of these */
+    bool made;                /* its tape; else it is its parent's */
+    bool splits;              /* smaller ones are worth it; of one with a tape */
+    int32_t parent, children; /* the first of eight; 0: not made yet */
+    float distance;           /* of the field in its centre */
+    float centre[3], half;    /* the tape holds for LOOSE times this */
+    uint32_t tape, count;     /* among the tapes */
+    uint32_t drops;           /* what its children's tapes leave out, for each word of its own */
+};
+
+struct cells {
+    float grid; /* units of the grid in one of length, a power of two */
+    struct cell *at;
+    size_t count, capacity;
+    uint32_t *tapes;
+    size_t used, room;
+    uint16_t *drops;
+    size_t drops_used, drops_room;
+    int32_t last; /* that was asked for */
+};
+
+/* A kernel for a function that a step calls. */
+/* What users' code calls: by a function, or, where a call takes longer than what it does, at
+ * once. */
+enum engine_direct { CALL_FUNCTION, CALL_MIN, CALL_MAX, CALL_ABS, CALL_CLAMP };
+struct engine_call {
+    void (*function)(void);
+    bool gives_one; /* of a vector or matrix, one number */
+    enum engine_direct direct;
+};
+
+/* A user's code. */
+struct engine_code {
+    const struct machine_code *machine;
+    struct engine_call *calls;        /* of each step */
+    uint16_t places[MACHINE_NUMBERS]; /* of the numbers that it declares, from the head of the
+                                          shape's block or material on */
+    bool whole;                       /* it gives all of a surface */
+};
+
+struct engine_width;
+
+struct engine_program {
+    int references;
+    int threads;               /* 0: one for each processor */
+    struct field *field;       /* which has the codes */
+    struct engine_code *codes; /* distances, then shaders */
+    size_t distances, code_count;
+    const struct engine_width *width;
+    struct operation *operations;
+    size_t count;
+    struct {
+        int material_base, material_stride;
+    } scene;
+};
+
+/* A tile with what is around it. */
+struct lanes_tile {
+    int side; /* pixels in a row */
+    float *geometry, *pixels, *counted;
+};
+
+struct kernel_row {
+    int type;
+    uint32_t choices;
+    enum shader_kernel kernel;
+    void (*function)(void);
+};
+
+/* Of a function that users' code calls, by its row in builtin_table. */
+struct call_row {
+    int row, base, size;
+    bool gives_one;
+    void (*function)(void);
+};
+
+/* Cubes of the whole field, of that without what light goes through, and of that alone. */
+enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
+
+struct engine_canvas {
+    struct engine_picture picture;
+    struct cells cells[ENGINE_THREADS][ENGINE_SPACES]; /* of each thread */
+    struct engine_rect kept;                           /* width 0: nothing is */
+    float *pixels, *counted; /* sums of the kept: four and two for each (glsl/sums.glsl) */
+};
+
+/* One call of engine_draw. */
+struct engine_work {
+    struct engine_rect tile;
+    int from, until;
+    const struct engine_output *outputs;
+    size_t output_count;
+};
+
+struct engine_width {
+    int lanes;
+    const struct kernel_row *kernels;
+    size_t kernel_count;
+    const struct call_row *calls;
+    size_t call_count;
+    uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
+    void (*distances)(const struct engine_program *program, const float *params,
+                      const float (*points)[3], size_t count, float *out);
+    /* A level of one of the pictures; all but the first are made of that. */
+    void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
+                     int number, int level);
+};
+extern const struct engine_width engine_16, engine_8, engine_4;
+/* The widest that the processor has. */
+const struct engine_width *engine_widest(void);
+
+struct lanes;
+struct machine;
+struct scene_block {
+    int material_base, material_stride;
+};
+struct dispatch_block {
+    int origin[2];
+    int mode, zero;
+};
+#define LANES_CONTEXT                                                                              \
+    const struct engine_program *program;                                                          \
+    const struct frame_uniforms *frame;                                                            \
+    const struct dispatch_block *dispatch;                                                         \
+    const struct scene_block *scene;                                                               \
+    const struct engine_map *const *maps;                                                          \
+    const float *params, *own;                                                                     \
+    struct lanes_tile tile;                                                                        \
+    struct cells *spaces, *cells;                                                                  \
+    struct machine *machine;                                                                       \
+    vf **frames;
+
+#ifdef LANES
+static void lanes_texture(struct lanes *c, int unit, vb m, vf u, vf v, vf level, vf out[4]);
+static int lanes_texture_size(struct lanes *c, int unit, int i);
+static void lanes_texel(struct lanes *c, int unit, vb m, vi x, vi y, vi level, vf out[4]);
+#endif
+
+#endif

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/* The inside of the render process, for the files worker*.c. */
+#ifndef RENDERER_WORKER_INTERNAL_H
+#define RENDERER_WORKER_INTERNAL_H
+
+#include "encode_thread.h"
+#include "pulse.h"
+#include "turns.h"
+#include "worker.h"
+
+/* A scene, and what the front was told of it. */
+struct worker_scene {
+    char *name;
+    struct resident *resident;
+    uint64_t told_shown, told_broken;
+    struct error told_warning;
+    struct worker_scene *next;
+};
+
+/* A picture that was asked for. */
+struct worker_job {
+    uint32_t number; /* the front's */
+    char *scene;
+    int priority;
+    struct turn *turn;   /* its account's */
+    struct job *drawing; /* NULL once it is drawn, or given up */
+    struct encode_params encode;
+    struct stream_encoder *stream; /* of its rounds */
+    struct encoding *encoding;
+    bool between; /* a round is drawn and being encoded; there are more */
+    bool newest;
+    bool answered; /* failed or cancelled: nobody waits for what is encoded */
+    uint64_t received_us, begun_us, told_us;
+    uint64_t revision;
+    int width, height;
+    struct job_times times;
+    struct picture_rounds rounds;
+    struct worker_job *next; /* in order of arrival */
+};
+
+struct worker {
+    int fd, wake_fd;
+    struct renderer *renderer;
+    struct encode_thread *encode_thread;
+    struct pulse *pulse;
+    struct packet_reader in;
+    uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
+    size_t out_sent, out_length, out_capacity;
+    struct worker_scene *scenes;
+    struct worker_job *jobs;
+    struct turns turns;
+    uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
+    uint32_t told_job;        /* that the front thinks is drawn; 0: none */
+    struct confinement confined;
+    int status; /* -1 while running */
+};
+
+enum { WORKER_DEVICE_LOST = 3, WORKER_STUCK = 4 }; /* exit statuses: the front starts another */
+
+/* --- worker_answers.c --- */
+
+/* Sends what the socket takes. */
+void worker_flush(struct worker *w);
+/* Waits until the front has all that was answered: what comes next may end the process. */
+void worker_flush_all(struct worker *w);
+/* Queues a packet. */
+void worker_send(struct worker *w, const struct packet *packet);
+/* `begun`: some of the picture was drawn. */
+void worker_send_failed(struct worker *w, uint32_t job, const struct error *err, bool begun);
+/* `shape`: the one that is refused; 0: none. */
+void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
+                        const struct error *err, uint64_t shape);
+void worker_send_ready(struct worker *w);
+void worker_send_frame(struct worker *w, const struct worker_job *job);
+/* A compiler may never end, and this process will. */
+void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
+/* What is compiled, read or drawn from here on, and may end this process. */
+void worker_send_suspect(struct worker *w, enum packet_to_front kind,
+                         const struct packet_suspect *suspect);
+
+/* --- worker_scenes.c --- */
+
+struct worker_scene **worker_find_scene(struct worker *w, const char *name);
+void worker_drop_scene(struct worker_scene **at);
+/* One that needs this shape; NULL: none. */
+const struct worker_scene *worker_find_shape(const struct worker *w, uint64_t shape);
+/* One whose environment is this file. */
+const struct worker_scene *worker_find_image(const struct worker *w, const char *image);
+/* Tells the front what has become drawable, or never will. */
+void worker_announce(struct worker *w);
+/* renderer_params.on_compile; `data` is the worker. */
+void worker_on_compile(void *data, uint64_t shape);
+/* The same of renderer_params.on_read. */
+void worker_on_read(void *data, const char *image);
+void worker_on_scene(struct worker *w, const struct packet_scene *packet);
+void worker_on_edit(struct worker *w, const struct packet_edit *packet);
+void worker_on_drop(struct worker *w, const char *scene);
+void worker_on_judge(struct worker *w, const struct packet_judge *packet);
+
+/* --- worker_pictures.c --- */
+
+void worker_drop_job(struct worker *w, struct worker_job **at);
+/* The picture whose turn it is; NULL: none can go on. */
+struct worker_job *worker_choose_job(struct worker *w);
+/* Draws one tile of it, or with NULL tells that nothing is drawn. */
+void worker_step(struct worker *w, struct worker_job *job);
+void worker_collect_encodings(struct worker *w);
+/* `malformed`: what is wrong with its members, if anything. */
+void worker_on_render(struct worker *w, const struct packet_render *packet,
+                      const struct error *malformed);
+void worker_on_cancel(struct worker *w, uint32_t number);
+
+#endif
