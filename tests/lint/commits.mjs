@@ -18,7 +18,7 @@ const VERBS = new Set(
     expand expect explain export expose extend extract fade fail fall feed fetch fill filter find finish fit fix flush
     focus fold follow forbid force forget format forward free freeze gather generate give go grant group grow guard
     guess halve hand handle hash help hide hint hold hurry ignore implement import improve include increase index infer
-    inform inherit initialise inline insert inspect install instance interpolate invert isolate join judge jump keep
+    inform inherit initialise inline insert inspect install instance interpolate invert isolate join judge jump keep know
     kill label launch lay lead leave lengthen let lift light limit link lint list listen load lock log look loosen lose
     lower make map mark march mask match measure meet mend merge migrate mirror mix move name narrow nest normalise note
     number observe offer omit open order organise own pack paint parse pass paste patch pause pay pick pin place plan
