@@ -127,13 +127,13 @@ static void clean(struct environments *environments)
     }
 }
 
-static struct environment *create(const struct frame_block *block, struct decoded *image)
+static struct environment *create(const struct frame_block *block, struct engine_sky *skies)
 {
     struct environment *environment = memory_alloc(1, sizeof *environment);
 
-    if (image) {
-        engine_skies_make(block, image->rgba, image->width, image->height, environment->skies);
-        image->rgba = NULL;
+    if (skies) {
+        memcpy(environment->skies, skies, sizeof environment->skies);
+        memset(skies, 0, sizeof environment->skies);
     } else {
         engine_skies_make(block, NULL, 0, 0, environment->skies);
     }
@@ -167,7 +167,7 @@ bool environments_have(struct environments *environments, const struct frame_blo
 
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_block *block, const char *image,
-                                     struct decoded *decoded, uint32_t *out_us)
+                                     struct engine_sky *skies, uint32_t *out_us)
 {
     const uint64_t begun = now_us(), key = key_of(block, image);
     struct environment **at = find(environments, key), *environment = *at;
@@ -176,7 +176,7 @@ struct environment *environments_get(struct environments *environments,
     if (environment) {
         *at = environment->next;
     } else {
-        environment = create(block, decoded);
+        environment = create(block, skies);
         environment->key = key;
         *out_us = (uint32_t)(now_us() - begun);
     }
