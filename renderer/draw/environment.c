@@ -128,13 +128,13 @@ static void clean(struct environments *environments)
     }
 }
 
-static struct environment *create(const struct frame_uniforms *block, struct decoded *image)
+static struct environment *create(const struct frame_uniforms *block, struct engine_map *maps)
 {
     struct environment *environment = memory_alloc(1, sizeof *environment);
 
-    if (image) {
-        engine_maps_make(block, image->rgba, image->width, image->height, environment->maps);
-        image->rgba = NULL;
+    if (maps) {
+        memcpy(environment->maps, maps, sizeof environment->maps);
+        memset(maps, 0, sizeof environment->maps);
     } else {
         engine_maps_make(block, NULL, 0, 0, environment->maps);
     }
@@ -168,7 +168,7 @@ bool environments_have(struct environments *environments, const struct frame_uni
 
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_uniforms *block, const char *image,
-                                     struct decoded *decoded, uint32_t *out_us)
+                                     struct engine_map *maps, uint32_t *out_us)
 {
     const uint64_t begun = now_us(), key = key_of(block, image);
     struct environment **at = find(environments, key), *environment = *at;
@@ -177,7 +177,7 @@ struct environment *environments_get(struct environments *environments,
     if (environment) {
         *at = environment->next;
     } else {
-        environment = create(block, decoded);
+        environment = create(block, maps);
         environment->key = key;
         *out_us = (uint32_t)(now_us() - begun);
     }

@@ -14,7 +14,6 @@
 #include "frame_uniforms.h"
 #include "renderer/engine/engine.h"
 #include "renderer/gl/gl.h"
-#include "renderer/image/decode.h"
 
 struct environment {
     struct engine_map maps[ENGINE_MAPS];
@@ -36,12 +35,12 @@ void environment_leave_out(struct frame_uniforms *block);
  * a block with SKY_IMAGE; else it means nothing. */
 bool environments_have(struct environments *environments, const struct frame_uniforms *block,
                        const char *image);
-/* What is around a scene with this frame block; a new reference. `decoded`: its picture, where it
- * has one that environments_have does not know; its pixels are taken. `*out_us`: the time it took,
- * 0 where it was ready. */
+/* What is around a scene with this frame block; a new reference. `maps`: those of its picture,
+ * where it has one that environments_have does not know; taken. `*out_us`: the time it took, 0
+ * where it was ready. */
 struct environment *environments_get(struct environments *environments,
                                      const struct frame_uniforms *block, const char *image,
-                                     struct decoded *decoded, uint32_t *out_us);
+                                     struct engine_map *maps, uint32_t *out_us);
 /* Binds its pictures to their units, after copying them to the device where they are not there. */
 void environment_bind(struct environment *environment, const struct gl *gl);
 void environment_unref(struct environments *environments, struct environment *environment);

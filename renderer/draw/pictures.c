@@ -7,13 +7,14 @@
 #include <time.h>
 
 #include "protocol/memory.h"
+#include "renderer/image/decode.h"
 
 struct picture {
     struct asset *asset;
     int references;
     bool done;
-    struct decoded decoded;
-    struct error err; /* the file's own words */
+    struct engine_map maps[ENGINE_MAPS]; /* levels 0: none */
+    struct error err;                    /* the file's own words */
     struct error problem;
     uint32_t us;
     struct picture *next;
@@ -42,6 +43,17 @@ static int64_t clock_in_us(clockid_t clock)
 
 /* --- the thread --- */
 
+static void read_file(struct picture *picture)
+{
+    static const struct frame_uniforms any = {.sky_kind = SKY_IMAGE}; /* a picture needs no more */
+    const struct asset *asset = picture->asset;
+    struct decoded decoded = {0};
+
+    if (image_decode(asset->bytes, asset->length, &decoded, &picture->err)) {
+        engine_maps_make(&any, decoded.rgba, decoded.width, decoded.height, picture->maps);
+    }
+}
+
 static void *work(void *data)
 {
     struct pictures *pictures = data;
@@ -56,8 +68,7 @@ static void *work(void *data)
         }
         pthread_mutex_unlock(&pictures->lock);
         const int64_t begun = clock_in_us(CLOCK_MONOTONIC);
-        image_decode(picture->asset->bytes, picture->asset->length, &picture->decoded,
-                     &picture->err);
+        read_file(picture);
         picture->us = (uint32_t)(clock_in_us(CLOCK_MONOTONIC) - begun);
         pthread_mutex_lock(&pictures->lock);
         pictures->worked = true;
@@ -78,7 +89,7 @@ static void forget(struct pictures *pictures, struct picture *picture)
     }
     *at = picture->next;
     asset_unref(picture->asset);
-    decoded_finish(&picture->decoded);
+    engine_maps_finish(picture->maps);
     free(picture);
 }
 
@@ -115,9 +126,9 @@ bool picture_is_done(const struct picture *picture)
     return picture->done;
 }
 
-struct decoded *picture_pixels(struct picture *picture)
+struct engine_map *picture_maps(struct picture *picture)
 {
-    return picture->decoded.rgba ? &picture->decoded : NULL;
+    return picture->maps[0].levels > 0 ? picture->maps : NULL;
 }
 
 const struct error *picture_problem(const struct picture *picture)
@@ -185,7 +196,7 @@ bool pictures_collect(struct pictures *pictures, int wait_ms)
     }
     pictures->reading = NULL;
     picture->done = true;
-    if (!picture->decoded.rgba) {
+    if (picture->err.kind != ERROR_NONE) {
         error_set(&picture->problem, picture->err.kind, place, "%s", picture->err.message);
         picture->asset->problem = picture->problem;
     }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures of environments, read from their files by a thread of their own, one at a time: who
- * draws never waits for one. Every function belongs to the drawing thread. */
+/* Pictures of environments: a thread of their own reads them from their files and makes them ready
+ * for the passes, one at a time. Who draws never waits for one. Every function belongs to the
+ * drawing thread. */
 #ifndef RENDERER_PICTURES_H
 #define RENDERER_PICTURES_H
 
 #include "asset.h"
-#include "renderer/image/decode.h"
+#include "renderer/engine/engine.h"
 
 struct pictures;
 struct picture; /* a file that is read, or was; counted */
@@ -21,9 +22,9 @@ void picture_unref(struct pictures *pictures, struct picture *picture); /* NULL:
 const char *picture_id(const struct picture *picture);
 /* It was read, or cannot be. */
 bool picture_is_done(const struct picture *picture);
-/* Of one that is done: its pixels, the picture's own; who needs them may take them. NULL: it has
- * none, or they were taken. */
-struct decoded *picture_pixels(struct picture *picture);
+/* Of one that is done: what engine_maps_make made of it, the picture's own; who needs them may
+ * take them. NULL: it has none, or they were taken. */
+struct engine_map *picture_maps(struct picture *picture);
 /* Why it has none, as a warning at /environment/image; the asset has it too. */
 const struct error *picture_problem(const struct picture *picture);
 uint32_t picture_us(const struct picture *picture); /* time that reading took */

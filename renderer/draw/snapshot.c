@@ -205,7 +205,7 @@ static bool is_unreadable(const struct renderer *renderer, const char *id, struc
 
 /* `problem`: why it has no picture; ERROR_NONE: there is none that it wants and has not. */
 static void surround(struct renderer *renderer, struct snapshot *snapshot, const char *image,
-                     struct decoded *decoded, const struct error *problem)
+                     struct engine_map *maps, const struct error *problem)
 {
     if (problem->kind != ERROR_NONE) {
         environment_leave_out(&snapshot->frame);
@@ -213,8 +213,8 @@ static void surround(struct renderer *renderer, struct snapshot *snapshot, const
     if (snapshot->warning.error.kind == ERROR_NONE) {
         snapshot->warning = (struct warning){WARNING_ASSET, *problem};
     }
-    snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image,
-                                             decoded, &snapshot->environment_us);
+    snapshot->environment = environments_get(renderer->environments, &snapshot->frame, image, maps,
+                                             &snapshot->environment_us);
 }
 
 /* What does not depend on the program. A picture is waited for. */
@@ -262,9 +262,10 @@ void snapshots_settle(struct renderer *renderer)
         if (!picture_is_done(picture)) {
             continue;
         }
-        surround(renderer, snapshot, picture_id(picture), picture_pixels(picture),
+        const bool made = picture_maps(picture) != NULL;
+        surround(renderer, snapshot, picture_id(picture), picture_maps(picture),
                  picture_problem(picture));
-        if (snapshot->environment_us > 0) {
+        if (made) {
             snapshot->environment_us += picture_us(picture);
         }
         leave_waiting(renderer, snapshot);

@@ -11,7 +11,7 @@ import net from 'node:net';
 import { ask, counter, sleep, startDaemon } from '../support/daemon.mjs';
 import { handshake, Live } from '../support/live.mjs';
 import { largeDocument } from '../support/large.mjs';
-import { blankPng } from '../support/png.mjs';
+import { blankPng, withText } from '../support/png.mjs';
 
 const VIEW = { width: 128, height: 96 };
 const LARGE = { width: 4096, height: 4096 };
@@ -80,9 +80,13 @@ const GUESTS = {
         return () => gone.abort() || Promise.all(all);
     },
     'large pictures of zeros': async (daemon) => {
-        const posted = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body: blankPng(5792, 5792), headers: { 'content-type': 'image/png' } });
-        const { id } = await posted.json();
-        return repeat((i) => picture(daemon, { scene: { ...ball, environment: { image: id, rotation: i % 360 } }, width: 16, height: 16 }));
+        const png = blankPng(8192, 4096);
+        return repeat(async (i) => {
+            const body = withText(png, `${process.pid} ${performance.now()} ${i}`); // it is read anew
+            const posted = await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body, headers: { 'content-type': 'image/png' } });
+            const { id } = await posted.json();
+            await picture(daemon, { scene: { ...ball, environment: { type: 'image', image: id } }, width: 16, height: 16 });
+        });
     },
     'code that is new each time': (daemon) =>
         repeat((i) =>

@@ -14,6 +14,7 @@
 #include "renderer/draw/environment.h"
 #include "renderer/gl/egl.h"
 #include "renderer/gl/pass.h"
+#include "renderer/image/decode.h"
 
 enum { ASKED_MAX = 512, WIDTH = 64, HEIGHT = 32 };
 
@@ -107,13 +108,17 @@ static struct environment *get(const struct frame_uniforms *block, const struct 
 {
     const char *id = image ? image->id : "";
     const bool read = block->sky_kind == SKY_IMAGE && !environments_have(environments, block, id);
-    struct decoded decoded = {0};
+    struct engine_map maps[ENGINE_MAPS] = {0};
     struct environment *environment;
 
-    assert_true(!read || image_decode(image->bytes, image->length, &decoded, NULL));
-    environment = environments_get(environments, block, id, read ? &decoded : NULL, out_us);
+    if (read) {
+        struct decoded decoded = {0};
+
+        assert_true(image_decode(image->bytes, image->length, &decoded, NULL));
+        engine_maps_make(block, decoded.rgba, decoded.width, decoded.height, maps);
+    }
+    environment = environments_get(environments, block, id, read ? maps : NULL, out_us);
     assert_non_null(environment);
-    decoded_finish(&decoded);
     return environment;
 }
 

@@ -61,6 +61,11 @@ export function blankPng(width, height) {
     ]);
 }
 
+/** The same picture in another file. */
+export function withText(png, text) {
+    return Buffer.concat([png.subarray(0, -12), chunk('tEXt', Buffer.from(`Comment\0${text}`)), png.subarray(-12)]);
+}
+
 export function decodePng(bytes) {
     const parts = [];
     let header = null;
