@@ -62,9 +62,11 @@ static double difference(const struct image *a, const struct image *b)
     return sum / (double)a->bytes;
 }
 
-static void check(const char *path, int tile_side, enum quality_level level, int samples, int count)
+static void check_by(enum render_stage stage, const char *path, int tile_side,
+                     enum quality_level level, int samples, int count)
 {
     struct renderer *renderer = drawing_renderer(tile_side);
+    renderer_use_stage(renderer, stage);
     struct resident *resident = drawing_resident(renderer, path);
     struct job_desc desc = drawing_desc(WIDTH, HEIGHT);
 
@@ -92,9 +94,15 @@ static void check(const char *path, int tile_side, enum quality_level level, int
     renderer_destroy(renderer);
 }
 
+static void check(const char *path, int tile_side, enum quality_level level, int samples, int count)
+{
+    check_by(RENDER_AUTO, path, tile_side, level, samples, count);
+}
+
 static void edges_get_better(void **state)
 {
     (void)state;
+    check_by(RENDER_COMPUTE, DRAWING_RICH, 32, QUALITY_STILL, 3, 2);
     check(DRAWING_RICH, 32, QUALITY_STILL, 4, 2);
     check(DRAWING_RICH, 256, QUALITY_STILL, 4, 2);
 }

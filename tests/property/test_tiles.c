@@ -63,6 +63,36 @@ static void tiles_do_not_show(void **state)
     outputs_finish(&whole);
 }
 
+/* The engine draws the others where there is no GPU. */
+static struct image draw_by(enum render_stage stage, int tile_side)
+{
+    struct renderer *renderer = drawing_renderer(tile_side);
+    struct job_desc desc = drawing_desc(WIDTH / 2, HEIGHT / 2);
+
+    renderer_use_stage(renderer, stage);
+    struct resident *resident = drawing_resident(renderer, DRAWING_RICH);
+    struct image image = drawing_of(resident, &desc, AOV_COLOR);
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+    return image;
+}
+
+static void tiles_of_shaders_do_not_show(void **state)
+{
+    static const enum render_stage stages[] = {RENDER_COMPUTE, RENDER_FRAGMENT};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
+        struct image whole = draw_by(stages[i], 128), tiled = draw_by(stages[i], 32);
+
+        if (!drawing_is_same(&tiled, &whole)) {
+            fail_msg("%s: tiles show", render_stage_names[stages[i]]);
+        }
+        image_finish(&whole);
+        image_finish(&tiled);
+    }
+}
+
 /* --- regions --- */
 
 static void assert_is_crop(const struct image *part, const struct image *whole,
@@ -215,6 +245,7 @@ int main(void)
         /* The first, for it looks at the most memory that there ever was. */
         cmocka_unit_test(large_pictures_have_no_seams_and_take_little),
         cmocka_unit_test(tiles_do_not_show),
+        cmocka_unit_test(tiles_of_shaders_do_not_show),
         cmocka_unit_test(regions_do_not_show),
     };
     return cmocka_run_group_tests_name("tiles", tests, NULL, NULL);
