@@ -269,7 +269,6 @@ describe('ranges of rows', () => {
 });
 
 describe('focus', () => {
-    const focused = () => page.evaluate(() => document.activeElement?.dataset.node ?? '');
     const focusIs = (wanted) =>
         page.waitForFunction((one) => document.activeElement?.dataset.node === one, wanted);
 
@@ -292,11 +291,32 @@ describe('focus', () => {
         await focusIs('crate');
         await page.keyboard.press('ArrowUp');
         await selectedIs('torus-1');
-        assert.equal(await focused(), 'torus-1');
+        await focusIs('torus-1');
     });
 });
 
 describe('while the server is slow', () => {
+    test('an undo can be redone before the server has answered', async () => {
+        await open();
+        const radius = field(page, 'radius');
+        const undo = page.getByRole('button', { name: /^Undo/ });
+        const redo = page.getByRole('button', { name: /^Redo/ });
+        await row(page, 'ball').click();
+        await stopped(async () => {
+            await radius.fill('0.7');
+            await radius.press('Enter');
+            await radius.press('Control+z');
+            assert.ok(await undo.isDisabled());
+            await radius.press('Control+Shift+z');
+            assert.ok(await redo.isDisabled());
+            await radius.press('Control+z');
+            await radius.press('Control+Shift+z');
+            assert.ok(await undo.isEnabled());
+        });
+        await waitForSaved(page);
+        assert.equal(radiusOf(await now()), 0.7);
+    });
+
     test('the menu is there at once, names follow, and it is not cut off', async () => {
         await open();
         await settled(page);

@@ -19,6 +19,7 @@ import {
     type Session,
     type SessionEvent,
     type SessionMessage,
+    stepsAhead,
     takeOutbox,
     waiting,
 } from "../src/model/session.ts";
@@ -400,6 +401,37 @@ test("a cancelled gesture is forgotten, or undone where it was sent", () => {
 test("an edit before the document is refused", () => {
     const { problem } = edit(createSession(SCHEMA), [radius(1)]);
     expect(problem?.code).toBe("unavailable");
+});
+
+test("undo and redo are offered by what is on its way", () => {
+    const state = live();
+    expect(stepsAhead(state.session)).toEqual({ canUndo: false, canRedo: false });
+    state.session = edit(state.session, [radius(3)]).session;
+    expect(stepsAhead(state.session)).toEqual({ canUndo: true, canRedo: false });
+    state.session = askHistory(state.session, "undo");
+    expect(stepsAhead(state.session)).toEqual({ canUndo: false, canRedo: true });
+    state.session = askHistory(state.session, "redo");
+    expect(stepsAhead(state.session)).toEqual({ canUndo: true, canRedo: false });
+    state.session = askHistory(state.session, "undo");
+    state.session = edit(state.session, [radius(5)]).session;
+    expect(stepsAhead(state.session)).toEqual({ canUndo: true, canRedo: false });
+});
+
+test.each(["applied first", "changed first"])("an undo is counted once: %s", (order) => {
+    const state = live();
+    state.session = takeOutbox(edit(state.session, [radius(3)]).session).session;
+    state.say({ type: "applied", edit: 1, revision: 5, durable: true, undo: 1, redo: 0 });
+    state.session = takeOutbox(askHistory(state.session, "undo")).session;
+    const ops = [radius(1)];
+    const answers: readonly SessionMessage[] = [
+        { type: "applied", edit: 2, revision: 6, durable: false, undo: 0, redo: 1 },
+        { type: "changed", revision: 6, author: "me", edit: 2, ops },
+    ];
+    for (const answer of order === "applied first" ? answers : [...answers].reverse()) {
+        state.say(answer);
+        expect(stepsAhead(state.session)).toEqual({ canUndo: false, canRedo: true });
+    }
+    expect(state.session).toMatchObject({ undo: 0, redo: 1, pending: [] });
 });
 
 test("an undo tells what it left out, and a step that was left out whole is gone", () => {

@@ -458,15 +458,13 @@ class SceneLink implements Link {
             return;
         }
         const before = this.#stores.document.getState();
-        const editing = session.pending.some((entry) => entry.kind === "edit");
         const settled = session.pending.length === 0;
         this.#stores.document.setState({
             document: session.shown,
             revision: session.revision,
             waiting: sessions.waiting(session),
             saved: sessions.isSaved(session),
-            canUndo: editing || session.undo > 0,
-            canRedo: !editing && session.redo > 0,
+            ...sessions.stepsAhead(session),
             problems: dropGone(before.problems, session.shown),
             history: settled
                 ? fitHistory(before.history ?? EMPTY_HISTORY, session.undo, session.redo)

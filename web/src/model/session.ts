@@ -247,6 +247,35 @@ export function isSaved(session: Session): boolean {
     return session.pending.length === 0 && session.settling.length === 0;
 }
 
+/* Whether there will be a step to undo and one to redo when all that waits is done. */
+export function stepsAhead(session: Session): {
+    readonly canUndo: boolean;
+    readonly canRedo: boolean;
+} {
+    let { undo, redo } = session;
+    for (const { kind } of session.pending) {
+        if (kind === "edit") {
+            undo += 1;
+            redo = 0;
+        } else {
+            ({ undo, redo } = moveSteps({ undo, redo }, kind));
+        }
+    }
+    return { canUndo: undo > 0, canRedo: redo > 0 };
+}
+
+interface Steps {
+    readonly undo: number;
+    readonly redo: number;
+}
+
+/* One step goes from one list to the other, if there is one. */
+function moveSteps({ undo, redo }: Steps, kind: "undo" | "redo"): Steps {
+    const moved = Math.min(1, kind === "undo" ? undo : redo);
+    const step = kind === "undo" ? -moved : moved;
+    return { undo: undo + step, redo: redo - step };
+}
+
 /* --- the server's --- */
 
 function welcome(session: Session, message: Extract<SessionMessage, { type: "welcome" }>): Outcome {
@@ -326,7 +355,8 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
     }
     if (message.revision > session.revision) {
         if (entry.kind !== "edit") {
-            return { session: next, events: told }; /* its `changed` is still to come */
+            const { undo, redo } = session; /* its `changed` is still to come, and counts */
+            return { session: { ...next, undo, redo }, events: told };
         }
         const advanced = advance(next, message.revision, entry.ops);
         if (!advanced) {
@@ -341,9 +371,7 @@ function applied(session: Session, message: Extract<SessionMessage, { type: "app
 
 /* Until the server tells the counts itself. */
 function countHistory(session: Session, kind: PendingEdit["kind"]): Session {
-    const step = kind === "undo" ? -1 : kind === "redo" ? 1 : 0;
-    const { undo, redo } = session;
-    return { ...session, undo: Math.max(0, undo + step), redo: Math.max(0, redo - step) };
+    return kind === "edit" ? session : { ...session, ...moveSteps(session, kind) };
 }
 
 function changed(session: Session, message: Extract<SessionMessage, { type: "changed" }>): Outcome {
