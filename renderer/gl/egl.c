@@ -144,10 +144,8 @@ static bool make_draw_context(struct egl *egl, struct error *err)
     }
     if (egl->draw == EGL_NO_CONTEXT) {
         return error_set(err, ERROR_UNAVAILABLE, "",
-                         "no OpenGL %d.%d core context (%s); fieldcast needs a driver with "
-                         "OpenGL %d.%d or newer",
-                         GL_MAJOR_NEEDED, GL_MINOR_NEEDED, egl_error_name(eglGetError()),
-                         GL_MAJOR_NEEDED, GL_MINOR_NEEDED);
+                         "no OpenGL %d.%d core context (%s), which fieldcast needs",
+                         GL_MAJOR_NEEDED, GL_MINOR_NEEDED, egl_error_name(eglGetError()));
     }
     return true;
 }
@@ -319,7 +317,7 @@ static bool refuse(const struct device_params *params, const struct device_repor
     error_set(err, ERROR_UNAVAILABLE, "", "%sno device serves:", asked);
     for (size_t i = 0; err && i < count; i++) {
         length = strlen(err->message);
-        snprintf(err->message + length, sizeof err->message - length, "%s %s %.90s", i ? ";" : "",
+        snprintf(err->message + length, sizeof err->message - length, "%s %s: %.90s", i ? ";" : "",
                  rows[i].name, rows[i].verdict);
     }
     return false;

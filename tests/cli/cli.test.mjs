@@ -537,6 +537,16 @@ test('without a graphics device the engine draws, unless one is asked for', () =
     assert.match(shaders.err, /shaders need a device, and none is to be opened/);
 });
 
+test('where OpenGL is too old the engine draws, and the reason is told whole', () => {
+    const args = ['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL];
+    const drawn = succeed([...args, '--device', 'none'], { binary: true }).out;
+    const env = { MESA_GL_VERSION_OVERRIDE: '3.3', MESA_GLSL_VERSION_OVERRIDE: '330' };
+    const old = succeed(args, { binary: true, env });
+    assert.ok(old.out.equals(drawn));
+    assert.match(old.err, /no device.*: no OpenGL 4\.3 core context \(\w+\), which fieldcast needs\n/);
+    assert.equal(run([...args, '--stage', 'fragment'], { env }).status, 1);
+});
+
 test('serve refuses a token file that is none', () => {
     const short = run(['serve', '--port', '0', '--data', 'data', '--token-file', write('token', 'short\n')]);
     assert.equal(short.status, 2);
