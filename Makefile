@@ -208,7 +208,11 @@ programs: $(OUT)/fieldcast $(OUT)/fieldcast-algebra $(test_programs) $(preloaded
 
 $(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 	$(call say,LD,$@)
-	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka -lturbojpeg $(packages_libs)
+	$(Q)$(link) -o $@ $(filter %.o %.a,$^) -lcmocka -lturbojpeg $(tested_libs) $(packages_libs)
+
+# The one test of FLINT's side.
+$(OUT)/tests/unit/test_groebner: tested_libs := -lflint -lgmp
+$(OUT)/tests/unit/test_groebner: $(filter-out %/main.o,$(call object,$(algebra)))
 
 # Loaded in front of everything else, so without the sanitizers' own libraries.
 $(preloaded): $(OUT)/%.so: $(S)/%.c

@@ -122,6 +122,9 @@ struct equation *equation_read(const char *text, const char *const *letters,
 /* One expression in letters alone, without x, y, z and without a relation: it is `left`. */
 struct equation *equation_read_expression(const char *text, const char *const *letters,
                                           struct equation_errors *out_errors);
+/* The same, with a relation or without one. */
+struct equation *equation_read_relation(const char *text, const char *const *letters,
+                                        struct equation_errors *out_errors);
 /* Canonical text; reading it gives the same text again. The caller frees it. */
 char *equation_print(const struct equation *equation, const char *const *letters);
 /* How many arguments a node has. */

@@ -29,7 +29,8 @@ struct reader {
     int definition_count, depth;
     bool ended;   /* what follows cannot be read */
     bool in_bars; /* between | and | */
-    bool plain;   /* an expression in letters alone: x, y and z are no names */
+    bool plain;   /* letters alone: x, y and z are no names */
+    bool relates; /* a relation may stand in it */
 };
 
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -609,8 +610,8 @@ static void check_end(struct reader *r)
     }
     if (strchr("<>=", *r->at)) {
         note(r, r->at,
-             r->plain ? "a relation; an expression has none"
-                      : "a second relation; an equation has one");
+             r->relates ? "a second relation; an equation has one"
+                        : "a relation; an expression has none");
     } else if (*r->at == ')') {
         note(r, r->at, "nothing is open that \")\" could close");
     } else {
@@ -639,7 +640,7 @@ static void check_finite(struct reader *r)
 }
 
 static struct equation *read_text(const char *text, const char *const *letters, bool plain,
-                                  struct equation_errors *out_errors)
+                                  bool relates, struct equation_errors *out_errors)
 {
     struct equation *equation = memory_alloc(1, sizeof *equation);
     struct reader r = {.text = text,
@@ -647,14 +648,15 @@ static struct equation *read_text(const char *text, const char *const *letters, 
                        .letters = letters,
                        .equation = equation,
                        .errors = out_errors,
-                       .plain = plain};
+                       .plain = plain,
+                       .relates = relates};
     out_errors->count = 0;
     while (!r.ended && read_definition(&r)) {
     }
     if (!r.ended) {
         equation->left = read_expression(&r);
     }
-    if (!r.ended && !plain) {
+    if (!r.ended && relates) {
         read_relation(&r);
     }
     check_end(&r);
@@ -672,11 +674,17 @@ static struct equation *read_text(const char *text, const char *const *letters, 
 struct equation *equation_read(const char *text, const char *const *letters,
                                struct equation_errors *out_errors)
 {
-    return read_text(text, letters, false, out_errors);
+    return read_text(text, letters, false, true, out_errors);
 }
 
 struct equation *equation_read_expression(const char *text, const char *const *letters,
                                           struct equation_errors *out_errors)
 {
-    return read_text(text, letters, true, out_errors);
+    return read_text(text, letters, true, false, out_errors);
+}
+
+struct equation *equation_read_relation(const char *text, const char *const *letters,
+                                        struct equation_errors *out_errors)
+{
+    return read_text(text, letters, true, true, out_errors);
 }

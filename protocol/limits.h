@@ -66,6 +66,9 @@
     X(COEFFICIENT_BITS, "coefficient_bits", 4096, "bits", "a coefficient of such polynomials")     \
     X(ALGEBRA_SECONDS, "algebra_seconds", 30, "seconds", "finding or proving an equation")         \
     X(ALGEBRA_BYTES, "algebra_bytes", 1073741824, "bytes", "memory of the same")                   \
+    X(GROEBNER_LETTERS, "groebner_letters", 10, "letters", "the ring of an ideal")                 \
+    X(GROEBNER_GENERATORS, "groebner_generators", 64, "polynomials", "an ideal")                   \
+    X(GROEBNER_KEPT, "groebner_kept", 16, "bases", "those that are made, or were and may be read") \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

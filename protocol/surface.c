@@ -11,6 +11,12 @@ const char *const surface_verdicts[] = {[SURFACE_VERIFIED] = "verified",
                                         [SURFACE_DOES_NOT_FIT] = "does not fit",
                                         [SURFACE_NOT_CHECKED] = "not checked"};
 
+const char *const surface_methods[] = {[SURFACE_BY_NULLSPACE] = "nullspace",
+                                       [SURFACE_BY_RESULTANT] = "resultant",
+                                       [SURFACE_BY_GROEBNER] = "groebner",
+                                       [SURFACE_BY_SATURATION] = "saturation",
+                                       [SURFACE_METHODS] = NULL};
+
 static bool read_part(const char **out, const cJSON *json, int member, const char *place,
                       struct error *err)
 {

@@ -20,6 +20,16 @@ extern const char *const surface_names[SURFACE_MEMBERS + 1];
 enum surface_verdict { SURFACE_VERIFIED, SURFACE_DOES_NOT_FIT, SURFACE_NOT_CHECKED };
 extern const char *const surface_verdicts[];
 
+/* How an equation is found. */
+enum surface_method {
+    SURFACE_BY_NULLSPACE,
+    SURFACE_BY_RESULTANT,
+    SURFACE_BY_GROEBNER,
+    SURFACE_BY_SATURATION,
+    SURFACE_METHODS,
+};
+extern const char *const surface_methods[]; /* NULL at the end */
+
 struct surface {
     const char *parts[SURFACE_PARTS]; /* they stay in the JSON; all NULL: there is none */
     struct surface_range {

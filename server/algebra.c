@@ -22,8 +22,15 @@ enum { NICE = 10 };
 struct algebra {
     struct tasks *tasks;
     pthread_mutex_t lock;
-    pid_t child; /* 0: none */
+    pid_t child;       /* 0: none */
+    const void *owner; /* of the child */
     bool stopped;
+};
+
+struct question {
+    char **argv;                                /* the first is left free for the path */
+    void (*tell)(void *data, const char *line); /* NULL: the answer is all that is printed */
+    void *data;
 };
 
 /* --- the process --- */
@@ -52,7 +59,7 @@ static void become(char *const argv[], int output)
 }
 
 /* The end of a pipe that its output comes from; -1: it did not start. */
-static int start(struct algebra *algebra, char *const argv[])
+static int start(struct algebra *algebra, const struct question *question)
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
@@ -61,9 +68,10 @@ static int start(struct algebra *algebra, char *const argv[])
     pthread_mutex_lock(&algebra->lock);
     const pid_t child = algebra->stopped ? -1 : fork();
     if (child == 0) {
-        become(argv, ends[1]);
+        become(question->argv, ends[1]);
     }
     algebra->child = child > 0 ? child : 0;
+    algebra->owner = question->data;
     pthread_mutex_unlock(&algebra->lock);
     close(ends[1]);
     if (child < 0) {
@@ -73,17 +81,24 @@ static int start(struct algebra *algebra, char *const argv[])
     return ends[0];
 }
 
-static char *read_all(int file, size_t *out_length)
+/* The last line, which is the answer; the lines in front of it are told. NULL: nothing came. */
+static char *read_answer(int file, const struct question *question)
 {
-    char *text = NULL, block[16384];
-    FILE *out = open_memstream(&text, out_length);
-    ssize_t count;
-    while ((count = read(file, block, sizeof block)) > 0 || (count < 0 && errno == EINTR)) {
-        fwrite(block, 1, count > 0 ? (size_t)count : 0, out);
+    char *line = NULL, *last = NULL;
+    size_t room = 0;
+    FILE *in = fdopen(file, "r");
+    while (getline(&line, &room, in) > 0) {
+        if (last && question->tell) {
+            question->tell(question->data, last);
+        }
+        free(last);
+        last = line;
+        line = NULL;
+        room = 0;
     }
-    fclose(out);
-    close(file);
-    return text;
+    free(line);
+    fclose(in);
+    return last;
 }
 
 /* Its status. The number of the process stays its own until nobody can end it by that any more. */
@@ -96,6 +111,7 @@ static int wait_for(struct algebra *algebra)
     pthread_mutex_lock(&algebra->lock);
     waitpid(algebra->child, &status, 0);
     algebra->child = 0;
+    algebra->owner = NULL;
     pthread_mutex_unlock(&algebra->lock);
     return status;
 }
@@ -143,8 +159,8 @@ static bool check_answer(const cJSON *answer, struct error *err)
                         text_of(told, "message"));
 }
 
-/* Its answer to these arguments, the first of which is left free for its path. */
-static bool ask(struct algebra *algebra, char **argv, cJSON **out, struct error *err)
+static bool ask(struct algebra *algebra, const struct question *question, cJSON **out,
+                struct error *err)
 {
     char path[PATH_MAX];
     const ssize_t end = readlink("/proc/self/exe", path, sizeof path - sizeof "-algebra");
@@ -152,16 +168,14 @@ static bool ask(struct algebra *algebra, char **argv, cJSON **out, struct error 
         return error_set(err, ERROR_INTERNAL, "", "/proc/self/exe: %s", strerror(errno));
     }
     memcpy(path + end, "-algebra", sizeof "-algebra");
-    argv[0] = path;
-    const int output = start(algebra, argv);
+    question->argv[0] = path;
+    const int output = start(algebra, question);
     if (output < 0) {
         return error_set(err, ERROR_UNAVAILABLE, "", "fieldcast-algebra cannot be started");
     }
-    size_t length = 0;
-    char *text = read_all(output, &length);
+    char *text = read_answer(output, question);
     const int status = wait_for(algebra);
-    *out =
-        WIFEXITED(status) && WEXITSTATUS(status) == 0 ? cJSON_ParseWithLength(text, length) : NULL;
+    *out = text && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? cJSON_Parse(text) : NULL;
     free(text);
     if (!*out) {
         return explain(status, err);
@@ -173,12 +187,17 @@ static bool ask(struct algebra *algebra, char **argv, cJSON **out, struct error 
     return *out != NULL;
 }
 
-bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
-                         struct error *err)
+bool algebra_implicitize(struct algebra *algebra, enum surface_method method,
+                         const char *const texts[3], cJSON **out, struct error *err)
 {
-    char *argv[] = {NULL, "implicitize", (char *)texts[0], (char *)texts[1], (char *)texts[2],
+    char *argv[] = {NULL,
+                    "implicitize",
+                    (char *)surface_methods[method],
+                    (char *)texts[0],
+                    (char *)texts[1],
+                    (char *)texts[2],
                     NULL};
-    return ask(algebra, argv, out, err);
+    return ask(algebra, &(struct question){.argv = argv}, out, err);
 }
 
 static char *print_params(const struct record *params)
@@ -208,7 +227,7 @@ bool algebra_verify(struct algebra *algebra, const struct record *params, struct
     char *text = print_params(params);
     char *argv[] = {NULL, "verify", text, NULL};
     cJSON *answer;
-    bool ok = ask(algebra, argv, &answer, err);
+    bool ok = ask(algebra, &(struct question){.argv = argv}, &answer, err);
     free(text);
     if (ok) {
         read_proof(answer, out);
@@ -219,6 +238,27 @@ bool algebra_verify(struct algebra *algebra, const struct record *params, struct
         ok = true;
     }
     return ok;
+}
+
+bool algebra_groebner(struct algebra *algebra, const struct record *asked,
+                      void (*tell)(void *data, const char *line), void *data, cJSON **out,
+                      struct error *err)
+{
+    char *text = print_params(asked);
+    char *argv[] = {NULL, "groebner", text, NULL};
+    const bool ok =
+        ask(algebra, &(struct question){.argv = argv, .tell = tell, .data = data}, out, err);
+    free(text);
+    return ok;
+}
+
+void algebra_cancel(struct algebra *algebra, const void *data)
+{
+    pthread_mutex_lock(&algebra->lock);
+    if (algebra->child && algebra->owner == data) {
+        kill(algebra->child, SIGKILL);
+    }
+    pthread_mutex_unlock(&algebra->lock);
 }
 
 /* --- its life --- */

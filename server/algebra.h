@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The program fieldcast-algebra, which lies beside this one: it finds and proves equations of
- * parametric surfaces in a process of its own, with bounds of processor time and memory
- * (algebra_seconds, algebra_bytes). */
+ * parametric surfaces and makes Groebner bases, in a process of its own, with bounds of processor
+ * time and memory (algebra_seconds, algebra_bytes). */
 #ifndef SERVER_ALGEBRA_H
 #define SERVER_ALGEBRA_H
 
@@ -16,8 +16,15 @@ struct algebra;
 struct algebra *algebra_create(struct error *err);
 /* Waits for the process. The caller deletes *out: its answer as main.c of renderer/algebra has it.
  * The place of an error is "x", "y", "z" or "". Any thread, one at a time. */
-bool algebra_implicitize(struct algebra *algebra, const char *const texts[3], cJSON **out,
-                         struct error *err);
+bool algebra_implicitize(struct algebra *algebra, enum surface_method method,
+                         const char *const texts[3], cJSON **out, struct error *err);
+/* The same for a question of ideal_type. `tell` gets the line of each step, in the caller's thread;
+ * algebra_cancel with the same `data` ends the process. */
+bool algebra_groebner(struct algebra *algebra, const struct record *asked,
+                      void (*tell)(void *data, const char *line), void *data, cJSON **out,
+                      struct error *err);
+/* Any thread. Does nothing where no process runs for `data`. */
+void algebra_cancel(struct algebra *algebra, const void *data);
 
 struct algebra_proof {
     enum surface_verdict verdict;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* fieldcast-algebra implicitize X Y Z: the equation of a parametric surface and its certificate as
- * JSON, or {"error": {kind, place, line, column, message}}.
+/* fieldcast-algebra implicitize METHOD X Y Z: the equation of a parametric surface and its
+ * certificate as JSON, or {"error": {kind, place, line, column, message}}.
  * fieldcast-algebra verify PARAMS: {"verdict", "reason"} of the parameters of an `implicit`, which
- * are JSON. A program of its own: FLINT ends the process
- * when memory is short, and no other program links it. server/algebra.h starts it, within limits.
- */
+ * are JSON.
+ * fieldcast-algebra groebner ASKED: a line of JSON for each step, then the basis (workbench.h).
+ * A program of its own: FLINT ends the process when memory is short, and no other program links it.
+ * server/algebra.h starts it, within limits. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -12,28 +13,64 @@
 #include "certificate.h"
 #include "coefficients.h"
 #include "degree.h"
+#include "eliminate.h"
 #include "protocol/equation.h"
 #include "protocol/json.h"
 #include "protocol/nodes.h"
 #include "verify.h"
+#include "workbench.h"
 
 struct result {
+    const char *method; /* of surface_methods */
     struct patch_degrees degrees;
     fmpz_mpoly_ctx_t space;
     fmpz_mpoly_t equation;
-    int primes;
+    int primes;                    /* of the null space; else 0 */
+    struct groebner_counts counts; /* of a basis */
     bool irreducible;
 };
+
+static bool find(const struct patch *patch, flint_rand_t random, struct result *out,
+                 struct error *err)
+{
+    if (strcmp(out->method, surface_methods[SURFACE_BY_GROEBNER]) == 0) {
+        return eliminate_homogeneous(patch, out->equation, out->space, &out->counts, err);
+    }
+    if (strcmp(out->method, surface_methods[SURFACE_BY_SATURATION]) == 0) {
+        return eliminate_saturated(patch, out->equation, out->space, &out->counts, err);
+    }
+    if (strcmp(out->method, surface_methods[SURFACE_BY_RESULTANT]) == 0) {
+        return eliminate_resultant(patch, out->equation, out->space, err);
+    }
+    return patch_find_equation(patch, out->degrees.surface, random, out->equation, out->space,
+                               &out->primes, err);
+}
+
+/* Primitive, its first coefficient positive: the same by each method. */
+static void normalize(struct result *out)
+{
+    if (!fmpz_mpoly_is_zero(out->equation, out->space)) {
+        fmpz_t divisor;
+        fmpz_init(divisor);
+        _fmpz_vec_content(divisor, out->equation->coeffs, out->equation->length);
+        if (fmpz_sgn(out->equation->coeffs) < 0) {
+            fmpz_neg(divisor, divisor);
+        }
+        fmpz_mpoly_scalar_divexact_fmpz(out->equation, out->equation, divisor, out->space);
+        fmpz_clear(divisor);
+    }
+}
 
 static bool implicitize(const struct patch *patch, struct result *out, struct error *err)
 {
     flint_rand_t random;
     flint_randinit(random);
-    bool ok = patch_find_degrees(patch, random, &out->degrees, err) &&
-              patch_find_equation(patch, out->degrees.surface, random, out->equation, out->space,
-                                  &out->primes, err);
+    bool ok =
+        patch_find_degrees(patch, random, &out->degrees, err) && find(patch, random, out, err);
     flint_randclear(random);
-    if (ok && !certificate_is_zero(patch, out->equation, out->space)) {
+    normalize(out);
+    if (ok && (fmpz_mpoly_total_degree_si(out->equation, out->space) != out->degrees.surface ||
+               !certificate_is_zero(patch, out->equation, out->space))) {
         ok = error_set(err, ERROR_INTERNAL, "", "the equation that was found is not exact");
     }
     out->irreducible = ok && certificate_is_irreducible(out->equation, out->space);
@@ -56,7 +93,7 @@ static cJSON *certificate(const struct result *result, const struct patch *patch
 {
     const double seconds = (double)clock() / CLOCKS_PER_SEC;
     cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "method", "nullspace");
+    cJSON_AddStringToObject(json, "method", result->method);
     cJSON_AddItemToObject(json, "parametric", cJSON_CreateStringArray(texts, 3));
     cJSON_AddItemToObject(json, "letters", letters(patch));
     cJSON_AddNumberToObject(json, "degree", (double)result->degrees.surface);
@@ -69,7 +106,12 @@ static cJSON *certificate(const struct result *result, const struct patch *patch
     cJSON_AddNumberToObject(json, "rank", 2);
     cJSON_AddStringToObject(json, "identity", "exact");
     cJSON_AddBoolToObject(json, "irreducible", result->irreducible);
-    cJSON_AddNumberToObject(json, "primes", result->primes);
+    if (result->primes) {
+        cJSON_AddNumberToObject(json, "primes", result->primes);
+    }
+    if (result->counts.pairs) {
+        cJSON_AddItemToObject(json, "pairs", workbench_counts(&result->counts));
+    }
     cJSON_AddNumberToObject(json, "cpu_ms", (double)(long)(seconds * 1000));
     cJSON_AddStringToObject(json, "library", "flint " FLINT_VERSION);
     return json;
@@ -115,11 +157,11 @@ static cJSON *answer_error(const struct error *err)
     return json;
 }
 
-static cJSON *find_equation(const char *const texts[3])
+static cJSON *find_equation(const char *method, const char *const texts[3])
 {
     struct error err = {0};
     struct patch patch;
-    struct result result = {0};
+    struct result result = {.method = method};
     if (!patch_read(&patch, texts, &err)) {
         return answer_error(&err);
     }
@@ -168,15 +210,35 @@ static cJSON *verify_params(const char *text)
     return answer;
 }
 
+/* --- bases --- */
+
+static cJSON *find_basis(const char *text)
+{
+    struct error err = {0};
+    struct record asked;
+    cJSON *json = json_parse(text, strlen(text), &err), *answer = NULL;
+    record_init(&asked, &ideal_type);
+    if (json && record_read(&asked, json, "", &err)) {
+        answer = workbench_basis(&asked, stdout, &err);
+    }
+    record_finish(&asked);
+    cJSON_Delete(json);
+    return answer ? answer : answer_error(&err);
+}
+
 int main(int argc, char **argv)
 {
     cJSON *json;
-    if (argc == 5 && strcmp(argv[1], "implicitize") == 0) {
-        json = find_equation((const char *const[]){argv[2], argv[3], argv[4]});
+    if (argc == 6 && strcmp(argv[1], "implicitize") == 0) {
+        json = find_equation(argv[2], (const char *const[]){argv[3], argv[4], argv[5]});
     } else if (argc == 3 && strcmp(argv[1], "verify") == 0) {
         json = verify_params(argv[2]);
+    } else if (argc == 3 && strcmp(argv[1], "groebner") == 0) {
+        json = find_basis(argv[2]);
     } else {
-        fputs("usage: fieldcast-algebra implicitize X Y Z | verify PARAMS\n", stderr);
+        fputs(
+            "usage: fieldcast-algebra implicitize METHOD X Y Z | verify PARAMS | groebner ASKED\n",
+            stderr);
         return 2;
     }
     char *text = json_print(json, false);

@@ -15,6 +15,7 @@ enum command_id {
     COMMAND_SHADER,
     COMMAND_IMPORT,
     COMMAND_IMPLICITIZE,
+    COMMAND_GROEBNER,
     COMMAND_SCHEMA,
     COMMAND_DOCTOR,
     COMMAND_BENCH,
@@ -47,6 +48,7 @@ int command_check(const struct options *options);
 int command_shader(const struct options *options);
 int command_import(const struct options *options);
 int command_implicitize(const struct options *options);
+int command_groebner(const struct options *options);
 int command_schema(const struct options *options);
 int command_doctor(const struct options *options);
 int command_bench(const struct options *options);

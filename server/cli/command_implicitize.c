@@ -6,14 +6,14 @@
 #include "protocol/json.h"
 #include "server/algebra.h"
 
-static bool implicitize(const char *const texts[3], struct error *err)
+static bool implicitize(enum surface_method method, const char *const texts[3], struct error *err)
 {
     cJSON *answer = NULL;
     struct algebra *algebra = algebra_create(err);
     if (!algebra) {
         return false;
     }
-    const bool ok = algebra_implicitize(algebra, texts, &answer, err);
+    const bool ok = algebra_implicitize(algebra, method, texts, &answer, err);
     algebra_stop(algebra);
     algebra_destroy(algebra);
     if (ok) {
@@ -33,7 +33,9 @@ int command_implicitize(const struct options *options)
         return EXIT_USAGE;
     }
     const char *const texts[] = {options->operands[0], options->operands[1], options->operands[2]};
-    if (!implicitize(texts, &err)) {
+    const enum surface_method method =
+        (enum surface_method)options->values[OPTION_METHOD].number[0];
+    if (!implicitize(method, texts, &err)) {
         error_print(&err, stderr);
         return EXIT_FAILED;
     }

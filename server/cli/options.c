@@ -11,7 +11,9 @@
 #include "bench.h"
 #include "command.h"
 #include "protocol/codec.h"
+#include "protocol/ideal.h"
 #include "protocol/memory.h"
+#include "protocol/surface.h"
 #include "renderer/renderer.h"
 #include "renderer/worker.h"
 
@@ -62,14 +64,40 @@ static const char *log_level_choice(size_t index)
     return word_of(words, 4, index);
 }
 
-static const char *camera_choice(size_t index)
+/* Of a member of a record. */
+static const char *choice_of(const struct record_type *type, const char *member, size_t index)
 {
-    const int type = record_type_find(&camera_type, "type");
+    const struct param *param = &type->params[record_type_find(type, member)];
     size_t count = 0;
-    while (camera_type.params[type].choices[count]) {
+    while (param->choices[count]) {
         count++;
     }
-    return word_of(camera_type.params[type].choices, count, index);
+    return word_of(param->choices, count, index);
+}
+
+static const char *camera_choice(size_t index)
+{
+    return choice_of(&camera_type, "type", index);
+}
+
+static const char *order_choice(size_t index)
+{
+    return choice_of(&ideal_type, "order", index);
+}
+
+static const char *strategy_choice(size_t index)
+{
+    return choice_of(&ideal_type, "strategy", index);
+}
+
+static const char *criteria_choice(size_t index)
+{
+    return choice_of(&ideal_type, "criteria", index);
+}
+
+static const char *method_choice(size_t index)
+{
+    return word_of(surface_methods, SURFACE_METHODS, index);
 }
 
 #define COORDINATE .min = -LIMIT_COORDINATE, .max = LIMIT_COORDINATE
@@ -208,6 +236,34 @@ static const struct option_row table[OPTION_COUNT] = {
     [OPTION_CAMERA_FOCUS] = {"camera-focus", 0, "LENGTH", OPTION_NUMBER, COORDINATE,
         .commands = FOR(RENDER),
         .doc = "Distance that is in focus; 0: the target's."},
+    [OPTION_METHOD] = {"method", 0, "WORD", OPTION_CHOICE, .choice = method_choice,
+        .fallback = "nullspace", .commands = FOR(IMPLICITIZE),
+        .doc = "By linear algebra, by resultants, or by a Groebner basis: of the graded ideal, or "
+               "of the one with a letter that stands for 1 / denominator."},
+    [OPTION_LETTERS] = {"letters", 0, "NAMES", OPTION_TEXT, .commands = FOR(GROEBNER),
+        .doc = "The variables, the greatest first, with spaces between them; by default in the "
+               "order of the alphabet, with x, y and z last."},
+    [OPTION_ORDER] = {"order", 0, "WORD", OPTION_CHOICE, .choice = order_choice,
+        .commands = FOR(GROEBNER),
+        .doc = "How monomials are compared; by default grevlex."},
+    [OPTION_WEIGHTS] = {"weights", 0, "NUMBERS", OPTION_TEXT, .commands = FOR(GROEBNER),
+        .doc = "A whole number for each letter, the sums of which are compared first."},
+    [OPTION_ELIMINATE] = {"eliminate", 0, "N", OPTION_INT, .min = 0,
+        .max = LIMIT_GROEBNER_LETTERS, .commands = FOR(GROEBNER),
+        .doc = "The first N letters are to be eliminated."},
+    [OPTION_PRIME] = {"prime", 0, "P", OPTION_INT, .min = 0, .max = 2147483647,
+        .commands = FOR(GROEBNER),
+        .doc = "Coefficients modulo this prime; by default rational numbers."},
+    [OPTION_STRATEGY] = {"strategy", 0, "WORD", OPTION_CHOICE, .choice = strategy_choice,
+        .commands = FOR(GROEBNER),
+        .doc = "Which pair comes next; by default the least common multiple."},
+    [OPTION_CRITERIA] = {"criteria", 0, "WORD", OPTION_CHOICE, .choice = criteria_choice,
+        .commands = FOR(GROEBNER),
+        .doc = "Which pairs are left out; by default those of both criteria."},
+    [OPTION_DIVIDE] = {"divide", 0, "POLYNOMIAL", OPTION_TEXT, .commands = FOR(GROEBNER),
+        .doc = "Divide it by the basis, with quotients."},
+    [OPTION_STEPS] = {"steps", 0, NULL, OPTION_FLAG, .commands = FOR(GROEBNER),
+        .doc = "Print each step on stderr, as JSON."},
     [OPTION_ROUNDS] = {"rounds", 0, "N", OPTION_INT, .fallback = "5", .min = 1, .max = 1000,
         .commands = FOR(BENCH),
         .doc = "How often each thing is measured; the median counts."},

@@ -43,6 +43,7 @@ struct hub {
     struct picker *picker;
     struct tasks *tasks;
     struct algebra *algebra; /* finds equations */
+    struct bases *bases;     /* that it makes */
     struct ws *ws;           /* set before its thread starts */
     const char *web_dir;
     bool code_refused;            /* users' code is neither accepted nor compiled */

@@ -25,6 +25,7 @@
 #include "room_sync.h"
 #include "scene_error.h"
 #include "server/algebra.h"
+#include "server/bases.h"
 #include "server/clock.h"
 #include "server/log.h"
 #include "session.h"
@@ -310,6 +311,7 @@ struct hub *hub_create(const struct hub_params *params, struct error *err)
         hub_destroy(hub);
         return NULL;
     }
+    hub->bases = bases_create(hub->algebra);
     metric_set(&hub->metrics, METRIC_SCENES, (int64_t)hub->catalog->count);
     /* Its thread calls into the hub at once, and finds the pointer only under the lock. */
     hub_lock(hub);
@@ -363,6 +365,7 @@ void hub_destroy(struct hub *hub)
     hub_stop(hub);
     tasks_destroy(hub->tasks);
     algebra_destroy(hub->algebra);
+    bases_destroy(hub->bases);
     picker_destroy(hub->picker);
     supervisor_destroy(hub->supervisor);
     store_close(hub->store);

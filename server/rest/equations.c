@@ -14,8 +14,9 @@ struct question {
     struct request *request;
     bool (*ask)(struct algebra *algebra, const struct question *question, cJSON **out,
                 struct error *err);
-    char *texts[SURFACE_PARTS]; /* of implicitize */
-    struct record params;       /* of verify */
+    char *texts[SURFACE_PARTS]; /* of implicitize, as the method */
+    enum surface_method method;
+    struct record params; /* of verify */
 };
 
 static void question_destroy(struct question *question)
@@ -75,14 +76,20 @@ static void wait_in_turn(struct request *request, struct question question,
 static bool ask_equation(struct algebra *algebra, const struct question *question, cJSON **out,
                          struct error *err)
 {
-    return algebra_implicitize(algebra, (const char *const *)question->texts, out, err);
+    return algebra_implicitize(algebra, question->method, (const char *const *)question->texts, out,
+                               err);
 }
 
 static bool read_parts(struct question *out, const cJSON *json, struct error *err)
 {
-    static const char *const parts[] = {"x", "y", "z", NULL};
-    const cJSON *found[SURFACE_PARTS] = {NULL};
-    bool ok = json_sort_members(json, parts, found, "", err);
+    static const char *const parts[] = {"x", "y", "z", "method", NULL};
+    static const struct param method = {"method", PARAM_ENUM, .choices = surface_methods};
+    const cJSON *found[SURFACE_PARTS + 1] = {NULL};
+    double number[4] = {SURFACE_BY_NULLSPACE};
+    bool ok = json_sort_members(json, parts, found, "", err) &&
+              (!found[SURFACE_PARTS] ||
+               param_read(&method, found[SURFACE_PARTS], number, "/method", err));
+    out->method = (enum surface_method)number[0];
     for (int i = 0; ok && i < SURFACE_PARTS; i++) {
         const char *text;
         ok = json_read_text(found[i], &text, "", parts[i], err);

@@ -2,8 +2,8 @@
 // Finding an equation takes a process of its own: nobody else waits for it, and it ends with the
 // server. No clock decides.
 import assert from 'node:assert/strict';
-import fs from 'node:fs';
 import { test } from 'node:test';
+import { algebraOf, isAlgebra } from '../support/algebra.mjs';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
 
 // Degree 18 with coefficients of some thousand bits: longer than all that this file does meanwhile.
@@ -14,20 +14,6 @@ const slow = {
     z: `s^3*t^3-${long(5)}t^3+s^2+${long(6)}s*t^2`,
 };
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
-
-const isAlgebra = (pid) => {
-    try {
-        return fs.readFileSync(`/proc/${pid}/cmdline`, 'utf8').split('\0')[0].endsWith('fieldcast-algebra');
-    } catch {
-        return false;
-    }
-};
-
-function algebraOf(daemon) {
-    const threads = fs.readdirSync(`/proc/${daemon.pid}/task`);
-    const children = threads.flatMap((id) => fs.readFileSync(`/proc/${daemon.pid}/task/${id}/children`, 'utf8').split(' '));
-    return children.filter((pid) => pid && isAlgebra(pid));
-}
 
 test('others are answered while an equation is sought, and it ends with the server', async () => {
     const daemon = await startDaemon({ driver: 'null' });

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* fieldcast groebner: a basis of an ideal of polynomials. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "protocol/ideal.h"
+#include "protocol/json.h"
+#include "server/algebra.h"
+
+/* Each polynomial is a line. */
+static void set_generators(struct record *asked, const struct options *options)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    for (int i = 0; i < options->operand_count; i++) {
+        fprintf(out, "%s\n", options->operands[i]);
+    }
+    fclose(out);
+    record_put_text(asked, "generators", text);
+    free(text);
+}
+
+/* Options have the names of the members. */
+static void set_members(struct record *asked, const struct options *options)
+{
+    for (int i = OPTION_LETTERS; i <= OPTION_DIVIDE; i++) {
+        const struct option_value *value = &options->values[i];
+        const char *name = option_row((enum option)i)->name;
+        if (value->source == SOURCE_NONE) {
+            continue;
+        }
+        if (option_row((enum option)i)->type == OPTION_TEXT) {
+            record_put_text(asked, name, value->text);
+        } else {
+            record_put(asked, name, value->number[0]);
+        }
+    }
+}
+
+static void print_step(void *data, const char *line)
+{
+    if (data) {
+        fputs(line, stderr);
+    }
+}
+
+static bool make_basis(const struct record *asked, const struct options *options, struct error *err)
+{
+    cJSON *answer = NULL;
+    struct algebra *algebra = algebra_create(err);
+    if (!algebra) {
+        return false;
+    }
+    void *steps = options->values[OPTION_STEPS].number[0] ? algebra : NULL;
+    const bool ok = algebra_groebner(algebra, asked, print_step, steps, &answer, err);
+    algebra_stop(algebra);
+    algebra_destroy(algebra);
+    if (ok) {
+        char *text = json_print(answer, true);
+        puts(text);
+        free(text);
+        cJSON_Delete(answer);
+    }
+    return ok;
+}
+
+int command_groebner(const struct options *options)
+{
+    struct error err = {0};
+    struct record asked;
+    if (options->operand_count == 0) {
+        fputs("fieldcast: groebner takes polynomials\n", stderr);
+        return EXIT_USAGE;
+    }
+    record_init(&asked, &ideal_type);
+    set_generators(&asked, options);
+    set_members(&asked, options);
+    const bool ok = make_basis(&asked, options, &err);
+    record_finish(&asked);
+    if (!ok) {
+        error_print(&err, stderr);
+    }
+    return ok ? EXIT_OK : EXIT_FAILED;
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// fieldcast groebner: bases from the command line, their steps, what is refused, and where.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { test } from 'node:test';
+
+const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
+
+function run(...args) {
+    const { status, stdout, stderr } = spawnSync(program, ['groebner', ...args], { encoding: 'utf8' });
+    return { status, out: stdout, err: stderr };
+}
+
+function basis(...args) {
+    const { status, out, err } = run(...args);
+    assert.equal(status, 0, err);
+    return JSON.parse(out);
+}
+
+const texts = (list) => list.map(({ text }) => text);
+
+test('the elimination ideal of a circle on a line, and what an element is', () => {
+    const answer = basis('x=cos', 'y=2*sin', 'cos^2+sin^2=1', '--eliminate', '2');
+    assert.deepEqual(answer.letters, ['cos', 'sin', 'x', 'y']);
+    assert.deepEqual(texts(answer.elimination), ['4*x^2 + y^2 - 4']);
+    assert.deepEqual(answer.elimination[0], { text: '4*x^2 + y^2 - 4', leading: 'x^2', terms: 3, degree: 2 });
+    assert.ok(answer.basis.length > 1);
+});
+
+test('an ideal whose elimination ideal has several generators', () => {
+    const { elimination } = basis('x-s^2', 'y-s^3', 'z-s^4', '--eliminate', '1');
+    assert.deepEqual(texts(elimination), ['y^2 - x*z', 'x^2 - z']);
+});
+
+test('orders, weights and letters decide which monomial leads', () => {
+    const leading = (...options) => basis('x^3+x^2*z^2+x*y^2*z+z^3+y^3', ...options).basis[0].leading;
+    assert.equal(leading('--order', 'lex'), 'x^3');
+    assert.equal(leading('--order', 'grlex'), 'x^2*z^2');
+    assert.equal(leading('--order', 'grevlex'), 'x*y^2*z');
+    assert.equal(leading(), 'x*y^2*z');
+    assert.equal(leading('--order', 'lex', '--letters', 'z y x'), 'z^3');
+    assert.equal(leading('--order', 'lex', '--weights', '1 9 1'), 'y^3');
+});
+
+test('coefficients modulo a prime, and bases that hold 1', () => {
+    assert.deepEqual(texts(basis('3*x-1', '--prime', '7').basis), ['x + 2']);
+    assert.deepEqual(texts(basis('x', 'x-1').basis), ['1']);
+    assert.deepEqual(texts(basis('2*x-1', '2*x', '--prime', '2').basis), ['1']);
+});
+
+test('a division: scale f = quotients and elements, and a rest', () => {
+    const { basis: elements, quotients, rest, scale } = basis('2*x^2-y', 'y^2-2', '--order', 'lex', '--divide', 'x^4+x*y+3');
+    assert.deepEqual(texts(elements), ['y^2 - 2', '2*x^2 - y']);
+    assert.deepEqual([scale, rest], ['4', '4*x*y + 14']);
+    assert.deepEqual(quotients, ['1', '2*x^2 + y']);
+});
+
+test('--steps tells what became of each pair', () => {
+    const args = ['x^2+y^2+z^2-1', 'x^2-y+z^2', 'x=z', '--order', 'lex'];
+    const { err, out } = run(...args, '--steps');
+    const steps = err.trim().split('\n').map((line) => JSON.parse(line));
+    const { counts } = JSON.parse(out);
+    assert.equal(steps.length, counts.made);
+    for (const outcome of ['coprime', 'chain', 'zero', 'added']) {
+        assert.equal(steps.filter((step) => step.outcome === outcome).length, counts[outcome], outcome);
+    }
+    assert.equal(steps.reduce((sum, { divisions }) => sum + divisions, 0), counts.divisions);
+    assert.equal(steps.at(-1).waiting, 0);
+    const [first] = steps;
+    assert.deepEqual(first, { pair: [0, 1], outcome: 'added', degree: 2, sugar: 2, divisions: 0, waiting: 5, element: 3, leading: 'y^2', terms: 3 });
+    assert.equal(run(...args).err, '');
+});
+
+const REFUSED = [
+    ['a name', ['x+?'], /^\/generators:1:3: /],
+    ['the second line', ['x', 'y', 'x*(y'], /^\/generators:3:\d+: /],
+    ['an unknown letter', ['x+q', '--letters', 'x y'], /^\/generators:1:3: .*"q"/],
+    ['a function', ['sin(x)'], /sin\(\) makes no polynomial/],
+    ['a fraction', ['1/x'], /^\/generators:1.*a fraction is no polynomial/],
+    ['an inequality', ['x < 1'], /an inequality is no polynomial/],
+    ['a number that is no prime', ['x', '--prime', '9'], /^\/prime: 9 is no prime/],
+    ['weights for other letters', ['x+y', '--weights', '1'], /^\/weights: 1 weights for 2 letters/],
+    ['a weight below 0', ['x+y', '--weights', '1 -1'], /^\/weights: weights are 2 whole numbers/],
+    ['more letters than there are', ['x+y', '--eliminate', '3'], /^\/eliminate: 3 of 2 letters/],
+    ['eleven letters', ['a+b+c+d+f+g+h+i+j+k+l'], /^\/letters: more than 10 letters \(groebner_letters\)/],
+    ['65 polynomials', Array.from({ length: 65 }, (_, i) => `x-${i}`), /^\/generators: more than 64 polynomials/],
+    ['a dividend', ['x', '--divide', 'x+*'], /^\/divide:1:3: /],
+];
+for (const [name, args, message] of REFUSED) {
+    test(`refused: ${name}`, () => {
+        const { status, err } = run(...args);
+        assert.equal(status, 1, err);
+        assert.match(err, message);
+    });
+}
+
+test('the limits themselves are taken', () => {
+    assert.equal(basis('a+b+c+d+f+g+h+i+j+k').letters.length, 10);
+    assert.deepEqual(texts(basis(...Array.from({ length: 64 }, (_, i) => `${i + 1}*x`)).basis), ['x']);
+    assert.equal(run().status, 2);
+});
