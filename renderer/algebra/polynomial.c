@@ -76,7 +76,6 @@ void polynomial_set(struct polynomial *out, const fmpz_mpoly_t f, const fmpz_mpo
     nmod_mpoly_sort_terms(out->residues, ring->residues);
     nmod_mpoly_combine_like_terms(out->residues, ring->residues); /* leaves out those that are 0 */
     fmpz_clear(coefficient);
-    polynomial_normalize(out, ring);
 }
 
 void polynomial_get(fmpz_mpoly_t out, const fmpz_mpoly_ctx_t plain, const struct polynomial *f,

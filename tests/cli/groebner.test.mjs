@@ -53,6 +53,8 @@ test('a division: scale f = quotients and elements, and a rest', () => {
     assert.deepEqual(texts(elements), ['y^2 - 2', '2*x^2 - y']);
     assert.deepEqual([scale, rest], ['4', '4*x*y + 14']);
     assert.deepEqual(quotients, ['1', '2*x^2 + y']);
+    const negative = basis('y-x^2', 'z-x^3', '--divide', '6*x*z-6*y^2+4*x');
+    assert.deepEqual([negative.quotients, negative.rest], [['-6', '0', '0'], '4*x'], 'of what was given');
 });
 
 test('--steps tells what became of each pair', () => {

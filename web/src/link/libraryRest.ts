@@ -8,6 +8,7 @@ import {
     readEntry,
     readEntryRows,
 } from "../model/library.ts";
+import type { Request } from "./rest.ts";
 
 /* What a file brought. */
 export interface Brought {
@@ -29,8 +30,6 @@ export interface LibraryRest {
     importFile(text: string): Promise<Brought>;
     pictureUrl(id: string, width: number): string;
 }
-
-type Request = (path: string, init?: RequestInit) => Promise<Response>;
 
 export function createLibraryRest(base: string, request: Request): LibraryRest {
     const at = (id: string): string => `/v1/library/${encodeURIComponent(id)}`;

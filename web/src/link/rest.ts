@@ -148,7 +148,12 @@ export interface Rest {
     renderImage(document: Json, wish: PictureWish, signal: AbortSignal): Promise<string>;
     readonly token: string | null;
     readonly library: LibraryRest;
+    /* For what is loaded later. */
+    readonly request: Request;
 }
+
+/* With the token; what is not ok throws a RestError. */
+export type Request = (path: string, init?: RequestInit) => Promise<Response>;
 
 async function problemOf(response: Response): Promise<RestError> {
     let json: Json = null;
@@ -203,7 +208,7 @@ function readAsset(json: JsonObject): Asset {
 
 /* `base` is the server's address without a slash at the end; "" is the page's own server. */
 export function createRest(base: string, token: string | null): Rest {
-    const request = async (path: string, init: RequestInit = {}): Promise<Response> => {
+    const request: Request = async (path, init = {}) => {
         const headers = new Headers(init.headers);
         if (token !== null) {
             headers.set("Authorization", `Bearer ${token}`);
@@ -246,6 +251,7 @@ export function createRest(base: string, token: string | null): Rest {
     return {
         token,
         library: createLibraryRest(base, request),
+        request,
         listScenes: async () =>
             (await list("/v1/scenes", "scenes")).map((scene) => ({
                 id: textOf(scene.id),

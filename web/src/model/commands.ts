@@ -734,6 +734,14 @@ export const COMMANDS: readonly Command[] = [
         run: (app) => app.upload(true),
     }),
     row({
+        id: "help.groebner",
+        words: "algebra buchberger ideal polynomial elimination workbench grobner gröbner",
+        title: "Groebner bases …",
+        group: "help",
+        whyNot: never,
+        run: show({ popup: "groebner" }),
+    }),
+    row({
         id: "help.reference",
         words: "documentation manual docs types",
         title: "Reference of all types",

@@ -142,6 +142,8 @@ export interface Schema {
     readonly environment: readonly Param[];
     readonly render: readonly Param[];
     /* What a document's own distance functions and shaders consist of. */
+    /* The members of a question about an ideal. */
+    readonly ideal: readonly Param[];
     readonly primitive: readonly Param[];
     readonly shader: readonly Param[];
     /* Types that their parameters may have. */
@@ -332,6 +334,7 @@ export function readSchema(json: Json): Schema {
         camera: readParams(tables.camera),
         environment: readParams(tables.environment),
         render: readParams(tables.render),
+        ideal: readParams(tables.ideal),
         primitive: readParams(resources.primitive),
         shader: readParams(resources.shader),
         declared: listOf(resources.declared_types).map((type) => textOf(type) as ParamType),

@@ -25,6 +25,7 @@ export type Popup =
     | "statistics"
     | "picture"
     | "library"
+    | "groebner"
     | null;
 
 /* What can be shown below the picture. */

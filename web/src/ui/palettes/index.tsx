@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Everything that floats over the page: palettes, keys, the picture as a file, the reference,
  * the library. One part, loaded later. */
+import { lazyPart } from "../lazy.tsx";
 import { LibraryDialog } from "../library/LibraryDialog.tsx";
 import { ReferenceDialog } from "../reference/ReferenceDialog.tsx";
 import { Add } from "./Add.tsx";
 import { CommandPalette } from "./Commands.tsx";
 import { Keys } from "./Keys.tsx";
 import { PictureDialog } from "./PictureDialog.tsx";
+
+const Workbench = lazyPart(() => import("../algebra/Workbench.tsx"));
 
 export default function Palettes() {
     return (
@@ -17,6 +20,7 @@ export default function Palettes() {
             <PictureDialog />
             <ReferenceDialog />
             <LibraryDialog />
+            <Workbench />
         </>
     );
 }
