@@ -163,7 +163,7 @@ static bool subtract_sides(const struct reading *r, const struct equation *equat
     return ok;
 }
 
-/* Of one line, the number of which is told with an error. */
+/* `line`: where the polynomial stands in the text. */
 static bool read_polynomial(const struct ideal *ideal, const char *text, int line, fmpz_mpoly_t out,
                             struct error *err)
 {
@@ -171,36 +171,48 @@ static bool read_polynomial(const struct ideal *ideal, const char *text, int lin
     struct reading r = {ideal, err};
     struct equation *equation = equation_read_relation(text, ideal->letters, &errors);
     if (!equation) {
-        return error_set_at(err, ERROR_INVALID, "", line, errors.list[0].column, "%s",
-                            errors.list[0].message);
+        const struct equation_error *first = &errors.list[0];
+        return error_set_at(err, ERROR_INVALID, "", first->line, first->column, "%s",
+                            first->message);
     }
     bool ok = equation->relation == EQUATION_EQUALS
                   ? subtract_sides(&r, equation, out)
                   : error_set(err, ERROR_INVALID, "", "an inequality is no polynomial");
     free(equation);
-    err->line = ok ? err->line : line;
+    if (!ok) {
+        err->line = line;
+        err->column = 1;
+    }
     return ok;
 }
 
-/* Each line of the text that is not empty. */
+static bool add_generator(struct ideal *out, const char *text, int line, struct error *err)
+{
+    if (out->count == LIMIT_GROEBNER_GENERATORS) {
+        return error_set(err, ERROR_LIMIT, "", "more than %d polynomials (groebner_generators)",
+                         LIMIT_GROEBNER_GENERATORS);
+    }
+    fmpz_mpoly_init(out->generators[out->count], out->plain);
+    return read_polynomial(out, text, line, out->generators[out->count++], err);
+}
+
+/* Each line of the text that is not empty. Those in front of it become spaces, so that errors tell
+ * lines of the whole. */
 static bool read_generators(struct ideal *out, const char *all, struct error *err)
 {
-    char *copy = memory_text(all), *rest = copy;
+    char *text = memory_text(all);
     bool ok = true;
-    for (int line = 1; ok && rest; line++) {
-        const char *text = strsep(&rest, "\n");
-        if (text[strspn(text, " \t\r")] == '\0') {
-            continue;
-        }
-        if (out->count == LIMIT_GROEBNER_GENERATORS) {
-            ok = error_set(err, ERROR_LIMIT, "", "more than %d polynomials (groebner_generators)",
-                           LIMIT_GROEBNER_GENERATORS);
-            continue;
-        }
-        fmpz_mpoly_init(out->generators[out->count], out->plain);
-        ok = read_polynomial(out, text, line, out->generators[out->count++], err);
+    int line = 1;
+    for (char *at = text; ok && *at; line++) {
+        const size_t length = strcspn(at, "\n");
+        const bool last = at[length] == '\0';
+        at[length] = '\0';
+        ok = strspn(at, " \t\r") == length || add_generator(out, text, line, err);
+        memset(at, ' ', length);
+        at[length] = last ? '\0' : '\n';
+        at += length + !last;
     }
-    free(copy);
+    free(text);
     ok = ok && (out->count > 0 || error_set(err, ERROR_INVALID, "", "no polynomial is given"));
     return ok || fail_at(err, "/generators");
 }

@@ -75,7 +75,8 @@ test('--steps tells what became of each pair', () => {
 
 const REFUSED = [
     ['a name', ['x+?'], /^\/generators:1:3: /],
-    ['the second line', ['x', 'y', 'x*(y'], /^\/generators:3:\d+: /],
+    ['the third line', ['x', 'y', 'x*(y'], /^\/generators:3:5: .*in line 3, column 3/],
+    ['what only its value shows', ['x', ' ', 'y', 'x+1/y'], /^\/generators:4:1: a fraction/],
     ['an unknown letter', ['x+q', '--letters', 'x y'], /^\/generators:1:3: .*"q"/],
     ['a function', ['sin(x)'], /sin\(\) makes no polynomial/],
     ['a fraction', ['1/x'], /^\/generators:1.*a fraction is no polynomial/],

@@ -3,8 +3,9 @@
 // states come in a row on one page; `alone` has a page and a copy of the scene for itself.
 import path from 'node:path';
 import { field, picture, row } from '../stage.mjs';
+import { algebraStates } from './algebra.mjs';
 import { handStates } from './hands.mjs';
-import { CODED, EMPTY, STUDIO, umbrella } from './scene.mjs';
+import { CODED, EMPTY, STUDIO } from './scene.mjs';
 import { textStates } from './text.mjs';
 
 const examples = new URL('../../../protocol/examples/', import.meta.url).pathname;
@@ -612,22 +613,7 @@ const GRAPH = [
 
 const example = (name) => path.join(examples, `${name}.json`);
 
-const proved = (page) => page.locator('.surface-badge:not([data-proof="busy"])').waitFor();
-
 const OTHERS = [
-    ['equation of a parametric surface', async (page) => {
-        await select(page, 'umbrella');
-        await proved(page);
-    }, { scene: umbrella('x^2 = y^2*z') }],
-    ['equation that does not fit', async (page) => {
-        await select(page, 'umbrella');
-        await proved(page);
-    }, { scene: umbrella('x^2 = y^2*z + 0.1') }],
-    ['parametric surface, dialog', async (page) => {
-        await select(page, 'umbrella');
-        await page.getByRole('button', { name: 'Change…' }).click();
-        await page.getByText('proved to be exact').waitFor();
-    }, { scene: umbrella('x^2 = y^2*z') }],
     ['empty scene', async (page) => page.locator('.view-empty').waitFor(), { scene: EMPTY }],
     ['empty scene, Looks', async (page) => {
         await page.locator('.view-empty').waitFor();
@@ -654,6 +640,7 @@ export const STATES = [
     ...rows('changes', CHANGES, { scene: STUDIO, alone: true, tampered: true }),
     ...rows('code', CODE, { scene: CODED, alone: true, tampered: true }),
     ...rows('hands', handStates({ select, middle, resource }), { scene: STUDIO, alone: true }),
+    ...rows('algebra', algebraStates({ select }), { scene: STUDIO, alone: true }),
     ...rows('graph', GRAPH, { scene: STUDIO, alone: true }),
     ...rows('text', textStates({ select, tab, graph }), { scene: STUDIO, alone: true }),
     ...rows('others', OTHERS, { alone: true }),

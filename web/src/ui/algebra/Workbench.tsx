@@ -50,7 +50,7 @@ function Sheet({ asked, onChange }: Props) {
                 <div className="workbench-told">
                     {basis === null && <p className="workbench-empty">{TEXTS.empty}</p>}
                     {basis?.answer && <Result answer={basis.answer} />}
-                    {basis && <Steps steps={basis.steps} />}
+                    {basis && basis.failure === null && <Steps steps={basis.steps} />}
                 </div>
             </div>
             <footer className="dialog-foot">
