@@ -46,21 +46,6 @@ static bool find(const struct patch *patch, flint_rand_t random, struct result *
                                &out->primes, err);
 }
 
-/* Primitive, its first coefficient positive: the same by each method. */
-static void normalize(struct result *out)
-{
-    if (!fmpz_mpoly_is_zero(out->equation, out->space)) {
-        fmpz_t divisor;
-        fmpz_init(divisor);
-        _fmpz_vec_content(divisor, out->equation->coeffs, out->equation->length);
-        if (fmpz_sgn(out->equation->coeffs) < 0) {
-            fmpz_neg(divisor, divisor);
-        }
-        fmpz_mpoly_scalar_divexact_fmpz(out->equation, out->equation, divisor, out->space);
-        fmpz_clear(divisor);
-    }
-}
-
 static bool implicitize(const struct patch *patch, struct result *out, struct error *err)
 {
     flint_rand_t random;
@@ -68,7 +53,7 @@ static bool implicitize(const struct patch *patch, struct result *out, struct er
     bool ok =
         patch_find_degrees(patch, random, &out->degrees, err) && find(patch, random, out, err);
     flint_randclear(random);
-    normalize(out);
+    make_primitive(out->equation); /* the same by each method */
     if (ok && (fmpz_mpoly_total_degree_si(out->equation, out->space) != out->degrees.surface ||
                !certificate_is_zero(patch, out->equation, out->space))) {
         ok = error_set(err, ERROR_INTERNAL, "", "the equation that was found is not exact");

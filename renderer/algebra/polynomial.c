@@ -131,6 +131,20 @@ ulong polynomial_degree(const struct polynomial *f, const struct ring *ring)
 
 /* --- arithmetic --- */
 
+void make_primitive(fmpz_mpoly_t f)
+{
+    fmpz_t divisor;
+    fmpz_init(divisor);
+    _fmpz_vec_content(divisor, f->coeffs, f->length);
+    if (f->length > 0 && fmpz_sgn(f->coeffs) < 0) {
+        fmpz_neg(divisor, divisor);
+    }
+    if (f->length > 0) {
+        _fmpz_vec_scalar_divexact_fmpz(f->coeffs, f->coeffs, f->length, divisor);
+    }
+    fmpz_clear(divisor);
+}
+
 void polynomial_normalize(struct polynomial *f, const struct ring *ring)
 {
     if (polynomial_terms(f, ring) == 0) {
@@ -140,14 +154,7 @@ void polynomial_normalize(struct polynomial *f, const struct ring *ring)
         nmod_mpoly_make_monic(f->residues, f->residues, ring->residues);
         return;
     }
-    fmpz_t divisor;
-    fmpz_init(divisor);
-    _fmpz_vec_content(divisor, f->whole->coeffs, f->whole->length);
-    if (fmpz_sgn(f->whole->coeffs) < 0) {
-        fmpz_neg(divisor, divisor);
-    }
-    fmpz_mpoly_scalar_divexact_fmpz(f->whole, f->whole, divisor, ring->whole);
-    fmpz_clear(divisor);
+    make_primitive(f->whole);
 }
 
 /* The leading coefficient of `by`, times x^fields. */

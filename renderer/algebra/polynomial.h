@@ -44,6 +44,8 @@ slong polynomial_terms(const struct polynomial *f, const struct ring *ring); /* 
 void polynomial_exponents(const struct polynomial *f, slong n, const struct ring *ring,
                           exponents out);
 ulong polynomial_degree(const struct polynomial *f, const struct ring *ring); /* total */
+/* Without a common divisor, the leading coefficient above 0. */
+void make_primitive(fmpz_mpoly_t f);
 /* A leading coefficient of 1 modulo a prime; else above 0, without a common divisor. */
 void polynomial_normalize(struct polynomial *f, const struct ring *ring);
 /* lc(g) x^(lcm - a) f - lc(f) x^(lcm - b) g for leading exponents a and b. */
