@@ -144,6 +144,9 @@ void quarantine_named(struct hub *hub, enum packet_to_front kind,
     case TO_FRONT_READING:
         go_on(quarantine, &quarantine->reading, &suspect);
         break;
+    case TO_FRONT_OPENING:
+        quarantine->opening = suspect;
+        break;
     case TO_FRONT_DRAWING:
         drawing(hub, &suspect);
         break;
@@ -265,24 +268,31 @@ bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 
     const struct suspect read = slow || end->kind == SUPERVISOR_BUSY ? none : quarantine->reading;
 
-    quarantine->named = *compiled.shape || *read.shape || *quarantine->drawing.scene;
     /* A crash has one cause, and compilers are the likelier one; stillness may come from either. */
-    quarantine->drawn = end->kind == SUPERVISOR_STILL || (!*compiled.shape && !*read.shape)
-                            ? quarantine->drawing
-                            : none;
+    const bool other = end->kind == SUPERVISOR_STILL || (!*compiled.shape && !*read.shape);
+
+    quarantine->named =
+        *compiled.shape || *read.shape || *quarantine->opening.scene || *quarantine->drawing.scene;
+    quarantine->drawn = other ? quarantine->drawing : none;
+    quarantine->opened = other ? quarantine->opening : none;
     if (*compiled.shape) {
         judge(hub, &compiled, slow);
     }
     if (*read.shape) {
         judge(hub, &read, false);
     }
-    quarantine->compiling = quarantine->reading = quarantine->drawing = quarantine->slow = none;
+    quarantine->compiling = quarantine->reading = quarantine->opening = none;
+    quarantine->drawing = quarantine->slow = none;
     return quarantine->named;
 }
 
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked)
 {
-    return hub->quarantine->named ? strcmp(hub->quarantine->drawn.scene, scene) == 0 : asked;
+    const struct quarantine *quarantine = hub->quarantine;
+
+    return quarantine->named ? strcmp(quarantine->drawn.scene, scene) == 0 ||
+                                   strcmp(quarantine->opened.scene, scene) == 0
+                             : asked;
 }
 
 /* --- second tries --- */

@@ -45,9 +45,10 @@ struct quarantine_case {
 };
 
 struct quarantine {
-    struct suspect compiling, reading, drawing;
+    struct suspect compiling, reading, opening, drawing;
     bool named;                /* the last worker that ended had named a suspect */
     struct suspect drawn;      /* the picture that may have ended it */
+    struct suspect opened;     /* the same of a document */
     struct suspect slow;       /* why the worker ended itself */
     int measured_ms, limit_ms; /* of `slow` */
     struct quarantine_case cases[QUARANTINE_SHAPES]; /* a ring */
@@ -64,8 +65,8 @@ void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES]);
 void quarantine_worker_ready(struct hub *hub);
 /* A worker has ended. True: it had named a suspect. */
 bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end);
-/* Whether drawing this scene may have ended the last worker. If that worker had named nothing,
- * every scene with a picture asked of it is suspect: `asked`. */
+/* Whether drawing this scene, or reading its document, may have ended the last worker. If that
+ * worker had named nothing, every scene with a picture asked of it is suspect: `asked`. */
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);
 /* Whether a shape of the scene waits for its second try. */
 bool quarantine_is_tried_again(const struct hub *hub, const struct room *room);

@@ -95,11 +95,9 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
 
     asset_index_send(hub, entry->order.image);
     scene_name(entry, name);
-    const struct packet_scene packet = {.scene = name,
-                                        .revision = 1,
-                                        .portrait = entry->order.portrait,
-                                        .document = cJSON_CreateRaw(entry->order.document)};
-    room_sync_send_scene(hub, &packet);
+    const struct packet_scene packet = {
+        .scene = name, .revision = 1, .portrait = entry->order.portrait};
+    room_sync_send_scene(hub, &packet, entry->order.document);
 }
 
 static struct render_demand render_demand(const struct render_order *order)
@@ -473,7 +471,9 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
         if (!quarantine_blames(hub, room->id, asked) || room->suspended.kind != ERROR_NONE) {
             continue;
         }
-        const struct render_entry *drawn = find(hub->render_queue, hub->quarantine->drawn.job);
+        const struct render_entry *drawn = strcmp(hub->quarantine->drawn.scene, room->id) == 0
+                                               ? find(hub->render_queue, hub->quarantine->drawn.job)
+                                               : NULL;
 
         room->fatal = drawn ? render_demand(&drawn->order) : (struct render_demand){0};
         if (++room->deaths >= RENDER_DEATHS) {

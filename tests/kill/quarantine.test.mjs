@@ -193,6 +193,24 @@ test('a drawing thread that waits for nothing is found, although pings are answe
     await live.close();
 });
 
+for (const what of ['crash', 'hang']) {
+    test(`a document that makes its reader ${what} is left out the second time, others are drawn`, async () => {
+        const children = Array.from({ length: 400 }, (_, i) => ({ id: `${what}-while-read-${i}`, type: 'sphere' }));
+        const restarts = await counter(daemon, 'worker_restarts_total');
+        await ask(daemon, 'POST', `/v1/scenes?id=read-${what}`, { format: 'fieldcast/1', root: { id: 'root', type: 'union', children } });
+        const live = await Live.open(daemon, `read-${what}`);
+        live.look();
+        await othersGoOn();
+        await live.next('notice', { code: 'scene_left_out' });
+        assert.equal(await counter(daemon, 'worker_restarts_total'), restarts + 2, 'two workers only');
+        assert.equal(live.frames.length, 0);
+        await othersGoOn();
+        await ask(daemon, 'PUT', `/v1/scenes/read-${what}`, scene(GOOD));
+        await live.nextFrame((frame) => frame.lossless && frame.revision === 2);
+        await live.close();
+    });
+}
+
 /** A picture of the root, drawn by the engine. */
 async function thumbnailOf(live) {
     live.say({ type: 'thumbnails', nodes: ['root'] });
