@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "crash.h"
 #include "portrait.h"
 #include "protocol/memory.h"
 #include "renderer/field/field.h"
@@ -41,6 +42,7 @@ static void *work(void *data)
 {
     struct scene_reader *reader = data;
 
+    crash_thread(CRASH_OPENING);
     pthread_mutex_lock(&reader->lock);
     while (!reader->stop) {
         if (!reader->document.text || reader->done) {

@@ -7,8 +7,8 @@
  *
  * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, all
  * accounts together, and what is not costs its account more: for the long run urgent pictures get
- * the larger share, and never all. Within an account the most urgent goes first, then the smallest, then the oldest; now
- * and then the oldest in any case. Pure; not thread-safe. */
+ * the larger share, and never all. Within an account the most urgent goes first, then the smallest,
+ * then the oldest; now and then the oldest in any case. Pure; not thread-safe. */
 #ifndef RENDERER_TURNS_H
 #define RENDERER_TURNS_H
 

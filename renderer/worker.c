@@ -15,6 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "crash.h"
 #include "worker_internal.h"
 
 enum {
@@ -231,6 +232,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    crash_watch();
     confine_privileges();
     if (params->confine != CONFINE_OFF) {
         confine_files(&w.confined, renderer.device.cache_dir);

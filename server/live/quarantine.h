@@ -2,10 +2,10 @@
 /* The quarantine of shapes that ended a worker during compilation, and of files that ended one
  * while their picture was read. "Shape" here means either; the id of a file is longer. The worker
  * names what it is about to compile, read or draw. The shape named when a worker ended gets a
- * second try with LIMIT_RETRY_FACTOR times the time. If that ends a worker too, the shape is
- * refused until somebody asks for a retry. Its scene falls back to the last good state, or to a sky
- * without the picture. Drawing counts against a scene instead (render_queue.h). Every function is
- * called under the hub's lock. */
+ * second try with LIMIT_RETRY_FACTOR times the time. If that ends a worker too, or if the thread
+ * that was at it crashed (renderer/crash.h), the shape is refused until somebody asks for a retry.
+ * Its scene falls back to the last good state, or to a sky without the picture. Drawing counts
+ * against a scene instead (render_queue.h). Every function is called under the hub's lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 
@@ -39,7 +39,7 @@ struct quarantine_case {
     char shape[QUARANTINE_SHAPE_BYTES];
     char scene[LIMIT_ID_BYTES + 16]; /* scene of its last naming */
     int times;                       /* factor on the usual time for the next try */
-    bool tried;                      /* it ended one worker; after another it is refused */
+    bool tried;                      /* it may have ended a worker; after another it is refused */
     enum error_kind refused;         /* why; ERROR_NONE: it is not refused */
     int measured_ms, limit_ms;       /* of ERROR_TOO_SLOW */
 };
@@ -47,6 +47,7 @@ struct quarantine_case {
 struct quarantine {
     struct suspect compiling, reading, opening, drawing;
     bool named;                /* the last worker that ended had named a suspect */
+    bool sure;                 /* that is the cause: its thread crashed */
     struct suspect drawn;      /* the picture that may have ended it */
     struct suspect opened;     /* the same of a document */
     struct suspect slow;       /* why the worker ended itself */

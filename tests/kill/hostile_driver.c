@@ -198,7 +198,7 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
         pause();
         break;
     case CRASH:
-        abort();
+        __builtin_trap();
     case EAT:
         eat();
         break;
@@ -227,7 +227,7 @@ static void APIENTRY use(GLuint program)
     const bool elsewhere = !pthread_equal(later[program % OBJECTS], pthread_self());
 
     if (is_later[program % OBJECTS] == CRASH_LATER && elsewhere) {
-        abort();
+        __builtin_trap();
     }
     if (is_later[program % OBJECTS] == SLEEP_LATER && elsewhere) {
         pause();
@@ -257,7 +257,7 @@ void png_read_info(png_structrp png, png_inforp info)
             continue;
         }
         if (pictures[i].act == CRASH) {
-            abort();
+            __builtin_trap();
         }
         if (processes_before() < 1) {
             hang();
@@ -277,7 +277,7 @@ cJSON *cJSON_ParseWithLength(const char *text, size_t length)
         (cJSON * (*)(const char *, size_t)) dlsym(RTLD_NEXT, "cJSON_ParseWithLength");
 
     if (holds(text, length, "crash-while-read")) {
-        abort();
+        __builtin_trap();
     }
     if (holds(text, length, "hang-while-read")) {
         hang();
