@@ -12,7 +12,7 @@ struct head {
 };
 
 enum {
-    JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES,     /* a document, printed anew, in its envelope */
+    JSON_MAX = 4 * LIMIT_DOCUMENT_BYTES,     /* an edit as large as a document, printed anew */
     PAYLOAD_MAX = LIMIT_IMAGE_BYTES + 65536, /* a picture, in a ZIP */
     READER_KEEPS = 1 << 20,                  /* capacity kept between packets */
 };
@@ -112,6 +112,7 @@ int packet_reader_next(struct packet_reader *reader, enum packet_way way, struct
     if (!read_packet(&head, reader->bytes + sizeof head, way, out)) {
         return -1;
     }
+    out->length = whole;
     take(reader, whole);
     return 1;
 }

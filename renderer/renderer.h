@@ -133,6 +133,22 @@ struct resident *resident_create(struct renderer *renderer, struct scene *scene,
 void resident_destroy(struct resident *resident);
 /* Another document; what can be drawn stays until the new one can. Takes `scene`. */
 void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision);
+/* A scene with its field: what takes long of opening it, and needs no renderer. */
+struct opened_scene {
+    struct scene *scene;
+    struct field *field; /* NULL: it is none, and `error` says why */
+    struct error error;
+};
+/* Takes `scene`. `drawn`: that of the resident that it replaces; NULL: of none. Any thread. */
+struct opened_scene opened_scene_make(struct scene *scene, const struct field *drawn);
+/* What is drawn, or is going to be: what stands in there and is hidden stays in it. The resident's;
+ * NULL: none. */
+struct field *resident_drawn_field(const struct resident *resident);
+/* As above, of an opened scene. Both take what is in it. */
+struct resident *resident_create_opened(struct renderer *renderer,
+                                        const struct opened_scene *opened, uint64_t revision);
+void resident_replace_opened(struct resident *resident, const struct opened_scene *opened,
+                             uint64_t revision);
 /* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err);

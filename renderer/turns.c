@@ -125,27 +125,39 @@ void turns_offer(struct turns *turns, struct turn *turn, const struct turns_offe
     }
 }
 
-static uint64_t due(const struct turn *turn)
+/* `ahead_us`: by which each account may run ahead. */
+static uint64_t due(const struct turn *turn, uint64_t ahead_us)
 {
-    return turn->us + (uint64_t)turn->offer.priority * TURNS_AHEAD_US;
+    return turn->us + (uint64_t)turn->offer.priority * ahead_us;
 }
 
-static bool is_before(const struct turns *turns, const struct turn *a, const struct turn *b)
+static uint64_t count_offers(const struct turns *turns)
 {
-    return due(a) != due(b) ? due(a) < due(b) : b == turns->last;
+    uint64_t count = 0;
+
+    for (const struct turn *turn = turns->first; turn; turn = turn->next) {
+        count += turn->offer.picture != NULL;
+    }
+    return count;
 }
 
 void *turns_choose(struct turns *turns)
 {
+    const uint64_t offers = count_offers(turns);
+    const uint64_t ahead_us = offers > 0 ? TURNS_AHEAD_US / offers : 0;
     const struct turn *best = NULL;
-    uint64_t least = UINT64_MAX;
+    uint64_t least = UINT64_MAX, best_due = UINT64_MAX;
 
     for (const struct turn *turn = turns->first; turn; turn = turn->next) {
         if (!turn->offer.picture) {
             continue;
         }
         least = turn->us < least ? turn->us : least;
-        best = !best || is_before(turns, turn, best) ? turn : best;
+        const uint64_t at = due(turn, ahead_us);
+        if (!best || at < best_due || (at == best_due && best == turns->last)) {
+            best = turn;
+            best_due = at;
+        }
     }
     if (best && least > turns->now_us) {
         turns->now_us = least;

@@ -5,10 +5,10 @@
  * TURNS_CREDIT_US behind the others, so that the pictures of a client that asks for less than its
  * share are drawn at once, not between the tiles of others.
  *
- * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, and
- * what is not costs its account more: for the long run urgent pictures get the larger share, and
- * never all. Within an account the most urgent goes first, then the smallest, then the oldest; now
- * and then the oldest in any case. Pure; not thread-safe. */
+ * What is urgent (a low priority number) may run ahead by TURNS_AHEAD_US for each number, all
+ * accounts together, and what is not costs its account more: for the long run urgent pictures get
+ * the larger share, and never all. Within an account the most urgent goes first, then the smallest,
+ * then the oldest; now and then the oldest in any case. Pure; not thread-safe. */
 #ifndef RENDERER_TURNS_H
 #define RENDERER_TURNS_H
 

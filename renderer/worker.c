@@ -15,6 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "crash.h"
 #include "worker_internal.h"
 
 enum {
@@ -23,7 +24,7 @@ enum {
     COMPILE_POLL_MS = 4,
 };
 
-/* Whether somebody waits for the compiler, or a picture is read. */
+/* Whether somebody waits for the compiler, or a picture or a document is read. */
 static bool is_compiling(const struct worker *w)
 {
     for (const struct worker_scene *entry = w->scenes; entry; entry = entry->next) {
@@ -37,7 +38,7 @@ static bool is_compiling(const struct worker *w)
             return true;
         }
     }
-    return renderer_is_reading(w->renderer);
+    return renderer_is_reading(w->renderer) || w->documents;
 }
 
 /* Until the loop has something to do without a packet. */
@@ -53,14 +54,23 @@ static void on_asset(struct worker *w, const struct packet *packet)
     }
 }
 
-static void on_packet(struct worker *w, const struct packet *packet)
+/* A small document is read at once. */
+static void on_scene(struct worker *w, const struct packet *packet)
+{
+    const struct scene_document document = worker_document_of(w, packet);
+    const struct opened_scene opened = scene_document_open(&document);
+
+    worker_on_scene(w, &packet->scene, &opened);
+}
+
+void worker_on_packet(struct worker *w, const struct packet *packet)
 {
     switch ((enum packet_to_worker)packet->kind) {
     case TO_WORKER_ASSET:
         on_asset(w, packet);
         break;
     case TO_WORKER_SCENE:
-        worker_on_scene(w, &packet->scene);
+        on_scene(w, packet);
         break;
     case TO_WORKER_EDIT:
         worker_on_edit(w, &packet->edit);
@@ -111,8 +121,7 @@ static void receive(struct worker *w)
             w->status = 1; /* where the next packet begins is not known */
             return;
         }
-        on_packet(w, &packet);
-        packet_finish(&packet);
+        worker_take_packet(w, &packet);
     }
 }
 
@@ -135,7 +144,7 @@ static void run(struct worker *w)
     struct renderer_stuck stuck;
 
     while (w->status < 0) {
-        struct pollfd fds[2] = {{.fd = w->fd, .events = POLLIN},
+        struct pollfd fds[2] = {{.fd = w->fd, .events = worker_documents_full(w) ? 0 : POLLIN},
                                 {.fd = w->wake_fd, .events = POLLIN}};
         const bool full = w->out_length - w->out_sent > OUT_FULL;
         struct worker_job *job = full ? NULL : worker_choose_job(w);
@@ -155,6 +164,7 @@ static void run(struct worker *w)
         if (fds[1].revents) {
             worker_collect_encodings(w);
         }
+        worker_read_documents(w);
         renderer_poll(w->renderer, 0);
         if (renderer_stuck(w->renderer, &stuck)) {
             worker_send_slow(w, &stuck);
@@ -186,6 +196,7 @@ static void limit_memory(const struct worker *w, size_t bytes)
 
 static void finish(struct worker *w)
 {
+    worker_drop_documents(w);
     while (w->scenes) {
         worker_drop_scene(&w->scenes);
     }
@@ -221,6 +232,7 @@ int worker_run(int fd, const struct worker_params *params)
     struct error err = {0};
 
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    crash_watch();
     confine_privileges();
     if (params->confine != CONFINE_OFF) {
         confine_files(&w.confined, renderer.device.cache_dir);
@@ -232,6 +244,7 @@ int worker_run(int fd, const struct worker_params *params)
     renderer.on_compile_data = &w;
     w.renderer = renderer_create(&renderer, &err);
     w.encode_thread = w.renderer ? encode_thread_create(w.wake_fd, &err) : NULL;
+    w.scene_reader = scene_reader_create();
     if (w.wake_fd < 0 || !w.encode_thread || !seal(&w, params->confine, &err)) {
         if (params->renderer.log) {
             params->renderer.log(params->renderer.log_data, err.message);

@@ -4,6 +4,7 @@
 #define RENDERER_WORKER_H
 
 #include "confine.h"
+#include "crash.h"
 #include "renderer.h"
 #include "vigil.h"
 #include "worker_protocol.h"

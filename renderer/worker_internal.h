@@ -5,6 +5,7 @@
 
 #include "encode_thread.h"
 #include "pulse.h"
+#include "scene_reader.h"
 #include "turns.h"
 #include "worker.h"
 
@@ -15,6 +16,18 @@ struct worker_scene {
     uint64_t told_shown, told_broken;
     struct error told_warning;
     struct worker_scene *next;
+};
+
+/* A document that is read beside the drawing, or will be, and the packets of its scene that have
+ * come after it, in their order. */
+struct worker_document {
+    struct packet packet;
+    struct worker_waiting *first, **end;
+    struct worker_document *next; /* in order of arrival */
+};
+struct worker_waiting {
+    struct packet packet;
+    struct worker_waiting *next;
 };
 
 /* A picture that was asked for. */
@@ -47,6 +60,11 @@ struct worker {
     uint8_t *out; /* bytes from out_sent to out_length are still to be sent */
     size_t out_sent, out_length, out_capacity;
     struct worker_scene *scenes;
+    struct scene_reader *scene_reader;
+    struct worker_document *documents;
+    struct worker_document *opening; /* the one that is being read */
+    struct field *opening_drawn;     /* held for it; NULL: none */
+    size_t waiting_bytes;            /* of documents, and of what waits for them */
     struct worker_job *jobs;
     struct turns turns;
     uint64_t shared_until_us; /* pictures of several clients waited together not long ago */
@@ -78,6 +96,21 @@ void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck);
 void worker_send_suspect(struct worker *w, enum packet_to_front kind,
                          const struct packet_suspect *suspect);
 
+/* --- worker.c --- */
+
+/* One that waits for nothing. Borrowed. */
+void worker_on_packet(struct worker *w, const struct packet *packet);
+
+/* --- worker_documents.c --- */
+
+/* Handles a packet, or keeps it until the document of its scene was read. Takes it. */
+void worker_take_packet(struct worker *w, struct packet *packet);
+/* Whether so much waits that more would only fill memory. */
+bool worker_documents_full(const struct worker *w);
+/* Takes over what was read, begins with the next, ends the process where one takes too long. */
+void worker_read_documents(struct worker *w);
+void worker_drop_documents(struct worker *w);
+
 /* --- worker_scenes.c --- */
 
 struct worker_scene **worker_find_scene(struct worker *w, const char *name);
@@ -92,7 +125,11 @@ void worker_announce(struct worker *w);
 void worker_on_compile(void *data, uint64_t shape);
 /* The same of renderer_params.on_read. */
 void worker_on_read(void *data, const char *image);
-void worker_on_scene(struct worker *w, const struct packet_scene *packet);
+/* What its document is to be opened as. Borrowed. */
+struct scene_document worker_document_of(struct worker *w, const struct packet *packet);
+/* It was opened. Takes what is in it. */
+void worker_on_scene(struct worker *w, const struct packet_scene *packet,
+                     const struct opened_scene *opened);
 void worker_on_edit(struct worker *w, const struct packet_edit *packet);
 void worker_on_drop(struct worker *w, const char *scene);
 void worker_on_judge(struct worker *w, const struct packet_judge *packet);

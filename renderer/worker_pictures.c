@@ -5,6 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "crash.h"
 #include "guide.h"
 #include "protocol/memory.h"
 #include "worker_internal.h"
@@ -248,8 +249,10 @@ static enum job_state step(struct worker *w, struct worker_job *job)
 {
     renderer_share(w->renderer, now_us() < w->shared_until_us);
     const uint64_t before = drawn_us(job);
-    const enum job_state state = job_step(job->drawing);
 
+    crash_thread(CRASH_DRAWING);
+    const enum job_state state = job_step(job->drawing);
+    crash_thread(CRASH_ANYWHERE);
     turns_charge(&w->turns, job->turn, job->priority, drawn_us(job) - before);
     return state;
 }

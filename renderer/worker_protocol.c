@@ -53,8 +53,8 @@ struct packet_row {
 
 static const struct packet_row to_worker[TO_WORKER_COUNT] = {
     [TO_WORKER_ASSET] = {true, MEMBERS(M(TEXT, asset.asset))},
-    [TO_WORKER_SCENE] = {false, MEMBERS(M(TEXT, scene.scene), M(U64, scene.revision),
-                                        M(BOOL, scene.portrait), M(JSON, scene.document))},
+    [TO_WORKER_SCENE] = {true, MEMBERS(M(TEXT, scene.scene), M(U64, scene.revision),
+                                       M(BOOL, scene.portrait))},
     [TO_WORKER_EDIT] = {false,
                         MEMBERS(M(TEXT, edit.scene), M(U64, edit.revision), M(JSON, edit.ops))},
     [TO_WORKER_DROP] = {false, MEMBERS(M(TEXT, state.scene))},
@@ -81,6 +81,7 @@ static const struct packet_row to_front[TO_FRONT_COUNT] = {
     [TO_FRONT_WARNED] = {false, MEMBERS(STATE, M(INT, state.warning), M(ERROR, state.error))},
     [TO_FRONT_COMPILING] = {false, MEMBERS(SUSPECT, M(HASH, suspect.shape))},
     [TO_FRONT_READING] = {false, MEMBERS(SUSPECT, M(TEXT, suspect.asset))},
+    [TO_FRONT_OPENING] = {false, MEMBERS(SUSPECT)},
     [TO_FRONT_DRAWING] = {false, MEMBERS(SUSPECT, M(U32, suspect.job))},
     [TO_FRONT_SLOW] = {false, MEMBERS(SUSPECT, M(HASH, suspect.shape), M(TEXT, suspect.asset),
                                       M(BOOL, suspect.still), M(INT, suspect.measured_ms),

@@ -4,15 +4,18 @@
  * which are one program.
  *
  * A packet is: u32 kind, u32 json_length, u32 payload_length (native byte order, same machine), the
- * JSON object, the payload (a file, or an encoded picture). Bytes go through the socket rather than
- * through shared memory: a copy of 200 kB costs tens of microseconds, and nothing is left behind
- * when a worker is killed in the middle.
+ * JSON object, the payload (a file, a document, or an encoded picture). Bytes go through the socket
+ * rather than through shared memory: a copy of 200 kB costs tens of microseconds, and nothing is
+ * left behind when a worker is killed in the middle.
  *
- * Before code of users is compiled, the picture of an environment read, or any scene drawn, the
- * worker names it, and an empty one afterwards; it waits until the front has that. So it is known
- * whose code or file ended it. A compiler that may never end (limits.h) ends the worker, which says
- * so first (`slow`), as does reading that takes too long. The front tells the next worker what to
- * make of such a shape or file (`judge`).
+ * Packets of a scene are handled in order, after its document has been read. A large document is
+ * read beside the drawing, and packets of other scenes do not wait for it.
+ *
+ * Before code of users is compiled, the picture of an environment or a large document read, or any
+ * scene drawn, the worker names it, and an empty one afterwards; it waits until the front has that.
+ * So it is known whose code, file or document ended it. A compiler that may never end (limits.h)
+ * ends the worker, which says so first (`slow`), as does reading a picture that takes too long. The
+ * front tells the next worker what to make of such a shape or file (`judge`).
  *
  * A request in rounds is answered by a frame for each round of samples; the last one's `more` is
  * false. A request of a scene that is not known, or a malformed packet, is answered by `failed`.
@@ -35,7 +38,7 @@ enum packet_way { PACKET_TO_WORKER, PACKET_TO_FRONT };
 
 enum packet_to_worker {
     TO_WORKER_ASSET, /* the payload is a file; before a scene names it */
-    TO_WORKER_SCENE,
+    TO_WORKER_SCENE, /* the payload is its document */
     TO_WORKER_EDIT,
     TO_WORKER_DROP, /* the scene */
     TO_WORKER_JUDGE,
@@ -52,8 +55,9 @@ enum packet_to_front {
     TO_FRONT_SHOWN,  /* the revision can be drawn */
     TO_FRONT_BROKEN, /* it cannot */
     TO_FRONT_WARNED,
-    TO_FRONT_COMPILING, /* from here on this is compiled, read, drawn */
+    TO_FRONT_COMPILING, /* from here on this is compiled, read (a file, a document), drawn */
     TO_FRONT_READING,
+    TO_FRONT_OPENING,
     TO_FRONT_DRAWING,
     TO_FRONT_SLOW,
     TO_FRONT_FRAME, /* the payload is the picture */
@@ -72,7 +76,6 @@ struct packet_asset {
 struct packet_scene {
     const char *scene;
     uint64_t revision;
-    cJSON *document;
     bool portrait; /* only its nodes count: portrait.h does the rest */
 };
 
@@ -180,7 +183,7 @@ struct packet {
         struct packet_render render;
         struct packet_job job; /* cancel, progress */
         struct packet_ready ready;
-        struct packet_suspect suspect; /* compiling, reading, drawing, slow */
+        struct packet_suspect suspect; /* compiling, reading, opening, drawing, slow */
         struct packet_frame frame;
         struct packet_failed failed;
         struct packet_ping ping;
@@ -189,6 +192,7 @@ struct packet {
     uint8_t *payload;
     size_t payload_length;
     /* Of one that was read: */
+    size_t length;          /* of all its bytes */
     struct error malformed; /* a member is not what it has to be */
     cJSON *json;
     struct render_request *request;

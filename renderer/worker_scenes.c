@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "portrait.h"
 #include "protocol/memory.h"
 #include "worker_internal.h"
 
@@ -127,7 +126,7 @@ void worker_on_read(void *data, const char *image)
 }
 
 /* The engine draws portraits whatever draws scenes: no compiler is to work for them. */
-static struct resident *make_resident(struct worker *w, struct scene *scene,
+static struct resident *make_resident(struct worker *w, const struct opened_scene *opened,
                                       const struct packet_scene *packet)
 {
     const enum render_stage stage = renderer_info(w->renderer)->stage;
@@ -135,26 +134,36 @@ static struct resident *make_resident(struct worker *w, struct scene *scene,
     if (packet->portrait) {
         renderer_use_stage(w->renderer, RENDER_ENGINE);
     }
-    struct resident *resident = resident_create(w->renderer, scene, packet->revision);
+    struct resident *resident = resident_create_opened(w->renderer, opened, packet->revision);
     renderer_use_stage(w->renderer, stage);
     return resident;
 }
 
-void worker_on_scene(struct worker *w, const struct packet_scene *packet)
+struct scene_document worker_document_of(struct worker *w, const struct packet *packet)
+{
+    const struct worker_scene *entry = *worker_find_scene(w, packet->scene.scene);
+
+    return (struct scene_document){
+        .text = packet->payload,
+        .length = packet->payload_length,
+        .portrait = packet->scene.portrait,
+        .drawn = entry ? resident_drawn_field(entry->resident) : NULL,
+    };
+}
+
+void worker_on_scene(struct worker *w, const struct packet_scene *packet,
+                     const struct opened_scene *opened)
 {
     struct worker_scene *entry = *worker_find_scene(w, packet->scene);
-    struct error err = {0};
-    struct scene *scene = packet->portrait ? portrait_scene(packet->document, &err)
-                                           : scene_read(packet->document, &err);
 
-    if (!scene) {
-        worker_send_broken(w, packet->scene, packet->revision, &err, 0);
+    if (!opened->scene) {
+        worker_send_broken(w, packet->scene, packet->revision, &opened->error, 0);
     } else if (entry) {
-        resident_replace(entry->resident, scene, packet->revision);
+        resident_replace_opened(entry->resident, opened, packet->revision);
     } else {
         entry = memory_alloc(1, sizeof *entry);
         entry->name = memory_text(packet->scene);
-        entry->resident = make_resident(w, scene, packet);
+        entry->resident = make_resident(w, opened, packet);
         entry->next = w->scenes;
         w->scenes = entry;
     }

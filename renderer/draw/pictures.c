@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "protocol/memory.h"
+#include "renderer/crash.h"
 #include "renderer/image/decode.h"
 
 struct picture {
@@ -58,6 +59,7 @@ static void *work(void *data)
 {
     struct pictures *pictures = data;
 
+    crash_thread(CRASH_READING);
     pthread_mutex_lock(&pictures->lock);
     while (!pictures->stop) {
         struct picture *picture = pictures->work;

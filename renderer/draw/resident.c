@@ -36,8 +36,7 @@ static bool advance(struct resident *resident)
     return false;
 }
 
-/* What is drawn, or is going to be: what stands in there and is hidden stays in it. */
-static const struct field *drawn_field(const struct resident *resident)
+struct field *resident_drawn_field(const struct resident *resident)
 {
     const struct snapshot *newest = resident->newest;
 
@@ -69,16 +68,32 @@ static void take_newest(struct resident *resident, struct snapshot *snapshot,
     advance(resident);
 }
 
-void resident_renew(struct resident *resident)
+static struct field *make_field(const struct scene *scene, const struct field *drawn,
+                                struct error *err)
 {
-    const struct field_options options = {.drawn = drawn_field(resident), .patchable = true};
-    struct error err = {0};
+    return snapshot_field(scene, &(struct field_options){.drawn = drawn, .patchable = true}, err);
+}
+
+/* Takes the field; NULL: the scene is none, for `why`. */
+static void take_field(struct resident *resident, struct field *field, const struct error *why)
+{
+    struct error err = *why;
     uint64_t refused = 0;
-    struct snapshot *snapshot = snapshot_create(resident->renderer, resident->scene,
-                                                resident->revision, &options, &refused, &err);
+    struct snapshot *snapshot =
+        field ? snapshot_create(resident->renderer, resident->scene, resident->revision, NULL,
+                                upload_create(field), &refused, &err)
+              : NULL;
 
     upload_pool_empty(&resident->uploads, &resident->renderer->gl);
     take_newest(resident, snapshot, &err, refused);
+}
+
+void resident_renew(struct resident *resident)
+{
+    struct error err = {0};
+    struct field *field = make_field(resident->scene, resident_drawn_field(resident), &err);
+
+    take_field(resident, field, &err);
 }
 
 /* False: the edit changes more than numbers, or there is nothing to patch. */
@@ -100,24 +115,40 @@ static bool patch(struct resident *resident, const cJSON *ops)
     if (upload != newest->upload) {
         upload_pool_keep(&resident->uploads, upload, &renderer->gl);
     }
-    struct snapshot *snapshot = snapshot_create_patched(
-        renderer, resident->scene, resident->revision, newest, upload, &refused, &err);
+    struct snapshot *snapshot = snapshot_create(renderer, resident->scene, resident->revision,
+                                                newest, upload, &refused, &err);
     take_newest(resident, snapshot, &err, refused);
     return true;
 }
 
-struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision)
+struct opened_scene opened_scene_make(struct scene *scene, const struct field *drawn)
+{
+    struct opened_scene opened = {.scene = scene};
+
+    opened.field = make_field(scene, drawn, &opened.error);
+    return opened;
+}
+
+struct resident *resident_create_opened(struct renderer *renderer,
+                                        const struct opened_scene *opened, uint64_t revision)
 {
     struct resident *resident = memory_alloc(1, sizeof *resident);
 
     resident->renderer = renderer;
-    resident->scene = scene;
+    resident->scene = opened->scene;
     resident->revision = revision;
     resident->pace = pace_create();
     resident->next = renderer->residents;
     renderer->residents = resident;
-    resident_renew(resident);
+    take_field(resident, opened->field, &opened->error);
     return resident;
+}
+
+struct resident *resident_create(struct renderer *renderer, struct scene *scene, uint64_t revision)
+{
+    const struct opened_scene opened = opened_scene_make(scene, NULL);
+
+    return resident_create_opened(renderer, &opened, revision);
 }
 
 void resident_destroy(struct resident *resident)
@@ -140,12 +171,20 @@ void resident_destroy(struct resident *resident)
     free(resident);
 }
 
-void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision)
+void resident_replace_opened(struct resident *resident, const struct opened_scene *opened,
+                             uint64_t revision)
 {
     scene_destroy(resident->scene);
-    resident->scene = scene;
+    resident->scene = opened->scene;
     resident->revision = revision;
-    resident_renew(resident);
+    take_field(resident, opened->field, &opened->error);
+}
+
+void resident_replace(struct resident *resident, struct scene *scene, uint64_t revision)
+{
+    const struct opened_scene opened = opened_scene_make(scene, resident_drawn_field(resident));
+
+    resident_replace_opened(resident, &opened, revision);
 }
 
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,

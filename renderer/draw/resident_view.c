@@ -63,9 +63,11 @@ static struct snapshot *make_snapshot(struct resident *resident, const struct jo
         .isolated_count = desc->isolated_count,
     };
     uint64_t refused; /* the scene itself is of that shape, or not drawn for it */
+    struct field *field = snapshot_field(resident->scene, &options, err);
 
-    return snapshot_create(resident->renderer, resident->scene, resident->revision, &options,
-                           &refused, err);
+    return field ? snapshot_create(resident->renderer, resident->scene, resident->revision, NULL,
+                                   upload_create(field), &refused, err)
+                 : NULL;
 }
 
 /* Takes over what has become drawable. */

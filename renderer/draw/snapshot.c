@@ -126,9 +126,8 @@ static double scene_scale(const struct record *camera)
     return scale > 1e-6 ? scale : 1;
 }
 
-/* What is hidden is no reason not to draw the rest. */
-static struct field *make_some_field(const struct scene *scene, const struct field_options *options,
-                                     struct error *err)
+struct field *snapshot_field(const struct scene *scene, const struct field_options *options,
+                             struct error *err)
 {
     struct field *field = field_compile_as(scene, options, err);
     struct field_options less = *options;
@@ -302,11 +301,9 @@ static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
     return snapshot->engine || snapshot->program;
 }
 
-/* Takes the reference of `upload`. */
-static struct snapshot *make_snapshot(struct renderer *renderer, const struct scene *scene,
-                                      uint64_t revision, const struct snapshot *before,
-                                      struct upload *upload, uint64_t *out_refused,
-                                      struct error *err)
+struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
+                                 uint64_t revision, const struct snapshot *before,
+                                 struct upload *upload, uint64_t *out_refused, struct error *err)
 {
     struct field *field = upload->field;
     struct snapshot *snapshot;
@@ -327,25 +324,6 @@ static struct snapshot *make_snapshot(struct renderer *renderer, const struct sc
         snapshot_bounds(field, &scene->camera, renderer->info.software && !snapshot->engine);
     look_around(renderer, snapshot, scene);
     return snapshot;
-}
-
-struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, const struct field_options *options,
-                                 uint64_t *out_refused, struct error *err)
-{
-    struct field *field = make_some_field(scene, options, err);
-
-    return field ? make_snapshot(renderer, scene, revision, NULL, upload_create(field), out_refused,
-                                 err)
-                 : NULL;
-}
-
-struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct scene *scene,
-                                         uint64_t revision, const struct snapshot *before,
-                                         struct upload *upload, uint64_t *out_refused,
-                                         struct error *err)
-{
-    return make_snapshot(renderer, scene, revision, before, upload, out_refused, err);
 }
 
 uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)

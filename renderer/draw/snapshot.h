@@ -34,17 +34,16 @@ struct snapshot {
 
 struct renderer;
 
-/* Finds or starts the program, in which what is hidden has its part where it may. NULL and `err`
- * when the scene is no field, or its shape is refused: then that is in `*out_refused`. */
+/* The field of a scene, in which what is hidden has its part where it may: that is no reason not to
+ * draw the rest. NULL and `err` when the scene is no field. Any thread. */
+struct field *snapshot_field(const struct scene *scene, const struct field_options *options,
+                             struct error *err);
+/* Finds or starts the program; takes the reference of `upload`. `before`: the snapshot before a
+ * numeric edit, by which `upload` was patched; NULL: there is none. NULL and `err` when code of it
+ * fails, or its shape is refused: then that is in `*out_refused`. */
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
-                                 uint64_t revision, const struct field_options *options,
-                                 uint64_t *out_refused, struct error *err);
-/* The scene after a numeric edit, of the snapshot before it; takes the reference of `upload`, which
- * was patched. */
-struct snapshot *snapshot_create_patched(struct renderer *renderer, const struct scene *scene,
-                                         uint64_t revision, const struct snapshot *before,
-                                         struct upload *upload, uint64_t *out_refused,
-                                         struct error *err);
+                                 uint64_t revision, const struct snapshot *before,
+                                 struct upload *upload, uint64_t *out_refused, struct error *err);
 /* What a field says of where it is. `limit_loops`: as of struct scene_bounds. */
 struct scene_bounds snapshot_bounds(const struct field *field, const struct record *camera,
                                     bool limit_loops);

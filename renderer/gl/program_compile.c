@@ -5,6 +5,7 @@
 #include "param_buffer.h"
 #include "program_internal.h"
 #include "protocol/memory.h"
+#include "renderer/crash.h"
 #include "warm_targets.h"
 
 enum {
@@ -179,7 +180,9 @@ static void work(struct compiler *compiler, struct warm_targets *targets)
         }
         begin(compiler, program);
         pthread_mutex_unlock(&cache->lock);
+        crash_thread(program->user_code ? CRASH_COMPILING : CRASH_ANYWHERE);
         compile_stage(cache, targets, program, stage);
+        crash_thread(CRASH_ANYWHERE);
         pthread_mutex_lock(&cache->lock);
         compiler->program = NULL;
         pthread_cond_broadcast(&cache->work); /* another may be at this program now */

@@ -189,6 +189,7 @@ static void on_packet(void *data, const struct packet *packet)
         break;
     case TO_FRONT_COMPILING:
     case TO_FRONT_READING:
+    case TO_FRONT_OPENING:
     case TO_FRONT_DRAWING:
     case TO_FRONT_SLOW:
         quarantine_named(hub, (enum packet_to_front)packet->kind, &packet->suspect);

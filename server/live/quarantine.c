@@ -144,6 +144,9 @@ void quarantine_named(struct hub *hub, enum packet_to_front kind,
     case TO_FRONT_READING:
         go_on(quarantine, &quarantine->reading, &suspect);
         break;
+    case TO_FRONT_OPENING:
+        quarantine->opening = suspect;
+        break;
     case TO_FRONT_DRAWING:
         drawing(hub, &suspect);
         break;
@@ -186,7 +189,7 @@ static void describe_refusal(const struct quarantine_case *known, const char *pl
                  known->measured_ms / 1000.0, image ? "read" : "compile", known->limit_ms / 1000.0,
                  shown);
     } else {
-        error_set(out, known->refused, place, "%s this %s ended the render process twice. %s",
+        error_set(out, known->refused, place, "%s this %s ended the render process. %s",
                   image ? "Reading" : "Compiling", what, shown);
     }
 }
@@ -223,7 +226,7 @@ void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t
     tell(room, err, record_text(&room->scene->environment, "image"), revision);
 }
 
-/* The second time it is refused. */
+/* The second time it is refused, or the first if it is the cause for sure. */
 static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
 {
     struct quarantine *quarantine = hub->quarantine;
@@ -231,7 +234,7 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
     struct room *room = find_room(hub, suspect->scene);
     const bool image = is_image(suspect->shape);
 
-    if (!known->tried) {
+    if (!known->tried && !quarantine->sure) {
         known->tried = true;
         give_more_time(known);
         log_warning("quarantine", "scene %s, revision %" PRIu64 ", %s; it is tried again",
@@ -253,36 +256,62 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
     }
 }
 
+/* What may have ended the worker. Of one that crashed at something it is that alone; else a crash
+ * has one cause, and compilers are the likelier one. Stillness may come from either. */
+static void find_suspects(struct quarantine *quarantine, const struct supervisor_end *end,
+                          struct suspect *compiled, struct suspect *read)
+{
+    const bool sure = end->crash != CRASH_ANYWHERE, slow = *quarantine->slow.shape;
+    const bool busy = end->kind == SUPERVISOR_BUSY;
+
+    if (slow) {
+        *compiled = quarantine->slow;
+    } else if (sure ? end->crash == CRASH_COMPILING : !busy || !*quarantine->drawing.scene) {
+        *compiled = quarantine->compiling;
+    }
+    if (sure ? end->crash == CRASH_READING : !(slow && quarantine->limit_ms > 0) && !busy) {
+        *read = quarantine->reading;
+    }
+    const bool other = end->kind == SUPERVISOR_STILL || (!*compiled->shape && !*read->shape);
+
+    if (sure ? end->crash == CRASH_DRAWING : other) {
+        quarantine->drawn = quarantine->drawing;
+    }
+    if (sure ? end->crash == CRASH_OPENING : other) {
+        quarantine->opened = quarantine->opening;
+    }
+}
+
 bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct quarantine *quarantine = hub->quarantine;
     const struct suspect none = {.scene = ""};
     const bool slow = *quarantine->slow.shape && quarantine->limit_ms > 0;
-    const struct suspect compiled = *quarantine->slow.shape ? quarantine->slow
-                                    : end->kind == SUPERVISOR_BUSY && *quarantine->drawing.scene
-                                        ? none
-                                        : quarantine->compiling;
+    struct suspect compiled = none, read = none;
 
-    const struct suspect read = slow || end->kind == SUPERVISOR_BUSY ? none : quarantine->reading;
-
-    quarantine->named = *compiled.shape || *read.shape || *quarantine->drawing.scene;
-    /* A crash has one cause, and compilers are the likelier one; stillness may come from either. */
-    quarantine->drawn = end->kind == SUPERVISOR_STILL || (!*compiled.shape && !*read.shape)
-                            ? quarantine->drawing
-                            : none;
+    quarantine->drawn = quarantine->opened = none;
+    find_suspects(quarantine, end, &compiled, &read);
+    quarantine->named =
+        *compiled.shape || *read.shape || *quarantine->opening.scene || *quarantine->drawing.scene;
+    quarantine->sure = end->crash != CRASH_ANYWHERE && quarantine->named;
     if (*compiled.shape) {
         judge(hub, &compiled, slow);
     }
     if (*read.shape) {
         judge(hub, &read, false);
     }
-    quarantine->compiling = quarantine->reading = quarantine->drawing = quarantine->slow = none;
+    quarantine->compiling = quarantine->reading = quarantine->opening = none;
+    quarantine->drawing = quarantine->slow = none;
     return quarantine->named;
 }
 
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked)
 {
-    return hub->quarantine->named ? strcmp(hub->quarantine->drawn.scene, scene) == 0 : asked;
+    const struct quarantine *quarantine = hub->quarantine;
+
+    return quarantine->named ? strcmp(quarantine->drawn.scene, scene) == 0 ||
+                                   strcmp(quarantine->opened.scene, scene) == 0
+                             : asked;
 }
 
 /* --- second tries --- */

@@ -2,10 +2,10 @@
 /* The quarantine of shapes that ended a worker during compilation, and of files that ended one
  * while their picture was read. "Shape" here means either; the id of a file is longer. The worker
  * names what it is about to compile, read or draw. The shape named when a worker ended gets a
- * second try with LIMIT_RETRY_FACTOR times the time. If that ends a worker too, the shape is
- * refused until somebody asks for a retry. Its scene falls back to the last good state, or to a sky
- * without the picture. Drawing counts against a scene instead (render_queue.h). Every function is
- * called under the hub's lock. */
+ * second try with LIMIT_RETRY_FACTOR times the time. If that ends a worker too, or if the thread
+ * that was at it crashed (renderer/crash.h), the shape is refused until somebody asks for a retry.
+ * Its scene falls back to the last good state, or to a sky without the picture. Drawing counts
+ * against a scene instead (render_queue.h). Every function is called under the hub's lock. */
 #ifndef SERVER_QUARANTINE_H
 #define SERVER_QUARANTINE_H
 
@@ -39,15 +39,17 @@ struct quarantine_case {
     char shape[QUARANTINE_SHAPE_BYTES];
     char scene[LIMIT_ID_BYTES + 16]; /* scene of its last naming */
     int times;                       /* factor on the usual time for the next try */
-    bool tried;                      /* it ended one worker; after another it is refused */
+    bool tried;                      /* it may have ended a worker; after another it is refused */
     enum error_kind refused;         /* why; ERROR_NONE: it is not refused */
     int measured_ms, limit_ms;       /* of ERROR_TOO_SLOW */
 };
 
 struct quarantine {
-    struct suspect compiling, reading, drawing;
+    struct suspect compiling, reading, opening, drawing;
     bool named;                /* the last worker that ended had named a suspect */
+    bool sure;                 /* that is the cause: its thread crashed */
     struct suspect drawn;      /* the picture that may have ended it */
+    struct suspect opened;     /* the same of a document */
     struct suspect slow;       /* why the worker ended itself */
     int measured_ms, limit_ms; /* of `slow` */
     struct quarantine_case cases[QUARANTINE_SHAPES]; /* a ring */
@@ -64,8 +66,8 @@ void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES]);
 void quarantine_worker_ready(struct hub *hub);
 /* A worker has ended. True: it had named a suspect. */
 bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end);
-/* Whether drawing this scene may have ended the last worker. If that worker had named nothing,
- * every scene with a picture asked of it is suspect: `asked`. */
+/* Whether drawing this scene, or reading its document, may have ended the last worker. If that
+ * worker had named nothing, every scene with a picture asked of it is suspect: `asked`. */
 bool quarantine_blames(const struct hub *hub, const char *scene, bool asked);
 /* Whether a shape of the scene waits for its second try. */
 bool quarantine_is_tried_again(const struct hub *hub, const struct room *room);

@@ -20,7 +20,7 @@ enum {
     RENDER_IMAGE = 3,
     RENDER_THUMBNAIL = RENDER_STILL, /* drawn at rest alone; thumbnails.h */
     RENDER_DEADLINE_MS = 120000,     /* after so long without progress an order fails */
-    RENDER_DEATHS = 2,               /* workers that one scene may end */
+    RENDER_DEATHS = 2,               /* workers that one scene may have ended */
 };
 
 struct render_queue {

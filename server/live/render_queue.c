@@ -95,11 +95,9 @@ static void send_scene(struct hub *hub, const struct render_entry *entry)
 
     asset_index_send(hub, entry->order.image);
     scene_name(entry, name);
-    const struct packet_scene packet = {.scene = name,
-                                        .revision = 1,
-                                        .portrait = entry->order.portrait,
-                                        .document = cJSON_CreateRaw(entry->order.document)};
-    room_sync_send_scene(hub, &packet);
+    const struct packet_scene packet = {
+        .scene = name, .revision = 1, .portrait = entry->order.portrait};
+    room_sync_send_scene(hub, &packet, entry->order.document);
 }
 
 static struct render_demand render_demand(const struct render_order *order)
@@ -370,9 +368,8 @@ static void describe_end(const struct room *room, const struct supervisor_end *e
         describe_slow(room, (int)end->measured_ms, (int)end->limit_ms, out);
     } else {
         error_set(out, ERROR_CRASHED, root_place(room, place),
-                  "Drawing this scene ended the render process %d times. It is not drawn until it "
-                  "is edited or tried again.",
-                  room->deaths);
+                  "Drawing this scene ended the render process. It is not drawn until it is edited "
+                  "or tried again.");
     }
 }
 
@@ -460,8 +457,9 @@ void render_queue_frame(struct hub *hub, const struct packet *packet)
 
 /* --- the worker's fate --- */
 
-/* Which scenes may have been the cause: those asked for, and those whose shader was compiling. */
-static void blame(struct hub *hub, const struct supervisor_end *end)
+/* Which scenes may have been the cause: those asked for, and those whose shader was compiling.
+ * `deaths`: as how many workers this one counts. */
+static void blame(struct hub *hub, const struct supervisor_end *end, int deaths)
 {
     for (struct room *room = hub->rooms; room; room = room->next) {
         bool asked = room->sent && room->settled < room->revision;
@@ -473,10 +471,13 @@ static void blame(struct hub *hub, const struct supervisor_end *end)
         if (!quarantine_blames(hub, room->id, asked) || room->suspended.kind != ERROR_NONE) {
             continue;
         }
-        const struct render_entry *drawn = find(hub->render_queue, hub->quarantine->drawn.job);
+        const struct render_entry *drawn = strcmp(hub->quarantine->drawn.scene, room->id) == 0
+                                               ? find(hub->render_queue, hub->quarantine->drawn.job)
+                                               : NULL;
 
         room->fatal = drawn ? render_demand(&drawn->order) : (struct render_demand){0};
-        if (++room->deaths >= RENDER_DEATHS) {
+        room->deaths += deaths;
+        if (room->deaths >= RENDER_DEATHS) {
             struct error why = {0};
 
             describe_end(room, end, &why);
@@ -496,8 +497,10 @@ void render_queue_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct error err = {0};
 
+    const int deaths = hub->quarantine->sure ? RENDER_DEATHS : 1;
+
     hub->render_queue->ready = false;
-    blame(hub, end);
+    blame(hub, end, deaths);
     error_set(&err, ERROR_UNAVAILABLE, "", "the render process ended while it drew this");
     for (struct render_entry *entry = hub->render_queue->first, *next; entry; entry = next) {
         next = entry->next;
@@ -507,7 +510,7 @@ void render_queue_worker_down(struct hub *hub, const struct supervisor_end *end)
         char name[LIMIT_ID_BYTES + 16];
 
         scene_name(entry, name);
-        entry->deaths += quarantine_blames(hub, name, true);
+        entry->deaths += quarantine_blames(hub, name, true) ? deaths : 0;
         entry->sent = false;
         if (gives_up(entry)) {
             finish(hub, entry, NULL, &err);

@@ -2,12 +2,14 @@
 #include "room_sync.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "asset_index.h"
 #include "hub.h"
 #include "last_good.h"
 #include "protocol/code_text.h"
+#include "protocol/json.h"
 #include "quarantine.h"
 #include "room_log.h"
 #include "room_state.h"
@@ -23,17 +25,15 @@ static void send_image(struct room *room, const struct scene *scene)
     }
 }
 
-/* Takes the document. Where code is not allowed, none reaches the worker. */
-void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet)
+void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet, const char *text)
 {
-    if (hub->code_refused) {
-        code_text_remove(packet->document);
-    }
-    supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_SCENE, .scene = *packet});
-    cJSON_Delete(packet->document);
+    supervisor_send(hub->supervisor, &(struct packet){.kind = TO_WORKER_SCENE,
+                                                      .scene = *packet,
+                                                      .payload = (uint8_t *)text,
+                                                      .payload_length = strlen(text)});
 }
 
-/* The same of an edit. */
+/* Where code is not allowed, none reaches the worker. Takes the operations. */
 static void send_edit(struct room *room, cJSON *ops)
 {
     struct hub *hub = room->hub;
@@ -48,18 +48,28 @@ static void send_edit(struct room *room, cJSON *ops)
     room->sent = room->revision;
 }
 
+/* Its document without code where that is not allowed. Caller frees. */
+static char *print_scene(const struct hub *hub, const struct scene *scene)
+{
+    cJSON *document = scene_to_json(scene);
+
+    if (hub->code_refused) {
+        code_text_remove(document);
+    }
+    char *text = json_print(document, false);
+    cJSON_Delete(document);
+    return text;
+}
+
 static void send_scene(struct room *room, const struct scene *scene, uint64_t revision)
 {
     const bool printed = room->text && scene == room->scene && !room->hub->code_refused;
+    char *text = printed ? NULL : print_scene(room->hub, scene);
 
     send_image(room, scene);
-    room_sync_send_scene(room->hub,
-                         &(struct packet_scene){
-                             .scene = room->id,
-                             .revision = revision,
-                             .document = printed ? cJSON_CreateRaw((const char *)room->text->bytes)
-                                                 : scene_to_json(scene),
-                         });
+    room_sync_send_scene(room->hub, &(struct packet_scene){.scene = room->id, .revision = revision},
+                         text ? text : (const char *)room->text->bytes);
+    free(text);
     room->sent = revision;
 }
 

@@ -13,8 +13,8 @@ struct hub;
 struct packet_scene;
 struct room;
 
-/* Sends a scene under `name`; takes `document`. */
-void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet);
+/* Sends a scene whose document has this text, without code that is refused. */
+void room_sync_send_scene(struct hub *hub, const struct packet_scene *packet, const char *text);
 
 /* Sends the scene to a worker that does not hold it, before its first order. */
 void room_sync_open(struct room *room);

@@ -262,9 +262,16 @@ static void start(struct supervisor *supervisor)
     log_info("worker", "started as process %d", (int)supervisor->pid);
 }
 
-static void describe_exit(int status, char *out, size_t size)
+static void describe_exit(int status, enum crash_work crash, char *out, size_t size)
 {
-    if (WIFSIGNALED(status)) {
+    static const char *const works[CRASH_WORKS] = {[CRASH_COMPILING] = "compiling",
+                                                   [CRASH_READING] = "reading a picture",
+                                                   [CRASH_OPENING] = "reading a document",
+                                                   [CRASH_DRAWING] = "drawing"};
+
+    if (crash != CRASH_ANYWHERE) {
+        snprintf(out, size, "crashed %s", works[crash]);
+    } else if (WIFSIGNALED(status)) {
         snprintf(out, size, "ended by signal %d (%s)", WTERMSIG(status),
                  strsignal(WTERMSIG(status)));
     } else {
@@ -320,7 +327,8 @@ static void take_down(struct supervisor *supervisor, const struct supervisor_end
     const int status = reap(supervisor);
     supervisor->pid = 0;
     if (!why) {
-        describe_exit(status, end.text, sizeof end.text);
+        end.crash = WIFEXITED(status) ? crash_of(WEXITSTATUS(status)) : CRASH_ANYWHERE;
+        describe_exit(status, end.crash, end.text, sizeof end.text);
     }
     metric_set(supervisor->params.metrics, METRIC_WORKER_UP, 0);
     if (atomic_load(&supervisor->stopping)) {
@@ -429,11 +437,13 @@ static bool hangs(struct supervisor *supervisor, int64_t now, struct supervisor_
     }
     vigil_look(&supervisor->vigil, now, &use);
     if (vigil->still_ms > still_limit) {
-        *out = (struct supervisor_end){SUPERVISOR_STILL, vigil->still_ms, still_limit, ""};
+        *out = (struct supervisor_end){
+            .kind = SUPERVISOR_STILL, .measured_ms = vigil->still_ms, .limit_ms = still_limit};
         snprintf(out->text, sizeof out->text, "silent and still for %lld ms",
                  (long long)vigil->still_ms);
     } else if (vigil->spent_ms > busy_limit) {
-        *out = (struct supervisor_end){SUPERVISOR_BUSY, vigil->spent_ms, busy_limit, ""};
+        *out = (struct supervisor_end){
+            .kind = SUPERVISOR_BUSY, .measured_ms = vigil->spent_ms, .limit_ms = busy_limit};
         snprintf(out->text, sizeof out->text, "silent for %lld ms of the processor",
                  (long long)vigil->spent_ms);
     }

@@ -24,6 +24,7 @@ enum supervisor_end_kind {
 /* How a worker ended. */
 struct supervisor_end {
     enum supervisor_end_kind kind;
+    enum crash_work crash;         /* what it was at for sure; CRASH_ANYWHERE: not known */
     int64_t measured_ms, limit_ms; /* time used, and allowed; 0 where it ended by itself */
     char text[160];
 };

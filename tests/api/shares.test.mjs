@@ -18,6 +18,9 @@ const NEWCOMERS = 40;
 const COMING = 10;
 const REST_MS = 600; // after which a picture at rest would have come
 const SHARE = 16; // pictures of one client in the queue
+const READERS = 50;
+const EACH = 20; // pictures of each of them
+const AHEAD = 300 / TILE_MS; // tiles by which urgent pictures may run ahead of one that is not (renderer/turns.h)
 const ball = { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } };
 
 let daemon;
@@ -67,6 +70,48 @@ async function tilesOfPictures(scene, count) {
     await live.close();
     return (await tiles()) - start;
 }
+
+/** Viewers of small pictures who look elsewhere with every picture that comes; a view is always ahead of it. */
+async function readers(scenes) {
+    const all = await Promise.all(scenes.map((scene) => Live.open(daemon, scene)));
+    const timesUs = all.map(() => []); // that the pictures of each took to draw
+    all.forEach((live, i) => {
+        const look = () => live.look({ width: 64, height: 48, ...from(1000 * i + timesUs[i].length) });
+        live.onFrame = ({ stagesUs }) => {
+            timesUs[i].push(stagesUs.slice(1, -1).reduce((a, b) => a + b)); // without waiting, encoding
+            look();
+        };
+        look();
+        look();
+    });
+    await until(() => timesUs.every((times) => times.length > 0), 'a picture for each');
+    timesUs.forEach((times) => times.splice(0));
+    return { timesUs, stop: () => Promise.all(all.map((live) => live.close())) };
+}
+
+// A picture that the machine interrupts takes longer, and its viewer waits for that: so times are compared.
+test('one beside fifty who read gets its share, and so does each of them', async (t) => {
+    const { timesUs, stop } = await readers(['two', ...Array(READERS).fill('one')]);
+    await until(() => timesUs.flat().length >= EACH * timesUs.length, `${EACH} pictures for each`);
+    const times = timesUs.map((all) => all.slice());
+    await stop();
+    const sums = times.map((all) => all.reduce((a, b) => a + b, 0));
+    const mean = sums.reduce((a, b) => a + b) / sums.length;
+    const longest = Math.max(...times.flat());
+    t.diagnostic(`ms of the one and of the others: ${sums.map((us) => Math.round(us / 1000)).join(' ')}; longest ${Math.round(longest / 1000)}`);
+    assert.ok(sums.every((sum) => Math.abs(sum - mean) <= 0.2 * mean + longest));
+});
+
+test('a small picture beside ten who read has its turn', async (t) => {
+    const { timesUs, stop } = await readers(Array(10).fill('one'));
+    const before = timesUs.flat().length;
+    const answer = await fetch(image('two', 8, '&samples=1')); // one tile, as small as tiles are
+    const drawn = timesUs.flat().length - before;
+    await stop();
+    assert.equal(answer.status, 200);
+    t.diagnostic(`${drawn} pictures of others until it was there`);
+    assert.ok(drawn <= AHEAD + 2 * 10 + BETWEEN, `${drawn} pictures`);
+});
 
 for (const [scene, who] of [
     ['two', 'of another scene'],

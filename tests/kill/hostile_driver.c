@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* A driver that hangs, crashes, eats memory or takes long over some shaders, and a libpng that does
- * so over some pictures: loaded into the daemon in front of the real one (LD_PRELOAD), so that the
- * program under test is the one that users run. What it does is chosen by numbers in the shader's
- * text. It takes time of the processor, so that a busy machine changes nothing; while it hangs, the
- * processor clock of its thread runs HANG_RATE times as fast, so that little of it is burnt.
+/* A driver that hangs, crashes, eats memory or takes long over some shaders, a libpng that does so
+ * over some pictures, and a cJSON that does so over some documents: loaded into the daemon in front
+ * of the real ones (LD_PRELOAD), so that the program under test is the one that users run. What it
+ * does is chosen by numbers in the shader's text. It takes time of the processor, so that a busy
+ * machine changes nothing; while it hangs, the processor clock of its thread runs HANG_RATE times
+ * as fast, so that little of it is burnt.
  *
  * HANG_ONCE and the like hang in the first so many processes that come so far: they write their
  * numbers into the file HOSTILE_COUNT. */
 #include <EGL/egl.h>
 #include <GL/glcorearb.h>
+#include <cjson/cJSON.h>
 #include <dlfcn.h>
 #include <png.h>
 #include <pthread.h>
@@ -196,7 +198,7 @@ static void APIENTRY source(GLuint shader, GLsizei count, const GLchar *const *s
         pause();
         break;
     case CRASH:
-        abort();
+        __builtin_trap();
     case EAT:
         eat();
         break;
@@ -225,7 +227,7 @@ static void APIENTRY use(GLuint program)
     const bool elsewhere = !pthread_equal(later[program % OBJECTS], pthread_self());
 
     if (is_later[program % OBJECTS] == CRASH_LATER && elsewhere) {
-        abort();
+        __builtin_trap();
     }
     if (is_later[program % OBJECTS] == SLEEP_LATER && elsewhere) {
         pause();
@@ -255,12 +257,32 @@ void png_read_info(png_structrp png, png_inforp info)
             continue;
         }
         if (pictures[i].act == CRASH) {
-            abort();
+            __builtin_trap();
         }
         if (processes_before() < 1) {
             hang();
         }
     }
+}
+
+static bool holds(const char *text, size_t length, const char *word)
+{
+    return memmem(text, length, word, strlen(word));
+}
+
+/* The render process alone reads documents with it. */
+cJSON *cJSON_ParseWithLength(const char *text, size_t length)
+{
+    cJSON *(*real)(const char *, size_t) =
+        (cJSON * (*)(const char *, size_t)) dlsym(RTLD_NEXT, "cJSON_ParseWithLength");
+
+    if (holds(text, length, "crash-while-read")) {
+        __builtin_trap();
+    }
+    if (holds(text, length, "hang-while-read")) {
+        hang();
+    }
+    return real(text, length);
 }
 
 typedef __eglMustCastToProperFunctionPointerType function;

@@ -21,10 +21,10 @@ export const INCLUDES = {
     'renderer/field': ['protocol', 'renderer/sdf', 'renderer/code', 'renderer/glsl'],
     'renderer/spmd': ['renderer/code', 'renderer/glsl', 'renderer/field'],
     'renderer/engine': ['protocol', 'renderer/image', 'renderer/code', 'renderer/glsl', 'renderer/field'],
-    'renderer/gl': ['protocol', 'renderer/glsl', 'renderer/vigil.h'],
+    'renderer/gl': ['protocol', 'renderer/glsl', 'renderer/crash.h', 'renderer/vigil.h'],
     'renderer/draw': [
         'protocol',
-        ...['glsl', 'field', 'engine', 'gl', 'image', 'renderer.h'].map((name) => `renderer/${name}`),
+        ...['glsl', 'field', 'engine', 'gl', 'image', 'crash.h', 'renderer.h'].map((name) => `renderer/${name}`),
     ],
     server: ['protocol', ...WORKER],
     'server/net': ['protocol', ...BASE],

@@ -238,6 +238,7 @@ export class Live {
             if (this.ack) {
                 this.acknowledge(frame.number);
             }
+            this.onFrame?.(frame);
         }
     }
 

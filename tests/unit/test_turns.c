@@ -152,6 +152,80 @@ static void test_nobody_starves(void **state)
     (void)state;
 }
 
+/* Of fifty-one who ask for the next picture a little after each, the one does not get less. */
+static void test_many_readers(void **state)
+{
+    enum { READERS = 51, EACH = 100 };
+    struct picture readers[READERS];
+    char accounts[READERS][16];
+    int idle[READERS] = {0}; /* steps of others until it asks again */
+
+    (void)state;
+    for (int i = 0; i < READERS; i++) {
+        snprintf(accounts[i], sizeof accounts[i], "%d", i);
+        readers[i] = (struct picture){.account = accounts[i], .priority = MOVING, .step_us = 8000};
+        join(&readers[i]);
+    }
+    for (int done = 0; done < READERS * EACH; done++) {
+        struct picture *drawn = step(readers, READERS);
+        const int who = (int)(drawn - readers);
+
+        leave(drawn);
+        drawn->waiting = true;
+        idle[who] = 1 + who % 7;
+        for (int i = 0; i < READERS; i++) {
+            if (readers[i].waiting && --idle[i] == 0) {
+                readers[i].waiting = false;
+                join(&readers[i]);
+            }
+        }
+    }
+    for (int i = 0; i < READERS; i++) {
+        assert_in_range(readers[i].steps, 0.8 * EACH, 1.2 * EACH);
+        if (!readers[i].waiting) {
+            leave(&readers[i]);
+        }
+    }
+    finish();
+}
+
+/* What is not urgent waits for as much drawing beside ten as beside one. */
+static void test_image_beside_readers(void **state)
+{
+    enum { READERS = 10, STEP_US = 10000, AHEAD = IMAGE * TURNS_AHEAD_US / STEP_US };
+    enum { TILES = 5, COST = 4 }; /* of the image */
+    struct picture all[READERS + 1];
+    char accounts[READERS + 1][16];
+    int steps = 0;
+
+    (void)state;
+    for (int i = 0; i <= READERS; i++) {
+        snprintf(accounts[i], sizeof accounts[i], "%d", i);
+        all[i] = (struct picture){
+            .account = accounts[i], .priority = i < READERS ? MOVING : IMAGE, .step_us = STEP_US};
+    }
+    for (int i = 0; i < READERS; i++) {
+        join(&all[i]);
+    }
+    for (int i = 0; i < 1000; i++) {
+        step(all, READERS);
+    }
+    join(&all[READERS]);
+    while (step(all, READERS + 1) != &all[READERS]) {
+        steps++;
+    }
+    assert_in_range(steps, 0, AHEAD + READERS);
+    while (all[READERS].steps < TILES) {
+        step(all, READERS + 1);
+        steps++;
+    }
+    assert_in_range(steps, TILES * READERS, AHEAD + TILES * COST * READERS);
+    for (int i = 0; i <= READERS; i++) {
+        leave(&all[i]);
+    }
+    finish();
+}
+
 /* Within an account neither. */
 static void test_oldest_within_account(void **state)
 {
@@ -264,6 +338,8 @@ int main(void)
         cmocka_unit_test(test_urgent_first),
         cmocka_unit_test(test_small_first),
         cmocka_unit_test(test_nobody_starves),
+        cmocka_unit_test(test_many_readers),
+        cmocka_unit_test(test_image_beside_readers),
         cmocka_unit_test(test_oldest_within_account),
         cmocka_unit_test(test_little_credit),
         cmocka_unit_test(test_small_between_heavy),

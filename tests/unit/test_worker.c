@@ -147,14 +147,20 @@ static void ping(int value)
     assert_int_equal(packet.pong.ping, value);
 }
 
+static void send_document(const char *name, uint64_t revision, const char *text)
+{
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE,
+                                     .scene = {.scene = name, .revision = revision},
+                                     .payload = (uint8_t *)text,
+                                     .payload_length = strlen(text)});
+}
+
 static void send_scene(const char *name, uint64_t revision)
 {
     size_t length;
     char *document = text_file_read(EXAMPLE, &length);
-    cJSON *json = cJSON_Parse(document);
 
-    send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE, .scene = {name, revision, json}});
-    cJSON_Delete(json);
+    send_document(name, revision, document);
     free(document);
 }
 
@@ -461,6 +467,119 @@ static void test_dropped_scene(void **state)
     assert_int_equal(packet.frame.job, 1);
 }
 
+/* A ball among hidden ones: reading it takes much longer than drawing it. Caller frees. */
+static char *large_document(void)
+{
+    enum { GROUPS = 300, NODES = 100 };
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+
+    assert_non_null(out);
+    fprintf(out, "{'format':'fieldcast/1','root':{'id':'root','type':'union',"
+                 "'children':[{'id':'ball','type':'sphere'}");
+    for (int i = 0; i < GROUPS; i++) {
+        fprintf(out, ",{'id':'g%d','type':'group','children':[", i);
+        for (int k = 0; k < NODES; k++) {
+            fprintf(out, "%s{'id':'n%d-%d','type':'sphere','visible':false}", k ? "," : "", i, k);
+        }
+        fprintf(out, "]}");
+    }
+    fprintf(out, "]}}");
+    assert_int_equal(fclose(out), 0);
+    json_text_quote(text);
+    return text;
+}
+
+/* The next answer about a picture or a scene is this picture. */
+static void expect_frame(uint32_t job, uint64_t revision)
+{
+    int kind = receive();
+
+    while (kind != TO_FRONT_FRAME && kind != TO_FRONT_FAILED && kind != TO_FRONT_BROKEN &&
+           kind != TO_FRONT_COUNT) {
+        kind = receive();
+    }
+    assert_int_equal(kind, TO_FRONT_FRAME);
+    assert_int_equal(packet.frame.job, job);
+    assert_int_equal(packet.frame.revision, revision);
+    assert_true(packet.frame.newest);
+}
+
+/* Others are drawn while large documents are read. */
+static void test_large_documents(void **state)
+{
+    static const char *const large[] = {"a", "b", "c", "d"};
+    enum { LARGE = sizeof large / sizeof large[0] };
+    char *document = large_document();
+    int shown = 0;
+
+    (void)state;
+    send_scene("t", 1);
+    expect(TO_FRONT_SHOWN);
+    for (int i = 0; i < LARGE; i++) {
+        send_document(large[i], 1, document);
+    }
+    send_render_of("t", 1, 0, 40, 30, "");
+    for (int kind; (kind = receive()) != TO_FRONT_FRAME;) {
+        assert_int_not_equal(kind, TO_FRONT_COUNT);
+        shown += kind == TO_FRONT_SHOWN;
+    }
+    assert_int_equal(packet.frame.job, 1);
+    assert_true(shown < LARGE);
+    for (int i = 0; i < LARGE; i++) {
+        send_render_of(large[i], 2, 0, 40, 30, "");
+        expect_frame(2, 1);
+    }
+    free(document);
+}
+
+/* Whatever is said of a scene is done after its document was read, in the order of saying. */
+static void test_order(void **state)
+{
+    char *document = large_document();
+
+    (void)state;
+    send_document("s", 1, document);
+    send_edit(2, "[{'op':'set','at':'/nodes/ball/params/radius','value':0.9}]");
+    send_render(1, 0, 40, 30, "");
+    expect_frame(1, 2);
+
+    /* A small document of the scene waits for the large one too. */
+    send_document("s", 3, document);
+    send_scene("s", 4);
+    send_render(2, 0, 40, 30, "");
+    expect_frame(2, 4);
+
+    send_document("s", 5, document);
+    send_render(3, 0, 40, 30, "");
+    send_cancel(3);
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_DROP, .state = {.scene = "s"}});
+    send_render(4, 0, 40, 30, "");
+    expect(TO_FRONT_FAILED);
+    assert_int_equal(packet.failed.job, 4);
+    assert_int_equal(packet.failed.error.kind, ERROR_NOT_FOUND);
+    do {
+        ping(1);
+    } while (!packet.pong.idle);
+    assert_int_equal(packet.pong.counters.pictures, 2);
+    free(document);
+}
+
+/* The end comes while one is read, another waits, and packets wait for both. */
+static void test_stop_while_reading(void **state)
+{
+    char *document = large_document();
+
+    (void)state;
+    send_document("s", 1, document);
+    send_document("t", 1, document);
+    send_render_of("s", 1, 0, 40, 30, "");
+    send_render_of("t", 2, 0, 40, 30, "");
+    send_text(TO_WORKER_STOP, "{}");
+    free(document);
+}
+
 static void test_outputs(void **state)
 {
     (void)state;
@@ -532,8 +651,6 @@ static void check_broken(const char *scene, uint64_t revision, enum error_kind k
 
 static void test_refusals(void **state)
 {
-    cJSON *document = json_text_parse("{'format':'x'}", NULL);
-
     (void)state;
     check_failed("", ERROR_NOT_FOUND, "scene");
     send_scene("s", 1);
@@ -550,9 +667,10 @@ static void test_refusals(void **state)
     check_failed(",'camera':{'fov':500}", ERROR_INVALID, "/camera/fov");
     check_failed(",'isolate':[7]", ERROR_INVALID, "/isolate/0");
     check_failed(",'delivery':{'by':'air'}", ERROR_INVALID, "/delivery/by");
-    send_packet(fd, &(struct packet){.kind = TO_WORKER_SCENE, .scene = {"t", 4, document}});
+    send_document("t", 4, "{}");
     check_broken("t", 4, ERROR_INVALID);
-    cJSON_Delete(document);
+    send_document("t", 5, "{");
+    check_broken("t", 5, ERROR_SYNTAX);
     send_edit(2, "[{'op':'remove','at':'/nodes/nobody'}]");
     check_broken("s", 2, ERROR_NOT_FOUND);
     send_render(6, 0, 40, 30, "");
@@ -749,6 +867,9 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_pulse, start, stop),
         cmocka_unit_test_setup_teardown(test_pulse_gone, start, stop),
         cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
+        cmocka_unit_test_setup_teardown(test_large_documents, start, stop),
+        cmocka_unit_test_setup_teardown(test_order, start, stop),
+        cmocka_unit_test_setup_teardown(test_stop_while_reading, start, stop),
         cmocka_unit_test_setup_teardown(test_outputs, start, stop),
         cmocka_unit_test_setup_teardown(test_what_is_asked, start, stop),
         cmocka_unit_test_setup_teardown(test_refusals, start, stop),

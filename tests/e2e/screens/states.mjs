@@ -81,11 +81,11 @@ async function setRadius(page, text) {
 /* As the server says it. */
 const STAYS = 'The last good picture stays.';
 const TOO_SLOW = `This code took over 2 s to compile here (limit 2 s). ${STAYS}`;
-const CRASHED = `Compiling this code ended the render process twice. ${STAYS}`;
+const CRASHED = `Compiling this code ended the render process. ${STAYS}`;
 
 const LATER = 'It is not drawn until it is edited or tried again.';
 const LEFT_OUT = `Drawing the smallest part of this scene took over 0.9 s here (limit 0.5 s). ${LATER}`;
-const ENDED = `Drawing this scene ended the render process 2 times. ${LATER}`;
+const ENDED = `Drawing this scene ended the render process. ${LATER}`;
 
 const BINARY_FLAGS = 6;
 const LOSSLESS = 4;
