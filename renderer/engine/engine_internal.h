@@ -124,6 +124,7 @@ struct call_row {
 
 /* Cubes of the whole field, of that without what light goes through, and of that alone. */
 enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
+void cells_finish(struct cells spaces[ENGINE_SPACES]);
 
 struct engine_canvas {
     struct engine_picture picture;
@@ -147,8 +148,8 @@ struct engine_width {
     const struct call_row *calls;
     size_t call_count;
     uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
-    void (*distances)(const struct engine_program *program, const float *params,
-                      const float (*points)[3], size_t count, float *out);
+    uint64_t (*distances)(const struct engine_program *program, const float *params,
+                          const float (*points)[3], size_t count, float half, float *out);
     /* A level of one of the pictures; all but the first are made of that. */
     void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
                      int number, int level);

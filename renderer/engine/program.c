@@ -293,10 +293,10 @@ struct engine_program *engine_program_create(struct field *field, int lanes, int
     return program;
 }
 
-void engine_distances(const struct engine_program *program, const float *params,
-                      const float (*points)[3], size_t count, float *out)
+uint64_t engine_distances(const struct engine_program *program, const float *params,
+                          const float (*points)[3], size_t count, float half, float *out)
 {
-    program->width->distances(program, params, points, count, out);
+    return program->width->distances(program, params, points, count, half, out);
 }
 
 struct engine_program *engine_program_ref(struct engine_program *program)
