@@ -26,17 +26,22 @@ void engine_canvas_keep(struct engine_canvas *canvas, struct engine_rect region)
     canvas->counted = memory_alloc(2 * pixels, sizeof *canvas->counted);
 }
 
+void cells_finish(struct cells spaces[ENGINE_SPACES])
+{
+    for (int i = 0; i < ENGINE_SPACES; i++) {
+        free(spaces[i].at);
+        free(spaces[i].tapes);
+        free(spaces[i].drops);
+    }
+}
+
 void engine_canvas_destroy(struct engine_canvas *canvas)
 {
     if (!canvas) {
         return;
     }
     for (int i = 0; i < ENGINE_THREADS; i++) {
-        for (int k = 0; k < ENGINE_SPACES; k++) {
-            free(canvas->cells[i][k].at);
-            free(canvas->cells[i][k].tapes);
-            free(canvas->cells[i][k].drops);
-        }
+        cells_finish(canvas->cells[i]);
     }
     free(canvas->pixels);
     free(canvas->counted);

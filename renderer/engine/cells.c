@@ -9,11 +9,17 @@
 #define CELL_NEAR 0.15f       /* half of the smallest, as a part of the distance to a surface */
 #define CELL_SHORT 3          /* such a tape is not made shorter */
 #define CELL_RUN 4            /* operations that take as long as it does to begin a tape */
+#define WORN_USES 4           /* a cube whose tape was used so often has smaller ones, */
+#define WORN_TAPE 24          /* if it is as long as this */
 #define CELL_LIMIT (1 << 18)  /* with more cubes, */
-#define TAPES_LIMIT (1 << 24) /* or words of tapes, all are made anew */
+#define TAPES_LIMIT (1 << 26) /* or words of tapes, of all threads, these are made anew */
 #define BOUND_NEAR 2          /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96         /* operations that take longer than more steps by a bound */
 #define GRID_BITS 24          /* of the root's side: as many as a float has */
+/* Where 0, 0, 0 is on the grid: a third of the way along each axis, and so a third or two of the way
+ * through each cube around it. In the middle of all, what is around it would lie in eight cubes of
+ * every size. */
+#define GRID_ORIGIN 0x555555
 
 static struct cell *cell_add(struct cells *cells)
 {
@@ -27,7 +33,7 @@ static struct cell *cell_add(struct cells *cells)
 static void tape_room(struct cells *cells, size_t count)
 {
     if (cells->room - cells->used < count) {
-        cells->room = 2 * (cells->room + count);
+        cells->room += cells->room / 2 + count;
         cells->tapes = memory_resize(cells->tapes, cells->room, sizeof *cells->tapes);
     }
 }
@@ -78,13 +84,16 @@ static void cells_begin(struct lanes *c)
                           .made = true,
                           .splits = c->program->count > CELL_SHORT};
     cells->grid = (float)(1 << (GRID_BITS - 1)) / root->half;
+    for (int i = 0; i < 3; i++) {
+        root->centre[i] = (float)((1 << (GRID_BITS - 1)) - GRID_ORIGIN) / cells->grid;
+    }
 }
 
 /* Where they are too many they are made anew. Not while one of them is used. */
 static void cells_limit(struct lanes *c)
 {
     struct cells *cells = c->cells;
-    if (cells->count > CELL_LIMIT || cells->used > TAPES_LIMIT) {
+    if (cells->count > CELL_LIMIT || cells->used > TAPES_LIMIT / (size_t)c->threads) {
         cells->count = 0;
         cells_begin(c);
     }
@@ -108,7 +117,7 @@ static struct spots spots_of(const struct cells *cells, const vf *p)
 {
     struct spots s = {.in = vb_all(true)};
     for (int i = 0; i < 3; i++) {
-        const vf at = vf_floor(p[i] * cells->grid) + (float)(1 << (GRID_BITS - 1));
+        const vf at = vf_floor(p[i] * cells->grid) + (float)GRID_ORIGIN;
         const vb in = (at >= 0.0f) & (at < (float)(1 << GRID_BITS));
         s.at[i] = vi_of_f(vf_select(in, at, vf_zero));
         s.in &= in;
@@ -137,6 +146,10 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
     struct cells *cells = c->cells;
     const struct operation *operations = c->program->operations;
     bool distance[FIELD_SLOTS_MAX] = {true}, point[FIELD_SLOTS_MAX] = {false};
+    child->made = true;
+    if (!(parent->dropping >> number & 0x101)) {
+        return; /* it has its parent's */
+    }
     tape_room(cells, parent->count);
     const uint32_t *from = cells->tapes + parent->tape;
     const uint16_t *drops = cells->drops + parent->drops;
@@ -181,7 +194,6 @@ static void make_tape(struct lanes *c, const struct cell *parent, int number, st
         }
         *--at = kept;
     }
-    child->made = true;
     child->tape = (uint32_t)cells->used;
     child->count = (uint32_t)(to + parent->count - at);
     memmove(to, at, child->count * sizeof *at);
@@ -235,8 +247,10 @@ static void cell_split(struct lanes *c, int32_t index, float mask)
         machine_of(v, c, vb_all(true), centre);
         v->drops = c->cells->drops + c->cells->at[index].drops;
         v->child = first;
+        v->dropping = 0;
         v->radius = LOOSE * half * 1.7320508f;
         run(v, c->cells->tapes + parent.tape, parent.count);
+        c->cells->at[index].dropping |= v->dropping;
         for (int k = 0; k < LANES && first + k < 8; k++) {
             c->cells->at[children + first + k].distance = v->d[0][k];
         }
@@ -273,6 +287,24 @@ static struct cell *cell_ready(struct lanes *c, int32_t at)
     return cell;
 }
 
+static bool has_smaller(const struct cell *cell)
+{
+    return cell->splits || cell->worn;
+}
+
+/* Rent or buy: where evaluations have cost as much as it would take to split a cube, the next ones
+ * are thought to cost as much again. */
+static void use(struct cells *cells, int32_t at)
+{
+    struct cell *cell = &cells->at[at];
+    if (has_smaller(cell) || cell->count < WORN_TAPE || cell->bits == 0 ||
+        ++cell->uses < WORN_USES) {
+        return;
+    }
+    const struct cell *parent = &cells->at[cell->parent];
+    cell->worn = parent->splits || 8 * (uint64_t)cell->count < 7 * (uint64_t)parent->count;
+}
+
 /* The child, of a cube that splits, that a lane is in. */
 static int32_t child_at(struct lanes *c, int32_t at, const struct spots *s, int lane)
 {
@@ -303,7 +335,8 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
     struct cells *cells = c->cells;
     vb held = cell_lanes(&cells->at[cells->last], m, p);
     const struct cell *last = cell_ready(c, cells->last);
-    if (!lanes_any(m & ~held) && !last->splits) {
+    if (!lanes_any(m & ~held) && !has_smaller(last)) {
+        use(cells, cells->last);
         *out_lanes = held;
         return last;
     }
@@ -313,7 +346,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
     /* What a tape takes, and how many lanes share it, of the best. */
     uint64_t least = cell_ready(c, at)->count + CELL_RUN, sharing = lanes_count(held);
     *out_lanes = held;
-    while (cells->at[at].splits && spots.in[lane]) {
+    while (has_smaller(&cells->at[at]) && spots.in[lane]) {
         at = child_at(c, at, &spots, lane);
         held = cell_lanes(&cells->at[at], held, p);
         const uint64_t takes = cell_ready(c, at)->count + CELL_RUN, lanes = lanes_count(held);
@@ -325,6 +358,7 @@ static const struct cell *cell_at(struct lanes *c, vb m, const vf *p, int lane, 
         }
     }
     cells->last = best;
+    use(cells, best);
     return &cells->at[best];
 }
 
@@ -359,6 +393,9 @@ static const struct cell *bound_at(struct lanes *c, const struct spots *s, int l
 {
     struct cells *cells = c->cells;
     int32_t at = cell_around(cells, s, lane);
+    while (at > 0 && !cells->at[cells->at[at].parent].splits) {
+        at = cells->at[at].parent;
+    }
     while (at > 0 && cell_is_far(&cells->at[cells->at[at].parent])) {
         at = cells->at[at].parent;
     }

@@ -43,10 +43,11 @@ int engine_lanes(size_t index);
 struct engine_program *engine_program_ref(struct engine_program *program);
 void engine_program_destroy(struct engine_program *program);
 
-/* The field at `count` points, of which there is at least one, by its whole program. `params`: of
- * the field, which may be another of the same shape. */
-void engine_distances(const struct engine_program *program, const float *params,
-                      const float (*points)[3], size_t count, float *out);
+/* The field at `count` points, of which there is at least one, by what of its program matters in
+ * cubes around them of at most this half; INFINITY: by all of it. `params`: of the field, which may
+ * be another of the same shape. Answers how many operations ran, summed over the points. */
+uint64_t engine_distances(const struct engine_program *program, const float *params,
+                          const float (*points)[3], size_t count, float half, float *out);
 
 enum { ENGINE_MARGIN = 4 };
 enum engine_smoothing { ENGINE_PLAIN, ENGINE_BLEND, ENGINE_ADAPTIVE, ENGINE_FULL };

@@ -10,18 +10,27 @@
 #include "renderer/code/machine.h"
 #include "renderer/field/shader.h"
 
+/* What runs operations of a kind; a field has few kinds. */
+struct operation_kind {
+    uint8_t op; /* enum field_op */
+    uint32_t choices;
+    const struct node_type *type;
+    void (*function)(void), (*share)(void), (*cell)(void);
+    double (*reach)(const double *n);
+    const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
+};
+
+/* Small, because long tapes take as long as their operations take to come from memory. */
 struct operation {
     uint8_t op;           /* enum field_op */
     bool mixes;           /* FIELD_COMBINE: surfaces mix, or one is chosen */
     bool prunes;          /* FIELD_COMBINE: an operand may be left out */
     bool unsteady;        /* FIELD_SHAPE: it has a number FIELD_UNSTEADY */
     uint8_t rule, kernel; /* FIELD_COMBINE: enum sdf_rule; its choice */
+    uint16_t kind;        /* among the program's */
     uint16_t a, b, point, out;
     uint32_t params, seen;
     uint32_t length; /* of a loop: operations from its first to its last */
-    double (*reach)(const double *n);
-    void (*function)(void), (*share)(void), (*cell)(void);
-    const struct engine_code *code; /* FIELD_SHAPE: NULL, or a user's, instead of `function` */
 };
 
 /* A tape is a list of indices of operations; with a bit set, FIELD_COMBINE takes its second operand
@@ -35,6 +44,9 @@ struct cell {
     uint8_t bits;             /* its side is 2 to so many of these */
     bool made;                /* its tape; else it is its parent's */
     bool splits;              /* smaller ones are worth it; of one with a tape */
+    bool worn;                /* or are by now, because it was used so often */
+    uint16_t uses;            /* of its tape, while it is the smallest */
+    uint16_t dropping;        /* all its `drops` in one */
     int32_t parent, children; /* the first of eight; 0: not made yet */
     float distance;           /* of the field in its centre */
     float centre[3], half;    /* the tape holds for LOOSE times this */
@@ -83,6 +95,8 @@ struct engine_program {
     const struct engine_width *width;
     struct operation *operations;
     size_t count;
+    struct operation_kind *kinds;
+    size_t kind_count, kind_room;
     struct {
         int material_base, material_stride;
     } scene;
@@ -110,6 +124,7 @@ struct call_row {
 
 /* Cubes of the whole field, of that without what light goes through, and of that alone. */
 enum { ENGINE_SPACES = 3, ENGINE_THREADS = 64 };
+void cells_finish(struct cells spaces[ENGINE_SPACES]);
 
 struct engine_canvas {
     struct engine_picture picture;
@@ -133,8 +148,8 @@ struct engine_width {
     const struct call_row *calls;
     size_t call_count;
     uint64_t (*draw)(struct engine_canvas *canvas, const struct engine_work *work);
-    void (*distances)(const struct engine_program *program, const float *params,
-                      const float (*points)[3], size_t count, float *out);
+    uint64_t (*distances)(const struct engine_program *program, const float *params,
+                          const float (*points)[3], size_t count, float half, float *out);
     /* A level of one of the pictures; all but the first are made of that. */
     void (*make_map)(const struct frame_uniforms *frame, struct engine_map maps[ENGINE_MAPS],
                      int number, int level);
@@ -161,6 +176,7 @@ struct dispatch_block {
     const float *params, *own;                                                                     \
     struct lanes_tile tile;                                                                        \
     struct cells *spaces, *cells;                                                                  \
+    int threads; /* that have cells */                                                             \
     struct machine *machine;                                                                       \
     vf **frames;
 

@@ -36,7 +36,7 @@ struct machine {
     /* NULL, or which operand each operation of the tape may leave out where `radius` around its
      * point is all that is asked for: the first in bit `child` and on, a bit for each lane, the
      * second in bit 8 + `child` and on. */
-    uint16_t *drops;
+    uint16_t *drops, dropping; /* and all of them in one */
     float radius;
     vf loose[FIELD_SLOTS_MAX]; /* so much more than the way to them distances there may differ */
     int child;
@@ -80,13 +80,19 @@ static vf looseness(const struct machine *v, const struct operation *in)
     return vf_select(v->d[in->a] - v->radius > unsteady, vf_zero, vf_all(2.0f * unsteady));
 }
 
+static const struct operation_kind *kind_of(const struct machine *v, const struct operation *in)
+{
+    return &v->c->program->kinds[in->kind];
+}
+
 static void run_shape(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
+    const struct operation_kind *kind = kind_of(v, in);
     const float *head = c->own + 4 * FIELD_MATRIX_VEC4S;
     const vf *const p = v->p[in->point];
-    v->d[in->a] =
-        in->code ? run_code(c, v->m, in->code, p) : CALL(shape_function, in->function)(c, v->m, p);
+    v->d[in->a] = kind->code ? run_code(c, v->m, kind->code, p)
+                             : CALL(shape_function, kind->function)(c, v->m, p);
     if (v->drops) {
         v->loose[in->a] = looseness(v, in);
     }
@@ -101,15 +107,16 @@ static void run_shape(struct machine *v, const struct operation *in)
 static void run_combine(struct machine *v, const struct operation *in)
 {
     struct lanes *c = v->c;
+    const struct operation_kind *kind = kind_of(v, in);
     const vf a = v->d[in->a], b = v->d[in->b];
     const float side = in->seen ? c->params[in->seen] : 0.0f;
-    const vf d = side == 0.0f  ? CALL(combine_function, in->function)(c, v->m, a, b)
+    const vf d = side == 0.0f  ? CALL(combine_function, kind->function)(c, v->m, a, b)
                  : side > 0.0f ? b
                                : a;
     v->d[in->a] = d;
     if (v->mixtures) {
         vf *const ma = v->mixtures[in->a], *const mb = v->mixtures[in->b], out[MIXTURE];
-        vf share = side == 0.0f ? CALL(combine_function, in->share)(c, v->m, a, b)
+        vf share = side == 0.0f ? CALL(combine_function, kind->share)(c, v->m, a, b)
                                 : vf_all(side > 0.0f ? 1.0f : 0.0f);
         if (in->mixes) {
             spmd_mixed(c, v->m, d, share, ma, mb, out);
@@ -135,14 +142,16 @@ static void record(struct machine *v, const struct operation *in, size_t at)
                  : in->rule == SDF_FIRST ? -v->d[in->a]
                                          : v->d[in->a];
     const vf b = in->rule == SDF_ALL ? -v->d[in->b] : v->d[in->b];
-    const vf far = 2.0f * v->radius + loose[0] + loose[1] + (float)in->reach(n) +
+    const vf far = 2.0f * v->radius + loose[0] + loose[1] + (float)kind_of(v, in)->reach(n) +
                    1e-5f * (vf_abs(a) + vf_abs(b));
     uint32_t first = lanes_bits(a - b > far), second = lanes_bits(b - a > far);
     if (in->seen && v->c->params[in->seen] != 0.0f) {
         first = v->c->params[in->seen] > 0.0f ? 0xff : 0;
         second = ~first;
     }
-    v->drops[at] |= (uint16_t)((first & 0xff) << v->child | (second & 0xff) << (8 + v->child));
+    const uint32_t drops = (first & 0xff) << v->child | (second & 0xff) << (8 + v->child);
+    v->drops[at] |= (uint16_t)drops;
+    v->dropping |= (uint16_t)drops;
 }
 
 static void set_distance(struct machine *v, uint16_t slot, vf d)
@@ -157,9 +166,10 @@ static void set_distance(struct machine *v, uint16_t slot, vf d)
 static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
 {
     struct lanes *c = v->c;
+    const struct operation_kind *kind = kind_of(v, in);
     struct open *open = &v->open[v->depth++];
-    CALL(map_function, in->function)(c, v->m, v->p[in->point], open->first);
-    CALL(map_function, in->share)(c, v->m, v->p[in->point], open->last);
+    CALL(map_function, kind->function)(c, v->m, v->p[in->point], open->first);
+    CALL(map_function, kind->share)(c, v->m, v->p[in->point], open->last);
     memcpy(open->cell, open->first, sizeof open->cell);
     open->before = v->m;
     open->left = spmd_cell_count(c, v->m, open->first, open->last);
@@ -174,7 +184,7 @@ static size_t run_loop(struct machine *v, const struct operation *in, size_t at)
         v->depth--;
         return at + in->length + 1;
     }
-    CALL(cell_function, in->cell)(c, v->m, v->p[in->point], open->cell, v->p[in->out]);
+    CALL(cell_function, kind->cell)(c, v->m, v->p[in->point], open->cell, v->p[in->out]);
     return at + 1;
 }
 
@@ -195,7 +205,8 @@ static size_t run_loop_end(struct machine *v, const struct operation *in, size_t
     if (lanes_any(v->m)) {
         const struct operation *begin = in - in->length;
         c->own = c->params + 4 * (size_t)begin->params;
-        CALL(cell_function, begin->cell)(c, v->m, v->p[begin->point], open->cell, v->p[begin->out]);
+        CALL(cell_function, kind_of(v, begin)->cell)
+        (c, v->m, v->p[begin->point], open->cell, v->p[begin->out]);
         return at - in->length + 1;
     }
     v->m = open->before;
@@ -246,18 +257,18 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             run_combine(v, in);
             break;
         case FIELD_DISTANCE:
-            set_distance(v, in->a, CALL(change_function, in->function)(c, v->m, v->d[in->a]));
+            set_distance(v, in->a, CALL(change_function, kind_of(v, in)->function)(c, v->m, v->d[in->a]));
             break;
         case FIELD_TRANSFORM:
             place(c->own, v->p[in->point], v->p[in->out]);
             break;
         case FIELD_WARP:
-            CALL(map_function, in->function)(c, v->m, v->p[in->point], v->p[in->out]);
+            CALL(map_function, kind_of(v, in)->function)(c, v->m, v->p[in->point], v->p[in->out]);
             break;
         case FIELD_AFTER:
             set_distance(
                 v, in->a,
-                vf_max(CALL(after_function, in->function)(c, v->m, v->d[in->a], v->p[in->point]),
+                vf_max(CALL(after_function, kind_of(v, in)->function)(c, v->m, v->d[in->a], v->p[in->point]),
                        vf_all(c->params[in->seen])));
             break;
         case FIELD_LOOP:

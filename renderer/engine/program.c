@@ -83,23 +83,19 @@ static bool first_kernel(const struct field_instruction *in, enum shader_kernel 
     }
 }
 
-static bool make(const struct engine_program *program, struct operation *out,
-                 const struct field_instruction *in)
+/* With its functions; false: one is missing. */
+static bool make_kind(const struct engine_program *program, struct operation_kind *out,
+                      const struct field_instruction *in)
 {
     const struct engine_width *width = program->width;
     enum shader_kernel kernel;
-    *out = (struct operation){.op = (uint8_t)in->op,
-                              .a = in->a,
-                              .b = in->b,
-                              .point = in->point,
-                              .out = in->out,
-                              .params = in->params,
-                              .seen = in->seen};
-    out->unsteady = in->op == FIELD_SHAPE && (!in->sdf || in->choices == FIELD_POLYNOMIAL);
+    *out =
+        (struct operation_kind){.op = (uint8_t)in->op, .choices = in->choices, .type = in->type};
     if (in->op == FIELD_SHAPE && !in->sdf) {
         out->code = &program->codes[in->choices];
         return true;
     }
+    out->reach = in->op == FIELD_COMBINE ? in->sdf->reach : NULL;
     if (first_kernel(in, &kernel)) {
         out->function = find(width, in, kernel);
         out->share = kernel == KERNEL_COMBINE ? find(width, in, KERNEL_SHARE)
@@ -108,6 +104,45 @@ static bool make(const struct engine_program *program, struct operation *out,
         out->cell = kernel == KERNEL_FIRST ? find(width, in, KERNEL_CELL) : NULL;
         return out->function != NULL;
     }
+    return true;
+}
+
+/* Among those of the program; its `kind_count`: there is none. */
+static size_t find_kind(const struct engine_program *program, const struct field_instruction *in)
+{
+    size_t i = 0;
+    while (i < program->kind_count &&
+           !(program->kinds[i].op == in->op && program->kinds[i].choices == in->choices &&
+             program->kinds[i].type == in->type)) {
+        i++;
+    }
+    return i;
+}
+
+static bool make(struct engine_program *program, struct operation *out,
+                 const struct field_instruction *in)
+{
+    const size_t kind = find_kind(program, in);
+    if (kind == program->kind_count) {
+        if (kind == program->kind_room) {
+            program->kind_room = 2 * kind + 16;
+            program->kinds =
+                memory_resize(program->kinds, program->kind_room, sizeof *program->kinds);
+        }
+        if (kind > UINT16_MAX || !make_kind(program, &program->kinds[kind], in)) {
+            return false;
+        }
+        program->kind_count++;
+    }
+    *out = (struct operation){.op = (uint8_t)in->op,
+                              .kind = (uint16_t)kind,
+                              .a = in->a,
+                              .b = in->b,
+                              .point = in->point,
+                              .out = in->out,
+                              .params = in->params,
+                              .seen = in->seen};
+    out->unsteady = in->op == FIELD_SHAPE && (!in->sdf || in->choices == FIELD_POLYNOMIAL);
     return true;
 }
 
@@ -144,7 +179,6 @@ static bool read_one(struct engine_program *program, struct reading *r,
         to->prunes = in->sdf->reach && r->depth == 0 && r->bent == 0 && !r->steep[in->a];
         to->rule = (uint8_t)in->sdf->rule;
         to->kernel = (uint8_t)(in->choices & 0xff);
-        to->reach = in->sdf->reach;
     } else if (in->op == FIELD_LOOP) {
         r->loops[r->depth++] = at;
     } else if (in->op == FIELD_LOOP_END) {
@@ -259,10 +293,10 @@ struct engine_program *engine_program_create(struct field *field, int lanes, int
     return program;
 }
 
-void engine_distances(const struct engine_program *program, const float *params,
-                      const float (*points)[3], size_t count, float *out)
+uint64_t engine_distances(const struct engine_program *program, const float *params,
+                          const float (*points)[3], size_t count, float half, float *out)
 {
-    program->width->distances(program, params, points, count, out);
+    return program->width->distances(program, params, points, count, half, out);
 }
 
 struct engine_program *engine_program_ref(struct engine_program *program)
@@ -281,6 +315,7 @@ void engine_program_destroy(struct engine_program *program)
         }
         free(program->codes);
         free(program->operations);
+        free(program->kinds);
         field_unref(program->field);
         free(program);
     }

@@ -10,6 +10,7 @@ enum { TILE_LEAST = 16 };
 struct crew {
     struct engine_canvas *canvas;
     const struct engine_work *work;
+    int threads;
     int side, across, count; /* of small tiles; those in a row, and all of them */
     atomic_int next_tile, next_thread;
     atomic_uint_least64_t rays;
@@ -35,6 +36,7 @@ static struct hand *hand_create(struct crew *crew)
     c->tile = (struct lanes_tile){SIDE, hand->geometry, hand->pixels, hand->counted};
     c->frames = frames_create(c->program);
     c->machine = aligned_room(sizeof *c->machine);
+    c->threads = crew->threads;
     c->spaces = crew->canvas->cells[atomic_fetch_add(&crew->next_thread, 1)];
     for (int i = 0; i < ENGINE_SPACES; i++) {
         c->cells = &c->spaces[i];
@@ -73,7 +75,7 @@ static void *take_tiles(void *argument)
 }
 
 /* As large as leaves a part of the tile to each thread. */
-static void divide(struct crew *crew, int threads)
+static void divide(struct crew *crew)
 {
     const struct engine_rect tile = crew->work->tile;
     crew->side = 2 * TILE;
@@ -81,7 +83,7 @@ static void divide(struct crew *crew, int threads)
         crew->side /= 2;
         crew->across = (tile.width + crew->side - 1) / crew->side;
         crew->count = crew->across * ((tile.height + crew->side - 1) / crew->side);
-    } while (crew->side > TILE_LEAST && crew->count < 2 * threads);
+    } while (crew->side > TILE_LEAST && crew->count < 2 * crew->threads);
 }
 
 static void *help(void *argument)
@@ -129,12 +131,12 @@ static uint64_t draw(struct engine_canvas *canvas, const struct engine_work *wor
     struct crew crew = {.canvas = canvas, .work = work};
     pthread_t threads[ENGINE_THREADS];
     const int processors = find_processors(&crew), asked = canvas->picture.program->threads;
-    const int most = smaller(asked > 0 ? asked : processors, ENGINE_THREADS);
-    divide(&crew, most);
+    crew.threads = smaller(asked > 0 ? asked : processors, ENGINE_THREADS);
+    divide(&crew);
     atomic_init(&crew.next_tile, 0);
     atomic_init(&crew.next_thread, 0);
     atomic_init(&crew.rays, 0);
-    int started = start_helpers(&crew, threads, smaller(most, crew.count) - 1);
+    int started = start_helpers(&crew, threads, smaller(crew.threads, crew.count) - 1);
     take_tiles(&crew);
     while (started > 0) {
         pthread_join(threads[--started], NULL);

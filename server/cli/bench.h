@@ -54,9 +54,9 @@ bool bench_stages(struct renderer *renderer, const struct embedded *example,
 bool bench_effects(struct renderer *renderer, const struct embedded *example,
                    const struct bench_effort *effort, cJSON *row, struct error *err);
 
-/* One row for each family of scenes, drawn by the engine: `ms` of a picture by the number of
- * shapes, the `ratio` of the most to the fewest shapes, and the exponent of growth from 100
- * shapes on. */
+/* One row for each family of scenes, drawn by the engine: the processor's time of a picture by the
+ * number of shapes, the same as a ratio to that of the fewest, and the exponent of growth from 100
+ * to 10,000 shapes. */
 cJSON *bench_growth(const struct renderer_params *params, const struct bench_effort *effort,
                     struct error *err);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How the time of a picture grows with the number of shapes: families of scenes that look alike at
- * every size, drawn by the engine, in turns. */
+/* How the processor's time of a picture grows with the number of shapes: families of scenes that
+ * look alike at every size, drawn by the engine, in turns. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,12 +9,13 @@
 #include "protocol/memory.h"
 #include "server/clock.h"
 
-enum { SIZES = 4, OF_A_MODEL = 10 };
-static const int sizes[SIZES] = {10, 100, 1000, 10000};
+/* Of the last size, models written out are nearly as many nodes as a scene may have. */
+enum { SIZES = 5, OF_A_MODEL = 10, OF_A_UNION = 1000 };
+static const int sizes[SIZES] = {10, 100, 1000, 10000, 80000};
 
 struct family {
     const char *name;
-    double radius; /* of a shape, by half of the mean distance to the next */
+    double radius; /* of a shape, by half of the mean distance to the next; 0: a quarter of all */
     bool nested;   /* in groups of ten of groups of ten */
     bool modelled; /* instances of one model of ten shapes */
 };
@@ -23,6 +24,7 @@ static const struct family families[] = {
     {"flat_union", 0.6, false, false},
     {"deep_tree", 0.6, true, false},
     {"overlapping", 4.0, false, false},
+    {"all_overlapping", 0, false, false},
     {"instances", 0.6, false, true},
 };
 enum { FAMILIES = sizeof families / sizeof families[0] };
@@ -57,13 +59,17 @@ static void write_shape(FILE *out, uint64_t *state, double radius, int index)
     fputc('}', out);
 }
 
+/* Flat ones are one union of the field, whose nodes are not more than a node may have. */
 static void write_shapes(FILE *out, uint64_t *state, double radius, int count, bool nested)
 {
+    const int part = nested && count > 10        ? count / 10
+                     : count > 10 * OF_A_UNION ? OF_A_UNION
+                                               : 1;
     fputs("{\"type\":\"union\",\"children\":[", out);
-    for (int i = 0; i < count; i += nested && count > 10 ? count / 10 : 1) {
+    for (int i = 0; i < count; i += part) {
         fputs(i > 0 ? "," : "", out);
-        if (nested && count > 10) {
-            write_shapes(out, state, radius, count / 10, true);
+        if (part > 1) {
+            write_shapes(out, state, radius, part, nested);
         } else {
             write_shape(out, state, radius, i);
         }
@@ -93,7 +99,7 @@ static struct scene *make_scene(const struct family *family, int count, struct e
     char *text = NULL;
     size_t length;
     uint64_t state = 1;
-    const double radius = family->radius / cbrt(count);
+    const double radius = family->radius > 0 ? family->radius / cbrt(count) : 0.5;
     FILE *out = open_memstream(&text, &length);
 
     if (!out) {
@@ -114,15 +120,10 @@ static struct scene *make_scene(const struct family *family, int count, struct e
 
 /* --- measuring --- */
 
-/* The slope of log(time) over log(size), from the second size on. */
+/* The slope of log(time) over log(size), over the second to the fourth. */
 static double exponent(const double ms[SIZES])
 {
-    double x = 0, y = 0, xx = 0, xy = 0;
-    for (int i = 1; i < SIZES; i++) {
-        const double a = log(sizes[i]), b = log(ms[i]);
-        x += a, y += b, xx += a * a, xy += a * b;
-    }
-    return ((SIZES - 1) * xy - x * y) / ((SIZES - 1) * xx - x * x);
+    return log(ms[3] / ms[1]) / log((double)sizes[3] / sizes[1]);
 }
 
 /* One of each size in turns; `ms`: medians. */
@@ -140,9 +141,9 @@ static bool time_sizes(struct renderer *renderer, struct resident *const scenes[
     for (int i = -1; ok && i < rounds; i++) { /* the first one only warms up */
         for (int k = 0; ok && k < SIZES; k++) {
             struct job_times stages;
-            const int64_t start = clock_us();
+            const int64_t start = clock_process_us();
             ok = bench_draw(renderer, scenes[k], &desc, &stages, err);
-            times[k * rounds + (i < 0 ? 0 : i)] = bench_ms_since(start);
+            times[k * rounds + (i < 0 ? 0 : i)] = (double)(clock_process_us() - start) / 1000;
         }
     }
     for (int k = 0; ok && k < SIZES; k++) {
@@ -154,14 +155,15 @@ static bool time_sizes(struct renderer *renderer, struct resident *const scenes[
 
 static cJSON *row_of(const struct family *family, const double ms[SIZES])
 {
-    cJSON *row = cJSON_CreateObject(), *of = cJSON_AddObjectToObject(row, "ms");
+    cJSON *row = cJSON_CreateObject(), *of = cJSON_AddObjectToObject(row, "cpu_ms");
+    cJSON *ratios = cJSON_AddObjectToObject(row, "ratio");
     cJSON_AddStringToObject(row, "family", family->name);
     for (int i = 0; i < SIZES; i++) {
         char name[16];
         snprintf(name, sizeof name, "%d", sizes[i]);
         bench_add(of, name, ms[i]);
+        bench_add(ratios, name, ms[i] / ms[0]);
     }
-    bench_add(row, "ratio", ms[SIZES - 1] / ms[0]);
     bench_add(row, "exponent", exponent(ms));
     return row;
 }

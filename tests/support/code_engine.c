@@ -2,6 +2,7 @@
 #include "code_engine.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +42,7 @@ void engine_agree(const struct field *field, const float (*points)[3], size_t co
         struct engine_program *program =
             engine_program_create((struct field *)field, engine_lanes(i), 0);
         assert_non_null(program);
-        engine_distances(program, field->params, points, count, i == 0 ? out : again);
+        engine_distances(program, field->params, points, count, INFINITY, i == 0 ? out : again);
         engine_program_destroy(program);
         if (i > 0) {
             assert_memory_equal(out, again, count * sizeof *out);
