@@ -385,6 +385,11 @@ const DIALOGS = [
         await row(page, 'jug').click({ button: 'right' });
         await popup(page);
     }],
+    ['what is here', async (page) => {
+        await page.mouse.click(...(await middle(page, 0.48, 0.45)), { button: 'right' });
+        await page.getByRole('menuitem', { name: 'What is here' }).click();
+        await page.getByRole('menu', { name: 'What is here' }).getByRole('menuitem').nth(1).waitFor();
+    }],
     ['menu in the picture', async (page) => {
         await page.mouse.click(...(await middle(page)), { button: 'right' });
         await page.getByRole('menu').getByText('Duplicate').waitFor();
