@@ -385,6 +385,20 @@ const DIALOGS = [
         await row(page, 'jug').click({ button: 'right' });
         await popup(page);
     }],
+    ['landing of a shape', async (page) => {
+        await search(page, 'Shift+A', 'cone');
+        await page.locator('[data-type="cone"]').last().hover();
+        await page.locator('[data-way="blend"]').click();
+        await page.locator('[data-type="cone"]').last().hover();
+        await page.mouse.down();
+        const [x, y] = await middle(page, 0.47, 0.36);
+        await page.mouse.move(x - 6, y, { steps: 3 });
+        await page.mouse.move(x, y);
+        await page.getByTestId('trial').locator('img').waitFor();
+    }, { wide: true, clean: async (page) => {
+        await page.mouse.move(5, 5, { steps: 2 });
+        await page.mouse.up();
+    } }],
     ['what is here', async (page) => {
         await page.mouse.click(...(await middle(page, 0.48, 0.45)), { button: 'right' });
         await page.getByRole('menuitem', { name: 'What is here' }).click();

@@ -558,6 +558,7 @@ const texts = {
     "palette.choose": "choose",
     "palette.move": "move",
     "palette.close": "close",
+    "palette.place": "place",
     "history.noUndo": "There is nothing of yours to undo.",
     "history.noRedo": "There is nothing to redo.",
     close: "Close",
