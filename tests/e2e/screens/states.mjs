@@ -107,8 +107,8 @@ const BROKEN = '{\n  "model": {"type": "Primitives/Sphere" 5}\n}\n';
 const START = [
     ['start', (page) => page.locator('[data-example] img:not([hidden])').nth(3).waitFor()],
     ['start, examples', (page) => page.getByTestId('examples').evaluate((one) => one.scrollIntoView())],
-    ['start, search', (page) => page.getByPlaceholder('Search the examples').fill('glass')],
-    ['start, nothing found', (page) => page.getByPlaceholder('Search the examples').fill('xyzzy')],
+    ['start, search', (page) => page.getByPlaceholder('Search scenes and examples').fill('glass')],
+    ['start, nothing found', (page) => page.getByPlaceholder('Search scenes and examples').fill('xyzzy')],
     ['start, menu of a scene', async (page) => {
         await page.locator('[data-scene] .icon-button').first().click();
         await popup(page);
