@@ -98,6 +98,7 @@
     X(VIEW_SIDE, "view_side", 4096, "pixels", "width or height of a live view")                    \
     X(PICK_WORK, "pick_work", 50000000, "operations",                                              \
       "the ray of a pick: instructions of the field, operations of code in it")                    \
+    X(PICK_THROUGH, "pick_through", 32, "nodes", "nodes that a pick lists")                        \
     X(ISOLATED, "isolated", 256, "nodes", "nodes that a view isolates")                            \
     X(GUIDE_PIXELS, "guide_pixels", 1048576, "pixels", "a guide; that of a larger view is scaled") \
     X(THUMBNAILS, "thumbnails", 256, "ids", "one list of thumbnails that a client asks for")       \

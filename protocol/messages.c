@@ -97,7 +97,9 @@ static const struct message_type client_messages[MESSAGE_COUNT] = {
         {.param = {"pick", SMALL, .doc = "Comes back with the answer."}, .required = true},
         {.param = {"x", AT, .doc = "Pixels from the left."}, .required = true},
         {.param = {"y", AT, .doc = "Pixels from the top."}, .required = true},
-        {.param = {"seq", SMALL, .doc = "The view meant."}})},
+        {.param = {"seq", SMALL, .doc = "The view meant."}},
+        {.param = {"through", PARAM_BOOL,
+          .doc = "true: what is behind it is listed too."}})},
     [MESSAGE_ACK] = {"ack", "A frame was shown.", MEMBERS(
         {.param = {"frame", SMALL, .doc = "Its number."}, .required = true})},
     [MESSAGE_RETRY] = {"retry", "What was too slow, or crashed, is tried again.", MEMBERS(
@@ -170,7 +172,11 @@ static const struct message_type server_messages[] = {
         {.param = {"node", PARAM_TEXT, .doc = "Id of the node, or null."}, .required = true},
         {.param = {"position", PARAM_VEC3, .doc = "Where it was hit."}},
         {.param = {"normal", PARAM_VEC3, .doc = "Direction of the surface."}},
-        {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}})},
+        {.param = {"distance", PARAM_FLOAT, .doc = "From the eye."}},
+        {.param = {"through", .max = LIMIT_PICK_THROUGH,
+          .doc = "Where it was asked for: ids of the shapes whose surfaces the ray passes, into"
+                 " solids and out of them, the nearest first."},
+         .kind = MEMBER_NODES})},
     {"compiling", "The newest state is being made ready; the picture is of an older one.", MEMBERS(
         REVISION,
         {.param = {"over", PARAM_BOOL, .doc = "It can be drawn, or never will be."},

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "pick.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "protocol/memory.h"
 #include "renderer/draw/camera.h"
@@ -10,6 +12,8 @@
 
 /* How far a picked point may be off the surface, for each unit of the greatest distance. */
 static const double TOLERANCE = 1e-6;
+/* The least step of a ray that goes through surfaces, for each unit of the greatest distance. */
+static const double LEAST_STEP = 1e-5;
 
 struct pick_field {
     atomic_int references;
@@ -61,6 +65,55 @@ static double march(const struct pick_field *field, const double origin[3],
                               (int)(LIMIT_PICK_WORK / field->work));
 }
 
+static void at(const double origin[3], const double direction[3], double t, double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = origin[i] + t * direction[i];
+    }
+}
+
+static const char *leaf_at(const struct pick_field *field, const double p[3])
+{
+    const char *id = field_leaf_id(field->field, field_surface(field->field, p, NULL).number);
+
+    return id ? id : "";
+}
+
+static void add_through(struct pick_result *result, const char *id)
+{
+    bool known = !*id || result->through_count == LIMIT_PICK_THROUGH;
+
+    for (int i = 0; i < result->through_count; i++) {
+        known = known || strcmp(result->through[i], id) == 0;
+    }
+    if (!known) {
+        char *out = result->through[result->through_count++];
+
+        snprintf(out, sizeof result->through[0], "%s", id);
+    }
+}
+
+/* A field changes no faster than the way, inside too: where its sign changes is a surface. */
+static void follow_through(const struct pick_field *field, const double origin[3],
+                           const double direction[3], struct pick_result *result)
+{
+    const double least = LEAST_STEP * field->max_distance;
+    bool inside = true;
+    double t = result->distance + least, p[3];
+
+    add_through(result, result->node);
+    for (uint64_t work = 0; t < field->max_distance && work < LIMIT_PICK_WORK;
+         work += field->work) {
+        at(origin, direction, t, p);
+        const double d = field_distance(field->field, p);
+        if ((d < 0) != inside) {
+            inside = d < 0;
+            add_through(result, leaf_at(field, p));
+        }
+        t += fmax(fabs(d), least);
+    }
+}
+
 struct pick_result pick_at(const struct pick_field *field, const struct pick_question *question)
 {
     const int width = question->width, height = question->height;
@@ -74,15 +127,14 @@ struct pick_result pick_at(const struct pick_field *field, const struct pick_que
     if (t < 0) {
         return result;
     }
-    for (int i = 0; i < 3; i++) {
-        result.position[i] = origin[i] + t * direction[i];
-    }
+    at(origin, direction, t, result.position);
     const double print = camera.pixel_radius * (camera.orthographic ? 1 : t);
     field_normal(field->field, result.position, 0.5 * print + 1e-6, result.normal);
     result.distance = t;
     result.hit = true;
-    const char *id =
-        field_leaf_id(field->field, field_surface(field->field, result.position, NULL).number);
-    snprintf(result.node, sizeof result.node, "%s", id ? id : "");
+    snprintf(result.node, sizeof result.node, "%s", leaf_at(field, result.position));
+    if (question->through) {
+        follow_through(field, origin, direction, &result);
+    }
     return result;
 }

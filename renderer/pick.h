@@ -21,15 +21,21 @@ struct pick_question {
     const struct record *camera; /* camera_type; NULL: the scene's */
     int width, height;           /* of the whole picture, pixels */
     double x, y;                 /* in it, from its left top */
+    bool through;                /* follow the ray on, behind the surface */
 };
 
 struct pick_result {
     bool hit;
     char node[LIMIT_ID_BYTES + 1]; /* the leaf that gave the surface; "": the floor */
     double position[3], normal[3], distance;
+    /* Of a question `through`: the leaves whose surfaces the ray passes, into solids and out of
+     * them, the nearest first, each once. */
+    char through[LIMIT_PICK_THROUGH][LIMIT_ID_BYTES + 1];
+    int through_count;
 };
 
-/* Follows the ray, which hits nothing where that takes more than LIMIT_PICK_WORK. */
+/* Follows the ray, which hits nothing where that takes more than LIMIT_PICK_WORK; what is behind
+ * the surface may take as much again. */
 struct pick_result pick_at(const struct pick_field *field, const struct pick_question *question);
 
 #endif

@@ -19,6 +19,7 @@ struct question {
     struct question *next;
     struct session *session; /* NULL: it asks no longer */
     double pick, x, y;
+    bool through;
     struct render_request view;
 };
 
@@ -78,6 +79,7 @@ bool picker_ask(struct session *session, const cJSON *message, struct error *err
         .pick = json_member_number(message, "pick", 0),
         .x = json_member_number(message, "x", 0),
         .y = json_member_number(message, "y", 0),
+        .through = json_member_bool(message, "through", false),
     };
     render_request_copy(&question->view, &view->picture);
     render_request_see_from(&question->view, &session->room->scene->camera);
@@ -233,6 +235,7 @@ static struct pick_result look(const struct pick_field *field, const struct ques
         .height = render_request_int(&question->view, "height"),
         .x = question->x,
         .y = question->y,
+        .through = question->through,
     };
 
     return field ? pick_at(field, &asked) : (struct pick_result){0};
@@ -243,12 +246,22 @@ static cJSON *vector_or_null(const struct pick_result *result, const double v[3]
     return result->hit ? cJSON_CreateDoubleArray(v, 3) : cJSON_CreateNull();
 }
 
-static struct shared_buffer *picked_message(double pick, uint64_t revision,
+static cJSON *through(const struct pick_result *result)
+{
+    cJSON *ids = cJSON_CreateArray();
+
+    for (int i = 0; i < result->through_count; i++) {
+        cJSON_AddItemToArray(ids, cJSON_CreateString(result->through[i]));
+    }
+    return ids;
+}
+
+static struct shared_buffer *picked_message(const struct question *question, uint64_t revision,
                                             const struct pick_result *result)
 {
     cJSON *message = message_begin("picked");
 
-    cJSON_AddNumberToObject(message, "pick", pick);
+    cJSON_AddNumberToObject(message, "pick", question->pick);
     cJSON_AddNumberToObject(message, "revision", (double)revision);
     cJSON_AddItemToObject(message, "node",
                           *result->node ? cJSON_CreateString(result->node) : cJSON_CreateNull());
@@ -256,6 +269,9 @@ static struct shared_buffer *picked_message(double pick, uint64_t revision,
     cJSON_AddItemToObject(message, "normal", vector_or_null(result, result->normal));
     cJSON_AddItemToObject(message, "distance",
                           result->hit ? cJSON_CreateNumber(result->distance) : cJSON_CreateNull());
+    if (question->through) {
+        cJSON_AddItemToObject(message, "through", through(result));
+    }
     return message_print(message);
 }
 
@@ -275,7 +291,7 @@ static void answer(struct picker *picker, const struct question *question)
     pick_field_unref(field);
     hub_lock(picker->hub);
     if (question->session) {
-        session_say(question->session, picked_message(question->pick, revision, &result));
+        session_say(question->session, picked_message(question, revision, &result));
     }
 }
 

@@ -141,10 +141,10 @@ void site_asset(struct request *request)
 
 /* --- examples --- */
 
-/* What an example is there for. Those of no row show one technique. */
-enum { SHOWPIECE, LESSON, SURFACE, TECHNIQUE, EXAMPLE_GROUPS };
-static const char *const example_groups[EXAMPLE_GROUPS] = {"showpiece", "lesson", "surface",
-                                                           "technique"};
+/* What an example is there for: to be seen, to be read in this order, or one topic each. */
+enum { SHOWPIECE, LESSON, SHAPE, COMBINE, MODIFY, REPEAT, SURFACE, EXAMPLE_GROUPS };
+static const char *const example_groups[EXAMPLE_GROUPS] = {
+    "showpiece", "lesson", "shape", "combine", "modify", "repeat", "surface"};
 
 /* In the order in which they are listed. */
 static const struct {
@@ -155,9 +155,12 @@ static const struct {
     {"sunset-temple", SHOWPIECE},
     {"still-life", SHOWPIECE},
     {"lighthouse", SHOWPIECE},
+    {"glass", SHOWPIECE},
     {"foggy-valley", SHOWPIECE},
     {"chess", SHOWPIECE},
+    {"mirrors", SHOWPIECE},
     {"studio-portrait", SHOWPIECE},
+    {"coloured-glass", SHOWPIECE},
     {"island", SHOWPIECE},
     {"planetary-gear", SHOWPIECE},
     {"robot", SHOWPIECE},
@@ -174,6 +177,24 @@ static const struct {
     {"lecture-4-transforms", LESSON},
     {"lecture-5-camera", LESSON},
     {"own-code", LESSON},
+    {"primitives", SHAPE},
+    {"flat-shapes", SHAPE},
+    {"revolve", SHAPE},
+    {"gyroid", SHAPE},
+    {"fractals", SHAPE},
+    {"csg", COMBINE},
+    {"smooth-booleans", COMBINE},
+    {"blend", COMBINE},
+    {"blend-kernels", COMBINE},
+    {"round-shell", MODIFY},
+    {"elongate", MODIFY},
+    {"twist", MODIFY},
+    {"bend", MODIFY},
+    {"displace", MODIFY},
+    {"mirror", REPEAT},
+    {"repeat-limited", REPEAT},
+    {"repeat-polar", REPEAT},
+    {"repeat-infinite", REPEAT},
     {"surface-barth", SURFACE},
     {"surface-heart", SURFACE},
     {"surface-clebsch", SURFACE},
@@ -200,16 +221,6 @@ static const struct {
     {"surface-togliatti", SURFACE},
 };
 enum { EXAMPLE_ROWS = sizeof example_rows / sizeof example_rows[0] };
-
-static bool is_row(const char *id)
-{
-    for (size_t i = 0; i < EXAMPLE_ROWS; i++) {
-        if (strcmp(example_rows[i].id, id) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
 
 /* One line about a scene, from what is in it. */
 static void describe(const struct scene *scene, char *out, size_t size)
@@ -247,11 +258,6 @@ void site_examples(struct request *request)
         const struct embedded *example = examples_find(example_rows[i].id);
         if (example) {
             add_example(list, example, example_rows[i].group);
-        }
-    }
-    for (size_t i = 0; i < examples_count; i++) {
-        if (!is_row(examples_table[i].path)) {
-            add_example(list, &examples_table[i], TECHNIQUE);
         }
     }
     request_reply_json(request, 200, json);

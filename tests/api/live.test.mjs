@@ -527,6 +527,11 @@ describe('frames', () => {
         assert.ok(Math.abs(hit.distance - 5) < 1e-2);
         live.say({ type: 'pick', pick: 8, x: 1, y: 1 });
         assert.equal((await live.next('picked', { pick: 8 })).node, null);
+        assert.equal('through' in hit, false, 'not asked for');
+        live.say({ type: 'pick', pick: 9, x: 50, y: 50, through: true });
+        assert.deepEqual((await live.next('picked', { pick: 9 })).through, ['ball']);
+        live.say({ type: 'pick', pick: 10, x: 1, y: 1, through: true });
+        assert.deepEqual((await live.next('picked', { pick: 10 })).through, []);
         await live.close();
     });
 

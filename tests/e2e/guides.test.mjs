@@ -115,6 +115,49 @@ test('40 pixels on blends and cuts select what the C evaluator names', async () 
     assert.ok(wrong.length <= 1, `${JSON.stringify(wrong)}: an edge may run through one pixel`);
 });
 
+const here = () => page.getByRole('menu', { name: 'What is here' });
+
+test('Alt and a click list what is there, from front to back and up to the root', async () => {
+    await open();
+    const { x, y } = await spotOf([-1.6, 0.35, -0.9]);
+    const under = async () => {
+        await here().getByRole('menuitem').first().waitFor();
+        return here().getByRole('menuitem').allInnerTexts();
+    };
+    await page.keyboard.down('Alt');
+    await page.mouse.click(x, y);
+    await page.keyboard.up('Alt');
+    assert.deepEqual(await under(), ['body\nSphere', 'bite\nCuts body', 'bitten\nDifference', 'root\nUnion']);
+    assert.equal(await page.locator('[role=treeitem][aria-selected=true]').count(), 0, 'the click selects nothing');
+    await here().getByRole('menuitem', { name: /^bitten/ }).hover();
+    await until(async () => (await shown()).hovered.split(' ').includes('bitten'), 'the outline of the row under the pointer');
+    await here().getByRole('menuitem', { name: /^bite/ }).first().click();
+    await until(() => chosen('bite'), 'the hidden tool of the cut');
+    await here().waitFor({ state: 'detached' });
+
+    await page.mouse.click(x, y, { button: 'right' });
+    await page.getByRole('menuitem', { name: 'What is here' }).click();
+    assert.equal((await under())[1], 'bite\nCuts body');
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('End');
+    await until(async () => (await shown()).hovered.includes('root'), 'the outline of what keys come to');
+    await page.keyboard.press('Enter');
+    await until(() => chosen('root'), 'the root');
+
+    const blend = await spotOf([1.4, 0, 0.6]);
+    await page.keyboard.down('Alt');
+    await page.mouse.click(blend.x, blend.y);
+    assert.match((await under())[0], /^(left|right)\nMelts into soft$/);
+    await page.keyboard.press('Escape');
+    await here().waitFor({ state: 'detached' });
+    const box = await picture(page).boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height - 60);
+    await here().getByText('Nothing is here.').waitFor();
+    await page.keyboard.press('Escape');
+    await page.keyboard.up('Alt');
+    assert.ok(await chosen('root'), 'the selection stays');
+});
+
 /** Pixels of the outlines' canvas: [x, y] in CSS pixels of the picture, of at least half opacity. */
 const drawn = () =>
     outlines().evaluate((canvas) => {

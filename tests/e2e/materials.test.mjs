@@ -62,7 +62,7 @@ describe('the gallery', () => {
         const start = await stage.document(id);
         await openGallery('ball');
         await page.keyboard.type('copper');
-        await page.locator('[data-testid="trial"][data-preset="copper"]').waitFor();
+        await page.locator('[data-testid="trial"][data-shown="copper"]').waitFor();
         assert.equal(await stage.document(id), start, 'a look is no edit');
         await page.keyboard.press('Escape');
         await page.getByTestId('gallery').waitFor({ state: 'detached' });
@@ -83,7 +83,7 @@ describe('the gallery', () => {
         const look = async (name) => {
             await preset(name).scrollIntoViewIfNeeded();
             await preset(name).hover();
-            const image = page.locator(`[data-testid="trial"][data-preset="${name}"] img`);
+            const image = page.locator(`[data-testid="trial"][data-shown="${name}"] img`);
             await image.waitFor();
             await until(() => image.evaluate((one) => one.complete && one.naturalWidth > 0), `a look at ${name}`);
             return decodePng(await image.screenshot());

@@ -65,9 +65,21 @@ test('every example has a card; those in sight get a picture', async () => {
     const groups = await page
         .locator('[data-group]')
         .evaluateAll((all) => all.map((one) => one.dataset.group));
-    assert.deepEqual(groups, ['showpiece', 'lesson', 'surface', 'technique']);
-    assert.equal(examples[0].group, 'showpiece');
-    const search = page.getByLabel('Search the examples');
+    assert.deepEqual(groups, ['showpiece', 'lesson', 'shape', 'combine', 'modify', 'repeat', 'surface']);
+    const lessons = examples.filter(({ group }) => group === 'lesson').map(({ id }) => id);
+    assert.deepEqual(lessons, [
+        'first-steps',
+        'lecture-1-shapes',
+        'lecture-2-booleans',
+        'lecture-3-light',
+        'lecture-4-transforms',
+        'lecture-5-camera',
+        'own-code',
+    ]);
+    for (const title of await page.locator('.scenes-group').allTextContents()) {
+        assert.doesNotMatch(title, /examples\./, 'every group has a title');
+    }
+    const search = page.getByLabel('Search scenes and examples');
     await search.fill('lecture');
     await page.locator('[data-example=bend]').waitFor({ state: 'detached' });
     assert.deepEqual(
@@ -85,6 +97,36 @@ test('every example has a card; those in sight get a picture', async () => {
         const image = document.querySelector('[data-example] img');
         return image.complete && image.naturalWidth > 0;
     });
+});
+
+test('of many scenes the newest are shown; the search finds all of them', async () => {
+    for (let i = 0; i < 12; i += 1) {
+        await stage.scene({ ...SCENE, name: i === 0 ? 'Oldest of all' : `Room ${i}` });
+    }
+    page = await stage.page();
+    const own = page.locator('[data-scene]');
+    await until(async () => (await own.count()) === 8, 'eight cards');
+    const { length } = await scenes();
+    await page.getByLabel('Search scenes and examples').fill('oldest');
+    await until(async () => (await own.count()) === 1, 'one card');
+    await own.getByText('Oldest of all').waitFor();
+    await page.getByLabel('Search scenes and examples').fill('');
+    await page.getByRole('button', { name: `Show all ${length}` }).click();
+    await until(async () => (await own.count()) === length, 'all cards');
+    assert.equal(await page.locator('.scenes-all').count(), 0);
+});
+
+test('a picture drifts while it is pointed at, but not where motion is unwanted', async () => {
+    page = await stage.page();
+    const image = page.locator('[data-example] img:not([hidden])').first();
+    await image.waitFor();
+    const scale = () => image.evaluate((one) => getComputedStyle(one).scale);
+    await image.hover();
+    assert.equal(await scale(), 'none');
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    const first = await until(async () => (await scale()) !== 'none' && scale(), 'a picture that moves');
+    assert.ok(Number(first) < 1.14, `${first}: not at once`);
+    await until(async () => (await scale()) > first, 'a picture that goes on moving');
 });
 
 test('a new scene is empty and says what to do', async () => {

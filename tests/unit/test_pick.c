@@ -87,6 +87,52 @@ static void test_floor(void **state)
     pick_field_unref(field);
 }
 
+static struct pick_result look_through(const struct pick_field *field, double x, double y)
+{
+    return pick_at(field, &(struct pick_question){
+                              .width = 640, .height = 360, .x = x, .y = y, .through = true});
+}
+
+static void assert_through(const struct pick_result *result, const char *expected)
+{
+    char all[256] = "";
+
+    for (int i = 0; i < result->through_count; i++) {
+        strncat(all, result->through[i], sizeof all - strlen(all) - 1);
+        strncat(all, " ", sizeof all - strlen(all) - 1);
+    }
+    assert_string_equal(all, expected);
+}
+
+/* The tool of a cut, what it cuts, and what is behind; the floor is no node. */
+static void test_through(void **state)
+{
+    static const char bitten[] =
+        "{'format':'fieldcast/1','camera':{'position':[0,0.2,6],'target':[0,0,0]},"
+        "'environment':{'floor':true,'floor_height':-2},"
+        "'root':{'id':'all','type':'union','children':["
+        "{'id':'apple','type':'difference','children':["
+        "{'id':'flesh','type':'sphere','params':{'radius':1}},"
+        "{'id':'bite','type':'sphere','params':{'radius':0.5},"
+        "'transform':{'translation':[0,0,1]}}]},"
+        "{'id':'wall','type':'box','params':{'size':[1,1,0.1]},"
+        "'transform':{'translation':[0,0,-3]}}]}}";
+    struct pick_field *field = make_field(bitten);
+    const struct pick_result hit = look_through(field, 320, 180),
+                             floor = look_through(field, 320, 355),
+                             miss = look_through(field, 5, 5), plain = look(field, 320, 180);
+
+    (void)state;
+    assert_through(&hit, "bite flesh wall ");
+    assert_string_equal(hit.node, plain.node);
+    assert_true(floor.hit);
+    assert_through(&floor, "");
+    assert_false(miss.hit);
+    assert_through(&miss, "");
+    assert_through(&plain, "");
+    pick_field_unref(field);
+}
+
 static void test_camera(void **state)
 {
     struct pick_field *field = make_field(ball);
@@ -171,11 +217,9 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ball),
-        cmocka_unit_test(test_isolated),
-        cmocka_unit_test(test_floor),
-        cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_work_is_bounded),
+        cmocka_unit_test(test_ball),    cmocka_unit_test(test_isolated),
+        cmocka_unit_test(test_floor),   cmocka_unit_test(test_through),
+        cmocka_unit_test(test_camera),  cmocka_unit_test(test_work_is_bounded),
         cmocka_unit_test(test_threads),
     };
 

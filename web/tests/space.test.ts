@@ -20,6 +20,7 @@ import type { SceneDocument } from "../src/model/document.ts";
 import { readDocument } from "../src/model/documentJson.ts";
 import { moveNodes } from "../src/model/edits.ts";
 import type { Json } from "../src/model/json.ts";
+import { landingBeside, landingTransform } from "../src/model/landing.ts";
 import {
     anglesOf,
     apply,
@@ -27,7 +28,9 @@ import {
     fromWorld,
     length,
     type Matrix,
+    normalize,
     rotation,
+    standingUnder,
     subtract,
     toWorld,
     transformUnder,
@@ -302,4 +305,79 @@ test("the ball of a node holds it, through its parents", () => {
     expect(all.radius + 1e-9).toBeGreaterThanOrEqual(length(subtract(head.center, all.center)));
     expect(ballOf(document, SCHEMA, ["hat"]).radius).toBe(1); /* hidden: nothing to see */
     close(ballOf(NESTED, SCHEMA, ["x"]).center, toWorld(NESTED, "x", [0, 0, 0]));
+});
+
+test("what stands on a surface has its y axis along the normal, below any parent", () => {
+    const next = random(11);
+    for (let i = 0; i < 200; i++) {
+        const document = readDocument({
+            format: "fieldcast/1",
+            root: {
+                id: "root",
+                type: "union",
+                transform: { rotation: [...randomVector(next, 6)], scale: 0.5 + next() },
+                children: [
+                    {
+                        id: "parent",
+                        type: "union",
+                        transform: { translation: [...randomVector(next, 4)] },
+                    },
+                ],
+            },
+        });
+        const at = randomVector(next, 5);
+        const up = normalize(i === 0 ? [0, -1, 0] : randomVector(next, 2));
+        const placed = standingUnder(document, "parent", at, up, [0, 0, 0]);
+        close(toWorld(document, "parent", placed.translation), at, 1e-9);
+        const tip = apply(rotation(placed.rotation), [0, 1, 0]);
+        const raised = subtract(
+            toWorld(document, "parent", tip),
+            toWorld(document, "parent", [0, 0, 0]),
+        );
+        close(normalize(raised), up, 1e-6);
+    }
+});
+
+test("what stands upright is not turned; where a scale is not uniform it keeps its own turn", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        root: {
+            id: "root",
+            type: "union",
+            children: [{ id: "flat", type: "union", transform: { scale: [1, 2, 1] } }],
+        },
+    });
+    const ground = { at: [1, 2, 3], normal: [0, 1, 1e-5] } as const;
+    expect(landingTransform(document, "root", ground)).toEqual({ translation: [1, 2, 3] });
+    const own = { rotation: [0.5, 0, 0], scale: 2 };
+    const sideways = { at: [1, 2, 3], normal: [1, 0, 0] } as const;
+    expect(landingTransform(document, "flat", sideways, own)).toEqual({
+        rotation: [0.5, 0, 0],
+        scale: 2,
+        translation: [1, 1, 3],
+    });
+});
+
+test("what lands is combined with what is selected there, else with the shape, never inside a modifier", () => {
+    const document = readDocument({
+        format: "fieldcast/1",
+        models: { nut: { id: "thread", type: "sphere" } },
+        root: {
+            id: "root",
+            type: "union",
+            children: [
+                { id: "pair", type: "union", children: [{ id: "ball", type: "sphere" }] },
+                { id: "twirl", type: "extrude", children: [{ id: "bar", type: "circle" }] },
+            ],
+        },
+    });
+    const beside = (selection: string[], seen: string | null) =>
+        landingBeside(document, SCHEMA, selection, seen);
+    expect(beside([], "ball")).toEqual(["ball"]);
+    expect(beside(["pair"], "ball")).toEqual(["pair"]);
+    expect(beside(["root"], "ball")).toEqual(["ball"]);
+    expect(beside(["twirl", "pair"], "bar")).toEqual(["twirl"]);
+    expect(beside([], "bar")).toEqual(["twirl"]);
+    expect(beside(["ball"], null)).toEqual([]);
+    expect(beside([], "thread")).toEqual([]);
 });

@@ -74,7 +74,7 @@ async function rest(page, state) {
     }
     await page.mouse.move(1, 1);
     await page.evaluate(() => document.querySelectorAll('.panel-scroll, .resources, .scenes').forEach((one) => one.scrollTo(0, 0)));
-    const find = page.getByPlaceholder('Search the examples');
+    const find = page.getByPlaceholder('Search scenes and examples');
     if ((await find.count()) > 0) {
         await find.fill('');
         await find.blur();

@@ -108,8 +108,8 @@ const BROKEN = '{\n  "model": {"type": "Primitives/Sphere" 5}\n}\n';
 const START = [
     ['start', (page) => page.locator('[data-example] img:not([hidden])').nth(3).waitFor()],
     ['start, examples', (page) => page.getByTestId('examples').evaluate((one) => one.scrollIntoView())],
-    ['start, search', (page) => page.getByPlaceholder('Search the examples').fill('glass')],
-    ['start, nothing found', (page) => page.getByPlaceholder('Search the examples').fill('xyzzy')],
+    ['start, search', (page) => page.getByPlaceholder('Search scenes and examples').fill('glass')],
+    ['start, nothing found', (page) => page.getByPlaceholder('Search scenes and examples').fill('xyzzy')],
     ['start, menu of a scene', async (page) => {
         await page.locator('[data-scene] .icon-button').first().click();
         await popup(page);
@@ -385,6 +385,25 @@ const DIALOGS = [
         await tab(page, 'Nodes');
         await row(page, 'jug').click({ button: 'right' });
         await popup(page);
+    }],
+    ['landing of a shape', async (page) => {
+        await search(page, 'Shift+A', 'cone');
+        await page.locator('[data-type="cone"]').last().hover();
+        await page.locator('[data-way="blend"]').click();
+        await page.locator('[data-type="cone"]').last().hover();
+        await page.mouse.down();
+        const [x, y] = await middle(page, 0.47, 0.36);
+        await page.mouse.move(x - 6, y, { steps: 3 });
+        await page.mouse.move(x, y);
+        await page.getByTestId('trial').locator('img').waitFor();
+    }, { wide: true, clean: async (page) => {
+        await page.mouse.move(5, 5, { steps: 2 });
+        await page.mouse.up();
+    } }],
+    ['what is here', async (page) => {
+        await page.mouse.click(...(await middle(page, 0.48, 0.45)), { button: 'right' });
+        await page.getByRole('menuitem', { name: 'What is here' }).click();
+        await page.getByRole('menu', { name: 'What is here' }).getByRole('menuitem').nth(1).waitFor();
     }],
     ['menu in the picture', async (page) => {
         await page.mouse.click(...(await middle(page)), { button: 'right' });

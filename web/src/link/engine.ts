@@ -14,6 +14,7 @@ import {
     type ClientMessage,
     type FrameHeader,
     frameState,
+    type PickMessage,
     type RetryMessage,
     readMessage,
     readPacket,
@@ -45,7 +46,7 @@ export type Order =
     /* What the page holds, to resume there. */
     | { readonly kind: "at"; readonly revision: number; readonly epoch: string | number }
     | { readonly kind: "send"; readonly message: OutgoingEdit | RetryMessage }
-    | { readonly kind: "pick"; readonly pick: number; readonly x: number; readonly y: number }
+    | ({ readonly kind: "pick" } & Omit<PickMessage, "type" | "seq">)
     | { readonly kind: "view"; readonly view: ViewState }
     | { readonly kind: "thumbnails"; readonly wanted: WantedTiles }
     | { readonly kind: "surface"; readonly surface: Surface | null };
@@ -408,8 +409,9 @@ export class Engine {
 
     /* What is meant is what was seen: the view of the frame on screen. */
     #pick(order: Extract<Order, { kind: "pick" }>): void {
-        const { pick, x, y } = order;
-        this.#send({ type: "pick", pick, x, y, seq: this.#shown?.input ?? this.#seq });
+        const { pick, x, y, through } = order;
+        const seq = this.#shown?.input ?? this.#seq;
+        this.#send({ type: "pick", pick, x, y, seq, ...(through ? { through } : {}) });
     }
 
     /* --- frames --- */

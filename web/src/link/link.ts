@@ -64,7 +64,7 @@ export interface Link {
     undo(): void;
     redo(): void;
     /* What lies under a point of the picture, in CSS pixels from its left top. */
-    pick(x: number, y: number): Promise<PickedMessage>;
+    pick(x: number, y: number, through?: boolean): Promise<PickedMessage>;
     /* The same, but not while another answer is due, which it would take the place of: null. */
     pickIdle(x: number, y: number): Promise<PickedMessage | null>;
     /* What was given up at a place, because it was too slow or crashed, is tried again. */
@@ -482,12 +482,12 @@ class SceneLink implements Link {
         return this.#viewer.attach(element);
     }
 
-    pick(x: number, y: number): Promise<PickedMessage> {
+    pick(x: number, y: number, through = false): Promise<PickedMessage> {
         const pixel = this.#viewer.pixelAt(x, y);
         if (!pixel || this.#stores.link.getState().connection !== "live") {
             return Promise.reject(new Error("not connected"));
         }
-        return this.#picks.ask(pixel);
+        return this.#picks.ask(pixel, through);
     }
 
     pickIdle(x: number, y: number): Promise<PickedMessage | null> {

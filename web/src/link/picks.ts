@@ -24,10 +24,13 @@ export class Picks {
         return this.#waiters.size > 0;
     }
 
-    ask(pixel: { readonly x: number; readonly y: number }): Promise<PickedMessage> {
+    ask(
+        { x, y }: { readonly x: number; readonly y: number },
+        through: boolean,
+    ): Promise<PickedMessage> {
         this.#asked++;
         const pick = this.#asked;
-        this.#host.send({ kind: "pick", pick, x: pixel.x, y: pixel.y });
+        this.#host.send({ kind: "pick", pick, x, y, through });
         return new Promise((take, fail) => {
             this.#waiters.set(pick, { take, fail });
             setTimeout(() => {

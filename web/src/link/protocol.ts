@@ -43,6 +43,8 @@ export interface PickMessage {
     readonly x: number;
     readonly y: number;
     readonly seq: number;
+    /* Lists what is behind it too. */
+    readonly through?: boolean;
 }
 
 export interface AckMessage {
@@ -102,6 +104,8 @@ export interface PickedMessage {
     readonly position: readonly number[] | null;
     readonly normal: readonly number[] | null;
     readonly distance: number | null;
+    /* Where it was asked for: shapes whose surfaces the ray passes, the nearest first. */
+    readonly through?: readonly string[];
 }
 
 export interface CompilingMessage {

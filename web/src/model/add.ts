@@ -3,11 +3,10 @@
 import { nodeLabel, pathTo, type SceneDocument } from "./document.ts";
 import { type Edit, freshIds, freshNames, movable, wrap } from "./edits.ts";
 import type { JsonObject } from "./json.ts";
+import { type Ground, landingTransform } from "./landing.ts";
 import { isContainer, names, placing, SOLID_MAKERS, type Way } from "./placing.ts";
 import { type NodeType, nodeType, type Schema } from "./schema.ts";
 import { NEW_EQUATION, NEW_NODE_CODE } from "./templates.ts";
-import type { Vector } from "./transform.ts";
-import { tidy } from "./units.ts";
 
 /* What a palette offers: a type, or an instance of something of the document. */
 export interface Addition {
@@ -57,13 +56,14 @@ function newNode(
     schema: Schema,
     { type, named }: Addition,
     above: string,
-    transform: JsonObject = {},
+    ground: Ground | null = null,
 ): { id: string; value: JsonObject } {
     const row = nodeType(schema, type);
     const fresh = freshIds(document);
     const name = freshNames(document);
     const id = fresh(named ?? type);
     const params = paramsOf(row, named);
+    const place = ground ? { transform: landingTransform(document, above, ground) } : {};
     const node: JsonObject = {
         id,
         type,
@@ -72,8 +72,8 @@ function newNode(
     };
     const maker = needsSolid(document, schema, row, above);
     const value = maker
-        ? { id: fresh(maker), type: maker, name: name(maker), ...transform, children: [node] }
-        : { ...node, ...transform };
+        ? { id: fresh(maker), type: maker, name: name(maker), ...place, children: [node] }
+        : { ...node, ...place };
     return { id, value };
 }
 
@@ -93,15 +93,14 @@ export function addInput(
 }
 
 /* A new node. What combines or changes others goes around the selection, if any; anything else is
- * combined with it in a `way`. A shape of the plane comes with what makes it a solid. `at` is a
- * point in the parent's space. */
+ * combined with it in a `way`. A shape of the plane comes with what makes it a solid. */
 export function addNode(
     document: SceneDocument,
     schema: Schema,
     addition: Addition,
     selection: readonly string[],
     way: Way = "union",
-    at?: Vector,
+    ground: Ground | null = null,
 ): Edit {
     const { type, named } = addition;
     const row = nodeType(schema, type);
@@ -110,8 +109,7 @@ export function addNode(
         return wrap(document, around, type);
     }
     const { ops, spot, above } = placing(document, schema, selection, row, way);
-    const transform = at ? { transform: { translation: at.map(tidy) } } : {};
-    const { id, value } = newNode(document, schema, addition, above, transform);
+    const { id, value } = newNode(document, schema, addition, above, ground);
     return {
         ops: [...ops, { op: "insert", into: `/nodes/${spot.into}`, before: spot.before, value }],
         label: `add ${named ?? wordsOf(type)}`,

@@ -14,6 +14,7 @@ import {
 import { printNode, printResource, readDocument } from "./documentJson.ts";
 import { type Edit, freshIds, freshNames, renamed } from "./edits.ts";
 import { isObject, type Json, type JsonObject, listOf, textOf } from "./json.ts";
+import { type Ground, landingTransform } from "./landing.ts";
 import { adapted, adaptedResource, isSameResource, keyOf, needed, type Resolve } from "./naming.ts";
 import type { Operation } from "./operation.ts";
 import type { ListName } from "./places.ts";
@@ -209,6 +210,8 @@ export interface Target {
     readonly into?: string | null;
     /* The place that names the material. */
     readonly use?: string | null;
+    /* Where it comes to stand; null: where its parent is. */
+    readonly ground?: Ground | null;
 }
 
 function takeMaterial(
@@ -231,18 +234,29 @@ function takeMaterial(
     };
 }
 
+function standing(
+    document: SceneDocument,
+    above: string,
+    ground: Ground,
+    node: JsonObject,
+): JsonObject {
+    const own = isObject(node.transform) ? node.transform : {};
+    return { ...node, transform: landingTransform(document, above, ground, own) };
+}
+
 function takeTree(
     schema: Schema,
     document: SceneDocument,
     entry: SceneDocument,
-    { selection, way, into }: Target,
+    { selection, way, into, ground = null }: Target,
 ): Edit {
-    const root = printNode(entry, entry.root);
+    const printed = printNode(entry, entry.root);
     const name = textOf(entry.info.name as Json, "entry");
-    const row = nodeType(schema, textOf(root.type));
+    const row = nodeType(schema, textOf(printed.type));
     const place = into
         ? { ops: [], spot: { into, before: null }, above: into }
         : placing(document, schema, selection, row, way);
+    const root = ground ? standing(document, place.above, ground, printed) : printed;
     const fresh = freshIds(document);
     const freshName = freshNames(document);
     for (const op of place.ops) {

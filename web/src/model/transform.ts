@@ -181,3 +181,39 @@ export function transformUnder(
         scale: scale(own.scale, ratio),
     };
 }
+
+/* Less than this, in radians, is upright. */
+const UPRIGHT = 1e-3;
+
+/* The least turn that takes the y axis to a unit vector. */
+function turnTo(up: Vector): Matrix {
+    const y: Vector = [0, 1, 0];
+    const angle = Math.acos(Math.min(1, Math.max(-1, up[1])));
+    const axis = normalize(cross(y, up), [1, 0, 0]);
+    return angle < UPRIGHT
+        ? rotation([0, 0, 0])
+        : transpose([
+              turnAbout([1, 0, 0], axis, angle),
+              turnAbout(y, axis, angle),
+              turnAbout([0, 0, 1], axis, angle),
+          ]);
+}
+
+/* The place of something below `parent`, already turned by `own`, that comes to stand at a point of
+ * the world with its y axis along a unit vector. Where a scale on the way is not uniform, it is not
+ * turned further. */
+export function standingUnder(
+    document: SceneDocument,
+    parent: string,
+    at: Vector,
+    up: Vector,
+    own: Vector,
+): Omit<Transform, "scale"> {
+    const world = worldOf(document, parent);
+    const turn = world ? product(transpose(rotation(world.rotation)), turnTo(up)) : null;
+    const still = turn === null || isSame(turn, rotation([0, 0, 0]));
+    return {
+        translation: fromWorld(document, parent, at),
+        rotation: still ? own : anglesOf(product(turn, rotation(own)), own),
+    };
+}

@@ -4,9 +4,9 @@
 
 import { MOTIONS, type Motion } from "./grip.ts";
 import { PIVOTS, type Pivot, SPACES, type Space } from "./hands.ts";
+import type { Operation } from "./operation.ts";
 import type { ListName, RecordName } from "./places.ts";
 import { WAY_NAMES, type Way } from "./placing.ts";
-import type { Preset } from "./presets.ts";
 import type { Vector } from "./transform.ts";
 
 export type Theme = "auto" | "light" | "dark";
@@ -103,10 +103,11 @@ export type Subject =
     | { readonly kind: "resource"; readonly list: ListName; readonly name: string }
     | { readonly kind: RecordName };
 
-/* A preset at the place that would name the material. */
+/* An edit that is looked at and not made; what it is about, and what is said meanwhile. */
 export interface Trial {
-    readonly preset: Preset;
-    readonly use: string;
+    readonly ops: readonly Operation[];
+    readonly name: string;
+    readonly words: string;
 }
 
 export interface View {
@@ -117,7 +118,7 @@ export interface View {
     readonly collapsed: ReadonlySet<string>;
     /* Ids of nodes that this page shows alone; empty: it shows all. */
     readonly isolated: readonly string[];
-    /* A material that is looked at on a node, without an edit. */
+    /* What this page shows as if it were so: no edit. */
     readonly trial: Trial | null;
     /* The node whose name is being typed. */
     readonly renaming: string | null;

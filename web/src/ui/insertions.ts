@@ -31,6 +31,13 @@ import { t } from "./texts.ts";
 
 const MOST_RECENT = 8;
 
+/* Puts a type in front of those that were last added. */
+export function remember({ stores }: Editor, type: string): void {
+    const { recent } = stores.view.getState().preferences;
+    const others = recent.filter((old) => old !== type);
+    setPreferences(stores.view, { recent: [type, ...others].slice(0, MOST_RECENT) });
+}
+
 /* Sends an edit that adds something, and remembers what. */
 function performAdding(
     editor: Editor,
@@ -40,9 +47,7 @@ function performAdding(
     const { stores } = editor;
     const { document, schema } = stores.document.getState();
     if (document && perform(editor, build(document, schema))) {
-        const { recent } = stores.view.getState().preferences;
-        const others = recent.filter((old) => old !== type);
-        setPreferences(stores.view, { recent: [type, ...others].slice(0, MOST_RECENT) });
+        remember(editor, type);
     }
 }
 

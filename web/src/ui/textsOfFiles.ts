@@ -4,11 +4,12 @@
 export const FILE_TEXTS = {
     "scenes.title": "Your scenes",
     "scenes.examples": "Start from an example",
-    "scenes.search": "Search the examples",
+    "scenes.search": "Search scenes and examples",
     "scenes.examplesDoc": "A copy opens; the example stays as it is.",
     "scenes.new": "New scene",
     "scenes.upload": "Upload",
     "scenes.folder": "Import a folder of scene, model and material files",
+    "scenes.all": "Show all {count}",
     "scenes.none": "Nothing here yet. Open an example, or start with an empty scene.",
     "scenes.meta": "{nodes} nodes · {age}",
     "scenes.meta.one": "1 node · {age}",

@@ -17,6 +17,7 @@ export const LIBRARY_TEXTS = {
     "library.offer.material": "A material of My library.",
     "library.offer.model": "A model of My library.",
     "library.gives": "For what is selected.",
+    "land.gives": "For {name}.",
     "library.brings": "Among the materials of the scene.",
     "library.add": "Add {name} to the scene",
     "library.save": "Save to My library",

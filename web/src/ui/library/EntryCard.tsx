@@ -3,6 +3,7 @@
 import { Ellipsis, Pencil, Plus, Trash2 } from "lucide-react";
 import { useState } from "react";
 import type { EntryRow } from "../../model/library.ts";
+import { carryEntry } from "../drop/carry.ts";
 import { RenameField } from "../scenes/Card.tsx";
 import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
@@ -28,7 +29,12 @@ export function EntryCard({ entry }: { entry: EntryRow }) {
         }
     };
     return (
-        <li className="card" data-entry={id}>
+        <li
+            className="card"
+            data-entry={id}
+            draggable={able}
+            onDragStart={(event) => carryEntry(editor, event, entry)}
+        >
             <button
                 type="button"
                 className="card-open"

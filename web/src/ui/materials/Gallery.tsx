@@ -4,7 +4,10 @@
 import { useCallback, useEffect, useRef } from "react";
 import type { EntryRow } from "../../model/library.ts";
 import { PRESET_GROUPS, PRESETS, type Preset } from "../../model/presets.ts";
+import { newResource } from "../../model/resources.ts";
 import { search } from "../../model/search.ts";
+import type { Trial } from "../../model/view.ts";
+import type { Editor } from "../editor.ts";
 import { addResource } from "../insertions.ts";
 import { take } from "../library/acts.ts";
 import { EntryPicture } from "../library/EntryPicture.tsx";
@@ -49,9 +52,9 @@ export default function Gallery({ use, onClose }: Props) {
     const tryOut = useCallback(
         (choice: Choice | null) => {
             const preset = choice && !isEntry(choice) ? choice : null;
-            view.setState({ trial: preset && use !== null ? { preset, use } : null });
+            view.setState({ trial: preset && use !== null ? trialOf(editor, preset, use) : null });
         },
-        [view, use],
+        [editor, view, use],
     );
     return (
         <div className="gallery" data-testid="gallery">
@@ -73,6 +76,17 @@ export default function Gallery({ use, onClose }: Props) {
             />
         </div>
     );
+}
+
+/* A preset at the place that would name the material. */
+function trialOf({ stores }: Editor, preset: Preset, use: string): Trial | null {
+    const { document, schema } = stores.document.getState();
+    if (document === null) {
+        return null;
+    }
+    const { name } = preset;
+    const { ops } = newResource(document, schema, "materials", use, [], "union", preset);
+    return { ops, name, words: t("gallery.trying", { name: typeTitle(name) }) };
 }
 
 function findIn(entries: readonly EntryRow[], query: string): readonly Group<Choice>[] {

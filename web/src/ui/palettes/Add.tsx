@@ -2,13 +2,14 @@
 /* Add: everything that a scene can hold, with its picture and a line of help, found by name or
  * synonym. Wrap: the part of it that goes around what is selected. Input: the part that a node can
  * hold, as its last input. */
-import { useCallback, useMemo } from "react";
+import { type DragEvent, useCallback, useMemo } from "react";
 import { whatAdding } from "../../model/add.ts";
 import type { SceneDocument } from "../../model/document.ts";
 import { nameAll } from "../../model/edits.ts";
-import { WAY_NAMES } from "../../model/placing.ts";
+import { isContainer, WAY_NAMES } from "../../model/placing.ts";
 import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
+import { carryOffer } from "../drop/carry.ts";
 import { addInput, addNode } from "../insertions.ts";
 import { take } from "../library/acts.ts";
 import { EntryPicture } from "../library/EntryPicture.tsx";
@@ -78,6 +79,12 @@ export function Add() {
         },
         [schema, document, recent, wrapping, into, open, entries],
     );
+    const draggable = (offer: Offer): Face => ({
+        ...faceOf(offer),
+        ...(popup === "add" && {
+            onDragStart: (event: DragEvent) => carryOffer(editor, event, offer),
+        }),
+    });
     const footOf = (offer: Offer) =>
         into === null ? <AddFoot offer={offer} /> : <InputFoot into={into} />;
     return (
@@ -87,7 +94,7 @@ export function Add() {
             placeholder={t(wrapping ? "wrap.search" : "add.search")}
             grid
             find={find}
-            faceOf={faceOf}
+            faceOf={draggable}
             footOf={footOf}
             onTake={(offer) => {
                 if (offer.entry) {
@@ -115,13 +122,15 @@ function AddFoot({ offer }: { offer: Offer }) {
     const selection = useView((view) => view.selection);
     const way = useView((view) => view.preferences.way);
     const what = document && whatAdding(document, schema, offer, selection, way);
+    const row = nodeType(schema, offer.type);
+    const goesAround = row !== null && isContainer(row);
     if (offer.entry?.kind === "material") {
         const words = t(selection.length > 0 ? "library.gives" : "library.brings");
         return <span className="palette-what ellipsis">{words}</span>;
     }
     return (
         <>
-            {what?.way && (
+            {what?.way !== undefined && !goesAround && (
                 // biome-ignore lint/a11y/useSemanticElements: a fieldset brings a look and a legend of its own
                 <span className="palette-ways" role="group" aria-label={t("add.as")}>
                     {t("add.as")}

@@ -14,6 +14,7 @@ const gestures: readonly { title: TextKey; rows: readonly (readonly [TextKey, st
         rows: [
             ["keys.select", "Click"],
             ["keys.selectMore", "Shift Click"],
+            ["keys.under", "Alt Click"],
             ["keys.box", "Shift drag"],
             ["keys.orbit", "Drag"],
             ["keys.pan", "Right drag"],

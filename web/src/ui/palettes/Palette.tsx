@@ -164,7 +164,9 @@ export function PaletteBody<T>(props: BodyProps<T>) {
                     ))}
             </div>
             {all.length === 0 && <p className="empty-note">{t("palette.nothing", { query })}</p>}
-            <Foot>{active !== undefined && footOf?.(active)}</Foot>
+            <Foot drags={active !== undefined && faceOf(active).onDragStart !== undefined}>
+                {active !== undefined && footOf?.(active)}
+            </Foot>
         </>
     );
 }

@@ -37,7 +37,8 @@ export function Search({ label, listId, activeId, onChange, ...rest }: Props) {
     );
 }
 
-export function Foot({ children }: { children?: ReactNode }) {
+/* `drags`: what is active can be dragged onto the picture. */
+export function Foot({ drags, children }: { drags?: boolean; children?: ReactNode }) {
     return (
         <div className="palette-foot">
             <span>
@@ -47,7 +48,8 @@ export function Foot({ children }: { children?: ReactNode }) {
                 <kbd>Enter</kbd> {t("palette.choose")}
             </span>
             <span>
-                <kbd>Esc</kbd> {t("palette.close")}
+                <kbd>{drags ? t("hint.drag") : "Esc"}</kbd>{" "}
+                {t(drags ? "palette.place" : "palette.close")}
             </span>
             <span className="palette-more">{children}</span>
         </div>

@@ -4,9 +4,10 @@
 
 import { nameAll } from "../../model/edits.ts";
 import { ActItem } from "../layout/Act.tsx";
+import { keyText } from "../layout/keys.ts";
 import { useDocument, useView } from "../state.ts";
 import { t } from "../texts.ts";
-import { MenuLine, type MenuPlace, MenuTitle, PointMenu } from "../widgets/Menu.tsx";
+import { MenuItem, MenuLine, type MenuPlace, MenuTitle, PointMenu } from "../widgets/Menu.tsx";
 
 /* What the menu is about: the selected nodes, nothing, or what is still being asked for. */
 export type Target = "selection" | "nothing" | "asked";
@@ -14,6 +15,8 @@ export type Target = "selection" | "nothing" | "asked";
 interface Props {
     at: MenuPlace | null;
     target?: Target;
+    /* Tells all that is at the point. */
+    onList?: () => void;
     onClose: () => void;
 }
 
@@ -41,7 +44,7 @@ const always: readonly (readonly string[])[] = [
 
 const TITLES = { asked: "scene.menuAsked", nothing: "scene.menuNothing" } as const;
 
-export function NodeMenu({ at, target = "selection", onClose }: Props) {
+export function NodeMenu({ at, target = "selection", onList, onClose }: Props) {
     const selection = useView((view) => view.selection);
     const name = useDocument(({ document }) => (document ? nameAll(document, selection) : ""));
     const title = target === "selection" ? name : t(TITLES[target]);
@@ -49,6 +52,11 @@ export function NodeMenu({ at, target = "selection", onClose }: Props) {
     return (
         <PointMenu at={at} label={t("scene.menu", { name: title })} onClose={onClose}>
             {at !== null && <MenuTitle>{title}</MenuTitle>}
+            {onList && (
+                <MenuItem keys={keyText("Alt Click")} onSelect={onList}>
+                    {t("under.open")}
+                </MenuItem>
+            )}
             {at !== null &&
                 shown.map((ids, i) => (
                     <div key={ids[0]}>

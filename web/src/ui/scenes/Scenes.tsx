@@ -116,7 +116,8 @@ export default function ScenesPage() {
             report(editor, error);
         }
     };
-    const shown = scenes?.filter((scene) => !leaving.some(({ id }) => id === scene.id)) ?? [];
+    const [query, setQuery] = useState("");
+    const staying = scenes?.filter((scene) => !leaving.some(({ id }) => id === scene.id)) ?? [];
     return (
         <div className="scenes">
             <Head
@@ -136,19 +137,18 @@ export default function ScenesPage() {
                 <div className="scenes-head">
                     <h2>{t("scenes.title")}</h2>
                     {scenes?.length === 0 && <p>{t("scenes.none")}</p>}
+                    <span className="bar-space" />
+                    <Filter
+                        className="scenes-search"
+                        label={t("scenes.search")}
+                        value={query}
+                        onChange={setQuery}
+                    />
                 </div>
-                <ul className="cards" data-testid="scenes">
-                    {shown.map((scene) => (
-                        <SceneCard
-                            key={scene.id}
-                            scene={scene}
-                            onChange={reload}
-                            onLeave={() => leave(scene)}
-                        />
-                    ))}
-                </ul>
+                <Own scenes={staying} query={query} onChange={reload} onLeave={leave} />
                 <Examples
                     examples={examples}
+                    query={query}
                     onOpen={(id) => void start(() => editor.rest.createFromExample(id))}
                 />
             </main>
@@ -175,20 +175,59 @@ export default function ScenesPage() {
     );
 }
 
-const groups = ["showpiece", "lesson", "surface", "technique"] as const;
+/* So many of the newest are shown at first. */
+const RECENT = 8;
+
+interface OwnProps {
+    scenes: readonly SceneEntry[];
+    query: string;
+    onChange: () => void;
+    onLeave: (scene: SceneEntry) => void;
+}
+
+/* The newest, or all that fits a search. */
+function Own({ scenes, query, onChange, onLeave }: OwnProps) {
+    const [all, setAll] = useState(false);
+    const found = search(scenes, query, ({ name, id }) => ({ name: name || id, words: id }));
+    const shown = all || query.trim() !== "" ? found : found.slice(0, RECENT);
+    return (
+        <>
+            <ul className="cards" data-testid="scenes">
+                {shown.map((scene) => (
+                    <SceneCard
+                        key={scene.id}
+                        scene={scene}
+                        onChange={onChange}
+                        onLeave={() => onLeave(scene)}
+                    />
+                ))}
+            </ul>
+            {scenes.length > 0 && found.length === 0 && (
+                <p className="empty-note">{t("palette.nothing", { query })}</p>
+            )}
+            {shown.length < found.length && (
+                <Button look="outline" className="scenes-all" onClick={() => setAll(true)}>
+                    {t("scenes.all", { count: found.length })}
+                </Button>
+            )}
+        </>
+    );
+}
 
 interface ExamplesProps {
     examples: readonly ExampleEntry[];
+    query: string;
     onOpen: (id: string) => void;
 }
 
-/* In groups, and what of them fits a search. */
-function Examples({ examples, onOpen }: ExamplesProps) {
-    const [query, setQuery] = useState("");
+/* In the server's groups, and what of them fits a search. */
+function Examples({ examples, query, onOpen }: ExamplesProps) {
+    const groups = [...new Set(examples.map(({ group }) => group))];
+    const titleOf = (group: string): string => t(`examples.${group}` as TextKey);
     const found = search(examples, query, ({ name, id, group, description }) => ({
         name,
         words: id.replaceAll("-", " "),
-        kind: t(`examples.${group}` as TextKey),
+        kind: titleOf(group),
         doc: description,
     }));
     return (
@@ -196,20 +235,13 @@ function Examples({ examples, onOpen }: ExamplesProps) {
             <div className="scenes-head">
                 <h2>{t("scenes.examples")}</h2>
                 <p>{t("scenes.examplesDoc")}</p>
-                <span className="bar-space" />
-                <Filter
-                    className="scenes-search"
-                    label={t("scenes.search")}
-                    value={query}
-                    onChange={setQuery}
-                />
             </div>
             {groups.map((group) => {
                 const own = found.filter((example) => example.group === group);
                 return (
                     own.length > 0 && (
-                        <section key={group} aria-label={t(`examples.${group}`)}>
-                            <h3 className="scenes-group">{t(`examples.${group}`)}</h3>
+                        <section key={group} aria-label={titleOf(group)}>
+                            <h3 className="scenes-group">{titleOf(group)}</h3>
                             <ul className="cards" data-group={group}>
                                 {own.map((example) => (
                                     <ExampleCard

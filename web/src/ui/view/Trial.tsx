@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The view with a material that is only looked at: a picture of the document as it would be, drawn
- * for this page alone, over the stream. */
+/* The view with an edit that is only looked at: a picture of the document as it would be, drawn for
+ * this page alone, over the stream. */
 import { useEffect, useState } from "react";
 import { printCamera } from "../../model/camera.ts";
 import { printDocument } from "../../model/documentJson.ts";
 import { apply } from "../../model/operations.ts";
-import { newResource } from "../../model/resources.ts";
 import type { Trial as Wish } from "../../model/view.ts";
 import type { Editor } from "../editor.ts";
-import { typeTitle } from "../names.ts";
 import { useEditor, useView } from "../state.ts";
-import { t } from "../texts.ts";
 import "./view.css";
 
 /* What is passed over on the way to another is not drawn. */
@@ -24,8 +21,7 @@ async function draw(editor: Editor, wish: Wish, signal: AbortSignal): Promise<st
     if (document === null || !box) {
         return null;
     }
-    const { ops } = newResource(document, schema, "materials", wish.use, [], "union", wish.preset);
-    const tried = apply(document, ops, schema);
+    const tried = apply(document, wish.ops, schema);
     if (!tried.ok) {
         return null;
     }
@@ -69,11 +65,9 @@ export function Trial() {
         return null;
     }
     return (
-        <div className="view-trial" data-testid="trial" data-preset={shown.wish.preset.name}>
+        <div className="view-trial" data-testid="trial" data-shown={shown.wish.name}>
             <img src={shown.address} alt="" />
-            <p className="glass view-hint">
-                {t("gallery.trying", { name: typeTitle(shown.wish.preset.name) })}
-            </p>
+            {shown.wish.words !== "" && <p className="glass view-hint">{shown.wish.words}</p>}
         </div>
     );
 }

@@ -23,13 +23,14 @@ import { Measured, MeasuredLine } from "./Measure.tsx";
 import { takeMaterials } from "./materials.ts";
 import { Outputs } from "./Outputs.tsx";
 import { Poster } from "./Poster.tsx";
-import { handsPage, pointerActions } from "./pointer.ts";
+import { handsPage, pointerActions, type Under } from "./pointer.ts";
 import { BrokenPill, SoftwareChip, StatePill } from "./State.tsx";
 import { Strip } from "./Strip.tsx";
 import { Trial } from "./Trial.tsx";
 import "./view.css";
 
 const Drops = lazyPart(() => import("../drop/Drops.tsx"));
+const UnderMenu = lazyPart(() => import("./UnderMenu.tsx"));
 const StatisticsPill = lazyPart(() => import("./Statistics.tsx"));
 
 export function View() {
@@ -72,6 +73,8 @@ function Picture() {
     const aiming = useView((view) => view.aiming || view.measured !== null);
     const empty = useLink(({ frame }) => frame.state === "none");
     const { menu, open, close } = usePictureMenu();
+    const [under, setUnder] = useState<Under | null>(null);
+    const list = useRef<(at: MenuPlace) => void>(undefined);
     useEffect(() => {
         const element = place.current;
         if (element === null) {
@@ -82,7 +85,12 @@ function Picture() {
         const grid = new Grid(editor.stores, element);
         const outlines = new Outlines(editor.stores, element);
         const hands = new Hands(handsPage(editor), element);
-        const stop = attachPointer(element, pointerActions(editor, element, hands, open));
+        const actions = pointerActions(editor, element, hands, open, setUnder);
+        list.current = ({ x, y }) => {
+            const box = element.getBoundingClientRect();
+            actions.click(x - box.left, y - box.top, "replace", true);
+        };
+        const stop = attachPointer(element, actions);
         const rest = watchHover(editor, element);
         const drops = takeMaterials(editor, element);
         return () => {
@@ -114,7 +122,13 @@ function Picture() {
             <p id="view-help" className="unseen">
                 {t("view.help")}
             </p>
-            <NodeMenu at={menu} target={menu?.target} onClose={close} />
+            <NodeMenu
+                at={menu}
+                target={menu?.target}
+                onList={() => menu && list.current?.(menu)}
+                onClose={close}
+            />
+            <UnderMenu under={under} onClose={() => setUnder(null)} />
         </>
     );
 }

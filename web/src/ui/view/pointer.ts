@@ -31,11 +31,18 @@ interface Click {
 /* Opens the menu at a point of the window; what it answers is told what was found there. */
 type OpenMenu = (at: MenuPlace) => (settle: () => Target) => void;
 
+/* Shapes at a point of the window, the nearest first. */
+export interface Under {
+    readonly at: MenuPlace;
+    readonly nodes: readonly string[];
+}
+
 export function pointerActions(
     editor: Editor,
     element: HTMLElement,
     hands: Hands,
     onMenu: OpenMenu,
+    onUnder: (under: Under) => void,
 ): PointerActions {
     const { stores } = editor;
     const { ask, answered } = questions(editor, element);
@@ -74,6 +81,13 @@ export function pointerActions(
                     vectorOf(position),
                 ],
             }));
+        }
+    };
+    const list = async (x: number, y: number): Promise<void> => {
+        const nodes = (await ask(x, y, true))?.through;
+        if (nodes) {
+            const box = element.getBoundingClientRect();
+            onUnder({ at: { x: box.left + x, y: box.top + y }, nodes });
         }
     };
     const click = async (x: number, y: number, mode: SelectMode): Promise<void> => {
@@ -117,7 +131,7 @@ export function pointerActions(
         grab: (press) => hands.grab(press) ?? holdBox(stores, element, press, chooseAll),
         camera: () => stores.camera.getState().camera,
         moveCamera: (camera) => moveCamera(editor, () => camera),
-        click: (x, y, mode) => void click(x, y, mode),
+        click: (x, y, mode, all) => void (all ? list(x, y) : click(x, y, mode)),
         menu: (x, y) => void menu(x, y),
         frame: async (x, y) => {
             if (hands.double({ x, y })) {

@@ -37,18 +37,18 @@ function mark(element: HTMLElement, x: number, y: number): () => void {
 
 export interface Questions {
     /* CSS pixels from the picture's left top. Null: there is no answer, which a message says. */
-    ask(x: number, y: number): Promise<PickedMessage | null>;
+    ask(x: number, y: number, through?: boolean): Promise<PickedMessage | null>;
     /* All that was asked so far has its answer: what comes now comes after it. */
     answered(): Promise<unknown>;
 }
 
 export function questions({ stores, link }: Editor, element: HTMLElement): Questions {
     let before: Promise<unknown> = Promise.resolve();
-    const ask = async (x: number, y: number): Promise<PickedMessage | null> => {
+    const ask = async (x: number, y: number, through: boolean): Promise<PickedMessage | null> => {
         const { scene } = stores.document.getState();
         await whenLive(stores);
         try {
-            return await link.pick(x, y);
+            return await link.pick(x, y, through);
         } catch {
             if (stores.document.getState().scene !== scene) {
                 return null;
@@ -59,9 +59,9 @@ export function questions({ stores, link }: Editor, element: HTMLElement): Quest
         }
     };
     return {
-        ask: (x, y) => {
+        ask: (x, y, through = false) => {
             const unmark = mark(element, x, y);
-            const answer = before.then(() => ask(x, y)).finally(unmark);
+            const answer = before.then(() => ask(x, y, through)).finally(unmark);
             before = answer;
             return answer;
         },

@@ -71,18 +71,21 @@ interface ItemProps {
     checked?: boolean;
     danger?: boolean;
     disabled?: boolean;
+    /* The pointer or a key comes to it. */
+    onReach?: () => void;
     onSelect: () => void;
     children: ReactNode;
 }
 
 export function MenuItem(props: ItemProps) {
-    const { icon, keys, doc, checked, danger, disabled, onSelect, children } = props;
+    const { icon, keys, doc, checked, danger, disabled, onReach, onSelect, children } = props;
     const radio = checked === undefined ? {} : { role: "menuitemradio", "aria-checked": checked };
     return (
         <Base.Item
             className="menu-item"
             data-danger={danger || undefined}
             disabled={disabled}
+            onFocus={onReach}
             onClick={onSelect}
             {...radio}
         >
