@@ -520,6 +520,18 @@ test('a signal from the terminal, which reaches the worker too, drains', async (
     assert.doesNotMatch(log, /too long/);
 });
 
+test('check warns of an equation with a pole', () => {
+    const wall = (equation) => ({
+        format: 'fieldcast/1',
+        root: { id: 'wall', type: 'implicit', params: { equation, mode: 'sheet' } },
+    });
+    const pole = run(['check', write('pole.json', JSON.stringify(wall('y = 1/(x - 0.5)')))]);
+    assert.equal(pole.status, 0);
+    assert.match(pole.err, /^fieldcast: warning: pole\.json: \/nodes\/wall\/params\/equation: .* near \(0\.5, .*a pole or a jump/);
+    const none = run(['check', write('none.json', JSON.stringify(wall('y = 1/(x^2 + 0.5)')))]);
+    assert.deepEqual([none.status, none.err], [0, '']);
+});
+
 test('without a graphics device the engine draws, unless one is asked for', () => {
     const args = ['render', 'example:first-steps', '-o', '-', '--format', 'png', ...SMALL];
     const drawn = succeed([...args, '--stage', 'engine'], { binary: true }).out;

@@ -18,7 +18,7 @@
 #include "renderer/code/equation_expand.h"
 #include "renderer/sdf/polynomial.h"
 #include "tests/support/code_engine.h"
-#include "tests/support/equation_value.h"
+#include "renderer/code/equation_value.h"
 #include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 

@@ -13,7 +13,8 @@
 #include <cmocka.h>
 
 #include "protocol/equation.h"
-#include "tests/support/equation_value.h"
+#include "renderer/code/equation_pole.h"
+#include "renderer/code/equation_value.h"
 #include "tests/support/random_scene.h"
 
 static const char *const letters[] = {"a", "b", "c", "d", NULL};
@@ -333,12 +334,55 @@ static void random_texts_do_no_harm(void **state)
     assert_true(valid > ROUNDS / 200);
 }
 
+/* --- poles --- */
+
+static const struct {
+    const char *text;
+    bool pole;
+} poles[] = {
+    {"y = 1/(x - a)", true},     {"y = tan(x)", true},      {"y = floor(x)", true},
+    {"y = x/(x^2 - y^2)", true}, {"z = sign(x - y)", true}, {"y < 1/x^3", true},
+    {"y = x^3", false},          {"x*y*z = 1", false},      {"y = 1/(x^2 + 1)", false},
+    {"y = 1/x^2", false},        {"|x| = y", false},        {"y = cbrt(x)", false},
+    {"y = log(x)", false},       {"y = sqrt(x)", false},    {"y = 1e6*x", false},
+    {"y = x*floor(2)", false},   {"max(x, y) = z", false},  {"y = exp(9*x)", false},
+};
+
+static void poles_are_told_from_zeros(void **state)
+{
+    static const double half[3] = {2, 2, 2};
+    (void)state;
+    for (size_t i = 0; i < sizeof poles / sizeof *poles; i++) {
+        struct equation *equation = read(poles[i].text);
+        double at[3];
+        const bool found = equation_pole(equation, values, half, at);
+        if (found != poles[i].pole) {
+            fail_msg("%s: %s", poles[i].text, found ? "a pole" : "no pole");
+        }
+        free(equation);
+    }
+}
+
+static void a_pole_has_its_place(void **state)
+{
+    static const double half[3] = {2, 2, 2};
+    double at[3];
+    (void)state;
+    struct equation *equation = read("y = 1/(x - a)");
+    assert_true(equation_pole(equation, values, half, at));
+    assert_true(fabs(at[0] - A) < 1e-6 && fabs(at[1]) <= 2 && fabs(at[2]) <= 2);
+    static const double small[3] = {0.4, 2, 2};
+    assert_false(equation_pole(equation, values, small, at));
+    free(equation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texts_are_read_and_printed), cmocka_unit_test(errors_have_their_place),
         cmocka_unit_test(several_errors_are_told),    cmocka_unit_test(limits_hold_on_both_sides),
-        cmocka_unit_test(random_texts_do_no_harm),
+        cmocka_unit_test(random_texts_do_no_harm),    cmocka_unit_test(poles_are_told_from_zeros),
+        cmocka_unit_test(a_pole_has_its_place),
     };
     return cmocka_run_group_tests_name("equations", tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Equations in double precision, straight from their nodes: the oracle of the code that is made of
- * them. */
-#ifndef TESTS_SUPPORT_EQUATION_VALUE_H
-#define TESTS_SUPPORT_EQUATION_VALUE_H
+/* Equations in double precision, straight from their nodes, without the code that is made of them:
+ * tests hold that code against it. Pure. */
+#ifndef RENDERER_EQUATION_VALUE_H
+#define RENDERER_EQUATION_VALUE_H
 
 #include "protocol/equation.h"
 
