@@ -16,9 +16,9 @@
 #define BOUND_NEAR 2          /* a cube is far from surfaces that are so many of its halves away */
 #define BOUND_TAPE 96         /* operations that take longer than more steps by a bound */
 #define GRID_BITS 24          /* of the root's side: as many as a float has */
-/* Where 0, 0, 0 is on the grid: a third of the way along each axis, and so a third or two of the way
- * through each cube around it. In the middle of all, what is around it would lie in eight cubes of
- * every size. */
+/* Where 0, 0, 0 is on the grid: a third of the way along each axis, and so a third or two thirds of
+ * the way through each cube around it. In the middle of the grid, a scene would lie in eight cubes
+ * of every size. */
 #define GRID_ORIGIN 0x555555
 
 static struct cell *cell_add(struct cells *cells)
@@ -292,8 +292,9 @@ static bool has_smaller(const struct cell *cell)
     return cell->splits || cell->worn;
 }
 
-/* Rent or buy: where evaluations have cost as much as it would take to split a cube, the next ones
- * are thought to cost as much again. */
+/* Counts an evaluation. Where a tape was run often, smaller cubes are made for the next ones: they
+ * cost about as much as these runs did. Not where the cube's own tape is hardly shorter than its
+ * parent's. */
 static void use(struct cells *cells, int32_t at)
 {
     struct cell *cell = &cells->at[at];

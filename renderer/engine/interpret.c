@@ -238,6 +238,7 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             i++;
             continue;
         }
+        void (*const function)(void) = kind_of(v, in)->function;
         c->own = c->params + 4 * (size_t)in->params;
         switch (in->op) {
         case FIELD_EMPTY:
@@ -257,18 +258,18 @@ static void run(struct machine *v, const uint32_t *tape, size_t count)
             run_combine(v, in);
             break;
         case FIELD_DISTANCE:
-            set_distance(v, in->a, CALL(change_function, kind_of(v, in)->function)(c, v->m, v->d[in->a]));
+            set_distance(v, in->a, CALL(change_function, function)(c, v->m, v->d[in->a]));
             break;
         case FIELD_TRANSFORM:
             place(c->own, v->p[in->point], v->p[in->out]);
             break;
         case FIELD_WARP:
-            CALL(map_function, kind_of(v, in)->function)(c, v->m, v->p[in->point], v->p[in->out]);
+            CALL(map_function, function)(c, v->m, v->p[in->point], v->p[in->out]);
             break;
         case FIELD_AFTER:
             set_distance(
                 v, in->a,
-                vf_max(CALL(after_function, kind_of(v, in)->function)(c, v->m, v->d[in->a], v->p[in->point]),
+                vf_max(CALL(after_function, function)(c, v->m, v->d[in->a], v->p[in->point]),
                        vf_all(c->params[in->seen])));
             break;
         case FIELD_LOOP:

@@ -89,8 +89,7 @@ static bool make_kind(const struct engine_program *program, struct operation_kin
 {
     const struct engine_width *width = program->width;
     enum shader_kernel kernel;
-    *out =
-        (struct operation_kind){.op = (uint8_t)in->op, .choices = in->choices, .type = in->type};
+    *out = (struct operation_kind){.op = (uint8_t)in->op, .choices = in->choices, .type = in->type};
     if (in->op == FIELD_SHAPE && !in->sdf) {
         out->code = &program->codes[in->choices];
         return true;

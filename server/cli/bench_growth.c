@@ -21,10 +21,8 @@ struct family {
 };
 
 static const struct family families[] = {
-    {"flat_union", 0.6, false, false},
-    {"deep_tree", 0.6, true, false},
-    {"overlapping", 4.0, false, false},
-    {"all_overlapping", 0, false, false},
+    {"flat_union", 0.6, false, false},  {"deep_tree", 0.6, true, false},
+    {"overlapping", 4.0, false, false}, {"all_overlapping", 0, false, false},
     {"instances", 0.6, false, true},
 };
 enum { FAMILIES = sizeof families / sizeof families[0] };
@@ -62,9 +60,7 @@ static void write_shape(FILE *out, uint64_t *state, double radius, int index)
 /* Flat ones are one union of the field, whose nodes are not more than a node may have. */
 static void write_shapes(FILE *out, uint64_t *state, double radius, int count, bool nested)
 {
-    const int part = nested && count > 10        ? count / 10
-                     : count > 10 * OF_A_UNION ? OF_A_UNION
-                                               : 1;
+    const int part = nested && count > 10 ? count / 10 : count > 10 * OF_A_UNION ? OF_A_UNION : 1;
     fputs("{\"type\":\"union\",\"children\":[", out);
     for (int i = 0; i < count; i += part) {
         fputs(i > 0 ? "," : "", out);

@@ -18,8 +18,8 @@
 #include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
-enum { OPERATION_SCENES = 24, TYPE_SCENES = 6, CLUSTERS = 12, CLUSTER = 32, OPERATIONS_MAX = 64 };
-enum { POINTS = CLUSTERS * CLUSTER };
+enum { OPERATION_SCENES = 24, TYPE_SCENES = 6, EQUATION_SCENES = 48, OPERATIONS_MAX = 64 };
+enum { CLUSTERS = 12, CLUSTER = 32, POINTS = CLUSTERS * CLUSTER };
 #define SIZE 2.5
 
 /* An operation with one of its kernels; `choice` NULL: it has none. */
@@ -188,7 +188,8 @@ static void every_type_keeps_its_bits(void **state)
     (void)state;
     for (size_t t = 0; t < node_type_count(); t++) {
         const struct node_type *type = node_type_at(t);
-        for (int n = 0; n < TYPE_SCENES && type->kind != KIND_MODEL; n++) {
+        const int scenes = type->kind == KIND_EQUATION ? EQUATION_SCENES : TYPE_SCENES;
+        for (int n = 0; n < scenes && type->kind != KIND_MODEL; n++) {
             look_at(&random, &operations[next++ % count], type);
         }
     }
