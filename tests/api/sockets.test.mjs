@@ -70,6 +70,16 @@ describe('heads', () => {
         assert.deepEqual(await statuses(post + post + get(), 3), [201, 201, 200]);
     });
 
+    // libmicrohttpd's own answer, where the extension does not fit into its buffer.
+    test('an extension of a chunk: up to 20 kB it is passed over, with 64 KiB it is refused', async () => {
+        const head = 'POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n';
+        const body = '{"from":"example:first-steps"}';
+        const chunked = (bytes) => `${head}${body.length.toString(16)};x=${'a'.repeat(bytes)}\r\n${body}\r\n0\r\n\r\n`;
+        assert.deepEqual(await statuses(chunked(20_000) + get(), 2), [201, 200]);
+        assert.deepEqual(await statuses(chunked(65_536) + get(), 2), [500]);
+        assert.deepEqual(await statuses(get()), [200]);
+    });
+
     test('a body in chunks', async () =>
         assert.deepEqual(
             await statuses(
@@ -494,6 +504,29 @@ describe('too many', () => {
         peers.forEach((peer) => peer.close());
         await until(async () => (await statuses(get()))[0] === 200, 'room');
         assert.ok((await counter(daemon, 'connections_over_limit_total')) >= counts[503]);
+    });
+
+    test('four hundred connections that wait for another request: others are served, and each of them', async () => {
+        const peers = [];
+        const ask = async (some, times) => {
+            some.forEach((peer) => peer.socket.write(get()));
+            await until(() => some.every((peer) => peer.ended || peer.statuses().length === times), 'answers');
+        };
+        while (peers.length < 400) {
+            const some = Array.from({ length: 100 }, () => connect());
+            await ask(some, 1);
+            peers.push(...some);
+        }
+        assert.ok(peers.every((peer) => peer.statuses()[0] === 200), 'all are served');
+        assert.deepEqual(await statuses(get()), [200]);
+        const live = await Live.open(daemon, 's');
+        live.look({ width: 32, height: 24 });
+        await live.nextFrame();
+        await live.close();
+        const open = peers.filter((peer) => !peer.ended); // whoever waited for 15 s is closed
+        await ask(open, 2);
+        assert.ok(open.every((peer) => peer.ended || peer.statuses()[1] === 200), 'served again');
+        peers.forEach((peer) => peer.close());
     });
 
     test('heads that never end: who comes later is served', async () => {
