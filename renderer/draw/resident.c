@@ -201,7 +201,7 @@ bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revisi
         return false;
     }
     resident->revision = revision;
-    resident->stale = resident->stale || !patch(resident, ops);
+    resident->stale = !patch(resident, ops); /* nor can what comes after it be patched */
     return true;
 }
 
