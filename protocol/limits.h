@@ -34,7 +34,7 @@
       "pictures of environments kept ready that no scene uses now")                                \
     X(READ_MS, "read_ms", 10000, "milliseconds", "reading the picture of an environment")          \
     X(OPEN_MS, "open_ms", 60000, "milliseconds",                                                   \
-      "reading a document that the front has read, before it is drawn")                            \
+      "reading a document, or compiling a field, in the render process")                           \
     X(MATERIALS, "materials", 1024, "materials", "materials of a scene")                           \
     X(PRIMITIVES, "primitives", 256, "primitives", "distance functions of a scene")                \
     X(SHADERS, "shaders", 256, "shaders", "shaders of a scene")                                    \

@@ -145,7 +145,7 @@ struct opened_scene opened_scene_make(struct scene *scene, const struct field *d
 /* What is drawn, or is going to be: what stands in there and is hidden stays in it. The resident's;
  * NULL: none. */
 struct field *resident_drawn_field(const struct resident *resident);
-/* As above, of an opened scene. Both take what is in it. */
+/* As above, of an opened scene, which may be the resident's own. Both take what is in it. */
 struct resident *resident_create_opened(struct renderer *renderer,
                                         const struct opened_scene *opened, uint64_t revision);
 void resident_replace_opened(struct resident *resident, const struct opened_scene *opened,
@@ -153,6 +153,12 @@ void resident_replace_opened(struct resident *resident, const struct opened_scen
 /* Applies an edit that the front has already accepted. A numeric edit compiles nothing. */
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err);
+/* The same, but after an edit of more than numbers it is stale, until it is replaced by itself,
+ * opened anew. */
+bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revision,
+                    struct error *err);
+bool resident_is_stale(const struct resident *resident);
+void resident_renew(struct resident *resident); /* opens it anew at once */
 const struct scene *resident_scene(const struct resident *resident);
 /* The newest shape where there is code of users in it; else 0. */
 uint64_t resident_shape_with_code(const struct resident *resident);

@@ -17,14 +17,18 @@ struct scene_reader {
 
     pthread_mutex_t lock; /* guards what follows; without it, what is read belongs to the thread */
     pthread_cond_t change;
-    struct scene_document document; /* text NULL: none */
+    struct scene_document document;
     struct opened_scene opened;
-    bool done, stop;
+    bool given, done, stop;
 };
 
 struct opened_scene scene_document_open(const struct scene_document *document)
 {
     struct opened_scene opened = {0};
+
+    if (document->scene) {
+        return opened_scene_make(document->scene, document->drawn);
+    }
     /* Both ends are ours, so the strict reading of strangers' JSON is left out. */
     cJSON *json = cJSON_ParseWithLength(document->text, document->length);
 
@@ -45,7 +49,7 @@ static void *work(void *data)
     crash_thread(CRASH_OPENING);
     pthread_mutex_lock(&reader->lock);
     while (!reader->stop) {
-        if (!reader->document.text || reader->done) {
+        if (!reader->given) {
             pthread_cond_wait(&reader->change, &reader->lock);
             continue;
         }
@@ -54,6 +58,7 @@ static void *work(void *data)
         const struct opened_scene opened = scene_document_open(&document);
         pthread_mutex_lock(&reader->lock);
         reader->opened = opened;
+        reader->given = false;
         reader->done = true;
     }
     pthread_mutex_unlock(&reader->lock);
@@ -77,6 +82,7 @@ void scene_reader_begin(struct scene_reader *reader, const struct scene_document
     reader->begun_cpu_us = cpu_us(reader);
     pthread_mutex_lock(&reader->lock);
     reader->document = *document;
+    reader->given = true;
     pthread_cond_signal(&reader->change);
     pthread_mutex_unlock(&reader->lock);
 }
@@ -89,7 +95,6 @@ bool scene_reader_take(struct scene_reader *reader, struct opened_scene *out)
     done = reader->done;
     if (done) {
         *out = reader->opened;
-        reader->document = (struct scene_document){0};
         reader->opened = (struct opened_scene){0};
         reader->done = false;
         reader->reading = false;
@@ -125,7 +130,9 @@ void scene_reader_destroy(struct scene_reader *reader)
     pthread_cond_signal(&reader->change);
     pthread_mutex_unlock(&reader->lock);
     pthread_join(reader->thread, NULL);
-    scene_destroy(reader->opened.scene);
+    if (!reader->document.scene) {
+        scene_destroy(reader->opened.scene);
+    }
     field_unref(reader->opened.field);
     pthread_cond_destroy(&reader->change);
     pthread_mutex_destroy(&reader->lock);

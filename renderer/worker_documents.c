@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Large documents, which are read beside the drawing, and the packets that wait for them. */
+/* Large documents, which are read beside the drawing, large scenes, whose fields are compiled so
+ * after edits, and the packets that wait for them. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -9,7 +10,8 @@
 #include "worker_internal.h"
 
 enum {
-    AT_ONCE_BYTES = 8192,                    /* smaller ones take less time than a tile */
+    NODE_BYTES = 32,      /* of a text that takes as long as compiling one node */
+    AT_ONCE_BYTES = 8192, /* smaller ones take less time than a tile */
     WAITING_FULL = 16 * LIMIT_DOCUMENT_BYTES /* the front lets no client have more on its way */
 };
 
@@ -42,20 +44,20 @@ static bool has_order(const struct worker_document *document, uint32_t job)
     return waiting;
 }
 
-/* The document that has to be read before this packet is handled; NULL: none. */
+/* The document that has to be opened before this packet is handled; NULL: none. */
 static struct worker_document *find_awaited(const struct worker *w, const struct packet *packet)
 {
     struct worker_document *document = w->documents;
 
     while (document && !(packet->kind == TO_WORKER_CANCEL
                              ? has_order(document, packet->job.job)
-                             : strcmp(document->packet.scene.scene, scene_of(packet)) == 0)) {
+                             : strcmp(scene_of(&document->packet), scene_of(packet)) == 0)) {
         document = document->next;
     }
     return document;
 }
 
-static void add_document(struct worker *w, const struct packet *packet)
+static void add_document(struct worker *w, const struct packet *packet, size_t size)
 {
     struct worker_document **last = &w->documents;
 
@@ -64,6 +66,7 @@ static void add_document(struct worker *w, const struct packet *packet)
     }
     *last = memory_alloc(1, sizeof **last);
     (*last)->packet = *packet;
+    (*last)->size = size;
     (*last)->end = &(*last)->first;
     w->waiting_bytes += packet->length;
 }
@@ -78,18 +81,41 @@ static void keep(struct worker *w, struct worker_document *document, const struc
     w->waiting_bytes += packet->length;
 }
 
+/* Edits that follow each other are applied before the field is compiled once for all of them. */
+static bool joins(const struct worker *w, const struct worker_document *document,
+                  const struct packet *packet)
+{
+    return packet->kind == TO_WORKER_EDIT && document->packet.kind == TO_WORKER_EDIT &&
+           document != w->opening && !document->first;
+}
+
+/* Handles it. An edit may leave the field of a large scene to be compiled. */
+static void handle(struct worker *w, struct packet *packet, bool joined)
+{
+    const struct scene *stale;
+
+    worker_on_packet(w, packet);
+    stale = packet->kind == TO_WORKER_EDIT && !joined ? worker_stale_scene(w, packet->edit.scene)
+                                                      : NULL;
+    if (stale) {
+        add_document(w, packet, stale->node_count * NODE_BYTES);
+    } else {
+        packet_finish(packet);
+    }
+}
+
 void worker_take_packet(struct worker *w, struct packet *packet)
 {
     struct worker_document *document = find_awaited(w, packet);
+    const bool joined = document && joins(w, document, packet);
 
-    if (document) {
+    if (document && !joined) {
         keep(w, document, packet);
     } else if (packet->kind == TO_WORKER_SCENE &&
                (packet->payload_length > AT_ONCE_BYTES || packet->scene.portrait)) {
-        add_document(w, packet);
+        add_document(w, packet, packet->payload_length);
     } else {
-        worker_on_packet(w, packet);
-        packet_finish(packet);
+        handle(w, packet, joined);
     }
 }
 
@@ -131,7 +157,11 @@ static void end_opening(struct worker *w, const struct opened_scene *opened)
     field_unref(w->opening_drawn);
     w->opening_drawn = NULL;
     w->opening = NULL;
-    worker_on_scene(w, &document->packet.scene, opened);
+    if (document->packet.kind == TO_WORKER_SCENE) {
+        worker_on_scene(w, &document->packet.scene, opened);
+    } else {
+        worker_on_field(w, document->packet.edit.scene, opened);
+    }
     while ((waiting = take_first(w, document))) {
         worker_take_packet(w, &waiting->packet);
         free(waiting);
@@ -140,28 +170,26 @@ static void end_opening(struct worker *w, const struct opened_scene *opened)
     free(document);
 }
 
-/* Of the documents that wait the shortest is next, so that small ones do not wait for many. */
-static struct worker_document *find_shortest(const struct worker *w)
+/* By turns the smallest of those that wait, which is not to wait for many large ones, and the
+ * oldest, which is not to wait for ever. */
+static struct worker_document *find_next(const struct worker *w)
 {
-    struct worker_document *shortest = w->documents;
+    struct worker_document *next = w->documents;
 
-    for (struct worker_document *document = shortest; document; document = document->next) {
-        if (document->packet.payload_length < shortest->packet.payload_length) {
-            shortest = document;
+    for (struct worker_document *document = next; document; document = document->next) {
+        if (w->openings % 2 == 0 && document->size < next->size) {
+            next = document;
         }
     }
-    return shortest;
+    return next;
 }
 
 /* A document, or with NULL that none is read any more. */
 static void tell_opening(struct worker *w, const struct worker_document *document)
 {
-    const struct packet_scene none = {.scene = ""};
-    const struct packet_scene *scene = document ? &document->packet.scene : &none;
-
     worker_send_suspect(
         w, TO_FRONT_OPENING,
-        &(struct packet_suspect){.scene = scene->scene, .revision = scene->revision});
+        &(struct packet_suspect){.scene = document ? scene_of(&document->packet) : ""});
     if (document) {
         worker_flush_all(w);
     }
@@ -172,6 +200,7 @@ static void begin_opening(struct worker *w, struct worker_document *next)
     const struct scene_document document = worker_document_of(w, &next->packet);
 
     w->opening = next;
+    w->openings++;
     w->opening_drawn = document.drawn ? field_ref(document.drawn) : NULL;
     scene_reader_begin(w->scene_reader, &document);
 }
@@ -191,7 +220,7 @@ void worker_read_documents(struct worker *w)
         }
         return;
     }
-    struct worker_document *next = find_shortest(w);
+    struct worker_document *next = find_next(w);
     if (next || was_reading) {
         tell_opening(w, next);
     }

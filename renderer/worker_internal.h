@@ -18,10 +18,11 @@ struct worker_scene {
     struct worker_scene *next;
 };
 
-/* A document that is read beside the drawing, or will be, and the packets of its scene that have
- * come after it, in their order. */
+/* A document that is read beside the drawing, or will be, or a large scene whose field is compiled
+ * so; and the packets of the scene that have come after it, in their order. */
 struct worker_document {
-    struct packet packet;
+    struct packet packet; /* by which it came: TO_WORKER_SCENE, or TO_WORKER_EDIT */
+    size_t size;          /* about in proportion to the time that it takes */
     struct worker_waiting *first, **end;
     struct worker_document *next; /* in order of arrival */
 };
@@ -64,6 +65,7 @@ struct worker {
     struct worker_document *documents;
     struct worker_document *opening; /* the one that is being read */
     struct field *opening_drawn;     /* held for it; NULL: none */
+    uint64_t openings;               /* begun */
     size_t waiting_bytes;            /* of documents, and of what waits for them */
     struct worker_job *jobs;
     struct turns turns;
@@ -130,6 +132,10 @@ struct scene_document worker_document_of(struct worker *w, const struct packet *
 /* It was opened. Takes what is in it. */
 void worker_on_scene(struct worker *w, const struct packet_scene *packet,
                      const struct opened_scene *opened);
+/* The same of a scene whose field was compiled anew. */
+void worker_on_field(struct worker *w, const char *scene, const struct opened_scene *opened);
+/* The scene whose field has to be compiled beside the drawing; NULL: this one's has not. */
+const struct scene *worker_stale_scene(struct worker *w, const char *scene);
 void worker_on_edit(struct worker *w, const struct packet_edit *packet);
 void worker_on_drop(struct worker *w, const char *scene);
 void worker_on_judge(struct worker *w, const struct packet_judge *packet);

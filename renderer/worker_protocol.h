@@ -9,7 +9,8 @@
  * left behind when a worker is killed in the middle.
  *
  * Packets of a scene are handled in order, after its document has been read. A large document is
- * read beside the drawing, and packets of other scenes do not wait for it.
+ * read beside the drawing, as the field of a large scene is compiled after an edit of more than
+ * numbers, and packets of other scenes do not wait for it.
  *
  * Before code of users is compiled, the picture of an environment or a large document read, or any
  * scene drawn, the worker names it, and an empty one afterwards; it waits until the front has that.

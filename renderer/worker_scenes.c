@@ -6,6 +6,8 @@
 #include "protocol/memory.h"
 #include "worker_internal.h"
 
+enum { LARGE_NODES = 4096 }; /* compiling the field of fewer takes less time than a tile */
+
 struct worker_scene **worker_find_scene(struct worker *w, const char *name)
 {
     struct worker_scene **at = &w->scenes;
@@ -141,12 +143,15 @@ static struct resident *make_resident(struct worker *w, const struct opened_scen
 
 struct scene_document worker_document_of(struct worker *w, const struct packet *packet)
 {
-    const struct worker_scene *entry = *worker_find_scene(w, packet->scene.scene);
+    const bool edit = packet->kind == TO_WORKER_EDIT;
+    const struct worker_scene *entry =
+        *worker_find_scene(w, edit ? packet->edit.scene : packet->scene.scene);
 
     return (struct scene_document){
         .text = packet->payload,
         .length = packet->payload_length,
-        .portrait = packet->scene.portrait,
+        .portrait = !edit && packet->scene.portrait,
+        .scene = edit ? (struct scene *)resident_scene(entry->resident) : NULL,
         .drawn = entry ? resident_drawn_field(entry->resident) : NULL,
     };
 }
@@ -169,6 +174,25 @@ void worker_on_scene(struct worker *w, const struct packet_scene *packet,
     }
 }
 
+void worker_on_field(struct worker *w, const char *scene, const struct opened_scene *opened)
+{
+    struct resident *resident = (*worker_find_scene(w, scene))->resident;
+
+    resident_replace_opened(resident, opened, resident_revision(resident));
+}
+
+static bool is_large(const struct worker_scene *entry)
+{
+    return resident_scene(entry->resident)->node_count > LARGE_NODES;
+}
+
+const struct scene *worker_stale_scene(struct worker *w, const char *scene)
+{
+    const struct worker_scene *entry = *worker_find_scene(w, scene);
+
+    return entry && resident_is_stale(entry->resident) ? resident_scene(entry->resident) : NULL;
+}
+
 void worker_on_edit(struct worker *w, const struct packet_edit *packet)
 {
     struct worker_scene *entry = *worker_find_scene(w, packet->scene);
@@ -177,8 +201,10 @@ void worker_on_edit(struct worker *w, const struct packet_edit *packet)
     if (!entry) {
         error_set(&err, ERROR_NOT_FOUND, "scene", "no scene \"%s\" is held", packet->scene);
     }
-    if (!entry || !resident_edit(entry->resident, packet->ops, packet->revision, &err)) {
+    if (!entry || !resident_apply(entry->resident, packet->ops, packet->revision, &err)) {
         worker_send_broken(w, packet->scene, packet->revision, &err, 0);
+    } else if (resident_is_stale(entry->resident) && !is_large(entry)) {
+        resident_renew(entry->resident);
     }
 }
 

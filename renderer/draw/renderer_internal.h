@@ -50,6 +50,7 @@ struct resident {
     struct resident *next;
     struct scene *scene;
     uint64_t revision;
+    bool stale;                 /* the newest was made before edits of more than numbers */
     struct snapshot *newest;    /* NULL while the scene is no field */
     struct snapshot *drawable;  /* the newest whose program is ready; NULL: none yet */
     struct upload_pool uploads; /* of the newest's shape */
@@ -64,8 +65,6 @@ struct resident {
 struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
                                                const char *image);
 
-/* A snapshot of the scene as it is now becomes the newest. */
-void resident_renew(struct resident *resident);
 /* What a picture shows: the newest state, or unless that is asked for (`exact`) the newest that can
  * be drawn. Borrowed until the resident changes. NULL and `err`: nothing. */
 struct snapshot *resident_snapshot(struct resident *resident, const struct job_desc *desc,

@@ -79,6 +79,8 @@ static void take_field(struct resident *resident, struct field *field, const str
 {
     struct error err = *why;
     uint64_t refused = 0;
+
+    resident->stale = false;
     struct snapshot *snapshot =
         field ? snapshot_create(resident->renderer, resident->scene, resident->revision, NULL,
                                 upload_create(field), &refused, &err)
@@ -174,7 +176,9 @@ void resident_destroy(struct resident *resident)
 void resident_replace_opened(struct resident *resident, const struct opened_scene *opened,
                              uint64_t revision)
 {
-    scene_destroy(resident->scene);
+    if (resident->scene != opened->scene) {
+        scene_destroy(resident->scene);
+    }
     resident->scene = opened->scene;
     resident->revision = revision;
     take_field(resident, opened->field, &opened->error);
@@ -187,8 +191,8 @@ void resident_replace(struct resident *resident, struct scene *scene, uint64_t r
     resident_replace_opened(resident, &opened, revision);
 }
 
-bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
-                   struct error *err)
+bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revision,
+                    struct error *err)
 {
     if (!edit_apply(resident->scene, ops, NULL, NULL, err)) {
         if (resident->newest) {
@@ -197,7 +201,22 @@ bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revisio
         return false;
     }
     resident->revision = revision;
-    if (!patch(resident, ops)) {
+    resident->stale = !patch(resident, ops); /* nor can what comes after it be patched */
+    return true;
+}
+
+bool resident_is_stale(const struct resident *resident)
+{
+    return resident->stale;
+}
+
+bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
+                   struct error *err)
+{
+    if (!resident_apply(resident, ops, revision, err)) {
+        return false;
+    }
+    if (resident->stale) {
         resident_renew(resident);
     }
     return true;

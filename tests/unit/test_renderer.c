@@ -160,6 +160,47 @@ static void test_edits_and_back(void **state)
     resident_destroy(resident);
 }
 
+static void apply(struct resident *resident, const char *ops)
+{
+    cJSON *json = json_text_parse(ops, NULL);
+
+    assert_true(resident_apply(resident, json, resident_revision(resident) + 1, NULL));
+    cJSON_Delete(json);
+}
+
+/* After one of more than numbers, edits change nothing that is drawn until all are opened. */
+static void test_edits_wait_for_each_other(void **state)
+{
+    struct resident *resident = make_resident(document), *other = make_resident(document);
+    struct image before = draw(resident, &usual), stale, together, one_by_one;
+
+    (void)state;
+    apply(resident, "[{'op':'set','at':'/nodes/cube/params/size','value':[1,1,1]}]");
+    assert_false(resident_is_stale(resident));
+    apply(resident, "[{'op':'set','at':'/nodes/cube/params/size','value':null}]");
+    apply(resident, "[{'op':'set','at':'/nodes/cube/type','value':'cylinder'}]");
+    apply(resident, "[{'op':'set','at':'/nodes/ball/params/radius','value':0.8}]");
+    assert_true(resident_is_stale(resident));
+    assert_int_equal(resident_revision(resident), 5);
+    assert_int_equal(resident_shown_revision(resident), 3);
+    stale = draw(resident, &usual);
+    assert_same(&before, &stale);
+    resident_renew(resident);
+    assert_false(resident_is_stale(resident));
+    together = draw(resident, &usual);
+
+    edit(other, "[{'op':'set','at':'/nodes/cube/type','value':'cylinder'}]");
+    edit(other, "[{'op':'set','at':'/nodes/ball/params/radius','value':0.8}]");
+    one_by_one = draw(other, &usual);
+    assert_same(&together, &one_by_one);
+    image_finish(&before);
+    image_finish(&stale);
+    image_finish(&together);
+    image_finish(&one_by_one);
+    resident_destroy(resident);
+    resident_destroy(other);
+}
+
 static void test_numbers_compile_nothing(void **state)
 {
     const struct job_desc small = {.width = 16, .height = 16, .samples = 1, .exact = true};
@@ -800,6 +841,7 @@ int main(void)
     const struct CMUnitTest common[] = {
         cmocka_unit_test(test_tiles_do_not_show),
         cmocka_unit_test(test_edits_and_back),
+        cmocka_unit_test(test_edits_wait_for_each_other),
         cmocka_unit_test(test_numbers_compile_nothing),
         cmocka_unit_test(test_hiding_compiles_nothing),
         cmocka_unit_test(test_hidden_is_gone),

@@ -164,13 +164,18 @@ static void send_scene(const char *name, uint64_t revision)
     free(document);
 }
 
-static void send_edit(uint64_t revision, const char *ops)
+static void send_edit_of(const char *scene, uint64_t revision, const char *ops)
 {
     cJSON *json = json_text_parse(ops, NULL);
 
     assert_non_null(json);
-    send_packet(fd, &(struct packet){.kind = TO_WORKER_EDIT, .edit = {"s", revision, json}});
+    send_packet(fd, &(struct packet){.kind = TO_WORKER_EDIT, .edit = {scene, revision, json}});
     cJSON_Delete(json);
+}
+
+static void send_edit(uint64_t revision, const char *ops)
+{
+    send_edit_of("s", revision, ops);
 }
 
 static void send_cancel(uint32_t job)
@@ -467,8 +472,9 @@ static void test_dropped_scene(void **state)
     assert_int_equal(packet.frame.job, 1);
 }
 
-/* A ball among hidden ones: reading it takes much longer than drawing it. Caller frees. */
-static char *large_document(void)
+/* A ball among hidden ones: reading it takes much longer than drawing it. Or among `seen` ones.
+ * Caller frees. */
+static char *large_document(bool seen)
 {
     enum { GROUPS = 300, NODES = 100 };
     char *text = NULL;
@@ -481,7 +487,8 @@ static char *large_document(void)
     for (int i = 0; i < GROUPS; i++) {
         fprintf(out, ",{'id':'g%d','type':'group','children':[", i);
         for (int k = 0; k < NODES; k++) {
-            fprintf(out, "%s{'id':'n%d-%d','type':'sphere','visible':false}", k ? "," : "", i, k);
+            fprintf(out, "%s{'id':'n%d-%d','type':'sphere','visible':%s}", k ? "," : "", i, k,
+                    seen ? "true" : "false");
         }
         fprintf(out, "]}");
     }
@@ -511,7 +518,7 @@ static void test_large_documents(void **state)
 {
     static const char *const large[] = {"a", "b", "c", "d"};
     enum { LARGE = sizeof large / sizeof large[0] };
-    char *document = large_document();
+    char *document = large_document(false);
     int shown = 0;
 
     (void)state;
@@ -534,10 +541,98 @@ static void test_large_documents(void **state)
     free(document);
 }
 
+#define INSERT                                                                                     \
+    "[{'op':'insert','into':'/nodes/root','before':null,'value':{'id':'ring','type':'torus'}}]"
+#define THICKEN "[{'op':'set','at':'/nodes/ring/params/tube','value':0.4}]"
+
+/* The same while the fields of large scenes are compiled after edits of more than numbers. */
+static void test_large_edits(void **state)
+{
+    static const char *const large[] = {"a", "b", "c", "d"};
+    enum { LARGE = sizeof large / sizeof large[0] };
+    char *document = large_document(true);
+    int shown = 0;
+
+    (void)state;
+    send_scene("t", 1);
+    for (int i = 0; i < LARGE; i++) {
+        send_document(large[i], 1, document);
+    }
+    for (int i = 0; i < LARGE + 1; i++) {
+        expect(TO_FRONT_SHOWN);
+    }
+    for (int i = 0; i < LARGE; i++) {
+        send_edit_of(large[i], 2, INSERT);
+    }
+    send_render_of("t", 1, 0, 40, 30, "");
+    for (int kind; (kind = receive()) != TO_FRONT_FRAME;) {
+        assert_int_not_equal(kind, TO_FRONT_COUNT);
+        shown += kind == TO_FRONT_SHOWN;
+    }
+    assert_int_equal(packet.frame.job, 1);
+    assert_true(shown < LARGE);
+    free(document);
+}
+
+static void check_broken(const char *scene, uint64_t revision, enum error_kind kind)
+{
+    expect(TO_FRONT_BROKEN);
+    assert_string_equal(packet.state.scene, scene);
+    assert_int_equal(packet.state.revision, revision);
+    assert_int_equal(packet.state.error.kind, kind);
+}
+
+static void check_same(const struct picture *a, bool same)
+{
+    struct picture b;
+
+    assert_true(picture_read_memory(&b, packet.payload, packet.payload_length));
+    assert_int_equal(picture_compare(a, &b, NULL).greatest == 0, same);
+    picture_finish(&b);
+}
+
+/* Edits that wait are applied together; the picture is that of one after the other. */
+static void test_large_edits_in_order(void **state)
+{
+    char *document = large_document(false);
+    struct picture before, after;
+
+    (void)state;
+    send_document("s", 1, document);
+    send_edit(2, INSERT);
+    send_render(1, 0, 40, 30, "");
+    expect_frame(1, 2);
+    assert_true(picture_read_memory(&before, packet.payload, packet.payload_length));
+    send_edit(3, THICKEN);
+    send_render(2, 0, 40, 30, "");
+    expect_frame(2, 3);
+    assert_true(picture_read_memory(&after, packet.payload, packet.payload_length));
+    check_same(&before, false);
+
+    send_document("s", 4, document);
+    send_edit(5, INSERT);
+    send_edit(6, THICKEN);
+    send_edit(7, "[{'op':'insert','into':'/nodes/g0','before':null,'value':{'id':'no','type':"
+                 "'box','visible':false}}]");
+    send_render(3, 0, 40, 30, "");
+    send_edit(8, "[{'op':'remove','at':'/nodes/no'},{'op':'set','at':'/nodes/ring/params/tube',"
+                 "'value':null}]");
+    send_render(4, 0, 40, 30, "");
+    expect_frame(3, 7);
+    check_same(&after, true);
+    expect_frame(4, 8);
+    check_same(&before, true);
+    send_edit(9, "[{'op':'remove','at':'/nodes/nobody'}]");
+    check_broken("s", 9, ERROR_NOT_FOUND);
+    picture_finish(&before);
+    picture_finish(&after);
+    free(document);
+}
+
 /* Whatever is said of a scene is done after its document was read, in the order of saying. */
 static void test_order(void **state)
 {
-    char *document = large_document();
+    char *document = large_document(false);
 
     (void)state;
     send_document("s", 1, document);
@@ -569,7 +664,7 @@ static void test_order(void **state)
 /* The end comes while one is read, another waits, and packets wait for both. */
 static void test_stop_while_reading(void **state)
 {
-    char *document = large_document();
+    char *document = large_document(false);
 
     (void)state;
     send_document("s", 1, document);
@@ -639,14 +734,6 @@ static void check_failed(const char *more, enum error_kind kind, const char *pla
     assert_int_equal(packet.failed.error.kind, kind);
     assert_string_equal(packet.failed.error.place, place);
     assert_true(strlen(packet.failed.error.message) > 0);
-}
-
-static void check_broken(const char *scene, uint64_t revision, enum error_kind kind)
-{
-    expect(TO_FRONT_BROKEN);
-    assert_string_equal(packet.state.scene, scene);
-    assert_int_equal(packet.state.revision, revision);
-    assert_int_equal(packet.state.error.kind, kind);
 }
 
 static void test_refusals(void **state)
@@ -868,6 +955,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(test_pulse_gone, start, stop),
         cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
         cmocka_unit_test_setup_teardown(test_large_documents, start, stop),
+        cmocka_unit_test_setup_teardown(test_large_edits, start, stop),
+        cmocka_unit_test_setup_teardown(test_large_edits_in_order, start, stop),
         cmocka_unit_test_setup_teardown(test_order, start, stop),
         cmocka_unit_test_setup_teardown(test_stop_while_reading, start, stop),
         cmocka_unit_test_setup_teardown(test_outputs, start, stop),
