@@ -339,4 +339,18 @@ export async function dragBy(page, locator, dx, dy, { steps = 12, leave = false 
     }
 }
 
+/** Takes hold of something that the browser drags, brings it to a point of the window and holds it there. */
+export async function carryTo(page, locator, { x, y }) {
+    await locator.hover();
+    await page.mouse.down();
+    await page.mouse.move(x - 6, y, { steps: 3 });
+    await page.mouse.move(x, y);
+}
+
+/** The same, and lets it go. */
+export async function carry(page, locator, point) {
+    await carryTo(page, locator, point);
+    await page.mouse.up();
+}
+
 export const readDownload = async (download) => fs.promises.readFile(await download.path(), 'utf8');
