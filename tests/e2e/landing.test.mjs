@@ -2,9 +2,9 @@
 // What is dragged from the palette lands on the surface under the pointer, upright on it, combined with
 // what is there as the palette says; where nothing is let go, nothing happens.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
-import { carryTo, closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { carryTo, documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
 const DOCUMENT = {
     format: 'fieldcast/1',
@@ -25,14 +25,9 @@ const DOCUMENT = {
     },
 };
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(() => closePage(page));
 
 async function open() {
     id = await stage.scene(DOCUMENT);

@@ -2,7 +2,7 @@
 // What somebody comes to do, from the first act to the last, with all that may be asked of it.
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import { openScreen } from './screens/screen.mjs';
 import {
@@ -13,32 +13,21 @@ import {
     dragBy,
     field,
     nodeIn,
-    openStage,
     picture,
     row,
     SCENE,
     settled,
     stillPixels,
+    useStage,
     waitForSaved,
 } from './stage.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { AxeBuilder } = require('@axe-core/playwright');
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(document, options) {
     id = await stage.scene(document);

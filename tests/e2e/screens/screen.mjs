@@ -135,5 +135,6 @@ export async function openScreen(stage, state, { theme, width, height, touch }) 
             await page.locator('[data-testid=state]:is([data-state=refining], [data-state=final])').waitFor();
         }
     }
+    stage.keep?.(page);
     return page;
 }
