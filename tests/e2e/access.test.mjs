@@ -2,9 +2,9 @@
 // For everybody: axe finds nothing, narrow windows hold everything, keys reach every region.
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { check as lookAt } from './screens/checks.mjs';
-import { closePage, openStage, row, SCENE, settled } from './stage.mjs';
+import { closePage, row, SCENE, settled, useStage } from './stage.mjs';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const { AxeBuilder } = require('@axe-core/playwright');
@@ -39,13 +39,10 @@ const OWN = {
     },
 };
 
-let stage;
 let scene;
-before(async () => {
-    stage = await openStage({ driver: 'null' });
+const stage = useStage({ driver: 'null' }, async () => {
     scene = await stage.scene();
 });
-after(() => stage.close());
 
 /**
  * Focus guards of Base UI are left aside: they pass the focus on in the moment they get it. Themes

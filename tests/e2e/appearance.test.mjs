@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a scene looks like: lights, volumes, what is around it, the camera's lens, effects.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import {
-    closePage,
     difference,
     documentWhen,
     drawnPixels,
     field,
     forgetProblem,
-    openStage,
     picture,
     pictureChanged,
     pixels,
@@ -19,22 +17,12 @@ import {
     SCENE,
     settled,
     stillPixels,
+    useStage,
     valueIs,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 /** Opens a scene; answers a wait for what the server holds of it. */
 async function open(part = {}) {

@@ -4,18 +4,14 @@
 // equation does not fit is drawn, and says so.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ask } from '../support/daemon.mjs';
-import { closePage, documentWhen, field, nodeIn, openStage, pictureChanged, row, settled, stillPixels } from './stage.mjs';
+import { closePage, documentWhen, field, nodeIn, pictureChanged, row, settled, stillPixels, useStage } from './stage.mjs';
 
 const MOST_ACTS = 9;
 const program = process.env.FIELDCAST ?? 'build/release/fieldcast';
 
-let stage;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
+const stage = useStage();
 
 const check = (document) => spawnSync(program, ['check', '-'], { input: JSON.stringify(document), encoding: 'utf8' });
 const only = (node, type) => (node.type === type ? node : (node.children ?? []).map((one) => only(one, type)).find(Boolean));

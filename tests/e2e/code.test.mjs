@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Writing code beside the picture: errors stand where they are, the last good picture stays.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
 import { openScreen } from './screens/screen.mjs';
 import {
     closePage,
-    documentWhen,
     difference,
+    documentWhen,
     dragBy,
     field,
     keepsOff,
@@ -18,23 +18,13 @@ import {
     row,
     settled,
     stillPixels,
+    useStage,
     valueIs,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 /* What a compressed picture may differ from the same one without loss. */
 const LOSS = 48;

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Corners of a flat shape in the picture: dragged in their plane, put in by a double click, taken away.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import {
-    closePage, documentWhen, nodeIn, openStage, picture, pictureChanged, pixels, row, SCENE, settled,
+    documentWhen,
+    nodeIn,
+    picture,
+    pictureChanged,
+    pixels,
+    row,
+    SCENE,
+    settled,
+    useStage,
 } from './stage.mjs';
 
 const POINTS = [
@@ -25,20 +33,9 @@ const scene = (type, params = {}) => ({
     },
 });
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(type, params) {
     id = await stage.scene(scene(type, params));

@@ -1,47 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Looking around, changing numbers, isolating: the picture follows, nothing is compiled, undo is exact.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { counter } from '../support/daemon.mjs';
 import {
-    closePage,
     difference,
     documentWhen,
     dragBy,
     drawnPixels,
     field,
     nodeIn,
-    openStage,
     picture,
     pictureChanged,
     pixels,
     pixelsLike,
     row,
     settled,
+    useStage,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
 
-let stage;
-let pages = [];
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const open = pages;
-    pages = [];
-    for (const page of open) {
-        await closePage(page);
-    }
-});
-
-async function open(scene) {
-    const page = await stage.page({ scene });
-    pages.push(page);
-    return page;
-}
-
+const stage = useStage();
+const open = (scene) => stage.page({ scene });
 const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
 
 describe('looking around', () => {

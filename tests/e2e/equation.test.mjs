@@ -2,34 +2,22 @@
 // Equations: the picture follows each text that can be read, the last good picture stays otherwise,
 // and the mark stands under the letter that is wrong.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { counter } from '../support/daemon.mjs';
 import {
-    closePage,
     difference,
     documentWhen,
     field,
     nodeIn,
-    openStage,
     pictureChanged,
     settled,
     stillPixels,
+    useStage,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 const EMPTY = {
     format: 'fieldcast/1',

@@ -2,26 +2,15 @@
 // Files in the editor, dropped or chosen, and nodes that go from one scene to another as text.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, waitForSaved } from './stage.mjs';
+import { documentWhen, nodeIn, picture, row, useStage, waitForSaved } from './stage.mjs';
 
 const THESIS = new URL('../import/thesis/', import.meta.url).pathname;
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 const SPARE = {
     format: 'fieldcast/1',

@@ -2,36 +2,25 @@
 // The graph of nodes: the same selection, keys and undo as the tree, and what its wires do to the
 // document on the server.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import {
     closePage,
+    difference,
     documentWhen,
     dragBy,
     field,
     nodeIn,
-    openStage,
     picture,
     pixels,
-    difference,
     row,
     settled,
+    useStage,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 /** Cards near enough that they show their values. */
 async function near() {

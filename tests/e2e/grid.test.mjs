@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the page draws and sets by how far surfaces are: the ground grid, snapping, the probe.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
 const EYE = [0, 4, 8];
 const ball = (id, at, radius) => ({ id, type: 'sphere', params: { radius }, transform: { translation: at } });
@@ -15,15 +15,10 @@ const DOCUMENT = {
     root: { id: 'root', type: 'union', children: [ball('sun', [0.5, 0.5, 0.5], 1.2), ball('moon', [-2.5, 0.4, 0], 0.4)] },
 };
 
-let stage;
+const stage = useStage();
 let page;
 let scene;
 let box;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(() => closePage(page));
 
 const guided = () => until(() => page.getByTestId('outlines').evaluate(({ dataset }) => dataset.guide === 'shown'), 'a guide');
 

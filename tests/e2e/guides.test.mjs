@@ -2,10 +2,10 @@
 // What is under the pointer is known to the page, and outlined: at once, without a question, also
 // while the server stands still.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { standStill, until } from '../support/daemon.mjs';
 import { Live } from '../support/live.mjs';
-import { closePage, field, openStage, picture, row, settled } from './stage.mjs';
+import { field, picture, row, settled, useStage } from './stage.mjs';
 
 const CAMERA = { position: [0, 1, 12], target: [0, 0, 0], fov: 45 };
 const ball = (id, x, y, radius) => ({ id, type: 'sphere', params: { radius }, transform: { translation: [x, y, 0] } });
@@ -24,14 +24,9 @@ const DOCUMENT = {
     },
 };
 
-let stage;
+const stage = useStage();
 let page;
 let scene;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(() => closePage(page));
 
 async function open() {
     scene = await stage.scene(DOCUMENT);

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Hands in the picture: the gizmo and the keys, and what they make of the document on the server.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, field, nodeIn, openStage, picture, row, SCENE, settled } from './stage.mjs';
+import { documentWhen, field, nodeIn, picture, row, SCENE, settled, useStage } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(options) {
     id = await stage.scene();

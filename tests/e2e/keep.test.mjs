@@ -2,38 +2,26 @@
 // Nothing that a user types, clicks or selects is lost: undo from inside a field, Backspace over a
 // label, ranges of rows, menus and clicks while the server is slow, several nodes at once.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { ask, standStill } from '../support/daemon.mjs';
 import {
-    closePage,
     documentWhen,
     dragBy,
     field,
     nodeIn,
-    openStage,
     picture,
     row,
     rows,
     SCENE,
     settled,
+    useStage,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(options = {}) {
     id = await stage.scene(options.document);

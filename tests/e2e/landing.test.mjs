@@ -2,9 +2,9 @@
 // What is dragged from the palette lands on the surface under the pointer, upright on it, combined with
 // what is there as the palette says; where nothing is let go, nothing happens.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { carryTo, documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
 const DOCUMENT = {
     format: 'fieldcast/1',
@@ -25,14 +25,9 @@ const DOCUMENT = {
     },
 };
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(() => closePage(page));
 
 async function open() {
     id = await stage.scene(DOCUMENT);
@@ -52,26 +47,19 @@ async function spotOf([x, y], depth = 1) {
     return { x: box.x + box.width / 2 + scale * x, y: box.y + box.height / 2 - scale * y };
 }
 
-/** Opens the palette and takes hold of a tile. */
-async function take(type, way = 'union') {
+/** Opens the palette and carries a tile to a point. */
+async function take(type, point, way = 'union') {
     await page.keyboard.press('Shift+A');
     await page.getByRole('combobox').fill(type);
     await tile(type).hover();
     await page.locator(`[data-way="${way}"]`).click();
-    await tile(type).hover();
-    await page.mouse.down();
-}
-
-async function carryTo({ x, y }) {
-    await page.mouse.move(x - 6, y, { steps: 3 });
-    await page.mouse.move(x, y);
+    await carryTo(page, tile(type), point);
 }
 
 test('a shape stands on the surface that is pointed at, seen before it is let go', async () => {
     await open();
     const start = await stage.document(id);
-    await take('cylinder');
-    await carryTo(await spotOf([-1.2, 0.4]));
+    await take('cylinder', await spotOf([-1.2, 0.4]));
     await landing().getByText('Beside wall.').waitFor();
     await page.getByTestId('trial').locator('img').waitFor();
     assert.equal(await page.getByRole('dialog').evaluate((one) => getComputedStyle(one).opacity), '0');
@@ -91,8 +79,7 @@ test('a shape stands on the surface that is pointed at, seen before it is let go
 
 test('the way of the palette combines it with what is there, in turned parents too', async () => {
     await open();
-    await take('sphere', 'blend');
-    await carryTo(await spotOf([1.45, 0]));
+    await take('sphere', await spotOf([1.45, 0]), 'blend');
     await landing().getByText('With ball, in a new smooth union.').waitFor();
     await page.mouse.up();
     const blended = await when((d) => nodeIn(d, 'sphere-1'), 'a second ball');
@@ -104,8 +91,7 @@ test('the way of the palette combines it with what is there, in turned parents t
     await settled(page);
 
     await row(page, 'wall').click();
-    await take('box', 'cut');
-    await carryTo(await spotOf([-1.5, 0.5]));
+    await take('box', await spotOf([-1.5, 0.5]), 'cut');
     await landing().getByText('Cuts wall, in a new difference.').waitFor();
     await page.mouse.up();
     const cut = await when((d) => nodeIn(d, 'box-1'), 'a cut');
@@ -117,8 +103,7 @@ test('the way of the palette combines it with what is there, in turned parents t
 test('let go beside the picture nothing happens, and the palette is back', async () => {
     await open();
     const start = await stage.document(id);
-    await take('torus');
-    await carryTo(await spotOf([-1.2, 0.4]));
+    await take('torus', await spotOf([-1.2, 0.4]));
     await landing().getByText('Beside wall.').waitFor();
     await page.mouse.move(300, 12, { steps: 3 });
     await landing().waitFor({ state: 'hidden' });
@@ -142,9 +127,7 @@ test('what goes around others, and things of the library, land too', async () =>
 
     await page.keyboard.press('Shift+A');
     await page.getByRole('combobox').fill('twist');
-    await tile('twist').hover();
-    await page.mouse.down();
-    await carryTo(at);
+    await carryTo(page, tile('twist'), at);
     await landing().getByText('Goes around wall.').waitFor();
     await page.mouse.up();
     await when((d) => d.root.children[0].type === 'twist' && d.root.children[0].children[0].id === 'wall', 'a twist around it');
@@ -156,9 +139,7 @@ test('what goes around others, and things of the library, land too', async () =>
         await page.keyboard.press('Control+k');
         await page.getByRole('combobox').fill('My library');
         await page.locator('[data-entry="command-library.open"]').click();
-        await page.getByTestId('library').locator('.card').filter({ hasText: name }).locator('img').hover();
-        await page.mouse.down();
-        await carryTo(at);
+        await carryTo(page, page.getByTestId('library').locator('.card').filter({ hasText: name }).locator('img'), at);
         await landing().getByText(words).waitFor();
         await page.mouse.up();
     };

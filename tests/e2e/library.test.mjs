@@ -5,10 +5,10 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
-import { closePage, documentWhen, nodeIn, openStage, row, settled } from './stage.mjs';
+import { closePage, documentWhen, nodeIn, openStage, row, settled, useStage } from './stage.mjs';
 
 /** A cup in a clay of its own among other things. */
 const KITCHEN = {
@@ -54,17 +54,8 @@ const TABLE = {
     root: { id: 'root', type: 'union', children: [{ id: 'top', type: 'box', material: 'clay', params: { size: [3, 0.2, 2] } }] },
 };
 
-let stage;
+const stage = useStage();
 let page;
-before(async () => (stage = await openStage()));
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 const entries = async (from = stage) => (await ask(from.daemon, 'GET', '/v1/library')).entries;
 const names = async (from) => (await entries(from)).map(({ name }) => name).sort();

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Materials that one can try: the gallery, a look without an edit, balls that are dragged.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { until } from '../support/daemon.mjs';
 import { decodePng } from '../support/png.mjs';
-import { closePage, documentWhen, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { documentWhen, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(options) {
     id = await stage.scene();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Distances between two clicks: equal to those of the points that rays meet, and no edit.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, openStage, picture, settled } from './stage.mjs';
+import { picture, settled, useStage } from './stage.mjs';
 
 const EYE = [0, 0, 10];
 const ball = (id, x, radius) => ({ id, type: 'sphere', params: { radius }, transform: { translation: [x, 0, 0] } });
@@ -14,13 +14,8 @@ const DOCUMENT = {
     root: { id: 'root', type: 'union', children: [ball('left', -1.5, 1), ball('right', 1.8, 0.8)] },
 };
 
-let stage;
+const stage = useStage();
 let page;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(() => closePage(page));
 
 /** Where a ray through a pixel of the picture meets a ball, in the scene. */
 function meets(box, x, y, centre, radius) {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Models and their instances; and everything that can be added, wrapped, looked up.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { ask } from '../support/daemon.mjs';
 import {
-    closePage,
     documentWhen,
     dragBy,
     field,
     nodeIn,
-    openStage,
     picture,
     pictureChanged,
     pixels,
@@ -17,22 +15,12 @@ import {
     rows,
     SCENE,
     settled,
+    useStage,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(document) {
     id = await stage.scene(document);

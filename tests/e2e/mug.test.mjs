@@ -2,17 +2,13 @@
 // A mug from an empty scene, as somebody new would make it: by clicks, drags and keys, without typing
 // a number. Each act is counted; the list of them is the walk.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { until } from '../support/daemon.mjs';
-import { closePage, documentWhen, dragBy, nodeIn, openStage, picture, row, settled } from './stage.mjs';
+import { closePage, documentWhen, dragBy, nodeIn, picture, row, settled, useStage } from './stage.mjs';
 
 const MOST_ACTS = 22;
 
-let stage;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
+const stage = useStage();
 
 test(`a mug takes at most ${MOST_ACTS} acts`, async () => {
     const page = await stage.page({ width: 1440, height: 900 });

@@ -2,36 +2,25 @@
 // Outputs live and as files, and where the time goes.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { OUTPUTS } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
 import { readNpy } from '../support/npy.mjs';
 import { decodePng } from '../support/png.mjs';
 import {
-    closePage,
-    openStage,
     picture,
     pictureChanged,
     pixels,
     SCENE,
     settled,
     stillPixels,
+    useStage,
 } from './stage.mjs';
 
-let stage;
 let page;
 let schema;
-before(async () => {
-    stage = await openStage();
+const stage = useStage({}, async () => {
     schema = (await ask(stage.daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
 });
 
 /* From the front: the crate's front looks along +Z. */

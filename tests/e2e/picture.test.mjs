@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The picture: picking, the honest state, and that the last frame is the picture of REST.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { standStill, until } from '../support/daemon.mjs';
 import { openScreen } from './screens/screen.mjs';
 import {
@@ -10,27 +10,16 @@ import {
     dragBy,
     drawnPixels,
     field,
-    openStage,
     picture,
     pixels,
     row,
     SCENE,
     settled,
+    useStage,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage();
 let page;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 /** Where a world point on the plane z = 0 is seen by SCENE's camera; pixels of the picture. */
 function onScreen(box, [x, y]) {

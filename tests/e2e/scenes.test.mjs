@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The start page: examples, files up and down, names, deleting with a way back.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, test } from 'node:test';
+import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { EXAMPLES } from '../support/counts.mjs';
 import { ask, until } from '../support/daemon.mjs';
-import { closePage, openStage, readDownload, SCENE, settled } from './stage.mjs';
+import { readDownload, SCENE, settled, useStage } from './stage.mjs';
 
-let stage;
+const stage = useStage({ driver: 'null' });
 let page;
-before(async () => {
-    stage = await openStage({ driver: 'null' });
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 const scenes = async () => (await ask(stage.daemon, 'GET', '/v1/scenes')).scenes;
 const card = (id) => page.locator(`[data-scene="${id}"]`);

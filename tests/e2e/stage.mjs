@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
+import { after, afterEach, before } from 'node:test';
 import { ask, startDaemon, until } from '../support/daemon.mjs';
 import { descendantsOf, Patience } from '../support/patience.mjs';
 import { decodePng } from '../support/png.mjs';
@@ -127,6 +128,31 @@ export async function openStage({ data, driver, args: more = [] } = {}) {
             await daemon.stop();
         },
     };
+}
+
+/**
+ * The stage of a suite: there before its tests, gone after them. `prepare` runs before the tests as
+ * well. Pages that a test leaves open are closed after it; `keep` does that for a page that was opened
+ * otherwise.
+ */
+export function useStage(options, prepare = () => {}) {
+    const stage = {};
+    const open = new Set();
+    before(async () => {
+        const made = await openStage(options);
+        const keep = (page) => open.add(page) && page;
+        Object.assign(stage, made, { keep, page: async (more) => keep(await made.page(more)) });
+        await prepare();
+    });
+    after(() => stage.close());
+    afterEach(async () => {
+        const left = [...open].filter((page) => !page.isClosed());
+        open.clear();
+        for (const page of left) {
+            await closePage(page);
+        }
+    });
+    return stage;
 }
 
 /** `scene` null: the start page. What the console says goes into `page.problems`. */
@@ -337,6 +363,20 @@ export async function dragBy(page, locator, dx, dy, { steps = 12, leave = false 
     if (!leave) {
         await page.mouse.up();
     }
+}
+
+/** Takes hold of something that the browser drags, brings it to a point of the window and holds it there. */
+export async function carryTo(page, locator, { x, y }) {
+    await locator.hover();
+    await page.mouse.down();
+    await page.mouse.move(x - 6, y, { steps: 3 });
+    await page.mouse.move(x, y);
+}
+
+/** The same, and lets it go. */
+export async function carry(page, locator, point) {
+    await carryTo(page, locator, point);
+    await page.mouse.up();
 }
 
 export const readDownload = async (download) => fs.promises.readFile(await download.path(), 'utf8');

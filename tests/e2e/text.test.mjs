@@ -6,26 +6,15 @@ import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { ask, program, until } from '../support/daemon.mjs';
-import { closePage, documentWhen, field, nodeIn, openStage, row, waitForSaved } from './stage.mjs';
+import { documentWhen, field, nodeIn, row, useStage, waitForSaved } from './stage.mjs';
 
 const FOLDER = new URL('../import/thesis', import.meta.url).pathname;
 
-let stage;
+const stage = useStage();
 let page;
 let id;
-before(async () => {
-    stage = await openStage();
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open(options = {}) {
     id = await stage.scene(options.document);

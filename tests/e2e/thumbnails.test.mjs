@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Thumbnails as a user sees them: a row of the tree has the picture of its node, also after an edit.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ask, until } from '../support/daemon.mjs';
-import { openStage, row } from './stage.mjs';
+import { row, useStage } from './stage.mjs';
 
-let stage;
-before(async () => {
-    stage = await openStage({ driver: 'null' });
-});
-after(() => stage.close());
+const stage = useStage({ driver: 'null' });
 
 /** The mean colour of what the picture shows, red to blue; null: there is no picture yet. */
 const tint = (thumbnail) =>

@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The scene tree, by pointer and by keys: what each act makes of the document on the server.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import {
-    closePage,
     documentWhen,
     nodeIn,
-    openStage,
     row,
     rows,
+    useStage,
 } from './stage.mjs';
 
-let stage;
+const stage = useStage({ driver: 'null' });
 let page;
 let id;
-before(async () => {
-    stage = await openStage({ driver: 'null' });
-});
-after(() => stage.close());
-afterEach(async () => {
-    const last = page;
-    page = null;
-    if (last) {
-        await closePage(last);
-    }
-});
 
 async function open() {
     id = await stage.scene();

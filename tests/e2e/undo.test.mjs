@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Undo over reloads of the page, and beside somebody else.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import {
     closePage,
     documentWhen,
     field,
     nodeIn,
-    openStage,
     row,
+    useStage,
     valueIs,
     waitForSaved,
 } from './stage.mjs';
 
-let stage;
-before(async () => {
-    stage = await openStage({ driver: 'null' });
-});
-after(() => stage.close());
+const stage = useStage({ driver: 'null' });
 
 const radiusOf = (document) => nodeIn(document, 'ball').params.radius;
 

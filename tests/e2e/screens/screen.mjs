@@ -8,12 +8,14 @@ const TIMEOUT_MS = 60_000;
 
 const documentOf = (scene) => (typeof scene === 'string' ? JSON.parse(fs.readFileSync(scene, 'utf8')) : scene);
 
-/* The page's own socket stands in the page, not in a worker, where it can be reached. */
+/* The page's own socket stands in the page, not in a worker, where it can be reached. With `delay`
+ * every message is that many milliseconds on its way. */
 async function tamper(page, state) {
     page.hold = state.hold ?? null;
     page.change = null;
     let cut = false;
     const sockets = [];
+    const later = state.delay ? (act) => setTimeout(act, state.delay) : (act) => act();
     page.sent = [];
     await page.addInitScript(() => {
         delete HTMLCanvasElement.prototype.transferControlToOffscreen;
@@ -26,12 +28,12 @@ async function tamper(page, state) {
         const server = socket.connectToServer();
         server.onMessage((message) => {
             if (!page.hold?.(message)) {
-                socket.send(page.change ? page.change(message) : message);
+                later(() => socket.send(page.change ? page.change(message) : message));
             }
         });
         socket.onMessage((message) => {
             page.sent.push(JSON.parse(message));
-            server.send(message);
+            later(() => server.send(message));
         });
         sockets.push(socket);
     });
@@ -133,5 +135,6 @@ export async function openScreen(stage, state, { theme, width, height, touch }) 
             await page.locator('[data-testid=state]:is([data-state=refining], [data-state=final])').waitFor();
         }
     }
+    stage.keep?.(page);
     return page;
 }

@@ -59,7 +59,7 @@ export class Viewer {
     /* Until the user looks around, the camera is the document's; then all but its place is. */
     followCamera(): void {
         const { document: shown, schema } = this.#stores.document.getState();
-        const { camera, own } = this.#stores.camera.getState();
+        const { camera, own, saved } = this.#stores.camera.getState();
         if (!shown) {
             return;
         }
@@ -68,12 +68,11 @@ export class Viewer {
             defaults[param.name] = param.default;
         }
         const { position, target, up } = camera;
-        const followed = {
-            ...cameraOf(shown.camera, defaults as Values),
-            ...(own ? { position, target, up } : {}),
-        };
-        if (!equalCamera(camera, followed)) {
-            this.#stores.camera.setState({ camera: followed });
+        const now = cameraOf(shown.camera, defaults as Values);
+        const followed = { ...now, ...(own ? { position, target, up } : {}) };
+        const changed = !equalCamera(camera, followed);
+        if (changed || !equalCamera(saved, now)) {
+            this.#stores.camera.setState({ camera: changed ? followed : camera, saved: now });
         }
         this.tell();
     }

@@ -227,6 +227,8 @@ export interface CameraState {
     readonly camera: Camera;
     /* False until the user moves: the document's own camera is followed. */
     readonly own: boolean;
+    /* The document's. */
+    readonly saved: Camera;
 }
 
 /* --- the library --- */
@@ -274,7 +276,11 @@ export function createStores(storage: Storage | null, tab: Storage | null = null
         view,
         link: createStore<LinkState>(() => IDLE_LINK),
         notices: createStore<NoticeState>(() => ({ notices: [] })),
-        camera: createStore<CameraState>(() => ({ camera: DEFAULT_CAMERA, own: false })),
+        camera: createStore<CameraState>(() => ({
+            camera: DEFAULT_CAMERA,
+            own: false,
+            saved: DEFAULT_CAMERA,
+        })),
         library: createStore<LibraryState>(() => ({ entries: null })),
     };
 }

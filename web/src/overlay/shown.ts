@@ -8,7 +8,7 @@ import type { Stores } from "../model/stores.ts";
 /* Null while there is no picture. */
 export function shownCamera({ link, camera }: Stores): Camera | null {
     const { frame } = link.getState();
-    return frame.state === "none" ? null : (frame.camera ?? camera.getState().camera);
+    return frame.state === "none" ? null : (frame.camera ?? camera.getState().saved);
 }
 
 /* The node at a point of the picture's element, in CSS pixels from its left top, as the guide of the

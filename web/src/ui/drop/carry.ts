@@ -314,7 +314,8 @@ function carry(
     if (picture === null) {
         return;
     }
-    dataTransfer.setData("application/x-fieldcast-addition", "");
+    /* Without data some browsers drag nothing. */
+    dataTransfer.setData("application/x-fieldcast-addition", "1");
     dataTransfer.effectAllowed = "copy";
     const tile = currentTarget.querySelector("img, svg");
     if (tile) {
