@@ -17,8 +17,8 @@
 #include "renderer/code/code.h"
 #include "renderer/code/equation_code.h"
 #include "renderer/code/equation_rules.h"
-#include "tests/support/code_engine.h"
 #include "renderer/code/equation_value.h"
+#include "tests/support/code_engine.h"
 #include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 

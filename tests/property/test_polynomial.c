@@ -16,9 +16,9 @@
 
 #include "protocol/equation.h"
 #include "renderer/code/equation_expand.h"
+#include "renderer/code/equation_value.h"
 #include "renderer/sdf/polynomial.h"
 #include "tests/support/code_engine.h"
-#include "renderer/code/equation_value.h"
 #include "tests/support/json_text.h"
 #include "tests/support/random_scene.h"
 
