@@ -88,7 +88,7 @@ static void test_examples_of_the_readme(void **state)
     free(readme);
 }
 
-enum { EXAMPLES = 62 };
+enum { EXAMPLES = 68 };
 
 static void test_example_scenes(void **state)
 {
