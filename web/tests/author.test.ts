@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One author for each open tab, the same one after a reload. */
 import { expect, test } from "vitest";
-import { takeAuthor } from "../src/link/author.ts";
+import { takeAuthor, tellLeaving } from "../src/link/author.ts";
 
 class Memory {
     readonly #items = new Map<string, string>();
@@ -50,6 +50,36 @@ test("a reloaded tab keeps its author, another open tab has its own", async () =
     expect(other.id).not.toBe(first.id);
     tabs.close("one");
     expect((await takeAuthor(all, one, tabs.locksOf("one"))).id).toBe(first.id);
+});
+
+test("a reloaded tab waits for the page before it, however long that takes to go", async () => {
+    const all = new Memory();
+    const tab = new Memory();
+    const tabs = new Tabs();
+    const page = new EventTarget();
+    const first = await takeAuthor(all, tab, tabs.locksOf("old"));
+    tellLeaving(page, tab);
+    page.dispatchEvent(new Event("pagehide"));
+    let gone = (): void => undefined;
+    const leaving = new Promise<void>((resolve) => {
+        gone = resolve;
+    });
+    const waiting = {
+        request: async (
+            name: string,
+            options: LockOptions,
+            callback: LockGrantedCallback<unknown>,
+        ) => {
+            await (options.ifAvailable ? undefined : leaving);
+            return tabs.locksOf("new").request(name, options, callback);
+        },
+    } as unknown as LockManager;
+    const second = takeAuthor(all, tab, waiting);
+    tabs.close("old");
+    gone();
+    expect((await second).id).toBe(first.id);
+    page.dispatchEvent(new Event("pageshow"));
+    expect((await takeAuthor(all, tab, tabs.locksOf("copy"))).id).not.toBe(first.id);
 });
 
 test("a duplicated tab is not taken for the one it was made of", async () => {

@@ -7,8 +7,10 @@ import type { Storage } from "../model/stores.ts";
 const TAB_KEY = "fieldcast.author";
 const KNOWN_KEY = "fieldcast.authors";
 const MOST_KNOWN = 16;
-/* The page before a reload lets go of its id when it is gone. */
-const RELOAD_MS = 1000;
+/* "yes": the page that was in this tab has left. A copy of the tab is made while it is there. */
+const LEFT_KEY = "fieldcast.left";
+/* It lets go of its id when it is gone. */
+const LEAVING_MS = 60000;
 
 /* As it is kept: the id, and behind a dot the key, once there is one. */
 interface Kept {
@@ -63,10 +65,11 @@ function hold(locks: LockManager, id: string, options: LockOptions): Promise<boo
 async function firstFree(
     locks: LockManager,
     own: Kept | null,
+    left: boolean,
     known: readonly Kept[],
 ): Promise<Kept> {
-    const reloaded = { signal: AbortSignal.timeout(RELOAD_MS) };
-    if (own !== null && (await hold(locks, own.id, reloaded))) {
+    const options = left ? { signal: AbortSignal.timeout(LEAVING_MS) } : { ifAvailable: true };
+    if (own !== null && (await hold(locks, own.id, options))) {
         return own;
     }
     for (const kept of known) {
@@ -142,8 +145,16 @@ export async function takeAuthor(
 ): Promise<Author> {
     const text = tab.getItem(TAB_KEY);
     const own = text === null ? null : parseKept(text);
+    const left = tab.getItem(LEFT_KEY) === "yes";
+    tab.setItem(LEFT_KEY, "");
     const kept = locks
-        ? await firstFree(locks, own, readKnown(all))
+        ? await firstFree(locks, own, left, readKnown(all))
         : (own ?? { id: randomId(), key: null });
     return new StoredAuthor(all, tab, locks, kept);
+}
+
+/* Tells the next page of this tab that this one has left. */
+export function tellLeaving(page: EventTarget, tab: Storage): void {
+    page.addEventListener("pagehide", () => tab.setItem(LEFT_KEY, "yes"));
+    page.addEventListener("pageshow", () => tab.setItem(LEFT_KEY, ""));
 }

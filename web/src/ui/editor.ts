@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The page's one set of stores, link and REST, and what commands may ask of the page. */
-import { type Author, takeAuthor } from "../link/author.ts";
+import { type Author, takeAuthor, tellLeaving } from "../link/author.ts";
 import { createLink, type Link } from "../link/link.ts";
 import { createRest, type Rest, takeToken } from "../link/rest.ts";
 import type { App } from "../model/actions.ts";
@@ -29,6 +29,7 @@ export function createEditor(): Editor {
     const stores = createStores(window.localStorage, window.sessionStorage);
     const link = createLink(stores, { base: "", token });
     const author = takeAuthor(window.localStorage, window.sessionStorage, navigator.locks);
+    tellLeaving(window, window.sessionStorage);
     let picture: HTMLElement | null = null;
     const editor: Editor = {
         stores,
