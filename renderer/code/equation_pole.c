@@ -61,8 +61,8 @@ static bool find_on(const struct line *line, double *out_t)
     return false;
 }
 
-/* Additive recurrences of the powers of a root of x^7 = x + 1: even in six dimensions (Roberts, "The
- * unreasonable effectiveness of quasirandom sequences", 2018). */
+/* Additive recurrences of the powers of a root of x^7 = x + 1: even in six dimensions (Roberts,
+ * "The unreasonable effectiveness of quasirandom sequences", 2018). */
 static double even(int n, int dimension)
 {
     static const double root = 1.1127756842787055;

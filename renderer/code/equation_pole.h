@@ -6,7 +6,8 @@
 
 #include "protocol/equation.h"
 
-/* Tries lines by chance, the same ones each time, in a box around the origin. False: none has one. */
+/* Tries lines by chance, the same ones each time, in a box around the origin. False: none has
+ * one. */
 bool equation_pole(const struct equation *equation, const double *letters, const double half[3],
                    double out_at[3]);
 
