@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "equation_value.h"
 #include "protocol/memory.h"
 #include "renderer/sdf/polynomial.h"
 
@@ -57,56 +58,6 @@ static double divided(double a, double b)
     return a / copysign(fmax(fabs(b), 1e-18), b);
 }
 
-/* As the rules in equation_rules.c say. */
-static double call(enum equation_name name, double a, double b)
-{
-    switch (name) {
-    case EQUATION_SIN:
-        return sin(a);
-    case EQUATION_COS:
-        return cos(a);
-    case EQUATION_TAN:
-        return tan(a);
-    case EQUATION_ASIN:
-        return asin(fmin(fmax(a, -1), 1));
-    case EQUATION_ACOS:
-        return acos(fmin(fmax(a, -1), 1));
-    case EQUATION_ATAN:
-        return atan(a);
-    case EQUATION_SINH:
-        return sinh(a);
-    case EQUATION_COSH:
-        return cosh(a);
-    case EQUATION_TANH:
-        return tanh(a);
-    case EQUATION_EXP:
-        return exp(a);
-    case EQUATION_LOG:
-        return log(fmax(a, 1e-18));
-    case EQUATION_SQRT:
-        return sqrt(fmax(a, 0));
-    case EQUATION_CBRT:
-        return cbrt(a);
-    case EQUATION_ABS:
-        return fabs(a);
-    case EQUATION_SIGN:
-        return (a > 0) - (a < 0);
-    case EQUATION_FLOOR:
-        return floor(a);
-    case EQUATION_CEIL:
-        return ceil(a);
-    case EQUATION_MIN:
-        return fmin(a, b);
-    case EQUATION_MAX:
-        return fmax(a, b);
-    case EQUATION_ATAN2:
-        return atan2(a, b);
-    case EQUATION_FUNCTIONS:
-        break;
-    }
-    return 0;
-}
-
 static double number_of(const struct equation_node *node, const double *letters, double a, double b)
 {
     switch ((enum equation_op)node->op) {
@@ -131,7 +82,7 @@ static double number_of(const struct equation_node *node, const double *letters,
     case EQUATION_WHOLE:
         return node->value < 0 ? divided(1, pow(a, -node->value)) : pow(a, node->value);
     default:
-        return call((enum equation_name)node->which, a, b);
+        return equation_call((enum equation_name)node->which, a, b);
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static double call(enum equation_name name, double a, double b)
+double equation_call(enum equation_name name, double a, double b)
 {
     switch (name) {
     case EQUATION_SIN:
@@ -80,7 +80,7 @@ static double node_value(const struct equation_node *node, const double *in, con
     case EQUATION_WHOLE:
         return pow(a, node->value);
     case EQUATION_CALL:
-        return call((enum equation_name)node->which, a, b);
+        return equation_call((enum equation_name)node->which, a, b);
     }
     return NAN;
 }

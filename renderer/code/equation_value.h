@@ -6,6 +6,8 @@
 
 #include "protocol/equation.h"
 
+/* A function of the language; near its domain's end as the rules in equation_rules.c say. */
+double equation_call(enum equation_name name, double a, double b);
 /* left - right, or right - left where the relation is > or >=: negative inside. */
 double equation_value(const struct equation *equation, const double p[3], const double *letters);
 

@@ -37,7 +37,7 @@ static const struct command table[COMMAND_COUNT] = {
                 "fractions, and sin, cos, exp of a letter that stands in these alone. Prints the "
                 "equation in x, y, z with its certificate as JSON, or why there is none. Write -- "
                 "before an expression that begins with a minus sign."},
-    [COMMAND_GROEBNER] = {"groebner", .operands = "POLYNOMIAL...", .many = true,
+    [COMMAND_GROEBNER] = {"groebner", .operands = "POLYNOMIAL", .many = true,
         .run = command_groebner,
         .doc = "Make the reduced Groebner basis of an ideal.",
         .more = "Prints the basis, the elimination ideal and what became of the pairs as JSON. "

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* fieldcast groebner: a basis of an ideal of polynomials. */
 #include <stdlib.h>
-#include <string.h>
 
+#include "algebra_command.h"
 #include "command.h"
 #include "protocol/ideal.h"
-#include "protocol/json.h"
-#include "server/algebra.h"
 
 /* Each polynomial is a line. */
 static void set_generators(struct record *asked, const struct options *options)
@@ -41,46 +39,28 @@ static void set_members(struct record *asked, const struct options *options)
 
 static void print_step(void *data, const char *line)
 {
-    if (data) {
-        fputs(line, stderr);
-    }
+    (void)data;
+    fputs(line, stderr);
 }
 
-static bool make_basis(const struct record *asked, const struct options *options, struct error *err)
+static bool ask(struct algebra *algebra, const void *question, cJSON **out, struct error *err)
 {
-    cJSON *answer = NULL;
-    struct algebra *algebra = algebra_create(err);
-    if (!algebra) {
-        return false;
-    }
-    void *steps = options->values[OPTION_STEPS].number[0] ? algebra : NULL;
-    const bool ok = algebra_groebner(algebra, asked, print_step, steps, &answer, err);
-    algebra_stop(algebra);
-    algebra_destroy(algebra);
-    if (ok) {
-        char *text = json_print(answer, true);
-        puts(text);
-        free(text);
-        cJSON_Delete(answer);
-    }
+    const struct options *options = question;
+    const bool steps = options->values[OPTION_STEPS].number[0] != 0;
+    struct record asked;
+    record_init(&asked, &ideal_type);
+    set_generators(&asked, options);
+    set_members(&asked, options);
+    const bool ok = algebra_groebner(algebra, &asked, steps ? print_step : NULL, NULL, out, err);
+    record_finish(&asked);
     return ok;
 }
 
 int command_groebner(const struct options *options)
 {
-    struct error err = {0};
-    struct record asked;
     if (options->operand_count == 0) {
         fputs("fieldcast: groebner takes polynomials\n", stderr);
         return EXIT_USAGE;
     }
-    record_init(&asked, &ideal_type);
-    set_generators(&asked, options);
-    set_members(&asked, options);
-    const bool ok = make_basis(&asked, options, &err);
-    record_finish(&asked);
-    if (!ok) {
-        error_print(&err, stderr);
-    }
-    return ok ? EXIT_OK : EXIT_FAILED;
+    return algebra_command_run(ask, options);
 }
