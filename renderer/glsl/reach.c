@@ -33,10 +33,19 @@ static bool is_letter(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
-static const char *after(const char *at, const char *mark)
+/* Behind the next `mark`, or the end. strstr() under a sanitizer would measure the whole rest. */
+static const char *after(const char *at, char mark)
 {
-    const char *found = strstr(at, mark);
-    return found ? found + strlen(mark) : at + strlen(at);
+    at = strchrnul(at, mark);
+    return *at == mark ? at + 1 : at;
+}
+
+static const char *after_comment(const char *at)
+{
+    for (at = after(at, '*'); *at != '/' && *at != '\0';) {
+        at = after(at, '*');
+    }
+    return *at == '/' ? at + 1 : at;
 }
 
 static const char *skip_blanks(const char *at)
@@ -44,9 +53,9 @@ static const char *skip_blanks(const char *at)
     for (;;) {
         at += strspn(at, " \t\n");
         if (strncmp(at, "/*", 2) == 0) {
-            at = after(at, "*/");
+            at = after_comment(at + 2);
         } else if (strncmp(at, "//", 2) == 0) {
-            at = after(at, "\n");
+            at = after(at, '\n');
         } else {
             return at;
         }
@@ -58,7 +67,7 @@ static const char *skip_line(const char *at)
 {
     at += strspn(at, " ");
     if (strncmp(at, "/*", 2) == 0) {
-        at = after(at, "*/");
+        at = after_comment(at + 2);
     }
     return at + (*at == '\n');
 }
@@ -100,7 +109,7 @@ static void read_directive(struct item *item)
     const char *end = item->text.begin;
 
     do {
-        end = after(end, "\n");
+        end = after(end, '\n');
     } while (end[-1] == '\n' && end[-2] == '\\');
     item->text.end = end;
     if (is(kind, "define")) {
@@ -150,7 +159,7 @@ static bool read_invocation(struct item *item)
         return false;
     }
     item->name = name;
-    item->text.end = after(at, ")");
+    item->text.end = after(at, ')');
     return true;
 }
 
@@ -296,9 +305,10 @@ struct conditions {
 static bool is_defined(const char *text, const char *until, struct piece name)
 {
     static const char define[] = "#define ";
+    const size_t length = sizeof define - 1;
 
-    for (const char *at = text; (at = strstr(at, define)) && at < until;) {
-        at += sizeof define - 1;
+    for (const char *at = text; (at = memmem(at, (size_t)(until - at), define, length));) {
+        at += length;
         if (same(next_token(at), name)) {
             return true;
         }
@@ -336,7 +346,7 @@ static void drop_inactive(char *text)
     char *to = text;
 
     for (const char *line = text; *line != '\0';) {
-        const char *end = after(line, "\n");
+        const char *end = after(line, '\n');
         const size_t length = (size_t)(end - line);
 
         if (!read_condition(&c, text, to, line) && c.active[c.depth]) {
