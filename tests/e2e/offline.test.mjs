@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The daemon dies while somebody edits: the picture stays, edits wait, nothing is lost.
 import assert from 'node:assert/strict';
+import { once } from 'node:events';
+import net from 'node:net';
 import { after, before, test } from 'node:test';
 import { makeDirectory, removeDirectory, startDaemon } from '../support/daemon.mjs';
 import {
@@ -32,6 +34,22 @@ after(async () => {
     removeDirectory(data);
 });
 
+/** Takes connections at a port and says nothing, until `asked` has looked at what a page makes of it. */
+async function besideSilence(port, asked) {
+    const silent = net.createServer();
+    const sockets = [];
+    silent.on('connection', (socket) => sockets.push(socket));
+    silent.listen(port, '127.0.0.1');
+    await once(silent, 'connection');
+    try {
+        await asked();
+    } finally {
+        sockets.forEach((socket) => socket.destroy());
+        silent.close();
+    }
+    await once(silent, 'close');
+}
+
 test('edits made while the daemon is away arrive when it is back', async () => {
     const id = await stage.scene();
     const page = await stage.page({ scene: id, width: 1440, height: 900 });
@@ -59,6 +77,11 @@ test('edits made while the daemon is away arrive when it is back', async () => {
     assert.equal(await page.locator('.notice').count(), 0, 'it is told in one place');
     await valueIs(field(page, 'radius'), '1.25');
 
+    await besideSilence(port, async () => {
+        await page.evaluate(() => new Promise((done) => setTimeout(done, 300)));
+        assert.equal(await page.getByTestId('state').getAttribute('data-state'), 'offline');
+        assert.equal(await page.getByTestId('strip').isVisible(), true);
+    });
     again = await startDaemon({ data, args: ['--port', String(port), ...stage.args] });
     stage.daemon.url = again.url;
     const back = await documentWhen(

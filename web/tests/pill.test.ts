@@ -55,7 +55,7 @@ test("a connection that the server has ended is told as that", () => {
 test("without a connection the picture is old, whatever it was", () => {
     expect(told({ connection: "offline" }).state).toBe("offline");
     expect(told({ connection: "offline", compiling: true }).state).toBe("offline");
-    expect(told({ connection: "connecting" }).state).toBe("final");
+    expect(told({ connection: "connecting", frame: NO_FRAME }).state).toBe("waiting");
 });
 
 test("before the first picture it waits or compiles", () => {

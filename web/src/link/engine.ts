@@ -199,7 +199,7 @@ export class Engine {
                 this.#presenter.clear();
                 break;
             case "retry":
-                if (this.#retry !== null) {
+                if (this.#socket === null) {
                     this.#connect();
                 }
                 break;
@@ -248,7 +248,10 @@ export class Engine {
             return;
         }
         this.#stopRetry();
-        this.#state("connecting");
+        /* While it tries again it is as offline as before. */
+        if (this.#attempts === 0) {
+            this.#state("connecting");
+        }
         const socket = new WebSocket(target.url, [...target.protocols]);
         socket.binaryType = "arraybuffer";
         socket.onopen = () => this.#greet(target);
