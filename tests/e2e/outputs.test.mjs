@@ -103,17 +103,17 @@ test('steps have a legend, in the colours of the scale', async () => {
     await legend.waitFor({ state: 'detached' });
 });
 
-test('a tab keeps its output; keys and the palette change it', async () => {
+test('keys and the palette change the output; a page begins with colours', async () => {
     await open();
     await page.keyboard.press('Control+k');
     await page.getByRole('combobox').fill('show normals');
     await page.keyboard.press('Enter');
     await normalsShown();
-    await page.reload();
     await pill().getByText('Normals').waitFor();
-    await normalsShown();
     await page.keyboard.press('Shift+Z');
     await normalsGone();
+    await page.keyboard.press('z');
+    await pill().getByText('Colour').waitFor({ state: 'detached' });
     await page.reload();
     await pill().getByText('Colour').waitFor();
 });

@@ -21,7 +21,7 @@ import {
     readSchema,
     type Values,
 } from "../src/model/schema.ts";
-import { createStores, type Storage } from "../src/model/stores.ts";
+import { createStores } from "../src/model/stores.ts";
 import { readHdr } from "../src/ui/fields/thumbnail.ts";
 import { conditionOf } from "../src/ui/reference/topics.ts";
 
@@ -87,17 +87,8 @@ test("conditions are told in words", () => {
 
 /* --- the output shown --- */
 
-function memory(): Storage & { readonly kept: Map<string, string> } {
-    const kept = new Map<string, string>();
-    return {
-        kept,
-        getItem: (key) => kept.get(key) ?? null,
-        setItem: (key, value) => void kept.set(key, value),
-    };
-}
-
-function appOf(tab: Storage): App {
-    const stores = createStores(null, tab);
+function newApp(): App {
+    const stores = createStores(null);
     stores.document.setState({ schema: SCHEMA, document: { camera: {} } as never });
     return { stores, edit: vi.fn(() => true) } as unknown as App;
 }
@@ -107,25 +98,22 @@ const run = (app: App, id: string): string | null => {
     return command ? runCommand(app, command) : "no such command";
 };
 
-test("the outputs with a picture follow each other; the tab remembers the one shown", () => {
-    const tab = memory();
-    const app = appOf(tab);
+test("the outputs with a picture follow each other", () => {
+    const app = newApp();
     const shown = () => app.stores.view.getState().aov;
     expect(outputsShown(SCHEMA).map(({ name }) => name)).toEqual(["color", "normal"]);
     expect(run(app, "view.color")).toBe("The colours are shown.");
     run(app, "view.output");
     expect(shown()).toBe("normal");
-    expect(appOf(tab).stores.view.getState().aov).toBe("normal");
     run(app, "view.output");
     expect(shown()).toBe("color");
     run(app, "view.output");
     run(app, "view.color");
     expect(shown()).toBe("color");
-    expect(appOf(tab).stores.view.getState().aov).toBe("color");
 });
 
 test("the focus is a distance along the view, not along the ray", () => {
-    const app = appOf(memory());
+    const app = newApp();
     expect(run(app, "camera.focus")).toBe("The camera has no aperture: everything is sharp.");
     app.stores.document.setState({ document: { camera: { aperture: 0.1 } } as never });
     expect(run(app, "camera.focus")).toBeNull();

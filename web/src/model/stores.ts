@@ -11,7 +11,7 @@ import type { EntryRow } from "./library.ts";
 import type { Operation } from "./operation.ts";
 import { NO_PROBLEMS, type Problems } from "./problems.ts";
 import { EMPTY_SCHEMA, type Schema } from "./schema.ts";
-import { COLOR, INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
+import { INITIAL_VIEW, type Preferences, readPreferences, type View } from "./view.ts";
 
 /* --- document: what is shown, confirmed plus pending --- */
 
@@ -256,17 +256,11 @@ export interface Storage {
 }
 
 const PREFERENCES_KEY = "fieldcast.preferences";
-const OUTPUT_KEY = "fieldcast.output";
 
-/* `tab`: what is kept for this tab alone, the output shown. */
-export function createStores(storage: Storage | null, tab: Storage | null = null): Stores {
+export function createStores(storage: Storage | null): Stores {
     const preferences = readPreferences(storage?.getItem(PREFERENCES_KEY) ?? null);
-    const aov = tab?.getItem(OUTPUT_KEY) ?? COLOR;
-    const view = createStore<View>(() => ({ ...INITIAL_VIEW, aov, preferences }));
+    const view = createStore<View>(() => ({ ...INITIAL_VIEW, preferences }));
     view.subscribe((now, before) => {
-        if (now.aov !== before.aov) {
-            tab?.setItem(OUTPUT_KEY, now.aov);
-        }
         if (now.preferences !== before.preferences) {
             storage?.setItem(PREFERENCES_KEY, JSON.stringify(now.preferences));
         }

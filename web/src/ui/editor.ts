@@ -26,7 +26,7 @@ export interface Editor extends App {
 export function createEditor(): Editor {
     const token = takeToken(window.location, window.sessionStorage);
     const rest = createRest("", token);
-    const stores = createStores(window.localStorage, window.sessionStorage);
+    const stores = createStores(window.localStorage);
     const link = createLink(stores, { base: "", token });
     const author = takeAuthor(window.localStorage, window.sessionStorage, navigator.locks);
     tellLeaving(window, window.sessionStorage);
