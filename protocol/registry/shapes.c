@@ -134,7 +134,7 @@ const struct node_type node_shapes[] = {
         {"height", PARAM_FLOAT, SIZE, .def = {1},
          .handle = "0, height/2, 0", .doc = "Full height."})},
      .number = 14, .group = GROUP_PRIMITIVE, .kind = KIND_SHAPE, .exactness = EXACT, .lipschitz = 1,
-     .glsl = "sd_capped_cone", .words = "frustum truncated bucket cup lampshade",
+     .glsl = "sd_capped_cone", .words = "frustum truncated bucket cup mug lampshade",
      .source = QUILEZ_DISTANCE ", Capped Cone"},
     {.record = {"round_cone", "Two balls, one above the other, and a cone's wall.", PARAMS(
         {"radius1", PARAM_FLOAT, REACH, .def = {0.4}, .main = true,

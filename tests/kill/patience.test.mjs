@@ -188,6 +188,28 @@ test('too slow twice is told with measure and limit, and tried again when asked'
     await live.close();
 });
 
+test('while one scene compiles, others are edited, looked at, picked in and read', async () => {
+    const daemon = await start('--code-time', '60000');
+    await ask(daemon, 'POST', '/v1/scenes?id=other', { format: 'fieldcast/1', root: { id: 'ball', type: 'sphere' } });
+    const other = await Live.open(daemon, 'other');
+    const hung = await open(daemon, 'hang', HANG);
+    await hung.next('compiling');
+    for (let i = 1; i <= 5; i += 1) {
+        other.look({ camera: { position: [i, 1, 5] } });
+        other.set('/nodes/ball/params/radius', 1 + i / 10);
+        await other.nextFrame((frame) => frame.seq === other.seq && frame.revision === i + 1);
+        other.say({ type: 'pick', pick: i, seq: other.seq, x: 8, y: 6 });
+        await other.next('picked', { pick: i });
+        const picture = await fetch(`${daemon.url}/v1/scenes/other/image.png?width=8&height=8`);
+        assert.equal(picture.status, 200);
+        await picture.arrayBuffer();
+    }
+    assert.deepEqual(errors(hung), []);
+    assert.deepEqual(hung.frames, []);
+    assert.equal(await restarts(daemon), 0);
+    await Promise.all([hung, other].map((one) => one.close()));
+});
+
 test('no measure and no limit are told of a crash, and a retry that fails is told again', async () => {
     const daemon = await start();
     const live = await open(daemon, 'crash', CRASH);

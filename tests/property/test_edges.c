@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The edge of a ball lies on its circle to a tenth of a pixel, in every output that shows it, at
- * every size, with both kinds of cameras, by the engine and by compute shaders: the middle of a
- * pixel is covered where it is inside of the circle. */
+ * every size, with both kinds of cameras, on all three roads: the middle of a pixel
+ * is covered where it is inside of the circle. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +28,8 @@ static const struct {
     {"orthographic", "'type': 'orthographic', 'height': 2.1", 2 * RADIUS / HEIGHT},
 };
 static const int sizes[][2] = {{20, 15}, {131, 97}, {800, 600}};
-static const enum aov outputs[] = {AOV_COLOR, AOV_DEPTH, AOV_NORMAL, AOV_ID};
+static const enum aov outputs[] = {AOV_COLOR, AOV_DEPTH,    AOV_NORMAL,
+                                   AOV_ID,    AOV_POSITION, AOV_ALBEDO};
 
 static double circle_of(size_t view)
 {
@@ -135,6 +136,14 @@ static void compute_shaders_draw_the_circle(void **state)
     print_message("# off by %.4f pixels at most\n", worst);
 }
 
+static void fragment_shaders_draw_the_circle(void **state)
+{
+    double worst;
+    (void)state;
+    judge(RENDER_FRAGMENT, 0, &worst);
+    print_message("# off by %.4f pixels at most\n", worst);
+}
+
 static void another_circle_is_noticed(void **state)
 {
     double worst;
@@ -162,6 +171,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_engine_draws_the_circle),
         cmocka_unit_test(compute_shaders_draw_the_circle),
+        cmocka_unit_test(fragment_shaders_draw_the_circle),
         cmocka_unit_test(another_circle_is_noticed),
     };
     return cmocka_run_group_tests(tests, start, stop);
