@@ -88,7 +88,7 @@ async function measure(stage, example, [width, height]) {
     return { example, width: box.width, height: box.height, camera, number };
 }
 
-const stage = await openStage();
+const stage = await openStage({ whole: true });
 try {
     const runs = [];
     for (const example of EXAMPLES) {

@@ -106,7 +106,7 @@ async function measure(stage, name) {
     };
 }
 
-const stage = await openStage();
+const stage = await openStage({ whole: true });
 try {
     const runs = [];
     for (const name of SCENES) {

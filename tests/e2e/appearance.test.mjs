@@ -2,7 +2,8 @@
 // What a scene looks like: lights, volumes, what is around it, the camera's lens, effects.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { until } from '../support/daemon.mjs';
+import { LIGHTS, SHADERS, VOLUMES } from '../support/counts.mjs';
+import { ask, until } from '../support/daemon.mjs';
 import {
     difference,
     documentWhen,
@@ -21,8 +22,11 @@ import {
     valueIs,
 } from './stage.mjs';
 
-const stage = useStage();
 let page;
+let schema;
+const stage = useStage({}, async () => {
+    schema = (await ask(stage.daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
+});
 
 /** Opens a scene; answers a wait for what the server holds of it. */
 async function open(part = {}) {
@@ -65,19 +69,38 @@ test('a light becomes another type and keeps what both know', async () => {
     await field(page, 'size').waitFor({ state: 'detached' });
 });
 
-test('a light of each type can be added', async () => {
+const titleOf = (type) => type[0].toUpperCase() + type.slice(1);
+
+/** Waits until the form has every parameter that a row always has. */
+async function formOf({ params = [] }) {
+    for (const { name } of params.filter((param) => !param.when)) {
+        await page.locator(`[data-param="${name}"]`).first().waitFor();
+    }
+}
+
+test('a light and a volume of each type can be added, and a material can have each shader', async () => {
     const when = await open();
-    for (const [title, type] of [
-        ['Directional', 'directional'],
-        ['Point', 'point'],
-        ['Spot', 'spot'],
+    const { lights, volumes, shaders } = schema;
+    assert.deepEqual([lights.length, volumes.length, shaders.length], [LIGHTS, VOLUMES, SHADERS]);
+    for (const [list, what, rows] of [
+        ['lights', 'light', lights],
+        ['volumes', 'volume', volumes],
     ]) {
-        await page.getByRole('button', { name: 'Add a light' }).click();
-        await page.getByRole('menuitem', { name: title }).click();
-        await when((d) => d.lights.at(-1).type === type, type);
+        for (const row of rows) {
+            await page.getByRole('button', { name: `Add a ${what}` }).click();
+            await page.getByRole('menuitem', { name: titleOf(row.type), exact: true }).click();
+            await when((d) => d[list]?.at(-1).type === row.type, row.type);
+            await formOf(row);
+        }
+    }
+    await page.locator('[data-resource=clay] .resource-pick').click();
+    for (const row of [...shaders.slice(1), shaders[0]]) {
+        await choose('Shader', titleOf(row.type));
+        await when((d) => d.materials.clay.shader === row.type, row.type);
+        await formOf(row);
     }
     await page.keyboard.press('Control+k');
-    await page.getByRole('combobox').fill('spot light');
+    await page.getByRole('dialog').getByRole('combobox').fill('spot light');
     await page.locator('[data-entry=add-lights-spot]').click();
     await when((d) => d.lights.at(-1).id === 'spot-2', 'another spot');
 });

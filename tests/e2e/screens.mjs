@@ -94,7 +94,7 @@ async function walk(stage, { variant, states }) {
 }
 
 fs.mkdirSync(out, { recursive: true });
-const stage = await openStage();
+const stage = await openStage({ whole: true });
 for (const name of ['still-life', 'robot', 'lighthouse']) {
     await stage.scene(JSON.parse(fs.readFileSync(path.join(EXAMPLES, `${name}.json`), 'utf8')));
 }

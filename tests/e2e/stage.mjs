@@ -14,6 +14,9 @@ const { chromium } = require('playwright-core');
 /** Every wait is for a condition. It ends in vain when nothing happens: pages are closed then. */
 const PATIENCE = { idleSeconds: Number(process.env.E2E_IDLE_SECONDS ?? 90), busySeconds: 400 };
 
+/** Without windows of its own it takes half of what the whole browser takes. It cannot lock a pointer. */
+const SHELL = '/usr/bin/chromium-headless-shell';
+const WHOLE = '/usr/bin/chromium';
 const FLAGS = [
     '--no-sandbox',
     '--disable-gpu',
@@ -97,13 +100,14 @@ function watch(browser) {
 
 /**
  * FIELDCAST_WEB: a built page to serve instead of the one in the program. `data`: where. `driver`: as
- * of startDaemon.
+ * of startDaemon. `whole`: in the browser that users have.
  */
-export async function openStage({ data, driver, args: more = [] } = {}) {
+export async function openStage({ data, driver, whole = false, args: more = [] } = {}) {
     const web = process.env.FIELDCAST_WEB;
     const args = [...(web ? ['--web', web] : []), ...more];
     const daemon = await startDaemon({ data, driver, args });
-    const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS, timeout: 0 });
+    const executablePath = whole ? WHOLE : SHELL;
+    const browser = await chromium.launch({ executablePath, args: FLAGS, timeout: 0 });
     const watched = watch(browser);
     let made = 0;
     return {
@@ -119,7 +123,7 @@ export async function openStage({ data, driver, args: more = [] } = {}) {
         },
         /** Something is still going on. */
         heard: watched.heard,
-        page: (options) => openPage(browser, daemon, watched, options),
+        page: (options) => openPage(browser, daemon, watched, { whole, ...options }),
         /** The document's bytes as the server holds them. */
         document: async (id) => (await fetch(`${daemon.url}/v1/scenes/${id}`)).text(),
         async close() {
@@ -171,6 +175,11 @@ async function openPage(browser, daemon, watched, options = {}) {
             localStorage.setItem(key, JSON.stringify({ hintsDone: ['drag', 'click'] }));
         }
     }, hints);
+    if (!options.whole) {
+        await context.addInitScript(() => {
+            delete Element.prototype.requestPointerLock;
+        });
+    }
     const page = await context.newPage();
     page.setDefaultTimeout(0);
     page.on('request', watched.heard);

@@ -25,7 +25,7 @@ let directory;
 
 before(async () => {
     directory = makeDirectory();
-    browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: FLAGS, timeout: 0 });
+    browser = await chromium.launch({ executablePath: '/usr/bin/chromium-headless-shell', args: FLAGS, timeout: 0 });
 });
 
 after(async () => {

@@ -3,3 +3,6 @@
 export const EXAMPLES = 68; // protocol/examples/*.json
 export const GOLDEN = 180; // tests/golden/*/*/scene.json that are drawn
 export const OUTPUTS = 11; // rows of the schema
+export const LIGHTS = 3; // the same
+export const VOLUMES = 3;
+export const SHADERS = 6;
