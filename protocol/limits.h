@@ -66,6 +66,7 @@
     X(IMPLICIT_DEGREE, "implicit_degree", 18, "factors",                                           \
       "the equation that is found for a parametric surface")                                       \
     X(COEFFICIENT_BITS, "coefficient_bits", 4096, "bits", "a coefficient of such polynomials")     \
+    X(QUESTION_BYTES, "question_bytes", 262144, "bytes", "a request for one of these, or a basis") \
     X(ALGEBRA_SECONDS, "algebra_seconds", 30, "seconds", "finding or proving an equation")         \
     X(ALGEBRA_BYTES, "algebra_bytes", 1073741824, "bytes", "memory of the same")                   \
     X(GROEBNER_LETTERS, "groebner_letters", 10, "letters", "the ring of an ideal")                 \

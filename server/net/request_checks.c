@@ -85,9 +85,11 @@ bool request_checks_framing(const struct request *request, struct MHD_Connection
 
 size_t request_checks_body_limit(const struct route *route)
 {
-    const bool file = route && route->body == BODY_FILE;
+    const enum route_body body = route ? route->body : BODY_NONE;
 
-    return file ? LIMIT_ASSET_BYTES : LIMIT_DOCUMENT_BYTES;
+    return body == BODY_FILE       ? LIMIT_ASSET_BYTES
+           : body == BODY_QUESTION ? LIMIT_QUESTION_BYTES
+                                   : LIMIT_DOCUMENT_BYTES;
 }
 
 uint64_t request_checks_announced_bytes(const struct request *request)
@@ -127,7 +129,8 @@ static bool check_body(const struct request *request, const struct route *route,
         snprintf(detail, sizeof detail, "the body of %" PRIu64 " bytes is above the maximum %zu",
                  length, request_checks_body_limit(route));
         *out = response_problem(413, "too_large", "", detail);
-    } else if (route->body == BODY_JSON && !is_json(request_header(request, "Content-Type"))) {
+    } else if ((route->body == BODY_JSON || route->body == BODY_QUESTION) &&
+               !is_json(request_header(request, "Content-Type"))) {
         *out =
             response_problem(415, "invalid", "Content-Type", "the body must be application/json");
     } else {

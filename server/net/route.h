@@ -5,7 +5,7 @@
 
 #include "request.h"
 
-enum route_body { BODY_NONE, BODY_JSON, BODY_FILE };
+enum route_body { BODY_NONE, BODY_JSON, BODY_QUESTION /* JSON for the algebra */, BODY_FILE };
 
 enum route_access {
     GUARDED, /* needs the token, if there is one */
@@ -16,7 +16,7 @@ enum route_access {
 /* The scene of a handler. With a scene, the handler runs on a thread of the tasks. */
 enum route_scene {
     SCENE_NONE,
-    SCENE_NEW,   /* a new one, or one named in the body */
+    SCENE_NEW,   /* a new one, one named in the body, or none: what is long to read */
     SCENE_NAMED, /* named by the first capture */
     SCENE_ALL,   /* all of them: a heavy task */
 };

@@ -110,6 +110,28 @@ test('everybody is answered while all scenes are searched for the name of a file
     assert.deepEqual(order, ['others', 409]);
 });
 
+test('everybody is answered while questions of the algebra are read', async () => {
+    const { limits } = (await ask(daemon, 'GET', '/v1/schema.json'))['x-fieldcast'];
+    const { value: most } = limits.find(({ name }) => name === 'question_bytes');
+    const order = [];
+    const body = `{"x":[${'1,'.repeat(most / 2 - 8)}1]}`;
+    const post = (at, text) => fetch(`${daemon.url}/v1/${at}`, { method: 'POST', headers: { 'content-type': 'application/json' }, body: text });
+    const places = ['implicitize', 'verify', 'groebner'];
+    const questions = [...places, ...places, ...places, ...places].map((at) =>
+        post(at, body).then((answer) => {
+            order.push(at);
+            return answer.status;
+        }),
+    );
+    await until(async () => order.length === questions.length || (await counter(daemon, 'documents_waiting')) > 1, 'questions');
+    order.push('others');
+    assert.deepEqual(new Set(await Promise.all(questions)), new Set([422]));
+    assert.equal(order.at(-1) === 'others', false, `answered in the order ${order}`);
+    for (const at of places) {
+        assert.equal((await post(at, body + ' '.repeat(most))).status, 413, at);
+    }
+});
+
 test('edits of one client stay in order, whatever each takes', async () => {
     const live = await Live.open(daemon, 'many');
     const edits = [];
