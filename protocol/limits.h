@@ -118,6 +118,8 @@
     X(HEAD_BYTES, "head_bytes", 16384, "bytes", "the head of an HTTP request")                     \
     X(BODIES_BYTES, "bodies_bytes", 268435456, "bytes",                                            \
       "bodies of requests that are being received, together")                                      \
+    X(ANSWERS_BYTES, "answers_bytes", 536870912, "bytes",                                          \
+      "answers that their clients have not read yet, together")                                    \
     X(LIVE_SILENCE, "live_silence", 14, "seconds", "a live connection that answers no ping")
 
 enum {

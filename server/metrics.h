@@ -26,6 +26,8 @@
       "Live connections refused because too many were open")                                       \
     X(BODIES_OVER_LIMIT, "bodies_over_limit_total", "counter",                                     \
       "Bodies of requests refused because all of them would have taken too much memory")           \
+    X(ANSWERS_OVER_LIMIT, "answers_over_limit_total", "counter",                                   \
+      "Answers refused because those that clients had not read took too much memory")              \
     X(SESSIONS, "sessions", "gauge", "Live connections")                                           \
     X(SESSIONS_TOTAL, "sessions_total", "counter", "Live connections since the start")             \
     X(ROOMS, "rooms", "gauge", "Open scenes")                                                      \

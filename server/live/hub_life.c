@@ -32,6 +32,8 @@
 #include "stream.h"
 #include "thumbnails.h"
 
+enum { ASSETS_LOOK_MS = 1000 }; /* between looks at the copies of files in memory */
+
 /* --- events of the worker --- */
 
 /* What keeps the worker from the rest of the machine. */
@@ -246,6 +248,9 @@ static int64_t on_tick(void *data, int64_t now_ms)
         next = clock_earlier(next, compiles_watch(room, now_ms));
     }
     next = clock_earlier(next, thumbnails_pump(hub, now_ms));
+    if (asset_index_forget(hub->assets)) {
+        next = clock_earlier(next, now_ms + ASSETS_LOOK_MS);
+    }
     if (now_ms >= hub->next_cleaning) {
         close_idle_rooms(hub, now_ms);
         hub->next_cleaning = now_ms + 5000;

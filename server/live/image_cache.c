@@ -5,12 +5,13 @@
 #include <string.h>
 
 #include "protocol/memory.h"
+#include "server/net/shared_buffer.h"
 
 enum { LARGEST_PART = 4 }; /* one picture takes at most this part of the limit */
 
 static size_t weight(const struct cached_image *image)
 {
-    return sizeof *image + strlen(image->key) + image->length;
+    return sizeof *image + strlen(image->key) + image->bytes->length;
 }
 
 static void unlink_image(struct image_cache *cache, struct cached_image *image)
@@ -31,6 +32,7 @@ static void drop(struct image_cache *cache, struct cached_image *image)
 {
     unlink_image(cache, image);
     cache->bytes -= weight(image);
+    shared_buffer_unref(image->bytes);
     free(image->key);
     free(image);
 }
@@ -57,17 +59,16 @@ const struct cached_image *image_cache_find(struct image_cache *cache, const cha
 }
 
 void image_cache_add(struct image_cache *cache, const char *key, enum codec codec,
-                     uint64_t revision, const void *bytes, size_t length)
+                     uint64_t revision, struct shared_buffer *bytes)
 {
-    if (strlen(key) + length > cache->limit / LARGEST_PART || image_cache_find(cache, key)) {
+    if (strlen(key) + bytes->length > cache->limit / LARGEST_PART || image_cache_find(cache, key)) {
         return;
     }
-    struct cached_image *image = memory_alloc(1, sizeof *image + length);
+    struct cached_image *image = memory_alloc(1, sizeof *image);
     image->key = memory_text(key);
     image->codec = codec;
     image->revision = revision;
-    image->length = length;
-    memcpy(image->bytes, bytes, length);
+    image->bytes = shared_buffer_ref(bytes);
     link_first(cache, image);
     cache->bytes += weight(image);
     while (cache->bytes > cache->limit) {

@@ -9,13 +9,14 @@
 
 #include "protocol/codec.h"
 
+struct shared_buffer;
+
 struct cached_image {
     struct cached_image *before, *after;
     char *key; /* everything that the pixels and their encoding depend on */
     enum codec codec;
     uint64_t revision;
-    size_t length;
-    uint8_t bytes[];
+    struct shared_buffer *bytes;
 };
 
 /* `first` was used most recently. */
@@ -27,8 +28,8 @@ struct image_cache {
 void image_cache_finish(struct image_cache *cache);
 /* NULL: not in the cache. The result is valid until the next addition. */
 const struct cached_image *image_cache_find(struct image_cache *cache, const char *key);
-/* Copies its arguments. Skips pictures that would fill a large part of the cache. */
+/* Copies the key, takes a reference. Skips pictures that would fill a large part of the cache. */
 void image_cache_add(struct image_cache *cache, const char *key, enum codec codec,
-                     uint64_t revision, const void *bytes, size_t length);
+                     uint64_t revision, struct shared_buffer *bytes);
 
 #endif

@@ -175,9 +175,12 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
     struct thumbnails *all = data;
     struct hub *hub = all->hub;
 
+    struct shared_buffer *picture =
+        shared_buffer_create(answer ? answer->bytes : "", answer ? answer->length : 0);
+
     (void)err;
-    image_cache_add(&all->cache, all->key, CODEC_PNG, 0, answer ? answer->bytes : "",
-                    answer ? answer->length : 0);
+    image_cache_add(&all->cache, all->key, CODEC_PNG, 0, picture);
+    shared_buffer_unref(picture);
     metric_add(&hub->metrics, METRIC_THUMBNAILS_DRAWN, 1);
     all->job = 0;
     all->session = NULL;
@@ -249,12 +252,13 @@ static bool is_due(const struct thumbnail *item, uint64_t revision)
 /* False: its picture has left the cache. */
 static bool add_picture(struct hub *hub, struct thumbnail *item, FILE *out)
 {
-    static const struct cached_image none = {.length = 0};
+    const bool none = strcmp(item->key, "-") == 0;
     const struct cached_image *picture =
-        strcmp(item->key, "-") == 0 ? &none : image_cache_find(&hub->thumbnails->cache, item->key);
+        none ? NULL : image_cache_find(&hub->thumbnails->cache, item->key);
+    const size_t length = picture ? picture->bytes->length : 0;
     uint8_t row[THUMBNAIL_ROW_BYTES];
 
-    if (!picture) {
+    if (!picture && !none) {
         item->looked = 0;
         return false;
     }
@@ -262,11 +266,13 @@ static bool add_picture(struct hub *hub, struct thumbnail *item, FILE *out)
                                                .id_bytes = strlen(item->id),
                                                .width = item->width,
                                                .height = thumbnail_height(item->width),
-                                               .bytes = picture->length},
+                                               .bytes = length},
                        row);
     fwrite(row, sizeof row, 1, out);
     fputs(item->id, out);
-    fwrite(picture->bytes, 1, picture->length, out);
+    if (picture) {
+        fwrite(picture->bytes->bytes, 1, length, out);
+    }
     memcpy(item->sent, item->key, sizeof item->sent);
     return true;
 }

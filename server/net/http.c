@@ -14,6 +14,7 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
+#include "answers.h"
 #include "body.h"
 #include "presence.h"
 #include "protocol/memory.h"
@@ -25,6 +26,7 @@
 #include "server/log.h"
 #include "server/metrics.h"
 #include "server/tasks.h"
+#include "shared_buffer.h"
 
 enum { BODY_PATIENCE = 3 }; /* times the limit that are read before the connection is cut */
 
@@ -68,6 +70,7 @@ struct http {
     int gone_epoll;
     atomic_int connections, pending;
     struct bodies bodies;
+    struct answers answers;
     pthread_mutex_t lock; /* the states; taken after the hub's lock */
 };
 
@@ -93,12 +96,13 @@ static void add_cors(struct MHD_Response *out, const struct exchange *exchange)
     MHD_add_response_header(out, "Vary", "Origin");
 }
 
+/* Takes `answer`, which has the body. */
 static struct MHD_Response *build_response(const struct exchange *exchange,
-                                           const struct response *response)
+                                           const struct response *response, struct answer *answer)
 {
-    struct MHD_Response *out = MHD_create_response_from_buffer(
-        response->length, response->body,
-        response->borrowed ? MHD_RESPMEM_PERSISTENT : MHD_RESPMEM_MUST_FREE);
+    struct MHD_Response *out = MHD_create_response_from_buffer_with_free_callback_cls(
+        response->length, response->shared ? response->shared->bytes : response->body,
+        answer_destroy, answer);
     bool cache = false;
 
     if (!out) {
@@ -175,11 +179,33 @@ static void settle(struct exchange *exchange)
     }
 }
 
+/* Frees the body. */
+static struct response refuse_answer(struct http *http, const struct response *response)
+{
+    char detail[120];
+
+    metric_add(http->app.metrics, METRIC_ANSWERS_OVER_LIMIT, 1);
+    snprintf(detail, sizeof detail,
+             "answers that clients have not read hold too much; the limit is %d bytes",
+             LIMIT_ANSWERS_BYTES);
+    shared_buffer_unref(response->shared);
+    free(response->body);
+    return response_problem(503, "unavailable", "", detail);
+}
+
 void request_reply(struct request *request, const struct response *response)
 {
     struct exchange *exchange = (struct exchange *)request;
     struct http *http = exchange->http;
-    struct MHD_Response *built = build_response(exchange, response);
+    struct answer *answer = answers_add(&http->answers, response);
+    struct response refusal;
+
+    if (!answer) {
+        refusal = refuse_answer(http, response);
+        response = &refusal;
+        answer = answers_add(&http->answers, response);
+    }
+    struct MHD_Response *built = build_response(exchange, response, answer);
 
     pthread_mutex_lock(&http->lock);
     exchange->response = built;
@@ -550,6 +576,7 @@ struct http *http_create(const struct http_app *app, struct error *err)
 
     http->app = *app;
     pthread_mutex_init(&http->lock, NULL);
+    answers_init(&http->answers);
     http->gone_epoll = epoll_create1(EPOLL_CLOEXEC);
     http->daemon = MHD_start_daemon(
         MHD_USE_NO_LISTEN_SOCKET | MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_EPOLL | MHD_USE_ITC |
@@ -600,6 +627,7 @@ void http_destroy(struct http *http)
     if (http->gone_epoll >= 0) {
         close(http->gone_epoll);
     }
+    answers_finish(&http->answers);
     pthread_mutex_destroy(&http->lock);
     free(http);
 }

@@ -12,6 +12,7 @@
 #include "protocol/limits.h"
 
 struct hub;
+struct shared_buffer;
 
 enum { REQUEST_CAPTURES = 2, REQUEST_QUERIES = 24, RESPONSE_HEADERS = 12 };
 
@@ -37,7 +38,8 @@ struct response {
     const char *type; /* Content-Type */
     void *body;
     size_t length;
-    bool borrowed; /* the body is static and not freed */
+    bool borrowed;                /* the body is static and not freed */
+    struct shared_buffer *shared; /* instead of a body; of its bytes `length` are sent */
     struct {
         const char *name;
         char value[256];
@@ -57,8 +59,8 @@ bool request_check_query(const struct request *request, const char *const *names
 /* Whether an If-Match or If-None-Match list names `tag` (with its quotes). */
 bool request_tag_listed(const char *list, const char *tag);
 
-/* Answers the request once; any thread. Takes the body of `response`. The request must not be used
- * afterwards. */
+/* Answers the request once; any thread. Takes the body of `response`, or its reference. The request
+ * must not be used afterwards. */
 void request_reply(struct request *request, const struct response *response);
 void request_reply_error(struct request *request, const struct error *err);
 /* Takes `json`. */

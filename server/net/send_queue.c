@@ -12,29 +12,6 @@ struct send_queue_text {
     struct shared_buffer *text;
 };
 
-struct shared_buffer *shared_buffer_create(const void *bytes, size_t length)
-{
-    struct shared_buffer *buffer = memory_alloc(1, sizeof *buffer + length);
-
-    atomic_init(&buffer->references, 1);
-    buffer->length = length;
-    memcpy(buffer->bytes, bytes, length);
-    return buffer;
-}
-
-struct shared_buffer *shared_buffer_ref(struct shared_buffer *buffer)
-{
-    atomic_fetch_add(&buffer->references, 1);
-    return buffer;
-}
-
-void shared_buffer_unref(struct shared_buffer *buffer)
-{
-    if (buffer && atomic_fetch_sub(&buffer->references, 1) == 1) {
-        free(buffer);
-    }
-}
-
 static void frame_clear(struct send_queue_frame *frame)
 {
     shared_buffer_unref(frame->payload);

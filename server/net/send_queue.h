@@ -14,21 +14,12 @@
 #include <stdint.h>
 
 #include "protocol/messages.h"
+#include "shared_buffer.h"
 
 enum {
     SEND_QUEUE_PART_BYTES = 65536,
     SEND_QUEUE_TEXT_BYTES = 2097152, /* most text queued, apart from a first message */
 };
-
-/* Immutable bytes with a reference count. */
-struct shared_buffer {
-    _Atomic int references;
-    size_t length;
-    uint8_t bytes[];
-};
-struct shared_buffer *shared_buffer_create(const void *bytes, size_t length);
-struct shared_buffer *shared_buffer_ref(struct shared_buffer *buffer);
-void shared_buffer_unref(struct shared_buffer *buffer);
 
 struct send_queue_frame {
     struct shared_buffer *payload; /* NULL: no frame */

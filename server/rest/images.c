@@ -18,6 +18,7 @@
 #include "server/live/library.h"
 #include "server/live/render_queue.h"
 #include "server/live/room.h"
+#include "server/net/shared_buffer.h"
 
 /* A picture on its way to a client. */
 struct waiting {
@@ -78,15 +79,17 @@ static void make_tag(const struct waiting *waiting, uint64_t revision, char out[
     snprintf(out, 48, "\"%" PRIu64 "-%016" PRIx64 "\"", revision, hash);
 }
 
+/* Takes a reference. */
 static void reply_picture(const struct waiting *waiting, uint64_t revision, enum codec codec,
-                          const void *bytes, size_t length)
+                          struct shared_buffer *picture)
 {
-    struct response response = {.status = 200, .type = codec_mime(codec), .length = length};
+    struct response response = {.status = 200,
+                                .type = codec_mime(codec),
+                                .length = picture->length,
+                                .shared = shared_buffer_ref(picture)};
     char tag[48];
 
     make_tag(waiting, revision, tag);
-    response.body = memory_alloc(length, 1);
-    memcpy(response.body, bytes, length);
     response_add(&response, "ETag", "%s", tag);
     response_add(&response, "Fieldcast-Revision", "%" PRIu64, revision);
     response_add(&response, "Fieldcast-Size", "%dx%d", waiting->width, waiting->height);
@@ -100,12 +103,14 @@ static void on_picture(void *data, const struct picture_answer *answer, const st
 
     if (answer) {
         const uint64_t revision = answer->frame->revision;
+        struct shared_buffer *picture = shared_buffer_create(answer->bytes, answer->length);
 
         if (revision == waiting->revision) {
             image_cache_add(waiting->hub->image_cache, waiting->key, answer->frame->codec, revision,
-                            answer->bytes, answer->length);
+                            picture);
         }
-        reply_picture(waiting, revision, answer->frame->codec, answer->bytes, answer->length);
+        reply_picture(waiting, revision, answer->frame->codec, picture);
+        shared_buffer_unref(picture);
     } else {
         request_reply_error(waiting->request, err);
     }
@@ -141,7 +146,7 @@ static bool reply_at_once(const struct waiting *waiting)
     picture = image_cache_find(waiting->hub->image_cache, waiting->key);
     if (picture) {
         metric_add(&waiting->hub->metrics, METRIC_PICTURES_REUSED, 1);
-        reply_picture(waiting, picture->revision, picture->codec, picture->bytes, picture->length);
+        reply_picture(waiting, picture->revision, picture->codec, picture->bytes);
     }
     return picture != NULL;
 }

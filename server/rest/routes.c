@@ -14,7 +14,7 @@ static const struct route table[] = {
     {"GET", "/v1/scenes/{}/image.{}", images_of_scene, BODY_NONE, GUARDED, SCENE_NAMED},
     {"GET", "/v1/assets", assets_list, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/assets", assets_create, BODY_FILE, GUARDED, SCENE_ALL},
-    {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED, SCENE_NONE},
+    {"GET", "/v1/assets/{}", assets_read, BODY_NONE, GUARDED, SCENE_NEW},
     {"DELETE", "/v1/assets/{}", assets_delete, BODY_NONE, GUARDED, SCENE_ALL},
     {"GET", "/v1/library", library_list, BODY_NONE, GUARDED, SCENE_NONE},
     {"POST", "/v1/library", library_import, BODY_JSON, GUARDED, SCENE_NEW},

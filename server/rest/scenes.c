@@ -135,11 +135,8 @@ void scenes_read(struct request *request)
     if (!request_tag_listed(request_header(request, "If-None-Match"), tag)) {
         struct shared_buffer *text = room_text(room);
 
-        response = (struct response){.status = 200, .type = "application/json"};
+        response = (struct response){.status = 200, .type = "application/json", .shared = text};
         response.length = text->length - 1;
-        response.body = memory_alloc(text->length, 1);
-        memcpy(response.body, text->bytes, text->length);
-        shared_buffer_unref(text);
         response_add(&response, "Fieldcast-Revision", "%" PRIu64, room->revision);
     }
     hub_unlock(request->hub);
@@ -164,11 +161,8 @@ void scenes_poster(struct request *request)
         request_reply(request, &response);
         return;
     }
-    response = (struct response){.status = 200, .type = "image/jpeg"};
-    response.length = poster->length;
-    response.body = memory_alloc(poster->length, 1);
-    memcpy(response.body, poster->bytes, poster->length);
-    shared_buffer_unref(poster);
+    response = (struct response){
+        .status = 200, .type = "image/jpeg", .shared = poster, .length = poster->length};
     response_add(&response, "Cache-Control", "no-cache");
     request_reply(request, &response);
 }

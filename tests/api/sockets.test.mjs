@@ -490,6 +490,28 @@ describe('too many', () => {
         [...peers, last].forEach((peer) => peer.close());
     });
 
+    /** Asks, and reads nothing more once the answer has begun. */
+    const askAndStop = (at) => {
+        const peer = connect();
+        peer.socket.once('data', () => peer.socket.pause());
+        peer.socket.write(get('', at));
+        return peer;
+    };
+
+    test('answers in memory: those who read the same file share its copy', async () => {
+        const body = Buffer.alloc(32 << 20, 1);
+        Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2048 +X 4000\n').copy(body);
+        const { id } = await (await fetch(`${daemon.url}/v1/assets`, { method: 'POST', body })).json();
+        const one = askAndStop(`/v1/assets/${id}`);
+        await until(() => one.statuses().length, 'an answer');
+        const before = memoryOf(daemon.pid);
+        const peers = Array.from({ length: 16 }, () => askAndStop(`/v1/assets/${id}`));
+        await until(() => peers.every((peer) => peer.statuses()[0] === 200), 'answers');
+        const more = memoryOf(daemon.pid) - before;
+        assert.ok(more < 8 * body.length, `${more} bytes`);
+        [one, ...peers].forEach((peer) => peer.close());
+    });
+
     test('HTTP connections: the last ones are answered 503, and there is room again when some leave', async () => {
         const peers = [];
         while (peers.length < 560) {
