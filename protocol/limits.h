@@ -72,6 +72,7 @@
     X(GROEBNER_LETTERS, "groebner_letters", 10, "letters", "the ring of an ideal")                 \
     X(GROEBNER_GENERATORS, "groebner_generators", 64, "polynomials", "an ideal")                   \
     X(GROEBNER_KEPT, "groebner_kept", 16, "bases", "those that are made, or were and may be read") \
+    X(GROEBNER_SHARE, "groebner_share", 4, "bases", "the same, of one client")                     \
     X(EQUATION_DEFINITIONS, "equation_definitions", 32, "definitions", "those of an equation")     \
     X(COMPILE_MS, "compile_ms", 60000, "milliseconds", "compiling a scene")                        \
     X(COMPILE_CODE_MS, "compile_code_ms", 2000, "milliseconds",                                    \

@@ -17,6 +17,7 @@ static const char *const state_names[] = {"waiting", "running", "done", "failed"
 struct basis {
     struct bases *bases;
     char id[BASIS_ID_BYTES];
+    char *client;
     struct record asked;
     enum state state;
     bool in_hands; /* of a thread, or of the tasks */
@@ -49,6 +50,7 @@ static void basis_destroy(struct basis *basis)
     free(basis->steps);
     cJSON_Delete(basis->answer);
     record_finish(&basis->asked);
+    free(basis->client);
     free(basis);
 }
 
@@ -139,15 +141,44 @@ static bool make_id(char out[BASIS_ID_BYTES], struct error *err)
     return true;
 }
 
-/* Drops the oldest one that is over where there are as many as are kept. Under the lock. */
-static bool make_room(struct bases *bases, struct error *err)
+/* The link to the oldest one that is over, of `client`; NULL: of anybody. `*out_count`: how many
+ * there are. NULL: none is over. */
+static struct basis **find_oldest(struct bases *bases, const char *client, int *out_count)
 {
     struct basis **oldest = NULL;
-    int count = 0;
+    *out_count = 0;
     for (struct basis **at = &bases->first; *at; at = &(*at)->next) {
-        oldest = (*at)->in_hands ? oldest : at;
-        count++;
+        if (!client || strcmp((*at)->client, client) == 0) {
+            oldest = (*at)->in_hands ? oldest : at;
+            ++*out_count;
+        }
     }
+    return oldest;
+}
+
+static void drop(struct basis **at)
+{
+    struct basis *over = *at;
+    *at = over->next;
+    basis_destroy(over);
+}
+
+/* Drops the oldest one that is over where there are as many as are kept, of the client or of all.
+ * Under the lock. */
+static bool make_room(struct bases *bases, const char *client, struct error *err)
+{
+    int count;
+    struct basis **oldest = find_oldest(bases, client, &count);
+    if (count >= LIMIT_GROEBNER_SHARE) {
+        if (!oldest) {
+            err->retry_ms = 1000;
+            return error_set(err, ERROR_SHARE, "",
+                             "%d bases are being made for this client (groebner_share)",
+                             LIMIT_GROEBNER_SHARE);
+        }
+        drop(oldest);
+    }
+    oldest = find_oldest(bases, NULL, &count);
     if (count < LIMIT_GROEBNER_KEPT) {
         return true;
     }
@@ -155,9 +186,7 @@ static bool make_room(struct bases *bases, struct error *err)
         return error_set(err, ERROR_UNAVAILABLE, "", "%d bases are being made (groebner_kept)",
                          LIMIT_GROEBNER_KEPT);
     }
-    struct basis *over = *oldest;
-    *oldest = over->next;
-    basis_destroy(over);
+    drop(oldest);
     return true;
 }
 
@@ -166,9 +195,10 @@ bool bases_add(struct bases *bases, const char *client, const struct record *ask
 {
     struct basis *basis = memory_alloc(1, sizeof *basis);
     basis->bases = bases;
+    basis->client = memory_text(client);
     record_copy(&basis->asked, asked);
     pthread_mutex_lock(&bases->lock);
-    bool ok = make_id(basis->id, err) && make_room(bases, err);
+    bool ok = make_id(basis->id, err) && make_room(bases, client, err);
     if (ok) {
         basis->in_hands = true;
         basis->next = bases->first;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Groebner bases that are made while the client who asked looks on. A client that knows the id may
- * look and cancel. The newest ones are kept. Any thread. */
+ * look and cancel. The newest ones are kept, of one client a quarter at most. Any thread. */
 #ifndef SERVER_BASES_H
 #define SERVER_BASES_H
 

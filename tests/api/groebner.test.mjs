@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bases over REST: begun, looked at while they are made, cancelled. No clock decides.
 import assert from 'node:assert/strict';
+import http from 'node:http';
 import { after, before, test } from 'node:test';
 import { algebraOf, isAlgebra } from '../support/algebra.mjs';
 import { startDaemon, until } from '../support/daemon.mjs';
@@ -26,6 +27,25 @@ const send = (method, path, body) =>
         method,
         ...(body && { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) }),
     });
+
+/** Asks for a short one at another address of this machine. */
+const sendFrom = (localAddress) =>
+    new Promise((done, fail) => {
+        const headers = { 'content-type': 'application/json' };
+        const request = http.request(`${daemon.url}/v1/groebner`, { method: 'POST', headers, localAddress }, (answer) => {
+            let text = '';
+            answer.on('data', (bytes) => (text += bytes));
+            answer.on('end', () => done({ status: answer.statusCode, json: JSON.parse(text) }));
+        });
+        request.on('error', fail);
+        request.end(JSON.stringify(SHORT));
+    });
+
+async function beginFrom(localAddress) {
+    const { status, json } = await sendFrom(localAddress);
+    assert.equal(status, 202);
+    return json.id;
+}
 
 async function begin(asked) {
     const response = await send('POST', '', asked);
@@ -115,11 +135,11 @@ test('sixteen are kept: those that wait before those that are over', async () =>
     await until(async () => (await look(long)).state === 'running', 'the long one');
     const waiting = [];
     while (waiting.length < 15) {
-        waiting.push(await begin(SHORT));
+        waiting.push(await beginFrom(`127.0.0.${2 + (waiting.length % 5)}`));
     }
-    const refused = await send('POST', '', SHORT);
+    const refused = await sendFrom('127.0.0.9');
     assert.equal(refused.status, 503);
-    assert.match((await refused.json()).detail, /16 bases are being made \(groebner_kept\)/);
+    assert.match(refused.json.detail, /16 bases are being made \(groebner_kept\)/);
     await send('DELETE', `/${long}`);
     for (const id of waiting) {
         assert.equal((await ended(id)).state, 'done');
@@ -128,6 +148,28 @@ test('sixteen are kept: those that wait before those that are over', async () =>
     assert.equal((await send('GET', `/${long}`)).status, 404);
     assert.equal((await ended(waiting[0])).state, 'done');
     assert.equal((await ended(next)).state, 'done');
+});
+
+test('a client has a quarter of them: it loses its own oldest, and nobody else loses any', async () => {
+    const others = await beginFrom('127.0.0.2');
+    const own = [];
+    while (own.length < 20) {
+        own.push(await begin(SHORT));
+        await ended(own.at(-1));
+    }
+    assert.equal((await ended(others)).state, 'done');
+    assert.deepEqual(
+        await Promise.all(own.map(async (id) => (await send('GET', `/${id}`)).status)),
+        own.map((_, i) => (i < 16 ? 404 : 200)),
+    );
+    const long = await begin(LONG);
+    for (let i = 0; i < 3; i++) {
+        await begin(SHORT);
+    }
+    const refused = await send('POST', '', SHORT);
+    assert.deepEqual([refused.status, refused.headers.get('retry-after')], [429, '1']);
+    assert.match((await refused.json()).detail, /4 bases are being made for this client \(groebner_share\)/);
+    await send('DELETE', `/${long}`);
 });
 
 test('it ends with the server', async () => {
