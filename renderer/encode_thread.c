@@ -6,16 +6,15 @@
 
 #include <pthread.h>
 #include <stdlib.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "patient.h"
 #include "protocol/memory.h"
 
 enum {
     SLICE_PIXELS = 1 << 16, /* encoded at a time: some 8 ms of PNG */
     FULL_BYTES = 32 << 20,
-    PATIENT_NICE = 5, /* to a thread that draws: a third of its time where both want a processor */
 };
 
 enum lane { LANE_URGENT, LANE_PATIENT, LANES };
@@ -203,10 +202,9 @@ static void *serve_urgent(void *data)
     return NULL;
 }
 
-/* Of the calling thread alone, as Linux has it. */
 static void *serve_patient(void *data)
 {
-    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + PATIENT_NICE);
+    patient_thread();
     serve(data, LANE_PATIENT);
     return NULL;
 }

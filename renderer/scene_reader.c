@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "crash.h"
+#include "patient.h"
 #include "portrait.h"
 #include "protocol/memory.h"
 #include "renderer/field/field.h"
@@ -19,6 +20,7 @@ struct scene_reader {
     pthread_cond_t change;
     struct scene_document document;
     struct opened_scene opened;
+    bool ready; /* the thread has its priority */
     bool given, done, stop;
 };
 
@@ -47,7 +49,10 @@ static void *work(void *data)
     struct scene_reader *reader = data;
 
     crash_thread(CRASH_OPENING);
+    patient_thread();
     pthread_mutex_lock(&reader->lock);
+    reader->ready = true;
+    pthread_cond_signal(&reader->change);
     while (!reader->stop) {
         if (!reader->given) {
             pthread_cond_wait(&reader->change, &reader->lock);
@@ -117,6 +122,11 @@ struct scene_reader *scene_reader_create(void)
     if (pthread_create(&reader->thread, NULL, work, reader) != 0) {
         abort();
     }
+    pthread_mutex_lock(&reader->lock);
+    while (!reader->ready) {
+        pthread_cond_wait(&reader->change, &reader->lock);
+    }
+    pthread_mutex_unlock(&reader->lock);
     return reader;
 }
 

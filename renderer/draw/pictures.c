@@ -9,6 +9,7 @@
 #include "protocol/memory.h"
 #include "renderer/crash.h"
 #include "renderer/image/decode.h"
+#include "renderer/patient.h"
 
 struct picture {
     struct asset *asset;
@@ -31,6 +32,7 @@ struct pictures {
     pthread_mutex_t lock; /* guards what follows, and the picture in it while it is read */
     pthread_cond_t change;
     struct picture *work;
+    bool ready; /* the thread has its priority */
     bool worked, stop;
 };
 
@@ -60,7 +62,10 @@ static void *work(void *data)
     struct pictures *pictures = data;
 
     crash_thread(CRASH_READING);
+    patient_thread();
     pthread_mutex_lock(&pictures->lock);
+    pictures->ready = true;
+    pthread_cond_broadcast(&pictures->change);
     while (!pictures->stop) {
         struct picture *picture = pictures->work;
 
@@ -239,6 +244,11 @@ struct pictures *pictures_create(void)
     if (pthread_create(&pictures->thread, NULL, work, pictures) != 0) {
         abort();
     }
+    pthread_mutex_lock(&pictures->lock);
+    while (!pictures->ready) {
+        pthread_cond_wait(&pictures->change, &pictures->lock);
+    }
+    pthread_mutex_unlock(&pictures->lock);
     return pictures;
 }
 

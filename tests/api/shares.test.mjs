@@ -2,6 +2,7 @@
 // Nobody waits for another's pictures: drawing time is shared by client. Counted in tiles, each of
 // which takes as long as every other, so that no clock decides.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
 import { ask, counter, sleep, standStill, startDaemon, until } from '../support/daemon.mjs';
@@ -162,6 +163,15 @@ test('a client has a quarter of the queue, and is told when to ask again', async
     gone.abort();
     await Promise.all(large);
     await until(async () => (await counter(daemon, 'render_queue')) === 0, 'the queue to empty');
+});
+
+test('threads that encode for later, read files or read documents give way to those that draw', () => {
+    const worker = daemon.worker();
+    const tasks = fs.readdirSync(`/proc/${worker}/task`);
+    // The 19th field is the priority; the second one ends with the last bracket.
+    const nice = tasks.map((task) => Number(fs.readFileSync(`/proc/${worker}/task/${task}/stat`, 'utf8').split(') ')[1].split(' ')[16]));
+    const own = nice[tasks.indexOf(String(worker))];
+    assert.equal(nice.filter((one) => one === own + 5).length, 3, `${nice}`); // 19: those of the driver
 });
 
 /** What a client at another address is told. */
