@@ -67,6 +67,8 @@
       "Thumbnails given up because something moved or nobody wanted them any more")                \
     X(THUMBNAILS_SENT, "thumbnails_sent_total", "counter", "Thumbnails sent")                      \
     X(THUMBNAIL_BYTES, "thumbnail_bytes_total", "counter", "Bytes of thumbnails sent")             \
+    X(THUMBNAIL_RESTS, "thumbnail_rests_total", "counter",                                         \
+      "Times that a session had to rest because its thumbnails took much of the front's time")     \
     X(WORKER_UP, "worker_up", "gauge", "1 while the worker is ready")                              \
     X(WORKER_FILES_CONFINED, "worker_files_confined", "gauge",                                     \
       "1 where the kernel keeps the worker from files that are not its own")                       \

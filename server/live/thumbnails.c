@@ -20,6 +20,7 @@
 
 enum {
     SLICE_US = 4000, /* of a pump */
+    PAUSE_TIMES = 3, /* what a pump took, before the next one looks */
     WAITING = 32,    /* of a session, to be sent: more might leave the cache before */
 };
 
@@ -34,6 +35,7 @@ struct thumbnails {
     uint32_t job; /* the order at the worker; 0: none */
     char key[THUMBNAIL_KEY_BYTES];
     struct session *session; /* that it is drawn for first */
+    int64_t rests_until_us;
 };
 
 struct thumbnails *thumbnails_create(void)
@@ -362,8 +364,15 @@ static struct thumbnail *find_unseen(const struct session *session)
     return waiting < WAITING ? unseen : NULL;
 }
 
-static struct session *next_in_turn(const struct hub *hub, int64_t now_ms)
+static int64_t earlier_us(int64_t a, int64_t b)
 {
+    return a && a < b ? a : b;
+}
+
+/* `*io_rest_us`: the end of the first rest of the others, where it is earlier; 0: there is none. */
+static struct session *next_in_turn(const struct hub *hub, int64_t now_ms, int64_t *io_rest_us)
+{
+    const int64_t now_us = clock_us();
     struct session *best = NULL;
 
     for (struct room *room = hub->rooms; room; room = room->next) {
@@ -371,8 +380,15 @@ static struct session *next_in_turn(const struct hub *hub, int64_t now_ms)
             continue;
         }
         for (struct session *session = room->sessions; session; session = session->next) {
-            if ((!best || session->thumbnails->turn < best->thumbnails->turn) &&
-                find_unseen(session)) {
+            const int64_t rest_us = session->thumbnails->rests_until_us;
+
+            if ((best && session->thumbnails->turn >= best->thumbnails->turn) ||
+                !find_unseen(session)) {
+                continue;
+            }
+            if (rest_us > now_us) {
+                *io_rest_us = earlier_us(*io_rest_us, rest_us);
+            } else {
                 best = session;
             }
         }
@@ -399,20 +415,46 @@ static int64_t send_all(struct hub *hub, int64_t now_ms)
     return next;
 }
 
+static void charge(struct session *session, int64_t begun_us)
+{
+    struct thumbnail_list *list = session->thumbnails;
+    const int64_t now_us = clock_us();
+    const int64_t rest_us = workload_charge(&list->work, now_us, now_us - begun_us);
+
+    list->rests_until_us = now_us + rest_us;
+    metric_add(&session->hub->metrics, METRIC_THUMBNAIL_RESTS, rest_us > 0);
+}
+
+/* Looks at parts for a slice of time. Returns when to go on (clock_us), or 0. */
+static int64_t look_in_turn(struct hub *hub, int64_t now_ms)
+{
+    struct thumbnails *all = hub->thumbnails;
+    const int64_t begun_us = clock_us();
+    int64_t at_us = begun_us, rest_us = 0;
+    struct session *session = NULL;
+
+    if (all->rests_until_us > begun_us) {
+        return all->rests_until_us;
+    }
+    while (hub->render_queue->ready && !all->job && at_us < begun_us + SLICE_US &&
+           (session = next_in_turn(hub, now_ms, &rest_us))) {
+        session->thumbnails->turn = ++all->turns;
+        look(session, find_unseen(session));
+        charge(session, at_us);
+        at_us = clock_us();
+    }
+    all->rests_until_us = at_us + PAUSE_TIMES * (at_us - begun_us);
+    return session && !all->job ? all->rests_until_us : rest_us;
+}
+
 int64_t thumbnails_pump(struct hub *hub, int64_t now_ms)
 {
     struct thumbnails *all = hub->thumbnails;
-    const int64_t end_us = clock_us() + SLICE_US;
-    struct session *session = NULL;
 
     if (all->job && (!all->session->room || rests_at(all->session->room) > now_ms)) {
         cancel(hub);
     }
-    while (hub->render_queue->ready && !all->job && (session = next_in_turn(hub, now_ms)) &&
-           clock_us() < end_us) {
-        session->thumbnails->turn = ++all->turns;
-        look(session, find_unseen(session));
-    }
+    const int64_t next_us = hub->render_queue->ready && !all->job ? look_in_turn(hub, now_ms) : 0;
     const int64_t rested = send_all(hub, now_ms);
-    return session && !all->job && hub->render_queue->ready ? now_ms : rested;
+    return next_us ? clock_earlier(rested, now_ms + (next_us - clock_us()) / 1000 + 1) : rested;
 }

@@ -10,8 +10,10 @@
  *
  * One thumbnail is drawn at a time, and none until THUMBNAIL_REST_MS after the last change of the
  * scene or of a view of it. What moves cancels the one that is being drawn. Moving pictures go
- * first; the still picture of the view is there by then, and its samples share the time. Every
- * function is called under the hub's lock. */
+ * first; the still picture of the view is there by then, and its samples share the time. Parts are
+ * printed under the lock: a session rests as long as it had them printed (workload.h), and all
+ * sessions leave the lock to others for three quarters of the time. Every function is called under
+ * the hub's lock. */
 #ifndef SERVER_THUMBNAILS_H
 #define SERVER_THUMBNAILS_H
 
@@ -24,6 +26,7 @@
 #include "protocol/error.h"
 #include "protocol/limits.h"
 #include "protocol/messages.h"
+#include "server/net/workload.h"
 
 struct hub;
 struct session;
@@ -51,6 +54,8 @@ struct thumbnail_list {
     uint32_t number; /* of the last message */
     bool unacknowledged;
     uint64_t turn; /* when it was looked at last */
+    struct workload work;
+    int64_t rests_until_us;
 };
 
 struct thumbnails *thumbnails_create(void);

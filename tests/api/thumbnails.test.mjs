@@ -248,3 +248,16 @@ test('a node with more below it than the limit has an empty picture', async () =
     assert.deepEqual(empty.sort(), ['many', 'root']);
     await live.close();
 });
+
+test('who asks for many large parts rests in between, and gets them all', async () => {
+    const CHAIN = 12;
+    let root = { id: 'leaves', type: 'union', children: Array.from({ length: 3900 }, (_, i) => ({ id: `n${i}`, type: 'sphere', visible: i === 0 })) };
+    const nodes = Array.from({ length: CHAIN }, (_, i) => (root = { id: `c${i}`, type: 'union', children: [root] }).id);
+    await ask(daemon, 'PUT', `/v1/scenes/${scene}`, { format: 'fieldcast/1', root });
+    const live = await open({ ack: true });
+    const before = await counter(daemon, 'thumbnail_rests_total');
+    live.say({ type: 'thumbnails', nodes, large: nodes });
+    await came(live, 2 * CHAIN);
+    assert.ok((await counter(daemon, 'thumbnail_rests_total')) > before);
+    await live.close();
+});
