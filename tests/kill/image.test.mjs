@@ -57,12 +57,12 @@ const draw = (document) =>
         body: JSON.stringify({ scene: document, width: 16, height: 16 }),
     });
 
-async function start(driver) {
+async function start(driver, args = []) {
     const { LD_PRELOAD, ...environment } = driverEnvironment('null');
     Object.assign(process.env, environment);
     process.env.LD_PRELOAD = driver ? `${driver} ${LD_PRELOAD}` : LD_PRELOAD;
     process.env.HOSTILE_COUNT = path.join(counts, 'processes');
-    daemon = await startDaemon({ tileMs: 5, args: ['--cache', counts] });
+    daemon = await startDaemon({ tileMs: 5, args: ['--cache', counts, ...args] });
     delete process.env.LD_PRELOAD;
     await ask(daemon, 'POST', '/v1/scenes?id=other', scene());
     viewer = await Live.open(daemon, 'other');
@@ -120,6 +120,18 @@ test('a small file of a large picture', async (t) => {
     assert.equal(await counter(daemon, 'worker_restarts_total'), restarts, 'no restart');
     // 64 MiB of halves, the sums of two rows, what the file itself takes, and as much again.
     assert.ok(most - memory < 160 * MIB, `${(most - memory) / MIB} MiB`);
+});
+
+test('a small file of a large picture, where the render process has little memory', async (t) => {
+    await start(undefined, ['--worker-memory', '64']);
+    t.after(stop);
+    const { id } = await upload(SIDE);
+    const answer = await draw(scene(id));
+    t.diagnostic(`${answer.status}, restarts: ${await counter(daemon, 'worker_restarts_total')}`);
+    assert.ok([200, 503].includes(answer.status), await answer.text());
+    assert.equal((await draw(scene())).status, 200, 'the next picture');
+    assert.equal((await fetch(`${daemon.url}/healthz`)).status, 200);
+    assert.ok((await counter(daemon, 'worker_restarts_total')) <= 2, 'the file is refused after its second try');
 });
 
 test('pictures that end whoever reads them', async (t) => {
