@@ -137,9 +137,9 @@ static void use(const struct pass *pass, const struct gl *gl, const struct dispa
                 struct pass_args args)
 {
     gl->UseProgram(pass->program);
-    gl->Uniform2i(0, dispatch->x, dispatch->y);
-    gl->Uniform1i(1, (GLint)dispatch->mode);
-    gl->Uniform1i(2, 0);
+    gl->Uniform2i(DISPATCH_LOCATION, dispatch->x, dispatch->y);
+    gl->Uniform1i(DISPATCH_LOCATION + 1, (GLint)dispatch->mode);
+    gl->Uniform1i(DISPATCH_LOCATION + 2, 0);
     for (int i = 0; i < args.count; i++) {
         gl->Uniform1i(ARGS_LOCATION + i, args.values[i]);
     }

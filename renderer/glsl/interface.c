@@ -32,7 +32,8 @@ static const struct constant kinds[] = {
 static const struct constant places[] = {
     UNIFORM_BLOCKS(CONSTANT) STORAGE_BLOCKS(CONSTANT) TEXTURE_UNITS(CONSTANT)
     FIELD_IMAGES(CONSTANT) STATIC_IMAGES(CONSTANT) SAMPLE_TEXTURES(CONSTANT)
-    CONSTANT(GROUP_SIDE) CONSTANT(GROUP_SIZE) CONSTANT(ARGS_LOCATION)
+    CONSTANT(GROUP_SIDE) CONSTANT(GROUP_SIZE)
+    CONSTANT(DISPATCH_LOCATION) CONSTANT(ARGS_LOCATION)
     {0},
 };
 
@@ -89,7 +90,7 @@ void interface_write(FILE *out)
             "%slayout(std140, binding = BINDING_FRAME) uniform Frame {\n    Camera camera;\n%s} "
             "frame;\n"
             "#define camera frame.camera\n"
-            "layout(location = 0) uniform Dispatch dispatch;\n",
+            "layout(location = DISPATCH_LOCATION) uniform Dispatch dispatch;\n",
             args, frame);
 }
 

@@ -260,7 +260,8 @@ enum {
     BLOCK_SIDE = 1 << BLOCK_BITS, /* pixels that share a start: march_pass.glsl */
     STACK_DEPTH = 8,              /* rays of a sample that wait: stack.glsl */
     SPECULAR_LEVELS = 4,          /* of roughness, in the specular map */
-    ARGS_LOCATION = 4,            /* of a pass's args; those of the dispatch begin at 0 */
+    DISPATCH_LOCATION = 0,        /* the first one of struct Dispatch, */
+    ARGS_LOCATION = 4,            /* of a pass's args */
 };
 
 struct frame_light {

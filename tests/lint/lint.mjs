@@ -50,12 +50,41 @@ function search(files, pattern, see) {
 
 // --- the layers ---
 
-// What C and GLSL have in common has a name in renderer/glsl/interface.h.
+// What C and GLSL have in common has a name in renderer/glsl/interface.h. A fragment shader has one
+// output, at location 0.
 function checkBindings(files) {
-    const own = files.filter((file) => /^renderer\/.*\.glsl$/.test(file));
-    search(own, /\b(binding|location) = \d.*\buniform\b/, ([what], file, line) => {
-        report(file, line, 'binding', `${what}: name it in renderer/glsl/interface.h`);
+    for (const file of files.filter((name) => /^renderer\/.*\.glsl$/.test(name))) {
+        const text = fs.readFileSync(path.join(root, file), 'utf8');
+        for (const { 0: what, index } of text.matchAll(/\b(binding|location)\s*=\s*\d+(?!\) out\b)(?!\d)/g)) {
+            const line = text.slice(0, index).split('\n').length;
+            report(file, line, 'binding', `${what.replace(/\s+/g, ' ')}: name it in renderer/glsl/interface.h`);
+        }
+    }
+}
+
+// The members of the interface's structs that are no vectors: [where they are read, their names].
+function scalarMembers() {
+    const file = path.join(root, 'renderer/glsl/interface.h');
+    const text = fs.existsSync(file) ? fs.readFileSync(file, 'utf8') : '';
+    const lists = [...text.matchAll(/^#define (\w+)_(MEMBERS|ARGS)\(X\)((?:.*\\\n)*.*)/gm)];
+    const places = { LIGHT: 'light|lights\\[.*?\\]', VOLUME: 'volume|volumes\\[.*?\\]' };
+    return lists.map(([, list, kind, rows]) => {
+        const pattern = kind === 'ARGS' ? /X\((\w+)\)/g : /X\((?:int|float), (\w+)\)/g;
+        const names = [...rows.matchAll(pattern)].map(([, name]) => name);
+        return [kind === 'ARGS' ? 'args' : (places[list] ?? list.toLowerCase()), names];
     });
+}
+
+// GLSL lets a number be read as a vector of one.
+function checkSwizzles(files) {
+    const own = files.filter((file) => /^renderer\/.*\.glsl$/.test(file));
+    const roots = scalarMembers().map(([place, names]) => `(?:${place})\\.(?:${names.join('|')})`);
+    if (roots.length > 0) {
+        const pattern = new RegExp(`\\b(?:${roots.join('|')})\\s*(?:\\.\\s*[xyzwrgbastpq]+\\b|\\[)`);
+        search(own, pattern, ([what], file, line) => {
+            report(file, line, 'swizzle', `${what}: the member is a number, see renderer/glsl/interface.h`);
+        });
+    }
 }
 
 // protocol/ is pure: it prints only where error.c is handed a stream.
@@ -262,6 +291,7 @@ if (checkDrawing(root, report)) {
     checkUnused(files, search, report);
 }
 checkBindings(files);
+checkSwizzles(files);
 checkPurity(files);
 checkImports(files, search, report);
 checkFunctionsC(files);
