@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +58,59 @@ static const char frame[] =
     "    Light lights[LIMIT_LIGHTS];\n"
     "    Volume volumes[LIMIT_VOLUMES];\n";
 /* clang-format on */
+
+/* --- layout --- */
+
+/* What std140 asks: a member lies at a multiple of its alignment, a struct's size and alignment are
+ * multiples of 16 bytes. C puts no bytes between members beyond those. */
+enum {
+    STD140_ROW = 16,
+    STD140_float = 4,
+    STD140_int = 4,
+    STD140_vec2 = 8,
+    STD140_ivec2 = 8,
+    STD140_vec3 = 16,
+    UNIFORM_BLOCK_BYTES = 16384 /* that every driver allows: MAX_UNIFORM_BLOCK_SIZE */
+};
+
+#define AT(owner, type, name)                                                                      \
+    _Static_assert(offsetof(struct owner, name) % STD140_##type == 0, #owner "." #name);
+#define LIGHT_AT(type, name) AT(frame_light, type, name)
+#define VOLUME_AT(type, name) AT(frame_volume, type, name)
+#define CAMERA_AT(type, name) AT(frame_camera, type, name)
+#define FRAME_AT(type, name) AT(frame_uniforms, type, name)
+#define ROWS(owner)                                                                                \
+    _Static_assert(_Alignof(struct owner) == STD140_ROW, #owner " begins with no vec3");           \
+    _Static_assert(sizeof(struct owner) % STD140_ROW == 0, #owner " does not fill its rows");
+#define COUNTED(...) +1
+#define INTEGERS(list) (sizeof(int32_t) * (0 list(COUNTED)))
+#define ARGS_FIT(owner, list)                                                                      \
+    _Static_assert(sizeof(struct owner) == INTEGERS(list), #owner " is no array of integers");
+
+/* clang-format off */
+LIGHT_MEMBERS(LIGHT_AT)
+VOLUME_MEMBERS(VOLUME_AT)
+CAMERA_MEMBERS(CAMERA_AT)
+FRAME_MEMBERS(FRAME_AT)
+ROWS(frame_light)
+ROWS(frame_volume)
+ROWS(frame_camera)
+ROWS(frame_uniforms)
+ARGS_FIT(sample_args, SAMPLE_ARGS)
+ARGS_FIT(transmission_args, TRANSMISSION_ARGS)
+ARGS_FIT(shade_args, SHADE_ARGS)
+ARGS_FIT(accumulate_args, ACCUMULATE_ARGS)
+ARGS_FIT(listing_args, LISTING_ARGS)
+ARGS_FIT(resolve_args, RESOLVE_ARGS)
+ARGS_FIT(trace_args, TRACE_ARGS)
+/* clang-format on */
+_Static_assert(offsetof(struct frame_uniforms, lights) % STD140_ROW == 0, "lights");
+_Static_assert(offsetof(struct frame_uniforms, volumes) % STD140_ROW == 0, "volumes");
+_Static_assert(sizeof(struct frame_uniforms) <= UNIFORM_BLOCK_BYTES, "too large for some drivers");
+_Static_assert(DISPATCH_LOCATION + (0 DISPATCH_MEMBERS(COUNTED)) <= ARGS_LOCATION,
+               "members of the dispatch have the locations of args");
+
+/* --- text --- */
 
 static void write_constants(FILE *out, const struct constant *rows)
 {
