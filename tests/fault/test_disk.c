@@ -88,7 +88,7 @@ static void check_life(const struct life *life, enum disk_call call, int nth, in
 }
 
 /* The ways in which a call fails take turns. */
-static void test_each_call_fails_once(void **state)
+static void each_call_fails_once(void **state)
 {
     static const int errors[DISK_CALLS_COUNT][5] = {
         [DISK_OPEN] = {EMFILE, EACCES},
@@ -141,7 +141,7 @@ static int remove_base(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_call_fails_once)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_call_fails_once)};
 
     (void)argc;
     preload(argv, "disk_driver");

@@ -131,7 +131,7 @@ static void fail_each(const char *name, int (*act)(void))
     assert_true(aborted > 0);
 }
 
-static void test_documents(void **state)
+static void documents_survive_each_failure(void **state)
 {
     (void)state;
     fail_each("parse and print", parse_and_print);
@@ -179,7 +179,7 @@ static void check_store(long nth, long count)
 }
 
 /* SQLite allocates thousands of times: of the later ones each of a few. */
-static void test_store(void **state)
+static void store_survives_each_failure(void **state)
 {
     long count;
     int lives = 0, null_fd[2];
@@ -224,8 +224,8 @@ static int clean(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_documents),
-                                       cmocka_unit_test(test_store)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(documents_survive_each_failure),
+                                       cmocka_unit_test(store_survives_each_failure)};
 
     (void)argc;
     preload(argv, "memory_driver");

@@ -79,7 +79,7 @@ static void check_moment(size_t event, const struct store_told *durable)
     }
 }
 
-static void test_what_was_told_is_there(void **state)
+static void what_was_told_is_there(void **state)
 {
     struct store_told durable = {0};
     int moments = 0, told = 0;
@@ -105,7 +105,7 @@ static void test_what_was_told_is_there(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_what_was_told_is_there)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_was_told_is_there)};
 
     (void)argc;
     preload(argv, "disk_driver");

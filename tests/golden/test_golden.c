@@ -264,7 +264,7 @@ static struct golden_verdict judge(const struct golden *golden)
     return verdict;
 }
 
-static void test_case(void **state)
+static void picture_is_as_accepted(void **state)
 {
     const struct golden *golden = *state;
     const struct golden_verdict verdict = judge(golden);
@@ -278,7 +278,7 @@ static void test_case(void **state)
 
 /* --- that the comparison can fail --- */
 
-static void test_bad_reference(void **state)
+static void bad_reference(void **state)
 {
     static const struct golden wrong = {"refused", "wrong", "refused/wrong"};
     const struct golden_verdict verdict = judge(&wrong);
@@ -288,7 +288,7 @@ static void test_bad_reference(void **state)
     assert_false(verdict.same);
 }
 
-static void test_missing_reference(void **state)
+static void missing_reference(void **state)
 {
     static const struct golden missing = {"refused", "missing", "refused/missing"};
     const struct golden_verdict verdict = judge(&missing);
@@ -299,7 +299,7 @@ static void test_missing_reference(void **state)
 }
 
 /* Every row of the registry has a picture. */
-static void test_registry_is_covered(void **state)
+static void registry_is_covered(void **state)
 {
     size_t missing = 0;
 
@@ -317,7 +317,7 @@ static void test_registry_is_covered(void **state)
     assert_int_equal(missing, 0);
 }
 
-static void test_no_case_is_lost(void **state)
+static void no_case_is_lost(void **state)
 {
     (void)state;
     assert_int_equal(case_count, CASES);
@@ -374,14 +374,15 @@ int main(int argc, char **argv)
         perror(out_dir);
         return 1;
     }
-    tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_registry_is_covered);
-    tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_no_case_is_lost);
-    tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_bad_reference);
-    tests[n++] = (struct CMUnitTest)cmocka_unit_test(test_missing_reference);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(registry_is_covered);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(no_case_is_lost);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(bad_reference);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(missing_reference);
     find_cases();
     for (size_t i = 0; i < case_count; i++) {
         if (strcmp(cases[i].group, "refused") != 0 && (!accepted() || is_accepted(&cases[i]))) {
-            tests[n++] = (struct CMUnitTest){cases[i].title, test_case, NULL, NULL, &cases[i]};
+            tests[n++] =
+                (struct CMUnitTest){cases[i].title, picture_is_as_accepted, NULL, NULL, &cases[i]};
         }
     }
     return _cmocka_run_group_tests("golden", tests, n, set_up, tear_down);

@@ -189,6 +189,14 @@ function checkEscapes(files) {
     }
 }
 
+// A test's name says what holds: `edits_are_undone`.
+function checkTests(files) {
+    const own = files.filter((file) => /^tests\/.*\.c$/.test(file));
+    search(own, /\bvoid (test_\w+)\(void \*\*\w+\)/, ([, name], file, line) => {
+        report(file, line, 'test', `${name}: a name says what holds, without test_`);
+    });
+}
+
 // `sizeof value`, `sizeof(type)`; macros may have either.
 const TYPE = '(struct|enum|union|unsigned|void|char|bool|short|int|long|float|double|type|\\w+_t|v[a-z])\\b';
 
@@ -298,6 +306,7 @@ checkFunctionsC(files);
 checkFunctionsScript(files);
 checkText(files);
 checkEscapes(files);
+checkTests(files);
 checkSizeof(files);
 checkNames(files);
 checkNamesGlsl(files);

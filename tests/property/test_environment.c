@@ -221,7 +221,7 @@ static void uniform_color(const double d[3], double rgb[3])
 /* --- tests --- */
 
 /* An environment of 1 gives 1, however it is made. */
-static void test_uniform(void **state)
+static void uniform_sky_gives_one(void **state)
 {
     struct asset *file = make_file(uniform_color, "uniform");
 
@@ -253,7 +253,7 @@ static void half_white(const double d[3], double rgb[3])
 }
 
 /* Half of the sky white: on a surface at angle a to its axis falls (1 + cos a) / 2 of all. */
-static void test_half_white(void **state)
+static void half_a_sky_lights_by_its_angle(void **state)
 {
     struct asset *file = make_file(half_white, "half");
 
@@ -298,7 +298,7 @@ static void smooth_color(const double d[3], double rgb[3])
 }
 
 /* What rough surfaces mirror is the mean over the lobe. */
-static void test_mirrored(void **state)
+static void rough_reflections_are_means_of_the_lobe(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
     struct frame_uniforms block = plain_block(SKY_IMAGE);
@@ -336,7 +336,7 @@ static void sides_color(const double d[3], double rgb[3])
     rgb[2] = d[2] > 0 ? 1 : 0.25;
 }
 
-static void test_sides(void **state)
+static void sides_lie_where_rays_look(void **state)
 {
     struct asset *file = make_file(sides_color, "sides");
 
@@ -367,7 +367,7 @@ static void test_sides(void **state)
 }
 
 /* Neither where longitudes meet nor at the poles does anything jump. */
-static void test_seams(void **state)
+static void nothing_jumps_at_seams_and_poles(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
     struct frame_uniforms block = plain_block(SKY_IMAGE);
@@ -397,7 +397,7 @@ static void test_seams(void **state)
 }
 
 /* The sun's disc is seen, and gives no light besides the directional light's own. */
-static void test_sun(void **state)
+static void disc_of_the_sun_gives_no_light(void **state)
 {
     struct frame_uniforms block = plain_block(SKY_GRADIENT);
     const struct frame_light sun = {.position = {0, 0.6f, -0.8f}, .color = {1000, 1000, 1000}};
@@ -417,7 +417,7 @@ static void test_sun(void **state)
 }
 
 /* The same surroundings are made once; a turn or a camera makes nothing anew. */
-static void test_kept(void **state)
+static void equal_environments_are_made_once(void **state)
 {
     struct asset *file = make_file(smooth_color, "smooth");
     struct frame_uniforms block = plain_block(SKY_IMAGE);
@@ -452,7 +452,7 @@ static double let_through(double density, double thinning, double base, double y
     return exp(-sum);
 }
 
-static void test_fog(void **state)
+static void fog_adds_up_along_a_ray(void **state)
 {
     struct frame_uniforms block = plain_block(SKY_SOLID);
 
@@ -482,7 +482,7 @@ static void test_fog(void **state)
 }
 
 /* Whatever is asked, the answer is a number. */
-static void test_fog_far(void **state)
+static void fog_far(void **state)
 {
     static const float heights[] = {-1e6f, -1, 0, 1, 1e6f}, slopes[] = {-1, -1e-7f, 0, 1e-7f, 1};
 
@@ -511,11 +511,15 @@ static void test_fog_far(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform),  cmocka_unit_test(test_half_white),
-        cmocka_unit_test(test_mirrored), cmocka_unit_test(test_sides),
-        cmocka_unit_test(test_seams),    cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_kept),     cmocka_unit_test(test_fog),
-        cmocka_unit_test(test_fog_far),
+        cmocka_unit_test(uniform_sky_gives_one),
+        cmocka_unit_test(half_a_sky_lights_by_its_angle),
+        cmocka_unit_test(rough_reflections_are_means_of_the_lobe),
+        cmocka_unit_test(sides_lie_where_rays_look),
+        cmocka_unit_test(nothing_jumps_at_seams_and_poles),
+        cmocka_unit_test(disc_of_the_sun_gives_no_light),
+        cmocka_unit_test(equal_environments_are_made_once),
+        cmocka_unit_test(fog_adds_up_along_a_ray),
+        cmocka_unit_test(fog_far),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

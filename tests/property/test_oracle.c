@@ -61,7 +61,7 @@ static void find_scenes(void)
     free(nodes);
 }
 
-static void test_scene(void **state)
+static void picture_agrees_with_the_oracle(void **state)
 {
     const struct drawn_scene *scene = *state;
 
@@ -109,7 +109,8 @@ int main(int argc, char **argv)
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(another_scene_is_noticed);
     find_scenes();
     for (size_t i = 0; i < scene_count; i++) {
-        tests[n++] = (struct CMUnitTest){scenes[i].path, test_scene, NULL, NULL, &scenes[i]};
+        tests[n++] = (struct CMUnitTest){scenes[i].path, picture_agrees_with_the_oracle, NULL, NULL,
+                                         &scenes[i]};
     }
     if (argc > 1) {
         cmocka_set_test_filter(argv[1]);

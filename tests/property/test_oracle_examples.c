@@ -33,7 +33,7 @@ enum { COUNT = sizeof examples / sizeof examples[0] };
 
 static struct renderer *renderer;
 
-static void test_example(void **state)
+static void example_agrees_with_the_oracle(void **state)
 {
     picture_oracle_assert(renderer, *state, EVERY, false);
 }
@@ -69,7 +69,8 @@ int main(int argc, char **argv)
 
     tests[COUNT] = (struct CMUnitTest)cmocka_unit_test(another_example_is_noticed);
     for (size_t i = 0; i < COUNT; i++) {
-        tests[i] = (struct CMUnitTest){examples[i], test_example, NULL, NULL, (void *)examples[i]};
+        tests[i] = (struct CMUnitTest){examples[i], example_agrees_with_the_oracle, NULL, NULL,
+                                       (void *)examples[i]};
     }
     if (argc > 1) {
         cmocka_set_test_filter(argv[1]);

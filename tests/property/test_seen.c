@@ -289,7 +289,7 @@ static bool is_seen_as(const struct seen_case *drawn, const struct seen_case *as
     return oracle_agrees(name, &tally, is_creased(asked) ? &creased_bounds : &smooth_bounds, wordy);
 }
 
-static void test_case(void **state)
+static void case_is_seen_as_it_says(void **state)
 {
     const struct seen_case *it = *state;
     bool good = is_seen_as(it, it, &near_view);
@@ -405,7 +405,8 @@ int main(int argc, char **argv)
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(another_scene_is_noticed);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(a_quartic_is_a_torus);
     for (size_t i = 0; i < case_count; i++) {
-        tests[n++] = (struct CMUnitTest){cases[i].name, test_case, NULL, NULL, &cases[i]};
+        tests[n++] =
+            (struct CMUnitTest){cases[i].name, case_is_seen_as_it_says, NULL, NULL, &cases[i]};
     }
     if (argc > 1) {
         cmocka_set_test_filter(argv[1]);

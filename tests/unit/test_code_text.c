@@ -51,7 +51,7 @@ static const struct {
     {"[{'op': 'remove', 'at': '/shaders/s/code'}]", NULL},
 };
 
-static void test_find(void **state)
+static void code_is_found(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(rows); i++) {
@@ -64,7 +64,7 @@ static void test_find(void **state)
     }
 }
 
-static void test_remove(void **state)
+static void code_is_removed(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(rows); i++) {
@@ -79,7 +79,7 @@ static void test_remove(void **state)
     }
 }
 
-static void test_scenes(void **state)
+static void code_of_scenes_is_found(void **state)
 {
     static const char text[] =
         DOCUMENT("'primitives': {'p': {'code': 'float sdf(vec3 p) { return 1; }'}},"
@@ -115,9 +115,9 @@ static void test_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_remove),
-        cmocka_unit_test(test_scenes),
+        cmocka_unit_test(code_is_found),
+        cmocka_unit_test(code_is_removed),
+        cmocka_unit_test(code_of_scenes_is_found),
     };
 
     cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -139,7 +139,7 @@ static const int refused[] = {
 #endif
 };
 
-static void test_calls_refused(void **state)
+static void calls_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
@@ -177,7 +177,7 @@ static int call_with(int which)
     }
 }
 
-static void test_arguments_refused(void **state)
+static void arguments_refused(void **state)
 {
     (void)state;
     for (int i = 0; i < 6; i++) {
@@ -226,7 +226,7 @@ static int move_file(int which)
     return result != 0 ? errno : 0;
 }
 
-static void test_files_refused(void **state)
+static void files_refused(void **state)
 {
     (void)state;
     for (int i = 0; i < 6; i++) {
@@ -247,7 +247,7 @@ static void *call_later(void *out)
 }
 
 /* A driver's threads are there before its calls are refused. */
-static void test_threads_before(void **state)
+static void threads_before(void **state)
 {
     int status;
     const pid_t child = fork();
@@ -323,7 +323,7 @@ static int use_machine(int data)
     return data;
 }
 
-static void test_work_goes_on(void **state)
+static void work_goes_on(void **state)
 {
     (void)state;
     assert_int_equal(confined(use_machine, 0), 0);
@@ -353,9 +353,9 @@ static int remove_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_calls_refused), cmocka_unit_test(test_arguments_refused),
-        cmocka_unit_test(test_files_refused), cmocka_unit_test(test_threads_before),
-        cmocka_unit_test(test_work_goes_on),
+        cmocka_unit_test(calls_refused), cmocka_unit_test(arguments_refused),
+        cmocka_unit_test(files_refused), cmocka_unit_test(threads_before),
+        cmocka_unit_test(work_goes_on),
     };
 
     return cmocka_run_group_tests(tests, make_files, remove_files);

@@ -106,7 +106,7 @@ static void want_pixel(const struct decoded *decoded, int x, int y, double r, do
     want_value(decoded, i, 2, b, 1e-6);
 }
 
-static void test_flat(void **state)
+static void flat_radiance_is_decoded(void **state)
 {
     static const uint8_t pixels[] = {128, 64, 0, 129, 1, 1, 1, 2, 255, 0, 8, 120, 9, 9, 9, 0};
     struct file file = radiance("-Y 1 +X 5\n");
@@ -126,7 +126,7 @@ static void test_flat(void **state)
 }
 
 /* Runs longer than 255 are counted in two bytes. */
-static void test_long_flat_run(void **state)
+static void long_flat_run(void **state)
 {
     static const uint8_t pixels[] = {128, 128, 128, 129, 1, 1, 1, 0x2b, 1, 1, 1, 1};
     struct file file = radiance("-Y 1 +X 300\n");
@@ -169,7 +169,7 @@ static struct file runs(int width, int height, uint8_t *pixels)
     return file;
 }
 
-static void test_runs(void **state)
+static void runs_of_radiance_are_decoded(void **state)
 {
     enum { WIDTH = 500, HEIGHT = 8 };
     static uint8_t pixels[4 * WIDTH * HEIGHT];
@@ -188,7 +188,7 @@ static void test_runs(void **state)
     decoded_finish(&decoded);
 }
 
-static void test_bad_radiance(void **state)
+static void bad_radiance(void **state)
 {
     static const struct {
         const char *head;
@@ -297,7 +297,7 @@ static double linear(double s)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
-static void test_png(void **state)
+static void png_is_decoded(void **state)
 {
     static const struct {
         int type, depth, channels;
@@ -329,7 +329,7 @@ static void test_png(void **state)
     }
 }
 
-static void test_png_palette(void **state)
+static void png_palette(void **state)
 {
     uint8_t bytes[SIDE * SIDE / 2];
     struct decoded decoded;
@@ -348,7 +348,7 @@ static void test_png_palette(void **state)
     decoded_finish(&decoded);
 }
 
-static void test_bad_png(void **state)
+static void bad_png(void **state)
 {
     uint8_t bytes[3 * SIDE * SIDE] = {0};
     struct file file = make_png(PNG_COLOR_TYPE_RGB, 8, false, bytes, 3 * SIDE);
@@ -392,7 +392,7 @@ static void stripes(int x, int y, uint8_t rgb[3])
 }
 
 /* Pixels are averaged two by two, three by three as their area says, and one way alone. */
-static void test_averaged(void **state)
+static void pixels_are_averaged_by_area(void **state)
 {
     static const struct {
         int width, height, out_width, out_height;
@@ -424,7 +424,7 @@ static void test_averaged(void **state)
 }
 
 /* What is stored as seven pictures is the same picture. */
-static void test_interlaced_averaged(void **state)
+static void interlaced_averaged(void **state)
 {
     struct decoded decoded[2];
 
@@ -471,7 +471,7 @@ static void mangle(const struct file *file)
     }
 }
 
-static void test_mangled(void **state)
+static void mangled_files_are_survived(void **state)
 {
     static uint8_t pixels[4 * 64 * 4], bytes[4 * SIDE * SIDE];
     struct file file = runs(64, 4, pixels);
@@ -490,16 +490,16 @@ static void test_mangled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_long_flat_run),
-        cmocka_unit_test(test_runs),
-        cmocka_unit_test(test_bad_radiance),
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_png_palette),
-        cmocka_unit_test(test_bad_png),
-        cmocka_unit_test(test_averaged),
-        cmocka_unit_test(test_interlaced_averaged),
-        cmocka_unit_test(test_mangled),
+        cmocka_unit_test(flat_radiance_is_decoded),
+        cmocka_unit_test(long_flat_run),
+        cmocka_unit_test(runs_of_radiance_are_decoded),
+        cmocka_unit_test(bad_radiance),
+        cmocka_unit_test(png_is_decoded),
+        cmocka_unit_test(png_palette),
+        cmocka_unit_test(bad_png),
+        cmocka_unit_test(pixels_are_averaged_by_area),
+        cmocka_unit_test(interlaced_averaged),
+        cmocka_unit_test(mangled_files_are_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

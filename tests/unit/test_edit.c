@@ -40,7 +40,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-static void test_set_values(void **state)
+static void set_values(void **state)
 {
     (void)state;
     edits_assert(scene, "[{'op':'set','at':'/nodes/body/params/radius','value':1.2}]", NULL,
@@ -67,7 +67,7 @@ static void test_set_values(void **state)
                  NULL, NULL);
 }
 
-static void test_set_whole_records(void **state)
+static void set_whole_records(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -82,7 +82,7 @@ static void test_set_whole_records(void **state)
                  "[{'op':'set','at':'/render','value':{}}]", NULL);
 }
 
-static void test_types_keep_what_fits(void **state)
+static void types_keep_what_fits(void **state)
 {
     (void)state;
     edits_assert(scene, "[{'op':'set','at':'/nodes/body/type','value':'cylinder'}]", NULL,
@@ -98,7 +98,7 @@ static void test_types_keep_what_fits(void **state)
     cJSON_Delete(ops);
 }
 
-static void test_nodes_come_and_go(void **state)
+static void nodes_come_and_go(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -125,7 +125,7 @@ static void test_nodes_come_and_go(void **state)
                  NULL, NULL);
 }
 
-static void test_resources_come_and_go(void **state)
+static void resources_come_and_go(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -153,7 +153,7 @@ static void test_resources_come_and_go(void **state)
                  NULL);
 }
 
-static void test_all_or_none(void **state)
+static void all_or_none(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
@@ -175,7 +175,7 @@ static void test_all_or_none(void **state)
     cJSON_Delete(ops);
 }
 
-static void test_some_leaves_out_what_is_gone(void **state)
+static void some_leaves_out_what_is_gone(void **state)
 {
     (void)state;
     cJSON *ops = edits_parse("[{'op':'set','at':'/nodes/nobody/params/radius','value':1},"
@@ -191,7 +191,7 @@ static void test_some_leaves_out_what_is_gone(void **state)
     cJSON_Delete(ops);
 }
 
-static void test_ids_are_not_used_again(void **state)
+static void ids_are_not_used_again(void **state)
 {
     (void)state;
     cJSON *ops = edits_parse("[{'op':'insert','into':'/nodes/root','value':{'type':'box'}},"
@@ -221,7 +221,7 @@ static void insert_chain(const char *into, int levels, bool ok)
     cJSON_Delete(ops);
 }
 
-static void test_depth_holds_in_edits(void **state)
+static void depth_holds_in_edits(void **state)
 {
     (void)state;
     insert_chain("/nodes/root", LIMIT_NODE_DEPTH, false);
@@ -249,7 +249,7 @@ static cJSON *many_inserts(int count, const char *into)
     return ops;
 }
 
-static void test_counts_hold_in_edits(void **state)
+static void counts_hold_in_edits(void **state)
 {
     (void)state;
     cJSON *ops = many_inserts(LIMIT_OPERATIONS, "/nodes/head");
@@ -278,7 +278,7 @@ static size_t weight_of(const char *text, size_t most)
     return weight;
 }
 
-static void test_weight_of_one_operation(void **state)
+static void weight_of_one_operation(void **state)
 {
     (void)state;
     assert_int_equal(weight_of("[{'op':'set','at':'/nodes/body/params/radius','value':2}]", 99), 2);
@@ -299,7 +299,7 @@ static void test_weight_of_one_operation(void **state)
 }
 
 /* What is removed together with a new group was moved there. */
-static void test_weight_counts_what_is_moved(void **state)
+static void weight_counts_what_is_moved(void **state)
 {
     (void)state;
     assert_int_equal(weight_of("[{'op':'insert','into':'/nodes/root','value':{'id':'bin',"
@@ -310,7 +310,7 @@ static void test_weight_counts_what_is_moved(void **state)
                      3 + 3 + 3);
 }
 
-static void test_weight_stops_at_most(void **state)
+static void weight_stops_at_most(void **state)
 {
     (void)state;
     cJSON *ops = many_inserts(LIMIT_OPERATIONS, "/nodes/head");
@@ -322,19 +322,19 @@ static void test_weight_stops_at_most(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_set_values, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_set_whole_records, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_types_keep_what_fits, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_nodes_come_and_go, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_resources_come_and_go, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_all_or_none, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_some_leaves_out_what_is_gone, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_ids_are_not_used_again, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_depth_holds_in_edits, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_counts_hold_in_edits, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_weight_of_one_operation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_weight_counts_what_is_moved, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_weight_stops_at_most, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(set_values, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(set_whole_records, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(types_keep_what_fits, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(nodes_come_and_go, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(resources_come_and_go, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(all_or_none, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(some_leaves_out_what_is_gone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(ids_are_not_used_again, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(depth_holds_in_edits, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(weight_of_one_operation, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(weight_counts_what_is_moved, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(weight_stops_at_most, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("edit", tests, NULL, NULL);
 }

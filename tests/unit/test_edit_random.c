@@ -171,7 +171,7 @@ static bool try_edit(struct edited *edited, struct random *random)
 
 /* An edit and its inverse leave the document byte for byte as it was; a refused edit changes
  * nothing; the canonical form does what the edit did. */
-static void test_random_edits_have_exact_inverses(void **state)
+static void random_edits_have_exact_inverses(void **state)
 {
     (void)state;
     int accepted = 0, refused = 0;
@@ -200,7 +200,7 @@ static void test_random_edits_have_exact_inverses(void **state)
 }
 
 /* Edits with damaged texts: refused without a trace, or applied and taken back. */
-static void test_damaged_edits(void **state)
+static void damaged_edits(void **state)
 {
     (void)state;
     struct random random = {5};
@@ -240,8 +240,8 @@ static void test_damaged_edits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_edits_have_exact_inverses),
-        cmocka_unit_test(test_damaged_edits),
+        cmocka_unit_test(random_edits_have_exact_inverses),
+        cmocka_unit_test(damaged_edits),
     };
     return cmocka_run_group_tests_name("edit_random", tests, NULL, NULL);
 }

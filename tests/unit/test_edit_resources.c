@@ -53,7 +53,7 @@ static void assert_number(const char *id, const char *param, double expected)
     assert_float_equal(record_number(&scene_find(scene, id)->params, param), expected, 0);
 }
 
-static void test_values_of_resources(void **state)
+static void values_of_resources(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -82,7 +82,7 @@ static void test_values_of_resources(void **state)
 }
 
 /* Values go over by name; what does not fit is lost, and comes back. */
-static void test_rows_convert_their_users(void **state)
+static void rows_convert_their_users(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -117,7 +117,7 @@ static void test_rows_convert_their_users(void **state)
                        "{'name':'code','type':'float'}]}]");
 }
 
-static void test_other_primitives(void **state)
+static void other_primitives(void **state)
 {
     (void)state;
     edits_assert(scene, "[{'op':'set','at':'/nodes/f/params/primitive','value':'egg'}]", NULL,
@@ -147,7 +147,7 @@ static void test_other_primitives(void **state)
                        ERROR_INVALID, "/nodes/g/params/primitive", "there is no primitive \"rod\"");
 }
 
-static void test_other_shaders(void **state)
+static void other_shaders(void **state)
 {
     (void)state;
     edits_assert(scene, "[{'op':'set','at':'/materials/veined/shader','value':'phong'}]", NULL,
@@ -164,7 +164,7 @@ static void test_other_shaders(void **state)
                        "unknown shader \"spore\"; did you mean \"spare\"?");
 }
 
-static void test_primitives_and_models_come_and_go(void **state)
+static void primitives_and_models_come_and_go(void **state)
 {
     (void)state;
     edits_assert(scene,
@@ -203,7 +203,7 @@ static void test_primitives_and_models_come_and_go(void **state)
                  NULL, NULL);
 }
 
-static void test_what_is_used_stays(void **state)
+static void what_is_used_stays(void **state)
 {
     (void)state;
     edits_assert_fails(scene, "[{'op':'remove','at':'/primitives/rod'}]", ERROR_CONFLICT,
@@ -230,7 +230,7 @@ static void test_what_is_used_stays(void **state)
 }
 
 /* By each operation that could close one. */
-static void test_no_circles(void **state)
+static void no_circles(void **state)
 {
     (void)state;
     static const char circle[] = "models in a circle: /models/pawn -> /models/pair -> /models/pawn";
@@ -257,7 +257,7 @@ static void test_no_circles(void **state)
 }
 
 /* As many as allowed, and one more. */
-static void test_counts_hold_in_edits(void **state)
+static void counts_hold_in_edits(void **state)
 {
     (void)state;
     static const struct {
@@ -285,14 +285,14 @@ static void test_counts_hold_in_edits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_values_of_resources, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_rows_convert_their_users, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_other_primitives, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_other_shaders, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_primitives_and_models_come_and_go, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_what_is_used_stays, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_no_circles, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_counts_hold_in_edits, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(values_of_resources, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(rows_convert_their_users, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_primitives, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_shaders, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(primitives_and_models_come_and_go, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_is_used_stays, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(no_circles, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(counts_hold_in_edits, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("edit_resources", tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static struct encoding *take(void)
     return encoding;
 }
 
-static void test_turns(void **state)
+static void encodings_take_turns(void **state)
 {
     const struct encode_params params[] = {{.format = CODEC_PNG}, {.format = CODEC_JPEG}};
     struct image images[] = {make_image(WIDTH, HEIGHT, 1), make_image(WIDTH, HEIGHT, 2)};
@@ -134,7 +134,7 @@ static void test_turns(void **state)
     }
 }
 
-static void test_failure(void **state)
+static void failures_are_reported(void **state)
 {
     const struct encode_params params = {.format = CODEC_PNG, .limit_bytes = 5000};
     struct image image = make_image(WIDTH, HEIGHT, 3);
@@ -150,7 +150,7 @@ static void test_failure(void **state)
     image_finish(&image);
 }
 
-static void test_given_up(void **state)
+static void given_up(void **state)
 {
     struct image image = make_image(WIDTH, HEIGHT, 4);
     struct encoding *encoding = begin(&image, &(struct encode_params){.format = CODEC_PNG}), *back;
@@ -167,7 +167,7 @@ static void test_given_up(void **state)
 }
 
 /* So many rows at once that they are encoded in several goes. */
-static void test_full(void **state)
+static void full_queues_are_encoded_in_parts(void **state)
 {
     const struct encode_params params = {.format = CODEC_PNG, .fast = true};
     struct image image = make_image(4096, 2560, 5); /* 40 MiB */
@@ -247,7 +247,7 @@ static void close_slow(void *state)
 static const struct stream_class slow_stream = {open_slow, begin_slow, add_slow, end_slow,
                                                 close_slow};
 
-static void test_urgent(void **state)
+static void urgent_encodings_come_first(void **state)
 {
     const struct encode_params params = {.format = CODEC_JPEG};
     struct image image = make_image(WIDTH, HEIGHT, 7), shapes[AOV_COUNT] = {[AOV_COLOR] = image};
@@ -278,7 +278,7 @@ static void test_urgent(void **state)
     image_finish(&image);
 }
 
-static void test_left_behind(void **state)
+static void left_behind(void **state)
 {
     struct image image = make_image(WIDTH, HEIGHT, 6);
 
@@ -290,12 +290,12 @@ static void test_left_behind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_turns, start, stop),
-        cmocka_unit_test_setup_teardown(test_failure, start, stop),
-        cmocka_unit_test_setup_teardown(test_given_up, start, stop),
-        cmocka_unit_test_setup_teardown(test_full, start, stop),
-        cmocka_unit_test_setup_teardown(test_urgent, start, stop),
-        cmocka_unit_test_setup_teardown(test_left_behind, start, stop),
+        cmocka_unit_test_setup_teardown(encodings_take_turns, start, stop),
+        cmocka_unit_test_setup_teardown(failures_are_reported, start, stop),
+        cmocka_unit_test_setup_teardown(given_up, start, stop),
+        cmocka_unit_test_setup_teardown(full_queues_are_encoded_in_parts, start, stop),
+        cmocka_unit_test_setup_teardown(urgent_encodings_come_first, start, stop),
+        cmocka_unit_test_setup_teardown(left_behind, start, stop),
     };
 
     return cmocka_run_group_tests_name("encode_thread", tests, NULL, NULL);

@@ -222,7 +222,7 @@ static void measure(size_t count, double least[KINDS])
     free(text);
 }
 
-static void test_sixteen_times_as_much(void **state)
+static void sixteen_times_as_much(void **state)
 {
     (void)state;
     double few[KINDS] = {0}, many[KINDS] = {0};
@@ -241,6 +241,6 @@ static void test_sixteen_times_as_much(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sixteen_times_as_much)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sixteen_times_as_much)};
     return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
 }

@@ -162,7 +162,7 @@ static uint32_t number_of(const struct field *field, const char *id)
 
 static const float nowhere[PIXELS] = {0};
 
-static void test_round_trip(void **state)
+static void round_trip(void **state)
 {
     static const char *const ids[] = {"", "ring", "ball", "box", "box", ""};
     struct field *field = make_field();
@@ -189,7 +189,7 @@ static void test_round_trip(void **state)
 }
 
 /* Of what is no leaf, such as the floor. */
-static void test_unknown_numbers(void **state)
+static void unknown_numbers(void **state)
 {
     struct field *field = make_field();
     struct stream_encoder *stream = stream_encoder_open(&guide_stream, field);
@@ -223,7 +223,7 @@ static void assert_distances(const struct told *told, const float *distances)
     }
 }
 
-static void test_depths(void **state)
+static void depths_come_back_within_a_step(void **state)
 {
     struct field *field = make_field();
     struct stream_encoder *stream = stream_encoder_open(&guide_stream, field);
@@ -251,7 +251,7 @@ static void test_depths(void **state)
 }
 
 /* Nothing, one distance alone, and an eye that is within something. */
-static void test_odd_depths(void **state)
+static void odd_depths(void **state)
 {
     struct field *field = make_field();
     struct stream_encoder *stream = stream_encoder_open(&guide_stream, field);
@@ -279,7 +279,7 @@ static void test_odd_depths(void **state)
     field_unref(field);
 }
 
-static void test_needs_ids_and_distances(void **state)
+static void needs_ids_and_distances(void **state)
 {
     const struct image ids = {WIDTH, HEIGHT, 1, PIXEL_UINT32, NULL, 0};
     const struct image distances = {WIDTH, HEIGHT, 1, PIXEL_FLOAT, NULL, 0};
@@ -302,11 +302,11 @@ static void test_needs_ids_and_distances(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_unknown_numbers),
-        cmocka_unit_test(test_depths),
-        cmocka_unit_test(test_odd_depths),
-        cmocka_unit_test(test_needs_ids_and_distances),
+        cmocka_unit_test(round_trip),
+        cmocka_unit_test(unknown_numbers),
+        cmocka_unit_test(depths_come_back_within_a_step),
+        cmocka_unit_test(odd_depths),
+        cmocka_unit_test(needs_ids_and_distances),
     };
     return cmocka_run_group_tests_name("guide", tests, NULL, NULL);
 }

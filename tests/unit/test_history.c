@@ -92,7 +92,7 @@ static void assert_depth(const char *author, size_t undo_steps, size_t redo_step
     assert_int_equal(redos, redo_steps);
 }
 
-static void test_nothing_to_undo(void **state)
+static void nothing_to_undo(void **state)
 {
     (void)state;
     assert_false(undo("anna"));
@@ -101,7 +101,7 @@ static void test_nothing_to_undo(void **state)
     assert_depth("anna", 0, 0);
 }
 
-static void test_a_group_is_one_step(void **state)
+static void a_group_is_one_step(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
@@ -121,7 +121,7 @@ static void test_a_group_is_one_step(void **state)
     free(after);
 }
 
-static void test_other_groups_and_no_group_are_steps(void **state)
+static void other_groups_and_no_group_are_steps(void **state)
 {
     (void)state;
     set_radius("anna", "one", "body", 2);
@@ -138,7 +138,7 @@ static void test_other_groups_and_no_group_are_steps(void **state)
     assert_depth("anna", 4, 0);
 }
 
-static void test_authors_undo_their_own(void **state)
+static void authors_undo_their_own(void **state)
 {
     (void)state;
     set_radius("anna", "", "body", 2);
@@ -151,7 +151,7 @@ static void test_authors_undo_their_own(void **state)
     assert_float_equal(radius_of("head"), 0.5, 0);
 }
 
-static void test_what_others_removed_is_skipped(void **state)
+static void what_others_removed_is_skipped(void **state)
 {
     (void)state;
     set_radius("anna", "", "head", 2);
@@ -165,7 +165,7 @@ static void test_what_others_removed_is_skipped(void **state)
     assert_float_equal(radius_of("body"), 3, 0);
 }
 
-static void test_newer_values_of_others_are_left_alone(void **state)
+static void newer_values_of_others_are_left_alone(void **state)
 {
     (void)state;
     struct history_move move;
@@ -182,7 +182,7 @@ static void test_newer_values_of_others_are_left_alone(void **state)
     assert_float_equal(radius_of("body"), 0.4, 0);
 }
 
-static void test_the_rest_of_such_a_step_is_undone(void **state)
+static void the_rest_of_such_a_step_is_undone(void **state)
 {
     (void)state;
     struct history_move move;
@@ -201,7 +201,7 @@ static void test_the_rest_of_such_a_step_is_undone(void **state)
     assert_float_equal(radius_of("head"), 0.3, 0);
 }
 
-static void test_a_value_that_was_put_back_is_no_conflict(void **state)
+static void a_value_that_was_put_back_is_no_conflict(void **state)
 {
     (void)state;
     set_radius("bert", "", "body", 0.4);
@@ -215,7 +215,7 @@ static void test_a_value_that_was_put_back_is_no_conflict(void **state)
 }
 
 /* Dropping an older value would here leave the material in use when its insertion is undone. */
-static void test_groups_with_more_than_values_keep_all(void **state)
+static void groups_with_more_than_values_keep_all(void **state)
 {
     (void)state;
     char *before = scene_print(scene, false);
@@ -235,7 +235,7 @@ static void test_groups_with_more_than_values_keep_all(void **state)
 
 /* Of several sets of one place only the oldest counts: but not where another value was possible
  * only in between. Each list is one group; undone, it gives back the first byte. */
-static void test_groups_keep_what_values_depend_on(void **state)
+static void groups_keep_what_values_depend_on(void **state)
 {
     (void)state;
     static const char text[] = "{'format':'fieldcast/1','primitives':{"
@@ -273,7 +273,7 @@ static void test_groups_keep_what_values_depend_on(void **state)
     }
 }
 
-static void test_steps_are_bounded(void **state)
+static void steps_are_bounded(void **state)
 {
     (void)state;
     for (int i = 0; i < LIMIT_UNDO_GROUPS + 10; i++) {
@@ -286,7 +286,7 @@ static void test_steps_are_bounded(void **state)
     assert_depth("anna", 0, LIMIT_UNDO_GROUPS);
 }
 
-static void test_authors_are_bounded(void **state)
+static void authors_are_bounded(void **state)
 {
     (void)state;
     for (int i = 0; i <= LIMIT_SESSIONS; i++) {
@@ -422,7 +422,7 @@ static void assert_same_steps(struct history *a, struct history *b, const char *
     }
 }
 
-static void test_a_log_gives_back_the_steps(void **state)
+static void a_log_gives_back_the_steps(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 60; seed++) {
@@ -461,7 +461,7 @@ static void random_step(struct random *random, struct scene *wild, struct histor
 }
 
 /* Whatever two authors did, n undos of one and as many redos give back every byte. */
-static void test_undos_and_redos_cancel(void **state)
+static void undos_and_redos_cancel(void **state)
 {
     (void)state;
     size_t total = 0;
@@ -499,7 +499,7 @@ static void test_undos_and_redos_cancel(void **state)
 }
 
 /* One author alone gets back to the first byte, whatever the groups. */
-static void test_undoing_everything_gives_the_beginning(void **state)
+static void undoing_everything_gives_the_beginning(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 150; seed++) {
@@ -535,25 +535,22 @@ static void test_undoing_everything_gives_the_beginning(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_nothing_to_undo, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_a_group_is_one_step, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_other_groups_and_no_group_are_steps, set_up,
+        cmocka_unit_test_setup_teardown(nothing_to_undo, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_group_is_one_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_groups_and_no_group_are_steps, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(authors_undo_their_own, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_others_removed_is_skipped, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(newer_values_of_others_are_left_alone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_rest_of_such_a_step_is_undone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_value_that_was_put_back_is_no_conflict, set_up,
                                         tear_down),
-        cmocka_unit_test_setup_teardown(test_authors_undo_their_own, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_what_others_removed_is_skipped, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_newer_values_of_others_are_left_alone, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(test_the_rest_of_such_a_step_is_undone, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_a_value_that_was_put_back_is_no_conflict, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(test_groups_with_more_than_values_keep_all, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(test_groups_keep_what_values_depend_on, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_steps_are_bounded, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_authors_are_bounded, set_up, tear_down),
-        cmocka_unit_test(test_undos_and_redos_cancel),
-        cmocka_unit_test(test_a_log_gives_back_the_steps),
-        cmocka_unit_test(test_undoing_everything_gives_the_beginning),
+        cmocka_unit_test_setup_teardown(groups_with_more_than_values_keep_all, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(groups_keep_what_values_depend_on, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(steps_are_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(authors_are_bounded, set_up, tear_down),
+        cmocka_unit_test(undos_and_redos_cancel),
+        cmocka_unit_test(a_log_gives_back_the_steps),
+        cmocka_unit_test(undoing_everything_gives_the_beginning),
     };
     return cmocka_run_group_tests_name("history", tests, NULL, NULL);
 }

@@ -75,7 +75,7 @@ static void check_png(uint8_t alpha, bool fast, int color_type)
     image_finish(&image);
 }
 
-static void test_png(void **state)
+static void png_is_read_back(void **state)
 {
     (void)state;
     check_png(255, false, 2);
@@ -83,7 +83,7 @@ static void test_png(void **state)
     check_png(77, false, 6);
 }
 
-static void test_png_gray(void **state)
+static void png_gray(void **state)
 {
     struct image image = make_image(PIXEL_GRAY16, 1, 2);
     uint16_t *from = image.pixels;
@@ -104,7 +104,7 @@ static void test_png_gray(void **state)
     image_finish(&image);
 }
 
-static void test_jpeg(void **state)
+static void jpeg_is_read_back(void **state)
 {
     struct image image = make_colors(255);
     uint8_t *pixels = memory_alloc(image.bytes, 1);
@@ -154,7 +154,7 @@ static void check_npy(enum pixel_format format, int channels, const char *header
     image_finish(&image);
 }
 
-static void test_npy(void **state)
+static void npy_is_read_back(void **state)
 {
     (void)state;
     check_npy(PIXEL_FLOAT, 4, "{'descr': '<f4', 'fortran_order': False, 'shape': (21, 37, 4), }");
@@ -205,7 +205,7 @@ static void check_hdr(const struct image *image)
     free(bytes);
 }
 
-static void test_hdr(void **state)
+static void hdr_is_read_back(void **state)
 {
     struct image image = make_light();
 
@@ -271,7 +271,7 @@ static void check_rows(const struct image *image, struct encode_params params)
 }
 
 /* Where a picture is cut does not show in its file. */
-static void test_rows(void **state)
+static void cuts_between_rows_do_not_show(void **state)
 {
     struct image colors = make_colors(255), clear = make_colors(9);
     struct image floats = make_image(PIXEL_FLOAT, 3, 12), light = make_light();
@@ -299,7 +299,7 @@ static void check_member(const uint8_t *zip, size_t length, const char *name, co
     assert_non_null(memmem(at, length - (size_t)(at - zip), bytes, count));
 }
 
-static void test_zip(void **state)
+static void zip_holds_all_images(void **state)
 {
     struct image images[AOV_COUNT] = {
         [AOV_COLOR] = make_colors(255), [AOV_NORMAL] = make_colors(255)};
@@ -327,7 +327,7 @@ static void test_zip(void **state)
     free(again);
 }
 
-static void test_length_limit(void **state)
+static void length_limit(void **state)
 {
     struct image images[AOV_COUNT] = {[AOV_COLOR] = make_image(PIXEL_FLOAT, 4, 16)};
     struct image colors[AOV_COUNT] = {[AOV_COLOR] = make_colors(255)};
@@ -355,7 +355,7 @@ static void test_length_limit(void **state)
     image_finish(&colors[AOV_COLOR]);
 }
 
-static void test_refusals(void **state)
+static void impossible_formats_are_refused(void **state)
 {
     struct image floats = make_image(PIXEL_FLOAT, 4, 16);
     struct image colors = make_colors(255), clear = make_colors(9);
@@ -384,7 +384,7 @@ static void test_refusals(void **state)
     image_finish(&colors);
 }
 
-static void test_names(void **state)
+static void names_of_formats_are_found(void **state)
 {
     (void)state;
     assert_int_equal(codec_find("png"), CODEC_PNG);
@@ -431,7 +431,7 @@ static void check_no_outputs(const char *text, const char *message)
     assert_string_equal(err.message, message);
 }
 
-static void test_outputs(void **state)
+static void outputs_are_read_from_text(void **state)
 {
     static const char all[] =
         "color,depth,normal,position,id,steps,albedo,specular,optical,shadow,occlusion";
@@ -455,12 +455,17 @@ static void test_outputs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),      cmocka_unit_test(test_png_gray),
-        cmocka_unit_test(test_jpeg),     cmocka_unit_test(test_npy),
-        cmocka_unit_test(test_hdr),      cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_zip),      cmocka_unit_test(test_length_limit),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_names),
-        cmocka_unit_test(test_outputs),
+        cmocka_unit_test(png_is_read_back),
+        cmocka_unit_test(png_gray),
+        cmocka_unit_test(jpeg_is_read_back),
+        cmocka_unit_test(npy_is_read_back),
+        cmocka_unit_test(hdr_is_read_back),
+        cmocka_unit_test(cuts_between_rows_do_not_show),
+        cmocka_unit_test(zip_holds_all_images),
+        cmocka_unit_test(length_limit),
+        cmocka_unit_test(impossible_formats_are_refused),
+        cmocka_unit_test(names_of_formats_are_found),
+        cmocka_unit_test(outputs_are_read_from_text),
     };
 
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);

@@ -119,7 +119,7 @@ static void check_spheres(const struct scene *scene)
     assert_true(distance(scene, -0.5, 1.3, 0) > 0);
 }
 
-static void test_scene_as_printed(void **state)
+static void scene_as_printed(void **state)
 {
     struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
 
@@ -134,7 +134,7 @@ static void test_scene_as_printed(void **state)
     scene_destroy(scene);
 }
 
-static void test_scene_of_the_draft(void **state)
+static void scene_of_the_draft(void **state)
 {
     struct scene *scene = import_with(SCENES "draft.json");
 
@@ -144,7 +144,7 @@ static void test_scene_of_the_draft(void **state)
     scene_destroy(scene);
 }
 
-static void test_materials(void **state)
+static void materials_are_imported(void **state)
 {
     struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
     const struct resource *shader = resource_find(&scene->shaders, "Blend-Shader");
@@ -172,7 +172,7 @@ static void test_materials(void **state)
     scene_destroy(scene);
 }
 
-static void test_primitives(void **state)
+static void primitives_are_imported(void **state)
 {
     struct scene *scene = import_with(SCENES "prisms.json");
     const struct resource *prism = resource_find(&scene->primitives, "HexPrism");
@@ -207,7 +207,7 @@ static void check_seen(const struct scene *scene, const double p[3])
     assert_true(along / sqrt(length * reach) >= cos(half) - 1e-9);
 }
 
-static void test_camera_and_light(void **state)
+static void camera_and_light(void **state)
 {
     struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
 
@@ -221,7 +221,7 @@ static void test_camera_and_light(void **state)
 }
 
 /* A listing by itself is worth a look. */
-static void test_without_a_scene(void **state)
+static void without_a_scene(void **state)
 {
     for (size_t i = 0; i < COUNT(listings); i++) {
         struct import_file files[COUNT(listings)];
@@ -253,7 +253,7 @@ static void test_without_a_scene(void **state)
     (void)state;
 }
 
-static void test_side_by_side(void **state)
+static void side_by_side(void **state)
 {
     struct scene *scene =
         import_texts("a.json", "{'model': {'type': 'Primitives/Sphere', 'data': [2]}}", "b.json",
@@ -271,7 +271,7 @@ static void test_side_by_side(void **state)
 
 #define ONE_NODE(node) "{'scene': [" node "]}"
 
-static void test_built_in_types(void **state)
+static void built_in_types(void **state)
 {
     static const struct {
         const char *type, *data;
@@ -294,7 +294,7 @@ static void test_built_in_types(void **state)
     }
 }
 
-static void test_operations(void **state)
+static void operations_are_imported(void **state)
 {
     static const char *const rows[][2] = {
         {"Union", "union"},
@@ -348,7 +348,7 @@ static const char *group_of(const struct node_type *type)
 }
 
 /* Without data each is as the registry makes it; a file's own names are Models and the rest. */
-static void test_every_type_has_a_name(void **state)
+static void every_type_has_a_name(void **state)
 {
     size_t named = 0;
     char text[256], name[64];
@@ -391,7 +391,7 @@ static const struct node *first_node(struct scene **out, const char *node)
 
 /* Numbers in the order of the row: vectors as their parts, switches as 0 and 1, a choice by its
  * place, points as pairs. What is not reached keeps its default. */
-static void test_data_in_order(void **state)
+static void data_in_order(void **state)
 {
     static const struct {
         const char *node, *params;
@@ -430,7 +430,7 @@ static void test_data_in_order(void **state)
 }
 
 /* The thesis' prism has the name of ours. */
-static void test_files_come_first(void **state)
+static void files_come_first(void **state)
 {
     static const char prism[] = "{'name': 'HexPrism', 'id': 40,"
                                 " 'code': 'float sdf(vec3 p) { return length(p) - 1.0; }'}";
@@ -444,7 +444,7 @@ static void test_files_come_first(void **state)
 }
 
 /* The camera is far enough away for what is larger than a ball of 1. */
-static void test_camera_sees_built_in_types(void **state)
+static void camera_sees_built_in_types(void **state)
 {
     struct scene *scene;
 
@@ -461,7 +461,7 @@ static void test_camera_sees_built_in_types(void **state)
 }
 
 /* Code of the thesis says each property once more, with the type of its annotation. */
-static void test_properties_of_every_type(void **state)
+static void properties_of_every_type(void **state)
 {
     static const char shader[] =
         "{'name': 'Pos', 'properties': ['[float] _F', '[float2] _F2', '[float3] _F3',"
@@ -493,7 +493,7 @@ static void test_properties_of_every_type(void **state)
 }
 
 /* What a document cannot hold of a name is replaced; it reads back. */
-static void test_names_that_are_no_text(void **state)
+static void names_that_are_no_text(void **state)
 {
     static const char model[] = "{'model': {'type': 'Primitives/Sphere'}}";
     static const char *const paths[] = {"sc\xe9ne.json",
@@ -522,7 +522,7 @@ static void test_names_that_are_no_text(void **state)
 }
 
 /* Colours go into the picture as the shader gives them. */
-static void test_colours_are_kept(void **state)
+static void colours_are_kept(void **state)
 {
     struct scene *scene = import_with(LISTINGS "scenes/Cena1.json");
 
@@ -532,7 +532,7 @@ static void test_colours_are_kept(void **state)
 }
 
 /* Printed there: Rx and Ry with the signs of a turn the other way, Rz as ours. */
-static void test_rotation(void **state)
+static void rotations_are_imported(void **state)
 {
     static const struct {
         const char *axis;
@@ -554,7 +554,7 @@ static void test_rotation(void **state)
     }
 }
 
-static void test_ids(void **state)
+static void ids_are_made_of_names(void **state)
 {
     static const char material[] = "{'base_shader': 'phong'}";
     static const char shader[] =
@@ -578,7 +578,7 @@ static void test_ids(void **state)
     scene_destroy(scene);
 }
 
-static void test_commas_and_line_breaks(void **state)
+static void commas_and_line_breaks(void **state)
 {
     struct scene *scene = import_texts(
         "s.json",
@@ -669,7 +669,7 @@ static const struct {
     {"{'base_shader': 'x'}", 1, 17, "no file has the shader \"x\""},
 };
 
-static void test_refused(void **state)
+static void faulty_files_are_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(refused); i++) {
@@ -684,7 +684,7 @@ static void test_refused(void **state)
     }
 }
 
-static void test_refused_materials(void **state)
+static void refused_materials(void **state)
 {
     static const char shader[] = "{'name': 'S', 'properties': ['[float] [Range(0, 1)] _A',"
                                  " '[float3] _B'], 'code': ''}";
@@ -716,7 +716,7 @@ static void test_refused_materials(void **state)
     }
 }
 
-static void test_ambiguous(void **state)
+static void ambiguous_references_are_refused(void **state)
 {
     static const char empty[] = "{\"name\": \"A\", \"scene\": []}";
     static const char model[] = "{'model': {'type': 'Primitives/Sphere'}}";
@@ -738,7 +738,7 @@ static void test_ambiguous(void **state)
     assert_non_null(strstr(err.message, "there is no file"));
 }
 
-static void test_circle(void **state)
+static void models_in_a_circle_are_refused(void **state)
 {
     (void)state;
     assert_null(import_texts("a.json", "{'model': {'type': 'Models/b'}}", "b.json",
@@ -758,29 +758,29 @@ static int finish(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scene_as_printed),
-        cmocka_unit_test(test_scene_of_the_draft),
-        cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_primitives),
-        cmocka_unit_test(test_camera_and_light),
-        cmocka_unit_test(test_without_a_scene),
-        cmocka_unit_test(test_side_by_side),
-        cmocka_unit_test(test_built_in_types),
-        cmocka_unit_test(test_operations),
-        cmocka_unit_test(test_every_type_has_a_name),
-        cmocka_unit_test(test_data_in_order),
-        cmocka_unit_test(test_files_come_first),
-        cmocka_unit_test(test_camera_sees_built_in_types),
-        cmocka_unit_test(test_properties_of_every_type),
-        cmocka_unit_test(test_names_that_are_no_text),
-        cmocka_unit_test(test_colours_are_kept),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_ids),
-        cmocka_unit_test(test_commas_and_line_breaks),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_refused_materials),
-        cmocka_unit_test(test_ambiguous),
-        cmocka_unit_test(test_circle),
+        cmocka_unit_test(scene_as_printed),
+        cmocka_unit_test(scene_of_the_draft),
+        cmocka_unit_test(materials_are_imported),
+        cmocka_unit_test(primitives_are_imported),
+        cmocka_unit_test(camera_and_light),
+        cmocka_unit_test(without_a_scene),
+        cmocka_unit_test(side_by_side),
+        cmocka_unit_test(built_in_types),
+        cmocka_unit_test(operations_are_imported),
+        cmocka_unit_test(every_type_has_a_name),
+        cmocka_unit_test(data_in_order),
+        cmocka_unit_test(files_come_first),
+        cmocka_unit_test(camera_sees_built_in_types),
+        cmocka_unit_test(properties_of_every_type),
+        cmocka_unit_test(names_that_are_no_text),
+        cmocka_unit_test(colours_are_kept),
+        cmocka_unit_test(rotations_are_imported),
+        cmocka_unit_test(ids_are_made_of_names),
+        cmocka_unit_test(commas_and_line_breaks),
+        cmocka_unit_test(faulty_files_are_refused),
+        cmocka_unit_test(refused_materials),
+        cmocka_unit_test(ambiguous_references_are_refused),
+        cmocka_unit_test(models_in_a_circle_are_refused),
     };
 
     cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -119,7 +119,7 @@ static int is_case(const struct dirent *entry)
     return entry->d_name[0] != '.' && strcmp(entry->d_name, "base.json") != 0;
 }
 
-static void test_invalid_ones_are_refused(void **state)
+static void invalid_ones_are_refused(void **state)
 {
     (void)state;
     struct dirent **entries;
@@ -135,7 +135,7 @@ static void test_invalid_ones_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_invalid_ones_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(invalid_ones_are_refused, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("invalid", tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ static void assert_refused(const char *text, const char *place, const char *frag
     assert_bytes_refused(text, strlen(text), ERROR_SYNTAX, place, fragment);
 }
 
-static void test_accepts_json(void **state)
+static void accepts_json(void **state)
 {
     (void)state;
     assert_printed("null", "null");
@@ -62,7 +62,7 @@ static void test_accepts_json(void **state)
     assert_printed("{\"a\":1,\"A\":2,\"\":3}", "{\"a\":1,\"A\":2,\"\":3}");
 }
 
-static void test_refuses_what_is_not_json(void **state)
+static void refuses_what_is_not_json(void **state)
 {
     (void)state;
     assert_refused("", "line 1, column 1", "the text ends, expected a value");
@@ -87,7 +87,7 @@ static void test_refuses_what_is_not_json(void **state)
     assert_bytes_refused("\"a\0b\"", 5, ERROR_SYNTAX, "line 1, column 3", "control character");
 }
 
-static void test_refuses_odd_numbers(void **state)
+static void refuses_odd_numbers(void **state)
 {
     (void)state;
     assert_refused("01", "line 1, column 1", "starts with 0");
@@ -106,7 +106,7 @@ static void test_refuses_odd_numbers(void **state)
     assert_printed("9007199254740991", "9007199254740991");
 }
 
-static void test_refuses_odd_strings(void **state)
+static void refuses_odd_strings(void **state)
 {
     (void)state;
     assert_refused("\"a", "line 1, column 1", "does not end");
@@ -122,7 +122,7 @@ static void test_refuses_odd_strings(void **state)
     assert_refused("\"\\udc00\\ud800\"", "line 1, column 2", "surrogate");
 }
 
-static void test_refuses_what_is_not_utf8(void **state)
+static void refuses_what_is_not_utf8(void **state)
 {
     (void)state;
     static const char *const bad[] = {
@@ -146,7 +146,7 @@ static void test_refuses_what_is_not_utf8(void **state)
 }
 
 /* What the whole says, its pieces say too: all pairs of bytes behind and in front of others. */
-static void test_utf8_in_pieces(void **state)
+static void utf8_in_pieces(void **state)
 {
     static const char *const around[][2] = {
         {"", ""}, {"a", "b"}, {"\xc3\xa9", "\x80"}, {"\xe0", "\xbf"}, {"\xf4", "\x80\x80"}};
@@ -176,7 +176,7 @@ static void test_utf8_in_pieces(void **state)
     assert_true(texts > 4 * 128 * 128 / 2);
 }
 
-static void test_refuses_duplicate_members(void **state)
+static void refuses_duplicate_members(void **state)
 {
     (void)state;
     assert_refused("{\"a\":1,\"b\":2,\"a\":3}", "line 1, column 14", "duplicate member \"a\"");
@@ -227,7 +227,7 @@ static char *object_with(size_t keys)
     return text;
 }
 
-static void test_limits(void **state)
+static void limits_hold(void **state)
 {
     (void)state;
     char tail[LIMIT_JSON_DEPTH + 2];
@@ -254,7 +254,7 @@ static void test_limits(void **state)
     free(large);
 }
 
-static void test_numbers_are_short(void **state)
+static void numbers_are_short(void **state)
 {
     (void)state;
     static const struct {
@@ -290,7 +290,7 @@ static void test_numbers_are_short(void **state)
     }
 }
 
-static void test_numbers_read_back(void **state)
+static void numbers_read_back(void **state)
 {
     (void)state;
     struct random random = {7};
@@ -318,7 +318,7 @@ static void test_numbers_read_back(void **state)
     }
 }
 
-static void test_pretty_print(void **state)
+static void pretty_print(void **state)
 {
     (void)state;
     static const char text[] = "{\"name\":\"x\",\"empty\":{},\"list\":[],\"v\":[1,2.5,3],"
@@ -351,7 +351,7 @@ static void test_pretty_print(void **state)
 }
 
 /* Bytes changed at random never crash; what is accepted prints and reads back. */
-static void test_damaged_texts(void **state)
+static void damaged_texts(void **state)
 {
     (void)state;
     static const char text[] = "{\"a\":[1,-2.5e3,\"\\u00e9\\ud83d\\udc27 \xf0\x9f\x90\xa7\",true],"
@@ -387,7 +387,7 @@ static void test_damaged_texts(void **state)
     assert_true(accepted > 100);
 }
 
-static void test_errors_are_utf8(void **state)
+static void errors_are_utf8(void **state)
 {
     (void)state;
     struct error err = {0};
@@ -415,19 +415,19 @@ static void test_errors_are_utf8(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_accepts_json),
-        cmocka_unit_test(test_refuses_what_is_not_json),
-        cmocka_unit_test(test_refuses_odd_numbers),
-        cmocka_unit_test(test_refuses_odd_strings),
-        cmocka_unit_test(test_refuses_what_is_not_utf8),
-        cmocka_unit_test(test_utf8_in_pieces),
-        cmocka_unit_test(test_refuses_duplicate_members),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_numbers_are_short),
-        cmocka_unit_test(test_numbers_read_back),
-        cmocka_unit_test(test_pretty_print),
-        cmocka_unit_test(test_damaged_texts),
-        cmocka_unit_test(test_errors_are_utf8),
+        cmocka_unit_test(accepts_json),
+        cmocka_unit_test(refuses_what_is_not_json),
+        cmocka_unit_test(refuses_odd_numbers),
+        cmocka_unit_test(refuses_odd_strings),
+        cmocka_unit_test(refuses_what_is_not_utf8),
+        cmocka_unit_test(utf8_in_pieces),
+        cmocka_unit_test(refuses_duplicate_members),
+        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(numbers_read_back),
+        cmocka_unit_test(pretty_print),
+        cmocka_unit_test(damaged_texts),
+        cmocka_unit_test(errors_are_utf8),
     };
     return cmocka_run_group_tests_name("json", tests, NULL, NULL);
 }

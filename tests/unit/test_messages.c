@@ -48,7 +48,7 @@ static void assert_refused(const char *text, enum error_kind kind, const char *p
     }
 }
 
-static void test_accepts(void **state)
+static void valid_messages_are_accepted(void **state)
 {
     (void)state;
     assert_accepted("{'type':'hello','client':'abcd-EF_12'}", MESSAGE_HELLO);
@@ -87,7 +87,7 @@ static void test_accepts(void **state)
     }
 }
 
-static void test_refuses(void **state)
+static void invalid_messages_are_refused(void **state)
 {
     (void)state;
     assert_refused("", ERROR_SYNTAX, "line 1, column 1", "expected a value");
@@ -143,7 +143,7 @@ static void test_refuses(void **state)
                    "4294967296 is above the maximum 4294967295");
 }
 
-static void test_refuses_large_messages(void **state)
+static void refuses_large_messages(void **state)
 {
     (void)state;
     struct error err = {0};
@@ -157,7 +157,7 @@ static void test_refuses_large_messages(void **state)
     free(text);
 }
 
-static void test_members_have_fallbacks(void **state)
+static void members_have_fallbacks(void **state)
 {
     (void)state;
     cJSON *json = json_text_parse("{'n':2,'t':'x','b':true}", NULL);
@@ -197,7 +197,7 @@ static const struct frame_header frame = {
     .stage_us = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0xffffffff},
 };
 
-static void test_frame_header_bytes(void **state)
+static void frame_header_bytes(void **state)
 {
     (void)state;
     uint8_t bytes[FRAME_HEADER_BYTES];
@@ -219,7 +219,7 @@ static void test_frame_header_bytes(void **state)
     assert_false(frame_header_unpack(bytes, sizeof bytes, &back));
 }
 
-static void test_thumbnail_bytes(void **state)
+static void thumbnail_bytes(void **state)
 {
     static const uint8_t header_bytes[THUMBNAIL_HEADER_BYTES] = {'F', 'C', 'T', '1', 1, 2, 3, 0, 5,
                                                                  6,   0,   0,   0,   0, 0, 0, 7, 8};
@@ -240,7 +240,7 @@ static void test_thumbnail_bytes(void **state)
     assert_int_equal(thumbnail_height(256), 171);
 }
 
-static void test_describes_both_directions(void **state)
+static void describes_both_directions(void **state)
 {
     (void)state;
     static const char *const server[] = {"welcome", "document",  "applied", "changed", "rejected",
@@ -271,13 +271,13 @@ static void test_describes_both_directions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_accepts),
-        cmocka_unit_test(test_refuses),
-        cmocka_unit_test(test_refuses_large_messages),
-        cmocka_unit_test(test_members_have_fallbacks),
-        cmocka_unit_test(test_frame_header_bytes),
-        cmocka_unit_test(test_thumbnail_bytes),
-        cmocka_unit_test(test_describes_both_directions),
+        cmocka_unit_test(valid_messages_are_accepted),
+        cmocka_unit_test(invalid_messages_are_refused),
+        cmocka_unit_test(refuses_large_messages),
+        cmocka_unit_test(members_have_fallbacks),
+        cmocka_unit_test(frame_header_bytes),
+        cmocka_unit_test(thumbnail_bytes),
+        cmocka_unit_test(describes_both_directions),
     };
     return cmocka_run_group_tests_name("messages", tests, NULL, NULL);
 }

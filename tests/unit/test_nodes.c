@@ -96,7 +96,7 @@ static const struct {
     {415, "segment"},
 };
 
-static void test_numbers_are_stable(void **state)
+static void numbers_are_stable(void **state)
 {
     (void)state;
     assert_int_equal(sizeof numbers / sizeof numbers[0], node_type_count());
@@ -111,7 +111,7 @@ static void test_numbers_are_stable(void **state)
 }
 
 /* Each table has numbers of its own (rows.h), so that rows added in two places do not meet. */
-static void test_numbers_are_in_the_range_of_their_table(void **state)
+static void numbers_are_in_the_range_of_their_table(void **state)
 {
     static const struct {
         const struct node_type *rows;
@@ -131,7 +131,7 @@ static void test_numbers_are_in_the_range_of_their_table(void **state)
     assert_int_equal(count, node_type_count());
 }
 
-static void test_rows_are_distinct(void **state)
+static void rows_are_distinct(void **state)
 {
     (void)state;
     for (size_t i = 0; i < node_type_count(); i++) {
@@ -148,7 +148,7 @@ static void test_rows_are_distinct(void **state)
     }
 }
 
-static void test_rows_are_complete(void **state)
+static void rows_are_complete(void **state)
 {
     (void)state;
     static const struct {
@@ -217,7 +217,7 @@ static void check_table(const struct record_type *type)
     assert_int_equal(record_type_count(type), (size_t)index);
 }
 
-static void test_tables_hold_their_defaults(void **state)
+static void tables_hold_their_defaults(void **state)
 {
     (void)state;
     for (size_t i = 0; i < node_type_count(); i++) {
@@ -244,7 +244,7 @@ static void test_tables_hold_their_defaults(void **state)
     assert_null(record_type_in(light_types, "sunshine"));
 }
 
-static void test_limits_have_rows(void **state)
+static void limits_have_rows(void **state)
 {
     (void)state;
     size_t count;
@@ -261,7 +261,7 @@ static void test_limits_have_rows(void **state)
     assert_string_equal(limits[0].name, "document_bytes");
 }
 
-static void test_kinds_of_error(void **state)
+static void kinds_of_error(void **state)
 {
     (void)state;
     assert_string_equal(error_kind_name(ERROR_NOT_FOUND), "not_found");
@@ -273,13 +273,13 @@ static void test_kinds_of_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers_are_stable),
-        cmocka_unit_test(test_numbers_are_in_the_range_of_their_table),
-        cmocka_unit_test(test_rows_are_distinct),
-        cmocka_unit_test(test_rows_are_complete),
-        cmocka_unit_test(test_tables_hold_their_defaults),
-        cmocka_unit_test(test_limits_have_rows),
-        cmocka_unit_test(test_kinds_of_error),
+        cmocka_unit_test(numbers_are_stable),
+        cmocka_unit_test(numbers_are_in_the_range_of_their_table),
+        cmocka_unit_test(rows_are_distinct),
+        cmocka_unit_test(rows_are_complete),
+        cmocka_unit_test(tables_hold_their_defaults),
+        cmocka_unit_test(limits_have_rows),
+        cmocka_unit_test(kinds_of_error),
     };
     return cmocka_run_group_tests_name("nodes", tests, NULL, NULL);
 }

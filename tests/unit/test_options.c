@@ -68,7 +68,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-static void test_table_is_consistent(void **state)
+static void table_is_consistent(void **state)
 {
     (void)state;
     for (int i = 0; i < OPTION_COUNT; i++) {
@@ -85,7 +85,7 @@ static void test_table_is_consistent(void **state)
     }
 }
 
-static void test_every_command_reads_its_defaults(void **state)
+static void every_command_reads_its_defaults(void **state)
 {
     (void)state;
     for (int i = 0; i < COMMAND_COUNT; i++) {
@@ -98,7 +98,7 @@ static void test_every_command_reads_its_defaults(void **state)
     }
 }
 
-static void test_defaults_stand_in_the_home_directory(void **state)
+static void defaults_stand_in_the_home_directory(void **state)
 {
     (void)state;
     assert_true(read_as("serve", no_arguments));
@@ -112,7 +112,7 @@ static void test_defaults_stand_in_the_home_directory(void **state)
     assert_null(option_text(&options, OPTION_TOKEN_FILE));
 }
 
-static void test_the_nearest_source_wins(void **state)
+static void the_nearest_source_wins(void **state)
 {
     (void)state;
     assert_true(read_as("serve", no_arguments));
@@ -130,7 +130,7 @@ static void test_the_nearest_source_wins(void **state)
     assert_int_equal(options.values[OPTION_LOG_LEVEL].source, SOURCE_FILE);
 }
 
-static void test_the_environment_names_the_config_file(void **state)
+static void the_environment_names_the_config_file(void **state)
 {
     (void)state;
     write_config("port = 1001\n");
@@ -139,7 +139,7 @@ static void test_the_environment_names_the_config_file(void **state)
     assert_int_equal(option_int(&options, OPTION_PORT), 1001);
 }
 
-static void test_values_are_checked(void **state)
+static void values_are_checked(void **state)
 {
     (void)state;
     assert_false(READ("serve", "--port", "70000"));
@@ -173,7 +173,7 @@ static void test_values_are_checked(void **state)
     ASSERT_REFUSED("--width", "0 is below the minimum 1");
 }
 
-static void test_vectors_and_choices_have_numbers(void **state)
+static void vectors_and_choices_have_numbers(void **state)
 {
     (void)state;
     assert_true(READ("render", "--camera-position", "-1,2.5,3e1", "--aov=depth", "a.json"));
@@ -188,7 +188,7 @@ static void test_vectors_and_choices_have_numbers(void **state)
     assert_string_equal(options.operands[0], "a.json");
 }
 
-static void test_names_are_checked(void **state)
+static void names_are_checked(void **state)
 {
     (void)state;
     assert_false(READ("serve", "--prot", "1"));
@@ -202,7 +202,7 @@ static void test_names_are_checked(void **state)
     ASSERT_REFUSED("--port", "needs a value: PORT");
 }
 
-static void test_operands_are_counted(void **state)
+static void operands_are_counted(void **state)
 {
     (void)state;
     assert_false(READ("serve", "x"));
@@ -218,7 +218,7 @@ static void test_operands_are_counted(void **state)
     assert_string_equal(option_text(&options, OPTION_OUTPUT), "-");
 }
 
-static void test_help_asks_for_nothing_else(void **state)
+static void help_asks_for_nothing_else(void **state)
 {
     (void)state;
     setenv("FIELDCAST_PORT", "nonsense", 1);
@@ -228,7 +228,7 @@ static void test_help_asks_for_nothing_else(void **state)
     assert_true(option_flag(&options, OPTION_HELP));
 }
 
-static void test_other_sources_name_their_place(void **state)
+static void other_sources_name_their_place(void **state)
 {
     (void)state;
     char place[64];
@@ -256,7 +256,7 @@ static void test_other_sources_name_their_place(void **state)
 }
 
 /* What is asked of a picture is asked by an option of its name, within the same range. */
-static void test_members_of_a_request_have_options(void **state)
+static void members_of_a_request_have_options(void **state)
 {
     static const struct {
         const struct record_type *type;
@@ -284,20 +284,18 @@ int main(void)
 {
     int fd = mkstemp(config_path);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_table_is_consistent, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_every_command_reads_its_defaults, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_defaults_stand_in_the_home_directory, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(test_the_nearest_source_wins, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_the_environment_names_the_config_file, set_up,
-                                        tear_down),
-        cmocka_unit_test(test_members_of_a_request_have_options),
-        cmocka_unit_test_setup_teardown(test_values_are_checked, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_vectors_and_choices_have_numbers, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_names_are_checked, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_operands_are_counted, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_help_asks_for_nothing_else, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_other_sources_name_their_place, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(table_is_consistent, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(every_command_reads_its_defaults, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(defaults_stand_in_the_home_directory, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_nearest_source_wins, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_environment_names_the_config_file, set_up, tear_down),
+        cmocka_unit_test(members_of_a_request_have_options),
+        cmocka_unit_test_setup_teardown(values_are_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(vectors_and_choices_have_numbers, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(names_are_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(operands_are_counted, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(help_asks_for_nothing_else, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_sources_name_their_place, set_up, tear_down),
     };
     int failed = fd < 0 ? 1 : cmocka_run_group_tests(tests, NULL, NULL);
     close(fd);

@@ -42,7 +42,7 @@ static struct pick_result look(const struct pick_field *field, double x, double 
     return pick_at(field, &(struct pick_question){.width = 640, .height = 360, .x = x, .y = y});
 }
 
-static void test_ball(void **state)
+static void picks_hit_a_ball(void **state)
 {
     struct pick_field *field = make_field(ball);
     const struct pick_result hit = look(field, 320, 180), miss = look(field, 5, 5);
@@ -59,7 +59,7 @@ static void test_ball(void **state)
 }
 
 /* A click finds what is seen. */
-static void test_isolated(void **state)
+static void picks_find_what_is_isolated(void **state)
 {
     static const char nested[] =
         "{'format':'fieldcast/1','camera':{'position':[0,0,5],'target':[0,0,0]},"
@@ -75,7 +75,7 @@ static void test_isolated(void **state)
     pick_field_unref(one);
 }
 
-static void test_floor(void **state)
+static void picks_hit_the_floor(void **state)
 {
     struct pick_field *field = make_field(ball_on_floor);
     const struct pick_result hit = look(field, 320, 350);
@@ -105,7 +105,7 @@ static void assert_through(const struct pick_result *result, const char *expecte
 }
 
 /* The tool of a cut, what it cuts, and what is behind; the floor is no node. */
-static void test_through(void **state)
+static void picks_list_what_lies_behind(void **state)
 {
     static const char bitten[] =
         "{'format':'fieldcast/1','camera':{'position':[0,0.2,6],'target':[0,0,0]},"
@@ -133,7 +133,7 @@ static void test_through(void **state)
     pick_field_unref(field);
 }
 
-static void test_camera(void **state)
+static void any_camera_can_pick(void **state)
 {
     struct pick_field *field = make_field(ball);
     struct record camera;
@@ -151,7 +151,7 @@ static void test_camera(void **state)
 }
 
 /* Repeats in repeats: more cells for one point than could be looked at in a lifetime. */
-static void test_work_is_bounded(void **state)
+static void work_is_bounded(void **state)
 {
     enum { LEVELS = 8 };
     char text[4096];
@@ -195,7 +195,7 @@ static void *ask_often(void *data)
 }
 
 /* The last reference may go in any thread. */
-static void test_threads(void **state)
+static void last_reference_may_go_in_any_thread(void **state)
 {
     enum { THREADS = 4 };
     pthread_t threads[THREADS];
@@ -217,10 +217,13 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ball),    cmocka_unit_test(test_isolated),
-        cmocka_unit_test(test_floor),   cmocka_unit_test(test_through),
-        cmocka_unit_test(test_camera),  cmocka_unit_test(test_work_is_bounded),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(picks_hit_a_ball),
+        cmocka_unit_test(picks_find_what_is_isolated),
+        cmocka_unit_test(picks_hit_the_floor),
+        cmocka_unit_test(picks_list_what_lies_behind),
+        cmocka_unit_test(any_camera_can_pick),
+        cmocka_unit_test(work_is_bounded),
+        cmocka_unit_test(last_reference_may_go_in_any_thread),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -60,7 +60,7 @@ static int bound(void)
     return stuck.limit_ms;
 }
 
-static void test_pace_of_the_machine(void **state)
+static void pace_of_the_machine(void **state)
 {
     const int usual = LIMIT_COMPILE_FACTOR * (int)program_usual_ms(&program);
     (void)state;
@@ -78,7 +78,7 @@ static void test_pace_of_the_machine(void **state)
     assert_int_equal(bound(), 2 * usual);
 }
 
-static void test_least_and_patience(void **state)
+static void least_and_patience(void **state)
 {
     (void)state;
     program.shape_count = 0;
@@ -93,7 +93,7 @@ static void test_least_and_patience(void **state)
 }
 
 /* By programs without code of users alone. */
-static void test_pace_is_measured(void **state)
+static void pace_is_measured(void **state)
 {
     (void)state;
     program.spent_ms = 3 * program_usual_ms(&program);
@@ -118,7 +118,7 @@ static void *spin(void *data)
     return NULL;
 }
 
-static void test_still_is_no_slowness(void **state)
+static void still_is_no_slowness(void **state)
 {
     struct program_stuck stuck = {0};
     atomic_bool stop = false;
@@ -137,10 +137,10 @@ static void test_still_is_no_slowness(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_pace_of_the_machine, reset),
-        cmocka_unit_test_setup(test_least_and_patience, reset),
-        cmocka_unit_test_setup(test_pace_is_measured, reset),
-        cmocka_unit_test_setup(test_still_is_no_slowness, reset),
+        cmocka_unit_test_setup(pace_of_the_machine, reset),
+        cmocka_unit_test_setup(least_and_patience, reset),
+        cmocka_unit_test_setup(pace_is_measured, reset),
+        cmocka_unit_test_setup(still_is_no_slowness, reset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

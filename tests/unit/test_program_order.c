@@ -49,7 +49,7 @@ static void finish(struct program *program)
     program->refs--;
 }
 
-static void test_smallest_first(void **state)
+static void smallest_first(void **state)
 {
     struct program big, small, middle;
 
@@ -63,7 +63,7 @@ static void test_smallest_first(void **state)
 }
 
 /* One thread is left for what comes later. */
-static void test_not_all_at_one(void **state)
+static void not_all_at_one(void **state)
 {
     struct program big, late;
 
@@ -85,7 +85,7 @@ static void test_not_all_at_one(void **state)
 }
 
 /* Where another waits, not even two. */
-static void test_others_before_a_second_thread(void **state)
+static void others_before_a_second_thread(void **state)
 {
     struct program first, second;
 
@@ -98,7 +98,7 @@ static void test_others_before_a_second_thread(void **state)
 }
 
 /* Small ones that come and come do not stop a large one for good. */
-static void test_no_starving(void **state)
+static void no_starving(void **state)
 {
     struct program big, small[200];
     int turn = 0;
@@ -117,7 +117,7 @@ static void test_no_starving(void **state)
     assert_in_range(turn, 5, 100);
 }
 
-static void test_unwanted(void **state)
+static void unwanted_programs_are_not_taken(void **state)
 {
     struct program gone;
 
@@ -128,7 +128,7 @@ static void test_unwanted(void **state)
 }
 
 /* It grows with the square: measured 0.9, 2.4 and 8.3 times a scene without for 1, 2 and 4. */
-static void test_code_takes_time(void **state)
+static void code_takes_time(void **state)
 {
     struct program plain = {.shape_count = 1}, one = plain, four = plain;
 
@@ -141,7 +141,7 @@ static void test_code_takes_time(void **state)
 }
 
 /* One suspect at a time; what holds no code goes on beside it. */
-static void test_code(void **state)
+static void code_is_compiled_one_at_a_time(void **state)
 {
     struct program code, more, plain;
     bool busy = true;
@@ -167,13 +167,13 @@ static void test_code(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_smallest_first, reset),
-        cmocka_unit_test_setup(test_not_all_at_one, reset),
-        cmocka_unit_test_setup(test_others_before_a_second_thread, reset),
-        cmocka_unit_test_setup(test_no_starving, reset),
-        cmocka_unit_test_setup(test_unwanted, reset),
-        cmocka_unit_test_setup(test_code, reset),
-        cmocka_unit_test_setup(test_code_takes_time, reset),
+        cmocka_unit_test_setup(smallest_first, reset),
+        cmocka_unit_test_setup(not_all_at_one, reset),
+        cmocka_unit_test_setup(others_before_a_second_thread, reset),
+        cmocka_unit_test_setup(no_starving, reset),
+        cmocka_unit_test_setup(unwanted_programs_are_not_taken, reset),
+        cmocka_unit_test_setup(code_is_compiled_one_at_a_time, reset),
+        cmocka_unit_test_setup(code_takes_time, reset),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

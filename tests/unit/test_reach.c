@@ -25,7 +25,7 @@ static void check(const char *text, const char *expected)
     free(copy);
 }
 
-static void test_functions(void **state)
+static void used_functions_are_kept(void **state)
 {
     (void)state;
     check("float unused(float x) { return x; }\n"
@@ -38,7 +38,7 @@ static void test_functions(void **state)
 }
 
 /* All functions of a name are one item to its callers. */
-static void test_overloads(void **state)
+static void overloads_are_kept_together(void **state)
 {
     (void)state;
     check(
@@ -46,7 +46,7 @@ static void test_overloads(void **state)
         "float f(float x) { return x; }\nvec2 f(vec2 x) { return x; }\nvoid main() { f(1.0); }\n");
 }
 
-static void test_declarations(void **state)
+static void used_declarations_are_kept(void **state)
 {
     (void)state;
     check("struct Unused { float a; };\n"
@@ -61,7 +61,7 @@ static void test_declarations(void **state)
           "void main() { u.a = 2.0; }\n");
 }
 
-static void test_macros(void **state)
+static void used_macros_are_kept(void **state)
 {
     (void)state;
     check("#define UNUSED 1\n"
@@ -77,7 +77,7 @@ static void test_macros(void **state)
           "void main() { made(TWICE(1.0)); }\n");
 }
 
-static void test_conditions(void **state)
+static void conditions_are_kept(void **state)
 {
     (void)state;
     check("#define WANTED\n"
@@ -99,7 +99,7 @@ static void test_conditions(void **state)
 }
 
 /* A comment is its item's. Words in comments reach nothing. */
-static void test_comments(void **state)
+static void comments_follow_their_item(void **state)
 {
     (void)state;
     check("/* SPDX-License-Identifier: MIT */\n"
@@ -115,9 +115,9 @@ static void test_comments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_functions),    cmocka_unit_test(test_overloads),
-        cmocka_unit_test(test_declarations), cmocka_unit_test(test_macros),
-        cmocka_unit_test(test_conditions),   cmocka_unit_test(test_comments),
+        cmocka_unit_test(used_functions_are_kept),    cmocka_unit_test(overloads_are_kept_together),
+        cmocka_unit_test(used_declarations_are_kept), cmocka_unit_test(used_macros_are_kept),
+        cmocka_unit_test(conditions_are_kept),        cmocka_unit_test(comments_follow_their_item),
     };
     return cmocka_run_group_tests_name("reach", tests, NULL, NULL);
 }

@@ -55,7 +55,7 @@ static void read_library(const char *text, size_t length)
     cJSON_Delete(json);
 }
 
-static void test_examples_of_the_readme(void **state)
+static void examples_of_the_readme(void **state)
 {
     (void)state;
     static const char fence[] = "\n```json ";
@@ -90,7 +90,7 @@ static void test_examples_of_the_readme(void **state)
 
 enum { EXAMPLES = 68 };
 
-static void test_example_scenes(void **state)
+static void example_scenes(void **state)
 {
     (void)state;
     static const char folder[] = "protocol/examples";
@@ -117,8 +117,8 @@ static void test_example_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_examples_of_the_readme),
-        cmocka_unit_test(test_example_scenes),
+        cmocka_unit_test(examples_of_the_readme),
+        cmocka_unit_test(example_scenes),
     };
     return cmocka_run_group_tests_name("readme", tests, NULL, NULL);
 }

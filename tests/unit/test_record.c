@@ -99,7 +99,7 @@ static void assert_refuses(const char *text, const char *place, const char *mess
     assert_string_equal(err.message, message);
 }
 
-static void test_reads_and_prints(void **state)
+static void reads_and_prints(void **state)
 {
     (void)state;
     assert_reads("{}", "{}");
@@ -121,7 +121,7 @@ static void test_reads_and_prints(void **state)
 }
 
 /* -0 equals 0 but has other bytes, which hashes would see. */
-static void test_zero_has_one_form(void **state)
+static void zero_has_one_form(void **state)
 {
     (void)state;
     assert_true(read_text("{'place':[1,-0.0,-0]}", NULL));
@@ -129,7 +129,7 @@ static void test_zero_has_one_form(void **state)
     assert_false(signbit(record_vector(&record, "place")[2]));
 }
 
-static void test_refuses_with_place_value_and_limit(void **state)
+static void refuses_with_place_value_and_limit(void **state)
 {
     (void)state;
     assert_refuses("{'size':11}", "/thing/size", "11 is above the maximum 10");
@@ -182,7 +182,7 @@ static void test_refuses_with_place_value_and_limit(void **state)
     assert_refuses("[]", "/thing", "expected an object");
 }
 
-static void test_long_texts(void **state)
+static void long_texts(void **state)
 {
     (void)state;
     struct error err = {0};
@@ -202,7 +202,7 @@ static void test_long_texts(void **state)
 #define SURFACE(members) "{'surface':{" members "}}"
 #define PARTS "'x':'s*t','y':'s','z':'t^2',"
 
-static void test_surfaces(void **state)
+static void surfaces_are_read(void **state)
 {
     (void)state;
     assert_reads(SURFACE(""), SURFACE(""));
@@ -237,7 +237,7 @@ static void test_surfaces(void **state)
 
 #define ROWS(row) "{'rows':[" row "]}"
 
-static void test_declared_rows(void **state)
+static void declared_rows(void **state)
 {
     (void)state;
     assert_reads(ROWS(""), ROWS(""));
@@ -290,7 +290,7 @@ static void test_declared_rows(void **state)
                    "/thing/rows/1/name", "\"a\" is declared twice");
 }
 
-static void test_names_of_declared_rows(void **state)
+static void names_of_declared_rows(void **state)
 {
     (void)state;
     static const char *const good[] = {"a", "_", "_Color1", "A9_z", "glow"};
@@ -309,7 +309,7 @@ static void test_names_of_declared_rows(void **state)
 }
 
 /* Rows are defaults and ranges of the values given to them. */
-static void test_definitions(void **state)
+static void definitions_give_defaults_and_ranges(void **state)
 {
     (void)state;
     char *text = json_text(
@@ -339,7 +339,7 @@ static void test_definitions(void **state)
 }
 
 /* As many as allowed, and one more. */
-static void test_limits_of_values(void **state)
+static void limits_of_values(void **state)
 {
     (void)state;
     struct error err = {0};
@@ -380,7 +380,7 @@ static void test_limits_of_values(void **state)
     cJSON_Delete(rows);
 }
 
-static void test_null_restores_and_failure_keeps(void **state)
+static void null_restores_and_failure_keeps(void **state)
 {
     (void)state;
     struct error err = {0};
@@ -396,7 +396,7 @@ static void test_null_restores_and_failure_keeps(void **state)
     cJSON_Delete(null);
 }
 
-static void test_copies_share_nothing(void **state)
+static void copies_share_nothing(void **state)
 {
     (void)state;
     struct record copy;
@@ -417,7 +417,7 @@ static void test_copies_share_nothing(void **state)
     record_finish(&copy);
 }
 
-static void test_describes(void **state)
+static void types_are_described(void **state)
 {
     (void)state;
     static const char *const expected[] = {
@@ -447,7 +447,7 @@ static void test_describes(void **state)
 }
 
 /* What record_get gives, record_set takes, for every row of the real tables too. */
-static void test_values_survive(void **state)
+static void values_survive(void **state)
 {
     (void)state;
     struct random random = {11};
@@ -473,7 +473,7 @@ static void test_values_survive(void **state)
     }
 }
 
-static void test_names(void **state)
+static void names_are_checked(void **state)
 {
     (void)state;
     char name[80];
@@ -492,20 +492,20 @@ static void test_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_reads_and_prints, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_zero_has_one_form, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refuses_with_place_value_and_limit, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_long_texts, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_surfaces, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_declared_rows, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_names_of_declared_rows, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_definitions, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_limits_of_values, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_null_restores_and_failure_keeps, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_copies_share_nothing, set_up, tear_down),
-        cmocka_unit_test(test_describes),
-        cmocka_unit_test(test_values_survive),
-        cmocka_unit_test(test_names),
+        cmocka_unit_test_setup_teardown(reads_and_prints, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(zero_has_one_form, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(refuses_with_place_value_and_limit, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(long_texts, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(surfaces_are_read, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(declared_rows, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(names_of_declared_rows, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(definitions_give_defaults_and_ranges, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(limits_of_values, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(null_restores_and_failure_keeps, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(copies_share_nothing, set_up, tear_down),
+        cmocka_unit_test(types_are_described),
+        cmocka_unit_test(values_survive),
+        cmocka_unit_test(names_are_checked),
     };
     return cmocka_run_group_tests_name("record", tests, NULL, NULL);
 }

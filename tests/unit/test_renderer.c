@@ -118,7 +118,7 @@ static void assert_tiles_give(const struct drawing *alone, int side)
     }
 }
 
-static void test_tiles_do_not_show(void **state)
+static void tiles_do_not_show(void **state)
 {
     static const int sides[] = {32, 96, 128, 512};
     struct resident *resident = make_resident(document);
@@ -139,7 +139,7 @@ static void test_tiles_do_not_show(void **state)
     resident_destroy(resident);
 }
 
-static void test_edits_and_back(void **state)
+static void edits_and_back(void **state)
 {
     struct resident *resident = make_resident(document);
     struct image before = draw(resident, &usual), between, after;
@@ -169,7 +169,7 @@ static void apply(struct resident *resident, const char *ops)
 }
 
 /* After one of more than numbers, edits change nothing that is drawn until all are opened. */
-static void test_edits_wait_for_each_other(void **state)
+static void edits_wait_for_each_other(void **state)
 {
     struct resident *resident = make_resident(document), *other = make_resident(document);
     struct image before = draw(resident, &usual), stale, together, one_by_one;
@@ -201,7 +201,7 @@ static void test_edits_wait_for_each_other(void **state)
     resident_destroy(other);
 }
 
-static void test_numbers_compile_nothing(void **state)
+static void numbers_compile_nothing(void **state)
 {
     const struct job_desc small = {.width = 16, .height = 16, .samples = 1, .exact = true};
     struct resident *resident = make_resident(document);
@@ -253,7 +253,7 @@ static struct image draw_edited(const char *ops)
     return image;
 }
 
-static void test_hiding_compiles_nothing(void **state)
+static void hiding_compiles_nothing(void **state)
 {
     static const char *const ids[] = {"ball", "cube", "blend", "floor", "root"};
     struct resident *resident = make_resident(document);
@@ -278,7 +278,7 @@ static void test_hiding_compiles_nothing(void **state)
 }
 
 /* Not a pixel tells a hidden node from none. */
-static void test_hidden_is_gone(void **state)
+static void hidden_is_gone(void **state)
 {
     static const char *const ids[] = {"ball", "cube", "blend", "floor"};
 
@@ -311,7 +311,7 @@ static struct job_desc isolating(const char *const *ids, size_t count)
 }
 
 /* A picture's own: others, and the scene, show nothing of it. */
-static void test_isolation_compiles_nothing(void **state)
+static void isolation_compiles_nothing(void **state)
 {
     static const char *const cube[] = {"cube"};
     static const char *const both[] = {"ball", "cube"};
@@ -345,7 +345,7 @@ static void test_isolation_compiles_nothing(void **state)
 }
 
 /* More isolations than are kept, edits between them, and one that outlives a compilation. */
-static void test_isolation_follows_edits(void **state)
+static void isolation_follows_edits(void **state)
 {
     static const char *const ids[] = {"cube",     "nobody-1", "nobody-2", "nobody-3", "nobody-4",
                                       "nobody-5", "nobody-6", "nobody-7", "nobody-8"};
@@ -378,7 +378,7 @@ static void test_isolation_follows_edits(void **state)
 }
 
 /* What is hidden from the start, or becomes so before it was ever drawn, is not compiled. */
-static void test_what_was_never_drawn(void **state)
+static void what_was_never_drawn(void **state)
 {
     static const char broken[] =
         "[{'op':'insert','into':'/nodes/root','before':null,'value':{'id':'bad',"
@@ -447,7 +447,7 @@ static struct image finish_job(struct job *job)
 }
 
 /* What is drawn together is what is drawn alone, and the shapes told beforehand are right. */
-static void test_outputs_together(void **state)
+static void outputs_are_drawn_together(void **state)
 {
     struct resident *resident = make_resident(document);
     struct image images[AOV_COUNT] = {0};
@@ -483,7 +483,7 @@ static void test_outputs_together(void **state)
     resident_destroy(resident);
 }
 
-static void test_pictures_are_not_torn(void **state)
+static void pictures_are_not_torn(void **state)
 {
     struct resident *resident = make_resident(document);
     struct image before, torn;
@@ -506,7 +506,7 @@ static void test_pictures_are_not_torn(void **state)
     resident_destroy(resident);
 }
 
-static void test_old_picture_while_compiling(void **state)
+static void old_picture_while_compiling(void **state)
 {
     const struct job_desc newest = usual;
     struct job_desc any = usual;
@@ -534,7 +534,7 @@ static void test_old_picture_while_compiling(void **state)
     resident_destroy(resident);
 }
 
-static void test_cancel(void **state)
+static void cancelled_jobs_leave_no_trace(void **state)
 {
     struct resident *resident = make_resident(document);
     struct image before = draw(resident, &usual), after;
@@ -557,7 +557,7 @@ static void test_cancel(void **state)
     resident_destroy(resident);
 }
 
-static void test_sizes(void **state)
+static void odd_sizes_are_drawn(void **state)
 {
     static const int sizes[][2] = {{1, 1}, {1, 300}, {LIMIT_IMAGE_SIDE, 1}, {257, 3}};
     static const struct {
@@ -591,7 +591,7 @@ static void test_sizes(void **state)
 }
 
 /* Raw depths and ids against the evaluator in C that picking uses. */
-static void test_picking_agrees(void **state)
+static void picking_agrees(void **state)
 {
     struct resident *resident = make_resident(document);
     struct job_desc desc = {.width = 64, .height = 48, .exact = true, .as_floats = true};
@@ -625,7 +625,7 @@ static void test_picking_agrees(void **state)
     resident_destroy(resident);
 }
 
-static void test_cache(void **state)
+static void programs_are_cached(void **state)
 {
     struct resident *first = make_resident(document), *second;
     struct image a = draw(first, &usual), b;
@@ -646,7 +646,7 @@ static void test_cache(void **state)
 
 /* Loops within loops, more steps than llvmpipe's budget: the picture is drawn with fewer steps, and
  * the log says so. */
-static void test_loop_budget(void **state)
+static void loop_budget(void **state)
 {
     static const char text[] = "{'format':'fieldcast/1','render':{'max_steps':1024},"
                                "'root':{'id':'root','type':'repeat','params':{'spacing':[1,1,1],"
@@ -688,7 +688,7 @@ static char *spheres_text(int count)
 }
 
 /* The document has three shapes. More than a compiler takes are drawn without one. */
-static void test_shapes_beyond_compilers(void **state)
+static void shapes_beyond_compilers(void **state)
 {
     struct resident *resident = make_resident(document);
     struct image before = draw(resident, &usual), many, again;
@@ -737,7 +737,7 @@ static struct scene *shapes_with_code(const char *code, int count)
 }
 
 /* Compilers write it out for each shape. */
-static void test_code_beyond_compilers(void **state)
+static void code_beyond_compilers(void **state)
 {
     static const struct param nothing[] = {{.name = NULL}};
     const char *code = "float sdf(vec3 p) { return length(p) - 0.5 + 0.01 * sin(cos(p.x)); }";
@@ -758,7 +758,7 @@ static void test_code_beyond_compilers(void **state)
 }
 
 /* The engine's pictures start no thread that compiles; a program that is asked for later does. */
-static void test_compilers_wait_for_programs(void **state)
+static void compilers_wait_for_programs(void **state)
 {
     static const struct job_desc small = {.width = 16, .height = 12, .samples = 1};
     static const char ball[] = "{'format':'fieldcast/1','root':{'type':'sphere'}}";
@@ -778,7 +778,7 @@ static void test_compilers_wait_for_programs(void **state)
     resident_destroy(by_program);
 }
 
-static void test_gpu_asked_for(void **state)
+static void gpu_asked_for(void **state)
 {
     struct renderer_params params = {.device = {DEVICE_GPU, .index = -1}};
     struct device_report rows[8];
@@ -839,38 +839,38 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest common[] = {
-        cmocka_unit_test(test_tiles_do_not_show),
-        cmocka_unit_test(test_edits_and_back),
-        cmocka_unit_test(test_edits_wait_for_each_other),
-        cmocka_unit_test(test_numbers_compile_nothing),
-        cmocka_unit_test(test_hiding_compiles_nothing),
-        cmocka_unit_test(test_hidden_is_gone),
-        cmocka_unit_test(test_isolation_compiles_nothing),
-        cmocka_unit_test(test_isolation_follows_edits),
-        cmocka_unit_test(test_what_was_never_drawn),
-        cmocka_unit_test(test_outputs_together),
-        cmocka_unit_test(test_pictures_are_not_torn),
-        cmocka_unit_test(test_cancel),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_picking_agrees),
-        cmocka_unit_test(test_shapes_beyond_compilers),
-        cmocka_unit_test(test_code_beyond_compilers),
-        cmocka_unit_test(test_gpu_asked_for),
+        cmocka_unit_test(tiles_do_not_show),
+        cmocka_unit_test(edits_and_back),
+        cmocka_unit_test(edits_wait_for_each_other),
+        cmocka_unit_test(numbers_compile_nothing),
+        cmocka_unit_test(hiding_compiles_nothing),
+        cmocka_unit_test(hidden_is_gone),
+        cmocka_unit_test(isolation_compiles_nothing),
+        cmocka_unit_test(isolation_follows_edits),
+        cmocka_unit_test(what_was_never_drawn),
+        cmocka_unit_test(outputs_are_drawn_together),
+        cmocka_unit_test(pictures_are_not_torn),
+        cmocka_unit_test(cancelled_jobs_leave_no_trace),
+        cmocka_unit_test(odd_sizes_are_drawn),
+        cmocka_unit_test(picking_agrees),
+        cmocka_unit_test(shapes_beyond_compilers),
+        cmocka_unit_test(code_beyond_compilers),
+        cmocka_unit_test(gpu_asked_for),
     };
     /* What only programs do. */
     const struct CMUnitTest programs[] = {
-        cmocka_unit_test(test_old_picture_while_compiling),
-        cmocka_unit_test(test_cache),
-        cmocka_unit_test(test_loop_budget),
+        cmocka_unit_test(old_picture_while_compiling),
+        cmocka_unit_test(programs_are_cached),
+        cmocka_unit_test(loop_budget),
     };
     /* With a program for a whole sample, which is compiled for long: what depends on targets. */
     const struct CMUnitTest samples[] = {
-        cmocka_unit_test(test_tiles_do_not_show),
-        cmocka_unit_test(test_numbers_compile_nothing),
-        cmocka_unit_test(test_outputs_together),
-        cmocka_unit_test(test_pictures_are_not_torn),
+        cmocka_unit_test(tiles_do_not_show),
+        cmocka_unit_test(numbers_compile_nothing),
+        cmocka_unit_test(outputs_are_drawn_together),
+        cmocka_unit_test(pictures_are_not_torn),
     };
-    const struct CMUnitTest engine[] = {cmocka_unit_test(test_compilers_wait_for_programs)};
+    const struct CMUnitTest engine[] = {cmocka_unit_test(compilers_wait_for_programs)};
 
     return cmocka_run_group_tests_name("device", common, set_up_device, tear_down) +
            cmocka_run_group_tests_name("programs", programs, set_up_device, tear_down) +

@@ -39,7 +39,7 @@ static void assert_refused(const char *text, enum error_kind kind, const char *p
 #define DOC(members) "{'format':'fieldcast/1'," members "}"
 #define ROOT(members) DOC("'root':{'id':'root','type':'union'" members "}")
 
-static void test_prints_what_is_set(void **state)
+static void prints_what_is_set(void **state)
 {
     (void)state;
     assert_prints(ROOT(""), ROOT(""));
@@ -56,7 +56,7 @@ static void test_prints_what_is_set(void **state)
                       "'tube':0.1}}]}"));
 }
 
-static void test_missing_ids_avoid_given_ones(void **state)
+static void missing_ids_avoid_given_ones(void **state)
 {
     (void)state;
     assert_prints(ROOT(",'children':[{'type':'box'},{'type':'box'},{'id':'box-1','type':'sphere',"
@@ -69,7 +69,7 @@ static void test_missing_ids_avoid_given_ones(void **state)
                       "{'id':'point-3','type':'point'}],'root':{'id':'r','type':'box'}"));
 }
 
-static void test_places_name_what_is_wrong(void **state)
+static void places_name_what_is_wrong(void **state)
 {
     (void)state;
     assert_refused(ROOT(",'children':[{'type':'box'},{'type':'sphere',"
@@ -123,7 +123,7 @@ static void test_places_name_what_is_wrong(void **state)
         "{'id':'g','type':'field','params':{'code':'float sdf(vec3 p)'}},"                         \
         "{'id':'i','type':'model','material':'n','params':{'model':'king'}}]}")
 
-static void test_resources_of_every_kind(void **state)
+static void resources_of_every_kind(void **state)
 {
     (void)state;
     assert_prints(EVERYTHING, EVERYTHING);
@@ -161,7 +161,7 @@ static void test_resources_of_every_kind(void **state)
 }
 
 /* What is named may stand anywhere in the document. */
-static void test_order_of_members_does_not_matter(void **state)
+static void order_of_members_does_not_matter(void **state)
 {
     (void)state;
     cJSON *json = json_text_parse(EVERYTHING, &err), *backwards = cJSON_CreateObject();
@@ -176,7 +176,7 @@ static void test_order_of_members_does_not_matter(void **state)
     cJSON_Delete(backwards);
 }
 
-static void test_ids_are_shared_by_all_trees(void **state)
+static void ids_are_shared_by_all_trees(void **state)
 {
     (void)state;
     assert_prints(DOC("'models':{'a':{'type':'box'},'b':{'type':'box'}},'root':{'type':'union',"
@@ -191,7 +191,7 @@ static void test_ids_are_shared_by_all_trees(void **state)
 #define MODEL(name, names)                                                                         \
     "'" name "':{'id':'" name "','type':'model','params':{'model':'" names "'}}"
 
-static void test_models_in_a_circle(void **state)
+static void models_in_a_circle(void **state)
 {
     (void)state;
     static const char root[] = ",'root':{'type':'union'}";
@@ -261,7 +261,7 @@ static void assert_limit(char *text, size_t nodes, const char *message)
     }
 }
 
-static void test_limits_of_the_tree(void **state)
+static void limits_of_the_tree(void **state)
 {
     (void)state;
     assert_limit(nested(LIMIT_NODE_DEPTH), LIMIT_NODE_DEPTH, NULL);
@@ -287,7 +287,7 @@ static char *listed(const char *list, size_t count, const char *value)
     return text;
 }
 
-static void test_limits_of_lists(void **state)
+static void limits_of_lists(void **state)
 {
     (void)state;
     static const struct {
@@ -327,7 +327,7 @@ static char *beside(char *document, size_t children)
     return text;
 }
 
-static void test_limits_hold_in_models(void **state)
+static void limits_hold_in_models(void **state)
 {
     (void)state;
     assert_limit(beside(nested(LIMIT_NODE_DEPTH), 0), LIMIT_NODE_DEPTH + 1, NULL);
@@ -337,7 +337,7 @@ static void test_limits_hold_in_models(void **state)
     assert_limit(beside(wide(11, 9089), 9), 0, "100001 nodes are above the maximum 100000");
 }
 
-static void test_long_places_keep_their_end(void **state)
+static void long_places_keep_their_end(void **state)
 {
     (void)state;
     static const char tail[] = "/children/0/params/radius";
@@ -365,7 +365,7 @@ static void note(void *data, const struct node *node, size_t index)
     walked->ids[walked->count++] = node->id;
 }
 
-static void test_tree_questions(void **state)
+static void tree_questions(void **state)
 {
     (void)state;
     struct scene *scene = json_text_valid_scene(
@@ -389,7 +389,7 @@ static void test_tree_questions(void **state)
     scene_destroy(scene);
 }
 
-static void test_empty_scene(void **state)
+static void empty_scene(void **state)
 {
     (void)state;
     struct scene *scene = scene_create_empty();
@@ -401,7 +401,7 @@ static void test_empty_scene(void **state)
 }
 
 /* print(parse(print(s))) is print(s) byte for byte, pretty or not, copied or not. */
-static void test_random_documents_round_trip(void **state)
+static void random_documents_round_trip(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= DOCUMENTS; seed++) {
@@ -451,7 +451,7 @@ static bool reads_damaged(struct random *random, const char *whole)
     return true;
 }
 
-static void test_damaged_documents(void **state)
+static void damaged_documents(void **state)
 {
     (void)state;
     struct random random = {9};
@@ -471,21 +471,21 @@ static void test_damaged_documents(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_prints_what_is_set),
-        cmocka_unit_test(test_missing_ids_avoid_given_ones),
-        cmocka_unit_test(test_places_name_what_is_wrong),
-        cmocka_unit_test(test_resources_of_every_kind),
-        cmocka_unit_test(test_order_of_members_does_not_matter),
-        cmocka_unit_test(test_ids_are_shared_by_all_trees),
-        cmocka_unit_test(test_models_in_a_circle),
-        cmocka_unit_test(test_limits_of_the_tree),
-        cmocka_unit_test(test_limits_of_lists),
-        cmocka_unit_test(test_limits_hold_in_models),
-        cmocka_unit_test(test_long_places_keep_their_end),
-        cmocka_unit_test(test_tree_questions),
-        cmocka_unit_test(test_empty_scene),
-        cmocka_unit_test(test_random_documents_round_trip),
-        cmocka_unit_test(test_damaged_documents),
+        cmocka_unit_test(prints_what_is_set),
+        cmocka_unit_test(missing_ids_avoid_given_ones),
+        cmocka_unit_test(places_name_what_is_wrong),
+        cmocka_unit_test(resources_of_every_kind),
+        cmocka_unit_test(order_of_members_does_not_matter),
+        cmocka_unit_test(ids_are_shared_by_all_trees),
+        cmocka_unit_test(models_in_a_circle),
+        cmocka_unit_test(limits_of_the_tree),
+        cmocka_unit_test(limits_of_lists),
+        cmocka_unit_test(limits_hold_in_models),
+        cmocka_unit_test(long_places_keep_their_end),
+        cmocka_unit_test(tree_questions),
+        cmocka_unit_test(empty_scene),
+        cmocka_unit_test(random_documents_round_trip),
+        cmocka_unit_test(damaged_documents),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

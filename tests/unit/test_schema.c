@@ -59,7 +59,7 @@ static void check_references(const cJSON *json)
     }
 }
 
-static void test_is_a_schema(void **state)
+static void is_a_schema(void **state)
 {
     (void)state;
     assert_string_equal(at(schema, "$schema")->valuestring,
@@ -88,7 +88,7 @@ static const cJSON *rule_for(const char *type)
     return NULL;
 }
 
-static void test_every_node_has_a_rule(void **state)
+static void every_node_has_a_rule(void **state)
 {
     (void)state;
     assert_int_equal(cJSON_GetArraySize(at(schema, "$defs/node/properties/type/enum")),
@@ -114,7 +114,7 @@ static void test_every_node_has_a_rule(void **state)
     assert_int_equal(cJSON_GetArraySize(at(rule_for("plane"), "properties/normal/not/const")), 3);
 }
 
-static void test_what_documents_declare(void **state)
+static void what_documents_declare(void **state)
 {
     (void)state;
     static const char *const lists[] = {"primitives", "shaders", "materials", "models"};
@@ -142,7 +142,7 @@ static void test_what_documents_declare(void **state)
     assert_int_equal(forms, built_in + 1);
 }
 
-static void test_lists(void **state)
+static void lists_are_described(void **state)
 {
     (void)state;
     static const struct {
@@ -195,7 +195,7 @@ static void assert_condition(const struct record_type *type, const struct param 
     cJSON_Delete(value);
 }
 
-static void test_conditions(void **state)
+static void conditions_are_described(void **state)
 {
     (void)state;
     const struct record_type *const tables[] = {light_types, shader_types, volume_types};
@@ -256,7 +256,7 @@ static void assert_meaning(const struct record_type *shader, const struct param 
     assert_true(others > 0 || is_converted(param->means));
 }
 
-static void test_meanings(void **state)
+static void meanings_are_described(void **state)
 {
     (void)state;
     int found = 0;
@@ -272,7 +272,7 @@ static void test_meanings(void **state)
 }
 
 /* A word for 0 stands where 0 can, and the description says what it is. */
-static void test_zeros(void **state)
+static void words_for_zero_are_described(void **state)
 {
     (void)state;
     const struct record_type *const records[] = {&camera_type, &environment_type, &render_type};
@@ -291,7 +291,7 @@ static void test_zeros(void **state)
     assert_true(found > 0);
 }
 
-static void test_outputs_levels_stages(void **state)
+static void outputs_levels_stages(void **state)
 {
     (void)state;
     const cJSON *registry = at(schema, "x-fieldcast");
@@ -303,7 +303,7 @@ static void test_outputs_levels_stages(void **state)
     assert_string_equal(json_member_text(at(registry, "stages")->child, "name", ""), "queue");
 }
 
-static void test_registry(void **state)
+static void registry_is_complete(void **state)
 {
     (void)state;
     const cJSON *registry = at(schema, "x-fieldcast");
@@ -349,15 +349,15 @@ static void test_registry(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_is_a_schema, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_every_node_has_a_rule, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_what_documents_declare, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_lists, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_registry, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_outputs_levels_stages, set_up, tear_down),
-        cmocka_unit_test(test_conditions),
-        cmocka_unit_test(test_meanings),
-        cmocka_unit_test(test_zeros),
+        cmocka_unit_test_setup_teardown(is_a_schema, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(every_node_has_a_rule, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_documents_declare, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(lists_are_described, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(registry_is_complete, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(outputs_levels_stages, set_up, tear_down),
+        cmocka_unit_test(conditions_are_described),
+        cmocka_unit_test(meanings_are_described),
+        cmocka_unit_test(words_for_zero_are_described),
     };
     return cmocka_run_group_tests_name("schema", tests, NULL, NULL);
 }

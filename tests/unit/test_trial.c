@@ -39,7 +39,7 @@ static void edit(struct resident *resident, const char *text)
     cJSON_Delete(ops);
 }
 
-static void test_numbers_are_tried_again(void **state)
+static void numbers_are_tried_again(void **state)
 {
     struct resident *resident = resident_create(renderer, drawing_parse(document), 1);
     (void)state;
@@ -61,7 +61,7 @@ static void test_numbers_are_tried_again(void **state)
     resident_destroy(resident);
 }
 
-static void test_other_numbers_are_not(void **state)
+static void other_numbers_are_not(void **state)
 {
     struct resident *resident = resident_create(renderer, drawing_parse(document), 1);
     (void)state;
@@ -90,8 +90,8 @@ static int stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers_are_tried_again),
-        cmocka_unit_test(test_other_numbers_are_not),
+        cmocka_unit_test(numbers_are_tried_again),
+        cmocka_unit_test(other_numbers_are_not),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }

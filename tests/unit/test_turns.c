@@ -75,14 +75,14 @@ static void run(struct picture *pictures, int count, int steps)
     finish();
 }
 
-static void test_nothing(void **state)
+static void nothing_is_taken_of_nothing(void **state)
 {
     (void)state;
     assert_null(step(NULL, 0));
 }
 
 /* By drawing time, not by steps. */
-static void test_equal_shares(void **state)
+static void equal_shares(void **state)
 {
     struct picture two[] = {{.account = "heavy", .priority = STILL, .step_us = 200000},
                             {.account = "light", .priority = STILL, .step_us = 5000}};
@@ -94,7 +94,7 @@ static void test_equal_shares(void **state)
 }
 
 /* However many pictures a client has, it has one share. */
-static void test_clients_count(void **state)
+static void clients_count(void **state)
 {
     struct picture many[] = {{.account = "a", .priority = IMAGE, .step_us = 1000},
                              {.account = "b", .priority = IMAGE, .step_us = 1000},
@@ -109,7 +109,7 @@ static void test_clients_count(void **state)
 }
 
 /* A small picture does not wait for a client's large ones, which still go on. */
-static void test_small_first(void **state)
+static void small_first(void **state)
 {
     struct picture two[] = {
         {.account = "a", .priority = IMAGE, .step_us = 1000, .pixels = 1 << 28},
@@ -120,7 +120,7 @@ static void test_small_first(void **state)
     assert_int_equal(two[0].steps, 800 / TURNS_OLDEST_EVERY);
 }
 
-static void test_urgent_first(void **state)
+static void urgent_first(void **state)
 {
     struct picture two[] = {{.account = "a", .priority = IMAGE, .step_us = 10000},
                             {.account = "b", .priority = MOVING, .step_us = 10000}};
@@ -140,7 +140,7 @@ static void test_urgent_first(void **state)
 }
 
 /* However urgent one client's pictures are, another's go on. */
-static void test_nobody_starves(void **state)
+static void nobody_starves(void **state)
 {
     for (int priority = MOVING; priority <= IMAGE; priority++) {
         struct picture two[] = {{.account = "heavy", .priority = MOVING, .step_us = 50000},
@@ -153,7 +153,7 @@ static void test_nobody_starves(void **state)
 }
 
 /* Of fifty-one who ask for the next picture a little after each, the one does not get less. */
-static void test_many_readers(void **state)
+static void many_readers(void **state)
 {
     enum { READERS = 51, EACH = 100 };
     struct picture readers[READERS];
@@ -190,7 +190,7 @@ static void test_many_readers(void **state)
 }
 
 /* What is not urgent waits for as much drawing beside ten as beside one. */
-static void test_image_beside_readers(void **state)
+static void image_beside_readers(void **state)
 {
     enum { READERS = 10, STEP_US = 10000, AHEAD = IMAGE * TURNS_AHEAD_US / STEP_US };
     enum { TILES = 5, COST = 4 }; /* of the image */
@@ -227,7 +227,7 @@ static void test_image_beside_readers(void **state)
 }
 
 /* Within an account neither. */
-static void test_oldest_within_account(void **state)
+static void oldest_within_account(void **state)
 {
     struct picture two[] = {{.account = "a", .priority = IMAGE, .step_us = 1000},
                             {.account = "a", .priority = MOVING, .step_us = 1000}};
@@ -238,7 +238,7 @@ static void test_oldest_within_account(void **state)
 }
 
 /* Who could not go on has little claim to what others got meanwhile: TURNS_CREDIT_US. */
-static void test_little_credit(void **state)
+static void little_credit(void **state)
 {
     struct picture two[] = {
         {.account = "compiles", .priority = MOVING, .step_us = 10000, .waiting = true},
@@ -261,7 +261,7 @@ static void test_little_credit(void **state)
 }
 
 /* Small pictures, asked for again and again, each come between two tiles of a heavy one. */
-static void test_small_between_heavy(void **state)
+static void small_between_heavy(void **state)
 {
     enum { TILES = 100 };
     struct picture two[] = {{.account = "heavy", .priority = MOVING, .step_us = 100000},
@@ -284,7 +284,7 @@ static void test_small_between_heavy(void **state)
 
 /* Pictures of a client that asks for a third of the time are not cut up, whether or not others
  * always have some. */
-static void test_small_at_once(void **state)
+static void small_at_once(void **state)
 {
     enum { STEPS = 4, PICTURES = 100 };
 
@@ -312,7 +312,7 @@ static void test_small_at_once(void **state)
 }
 
 /* Who comes once is not remembered for ever. */
-static void test_few_remembered(void **state)
+static void few_remembered(void **state)
 {
     struct picture one = {.priority = MOVING, .step_us = 1000};
     char account[16];
@@ -332,19 +332,19 @@ static void test_few_remembered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing),
-        cmocka_unit_test(test_equal_shares),
-        cmocka_unit_test(test_clients_count),
-        cmocka_unit_test(test_urgent_first),
-        cmocka_unit_test(test_small_first),
-        cmocka_unit_test(test_nobody_starves),
-        cmocka_unit_test(test_many_readers),
-        cmocka_unit_test(test_image_beside_readers),
-        cmocka_unit_test(test_oldest_within_account),
-        cmocka_unit_test(test_little_credit),
-        cmocka_unit_test(test_small_between_heavy),
-        cmocka_unit_test(test_small_at_once),
-        cmocka_unit_test(test_few_remembered),
+        cmocka_unit_test(nothing_is_taken_of_nothing),
+        cmocka_unit_test(equal_shares),
+        cmocka_unit_test(clients_count),
+        cmocka_unit_test(urgent_first),
+        cmocka_unit_test(small_first),
+        cmocka_unit_test(nobody_starves),
+        cmocka_unit_test(many_readers),
+        cmocka_unit_test(image_beside_readers),
+        cmocka_unit_test(oldest_within_account),
+        cmocka_unit_test(little_credit),
+        cmocka_unit_test(small_between_heavy),
+        cmocka_unit_test(small_at_once),
+        cmocka_unit_test(few_remembered),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

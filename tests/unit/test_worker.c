@@ -212,7 +212,7 @@ static void send_render(int job, int priority, int width, int height, const char
 
 /* --- tests --- */
 
-static void test_ready(void **state)
+static void worker_says_what_it_draws_with(void **state)
 {
     (void)state;
     expect(TO_FRONT_READY);
@@ -249,7 +249,7 @@ static void draw_here(const char *ops, struct picture *out)
     free(document);
 }
 
-static void test_render_and_edit(void **state)
+static void render_and_edit(void **state)
 {
     static const char ops[] = "[{'op':'set','at':'/nodes/ball/params/radius','value':0.9}]";
     struct picture first, second, here;
@@ -281,7 +281,7 @@ static void test_render_and_edit(void **state)
     picture_finish(&here);
 }
 
-static void test_structural_edit(void **state)
+static void structural_edit(void **state)
 {
     (void)state;
     send_scene("s", 1);
@@ -307,7 +307,7 @@ static void test_structural_edit(void **state)
     }
 }
 
-static void test_priority(void **state)
+static void priority_comes_first(void **state)
 {
     (void)state;
     send_scene("s", 1);
@@ -321,7 +321,7 @@ static void test_priority(void **state)
 }
 
 /* A large picture of one scene, as urgent as can be, and small ones of another beside it. */
-static void test_scenes_take_turns(void **state)
+static void scenes_take_turns(void **state)
 {
     enum { SMALL = 8, LARGE = 100 };
 
@@ -341,7 +341,7 @@ static void test_scenes_take_turns(void **state)
 
 /* What takes no time is no turn: beginning, handing over rows, ending. The picture is as small as
  * the smallest tile, so that it has one, however slow the machine is. */
-static void test_one_tile_takes_one_turn(void **state)
+static void one_tile_takes_one_turn(void **state)
 {
     enum { SMALL = 8, LARGE = 100 };
 
@@ -365,7 +365,7 @@ static void test_one_tile_takes_one_turn(void **state)
     send_cancel(LARGE);
 }
 
-static void test_cancel(void **state)
+static void cancelled_requests_end(void **state)
 {
     (void)state;
     send_scene("s", 1);
@@ -404,7 +404,7 @@ static unsigned long status_of(pid_t process, const char *word)
 }
 
 /* Also where the program was started with all privileges. */
-static void test_confined(void **state)
+static void worker_is_confined(void **state)
 {
     static const char *const none[] = {"CapEff:", "CapPrm:", "CapInh:"};
     struct rlimit core;
@@ -420,7 +420,7 @@ static void test_confined(void **state)
 }
 
 /* It tells how far the drawing thread has come, and when that has nothing to do. */
-static void test_pulse(void **state)
+static void pulse_counts_steps(void **state)
 {
     uint64_t steps;
 
@@ -445,7 +445,7 @@ static void test_pulse(void **state)
 }
 
 /* Nobody has to listen to it, and whoever talks nonsense there gets no answer. */
-static void test_pulse_gone(void **state)
+static void pulse_gone(void **state)
 {
     static const uint32_t nonsense[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
 
@@ -457,7 +457,7 @@ static void test_pulse_gone(void **state)
     expect(TO_FRONT_FRAME);
 }
 
-static void test_dropped_scene(void **state)
+static void dropped_scene(void **state)
 {
     (void)state;
     send_scene("s", 1);
@@ -514,7 +514,7 @@ static void expect_frame(uint32_t job, uint64_t revision)
 }
 
 /* Others are drawn while large documents are read. */
-static void test_large_documents(void **state)
+static void large_documents(void **state)
 {
     static const char *const large[] = {"a", "b", "c", "d"};
     enum { LARGE = sizeof large / sizeof large[0] };
@@ -546,7 +546,7 @@ static void test_large_documents(void **state)
 #define THICKEN "[{'op':'set','at':'/nodes/ring/params/tube','value':0.4}]"
 
 /* The same while the fields of large scenes are compiled after edits of more than numbers. */
-static void test_large_edits(void **state)
+static void large_edits(void **state)
 {
     static const char *const large[] = {"a", "b", "c", "d"};
     enum { LARGE = sizeof large / sizeof large[0] };
@@ -592,7 +592,7 @@ static void check_same(const struct picture *a, bool same)
 }
 
 /* Edits that wait are applied together; the picture is that of one after the other. */
-static void test_large_edits_in_order(void **state)
+static void large_edits_in_order(void **state)
 {
     char *document = large_document(false);
     struct picture before, after;
@@ -630,7 +630,7 @@ static void test_large_edits_in_order(void **state)
 }
 
 /* Whatever is said of a scene is done after its document was read, in the order of saying. */
-static void test_order(void **state)
+static void packets_keep_their_order(void **state)
 {
     char *document = large_document(false);
 
@@ -662,7 +662,7 @@ static void test_order(void **state)
 }
 
 /* The end comes while one is read, another waits, and packets wait for both. */
-static void test_stop_while_reading(void **state)
+static void stop_while_reading(void **state)
 {
     char *document = large_document(false);
 
@@ -675,7 +675,7 @@ static void test_stop_while_reading(void **state)
     free(document);
 }
 
-static void test_outputs(void **state)
+static void outputs_are_drawn(void **state)
 {
     (void)state;
     send_scene("s", 1);
@@ -707,7 +707,7 @@ static void check_frame(const char *more, enum codec codec, int width, int heigh
     assert_int_equal(packet.frame.height, height);
 }
 
-static void test_what_is_asked(void **state)
+static void what_is_asked(void **state)
 {
     enum { COLOR_TYPE = 25, RGB = 2, RGB_ALPHA = 6 }; /* in the IHDR of a PNG */
 
@@ -736,7 +736,7 @@ static void check_failed(const char *more, enum error_kind kind, const char *pla
     assert_true(strlen(packet.failed.error.message) > 0);
 }
 
-static void test_refusals(void **state)
+static void impossible_requests_are_refused(void **state)
 {
     (void)state;
     check_failed("", ERROR_NOT_FOUND, "scene");
@@ -765,7 +765,7 @@ static void test_refusals(void **state)
     assert_int_equal(packet.frame.revision, 1);
 }
 
-static void test_stop(void **state)
+static void stop_ends_a_render(void **state)
 {
     (void)state;
     assert_int_equal(start(NULL), 0);
@@ -779,7 +779,7 @@ static void test_stop(void **state)
 }
 
 /* The front is gone in the middle of a picture. */
-static void test_front_gone(void **state)
+static void front_gone(void **state)
 {
     (void)state;
     assert_int_equal(start(NULL), 0);
@@ -800,7 +800,7 @@ static void check_broken_stream(const void *bytes, size_t length)
     assert_int_equal(end(), 1);
 }
 
-static void test_malformed_packets(void **state)
+static void malformed_packets(void **state)
 {
     static const uint32_t huge[3] = {TO_WORKER_STOP, UINT32_MAX, 0};
     static const char garbage[] = "\x08\0\0\0\x05\0\0\0\0\0\0\0{\"a\":";
@@ -817,7 +817,7 @@ static void test_malformed_packets(void **state)
 }
 
 /* Packets come whole out of any pieces. */
-static void test_packets(void **state)
+static void packets_come_whole_out_of_pieces(void **state)
 {
     static uint8_t payload[] = "some bytes";
     const struct packet sent = {.kind = TO_WORKER_ASSET,
@@ -862,7 +862,7 @@ static struct packet there(enum packet_way way, const struct packet *sent)
     return out;
 }
 
-static void test_members_to_worker(void **state)
+static void members_to_worker(void **state)
 {
     const struct packet_judge judge = {0xfedcba9876543210, "a", ERROR_CRASHED, 7, 8, 9};
     struct render_request request;
@@ -898,7 +898,7 @@ static void test_members_to_worker(void **state)
     render_request_finish(&request);
 }
 
-static void test_members_to_front(void **state)
+static void members_to_front(void **state)
 {
     struct packet sent = {.kind = TO_FRONT_FRAME,
                           .frame = {.job = 7, .revision = 1e15, .more = true}};
@@ -940,31 +940,31 @@ static void test_members_to_front(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_packets),
-        cmocka_unit_test(test_members_to_worker),
-        cmocka_unit_test(test_members_to_front),
-        cmocka_unit_test_setup_teardown(test_ready, start, stop),
-        cmocka_unit_test_setup_teardown(test_confined, start, stop),
-        cmocka_unit_test_setup_teardown(test_render_and_edit, start, stop),
-        cmocka_unit_test_setup_teardown(test_structural_edit, start, stop),
-        cmocka_unit_test_setup_teardown(test_priority, start, stop),
-        cmocka_unit_test_setup_teardown(test_scenes_take_turns, start, stop),
-        cmocka_unit_test_setup_teardown(test_one_tile_takes_one_turn, start, stop),
-        cmocka_unit_test_setup_teardown(test_cancel, start, stop),
-        cmocka_unit_test_setup_teardown(test_pulse, start, stop),
-        cmocka_unit_test_setup_teardown(test_pulse_gone, start, stop),
-        cmocka_unit_test_setup_teardown(test_dropped_scene, start, stop),
-        cmocka_unit_test_setup_teardown(test_large_documents, start, stop),
-        cmocka_unit_test_setup_teardown(test_large_edits, start, stop),
-        cmocka_unit_test_setup_teardown(test_large_edits_in_order, start, stop),
-        cmocka_unit_test_setup_teardown(test_order, start, stop),
-        cmocka_unit_test_setup_teardown(test_stop_while_reading, start, stop),
-        cmocka_unit_test_setup_teardown(test_outputs, start, stop),
-        cmocka_unit_test_setup_teardown(test_what_is_asked, start, stop),
-        cmocka_unit_test_setup_teardown(test_refusals, start, stop),
-        cmocka_unit_test(test_stop),
-        cmocka_unit_test(test_front_gone),
-        cmocka_unit_test(test_malformed_packets),
+        cmocka_unit_test(packets_come_whole_out_of_pieces),
+        cmocka_unit_test(members_to_worker),
+        cmocka_unit_test(members_to_front),
+        cmocka_unit_test_setup_teardown(worker_says_what_it_draws_with, start, stop),
+        cmocka_unit_test_setup_teardown(worker_is_confined, start, stop),
+        cmocka_unit_test_setup_teardown(render_and_edit, start, stop),
+        cmocka_unit_test_setup_teardown(structural_edit, start, stop),
+        cmocka_unit_test_setup_teardown(priority_comes_first, start, stop),
+        cmocka_unit_test_setup_teardown(scenes_take_turns, start, stop),
+        cmocka_unit_test_setup_teardown(one_tile_takes_one_turn, start, stop),
+        cmocka_unit_test_setup_teardown(cancelled_requests_end, start, stop),
+        cmocka_unit_test_setup_teardown(pulse_counts_steps, start, stop),
+        cmocka_unit_test_setup_teardown(pulse_gone, start, stop),
+        cmocka_unit_test_setup_teardown(dropped_scene, start, stop),
+        cmocka_unit_test_setup_teardown(large_documents, start, stop),
+        cmocka_unit_test_setup_teardown(large_edits, start, stop),
+        cmocka_unit_test_setup_teardown(large_edits_in_order, start, stop),
+        cmocka_unit_test_setup_teardown(packets_keep_their_order, start, stop),
+        cmocka_unit_test_setup_teardown(stop_while_reading, start, stop),
+        cmocka_unit_test_setup_teardown(outputs_are_drawn, start, stop),
+        cmocka_unit_test_setup_teardown(what_is_asked, start, stop),
+        cmocka_unit_test_setup_teardown(impossible_requests_are_refused, start, stop),
+        cmocka_unit_test(stop_ends_a_render),
+        cmocka_unit_test(front_gone),
+        cmocka_unit_test(malformed_packets),
     };
 
     if (argc > 1 && strcmp(argv[1], "--worker") == 0) {
