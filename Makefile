@@ -23,7 +23,7 @@ OUT := $(BUILD)/$(CONFIG)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 .SUFFIXES:
 .DELETE_ON_ERROR:
-.PHONY: all fieldcast web run test programs docs bench screens lint format check golden-accept cards gallery clean \
+.PHONY: all fieldcast web run test programs docs bench screens lint format check golden-accept pictures gallery clean \
         install uninstall dist help deps test-deps FORCE
 
 Q := $(if $(filter 1,$(V)),,@)
@@ -254,7 +254,7 @@ golden-accept: ## draw CASE=name (or all) and take the picture as its reference
 	$(again) CONFIG=release programs
 	$(Q)cd $(S) && GOLDEN_ACCEPT='$(CASE)' $(abspath $(BUILD))/release/tests/golden/test_golden
 
-cards: fieldcast ## draw the pictures of the examples and of the reference page
+pictures: fieldcast ## draw the pictures of the examples and of the reference page
 	$(Q)for f in $(S)/protocol/examples/*.json; do $(OUT)/fieldcast render $$f --width 480 --height 270 \
 	  --samples 4 --quality 85 -o $${f%.json}.jpg || exit 1; done
 	$(Q)mkdir -p $(S)/protocol/reference

@@ -163,13 +163,13 @@ struct renderer_counters renderer_counters(const struct renderer *renderer)
     return counters;
 }
 
-struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
-                                               const char *image)
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer,
+                                               uint64_t structure_hash, const char *image)
 {
     for (size_t i = 0; i < renderer->verdict_count; i++) {
         struct renderer_verdict *verdict = &renderer->verdicts[i];
 
-        if (verdict->shape == shape && strcmp(verdict->image, image) == 0) {
+        if (verdict->structure_hash == structure_hash && strcmp(verdict->image, image) == 0) {
             return verdict;
         }
     }
@@ -184,7 +184,7 @@ static bool is_named_by(const struct resident *resident, const char *id)
 void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict)
 {
     struct renderer_verdict *known =
-        renderer_find_verdict(renderer, verdict->shape, verdict->image);
+        renderer_find_verdict(renderer, verdict->structure_hash, verdict->image);
 
     if (!known) {
         renderer->verdicts = memory_resize(renderer->verdicts, renderer->verdict_count + 1,
@@ -194,7 +194,7 @@ void renderer_judge(struct renderer *renderer, const struct renderer_verdict *ve
     *known = *verdict;
     for (struct resident *resident = renderer->residents; resident; resident = resident->next) {
         if (*verdict->image ? is_named_by(resident, verdict->image)
-                            : resident->refused_shape == verdict->shape) {
+                            : resident->refused_structure == verdict->structure_hash) {
             resident_renew(resident);
         }
     }
@@ -251,7 +251,7 @@ bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out)
     struct pictures_stuck picture;
 
     if (program_cache_stuck(renderer->programs, &stuck)) {
-        *out = (struct renderer_stuck){stuck.shape, "", stuck.still, stuck.measured_ms,
+        *out = (struct renderer_stuck){stuck.structure_hash, "", stuck.still, stuck.measured_ms,
                                        stuck.limit_ms};
         return true;
     }

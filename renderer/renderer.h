@@ -45,8 +45,8 @@ struct renderer_params {
     void (*log)(void *data, const char *line);
     void *log_data;
     /* Called before a program with code of users is compiled, which waits until this returns, with
-     * its shape, and with 0 when that is over. May be NULL. */
-    void (*on_compile)(void *data, uint64_t shape);
+     * its structure, and with 0 when that is over. May be NULL. */
+    void (*on_compile)(void *data, uint64_t structure_hash);
     /* The same before the picture of an environment is read: its id, and "" when that is over. */
     void (*on_read)(void *data, const char *image);
     void *on_compile_data;
@@ -73,26 +73,26 @@ size_t renderer_devices(const struct device_params *params, struct device_report
 
 struct renderer_counters {
     uint64_t compilations; /* programs compiled and linked since the start */
-    uint64_t cache_hits;   /* scenes whose shape was there already */
+    uint64_t cache_hits;   /* scenes whose structure was there already */
     uint64_t tiles, pictures;
     uint64_t rays; /* reflected and refracted ones */
 };
 struct renderer_counters renderer_counters(const struct renderer *renderer);
 
-/* A shape whose compiler may never end, as gl/program.h has it; or a picture that is read. */
+/* A structure whose compiler may never end, as gl/program.h has it; or a picture that is read. */
 struct renderer_stuck {
-    uint64_t shape;
-    const char *image; /* "": it is the shape */
+    uint64_t structure_hash;
+    const char *image; /* "": it is the structure */
     bool still;
     int measured_ms, limit_ms;
 };
 /* The picture of an environment is being read: renderer_poll wants to be called. */
 bool renderer_is_reading(const struct renderer *renderer);
 bool renderer_stuck(const struct renderer *renderer, struct renderer_stuck *out);
-/* What earlier processes learned of compiling a shape, or of reading a picture. */
+/* What earlier processes learned of compiling a structure, or of reading a picture. */
 struct renderer_verdict {
-    uint64_t shape;                      /* 0: of a picture */
-    char image[ASSET_ID_CHARACTERS + 1]; /* "": of a shape */
+    uint64_t structure_hash;             /* 0: of a picture */
+    char image[ASSET_ID_CHARACTERS + 1]; /* "": of a structure */
     enum error_kind refused;   /* never done again, for this reason; ERROR_NONE: it may be tried */
     int measured_ms, limit_ms; /* of ERROR_TOO_SLOW */
     int times;                 /* of the usual time that it may take; 0: once */
@@ -160,16 +160,16 @@ bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revisi
 bool resident_is_stale(const struct resident *resident);
 void resident_renew(struct resident *resident); /* opens it anew at once */
 const struct scene *resident_scene(const struct resident *resident);
-/* The newest shape where there is code of users in it; else 0. */
-uint64_t resident_shape_with_code(const struct resident *resident);
+/* The newest structure where there is code of users in it; else 0. */
+uint64_t resident_structure_with_code(const struct resident *resident);
 uint64_t resident_revision(const struct resident *resident);       /* newest told */
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
-/* ERROR_NONE while all is well; else why the newest shape cannot be drawn. */
+/* ERROR_NONE while all is well; else why the newest structure cannot be drawn. */
 const struct error *resident_error(const struct resident *resident);
-/* The newest shape; 0: it has none. */
-uint64_t resident_shape(const struct resident *resident);
+/* The newest structure; 0: it has none. */
+uint64_t resident_structure_hash(const struct resident *resident);
 /* The same where it is refused; else 0. */
-uint64_t resident_refused_shape(const struct resident *resident);
+uint64_t resident_refused_structure(const struct resident *resident);
 enum warning_kind {
     WARNING_LIPSCHITZ, /* a function of a user is steeper than it says */
     WARNING_ASSET,     /* the picture around the scene is not there, or is none */
@@ -245,8 +245,8 @@ const struct error *job_error(const struct job *job);
 uint64_t job_revision(const struct job *job);
 /* What it draws: the ids of its nodes by the values of its raw `id` (field/field.h). The job's. */
 struct field *job_field(const struct job *job);
-/* The shape of what it draws where there is code of users in it; else 0. */
-uint64_t job_shape_with_code(const struct job *job);
+/* The structure of what it draws where there is code of users in it; else 0. */
+uint64_t job_structure_with_code(const struct job *job);
 /* Microseconds by enum frame_stage; those that only others know are 0. */
 struct job_times {
     uint32_t us[FRAME_STAGES];

@@ -68,12 +68,13 @@ void worker_send_failed(struct worker *w, uint32_t job, const struct error *err,
 }
 
 void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
-                        const struct error *err, uint64_t shape)
+                        const struct error *err, uint64_t structure_hash)
 {
-    worker_send(
-        w, &(struct packet){
-               .kind = TO_FRONT_BROKEN,
-               .state = {.scene = scene, .revision = revision, .error = *err, .shape = shape}});
+    worker_send(w, &(struct packet){.kind = TO_FRONT_BROKEN,
+                                    .state = {.scene = scene,
+                                              .revision = revision,
+                                              .error = *err,
+                                              .structure_hash = structure_hash}});
 }
 
 void worker_send_suspect(struct worker *w, enum packet_to_front kind,
@@ -84,14 +85,15 @@ void worker_send_suspect(struct worker *w, enum packet_to_front kind,
 
 void worker_send_slow(struct worker *w, const struct renderer_stuck *stuck)
 {
-    const struct worker_scene *entry =
-        *stuck->image ? worker_find_image(w, stuck->image) : worker_find_shape(w, stuck->shape);
+    const struct worker_scene *entry = *stuck->image
+                                           ? worker_find_image(w, stuck->image)
+                                           : worker_find_structure(w, stuck->structure_hash);
 
     worker_send_suspect(
         w, TO_FRONT_SLOW,
         &(struct packet_suspect){.scene = entry ? entry->name : "",
                                  .revision = entry ? resident_revision(entry->resident) : 0,
-                                 .shape = *stuck->image ? 0 : stuck->shape,
+                                 .structure_hash = *stuck->image ? 0 : stuck->structure_hash,
                                  .asset = stuck->image,
                                  .still = stuck->still,
                                  .measured_ms = stuck->measured_ms,

@@ -87,9 +87,9 @@ void worker_flush_all(struct worker *w);
 void worker_send(struct worker *w, const struct packet *packet);
 /* `begun`: some of the picture was drawn. */
 void worker_send_failed(struct worker *w, uint32_t job, const struct error *err, bool begun);
-/* `shape`: the one that is refused; 0: none. */
+/* `structure_hash`: the one that is refused; 0: none. */
 void worker_send_broken(struct worker *w, const char *scene, uint64_t revision,
-                        const struct error *err, uint64_t shape);
+                        const struct error *err, uint64_t structure_hash);
 void worker_send_ready(struct worker *w);
 void worker_send_frame(struct worker *w, const struct worker_job *job);
 /* A compiler may never end, and this process will. */
@@ -117,14 +117,14 @@ void worker_drop_documents(struct worker *w);
 
 struct worker_scene **worker_find_scene(struct worker *w, const char *name);
 void worker_drop_scene(struct worker_scene **at);
-/* One that needs this shape; NULL: none. */
-const struct worker_scene *worker_find_shape(const struct worker *w, uint64_t shape);
+/* One that needs this structure; NULL: none. */
+const struct worker_scene *worker_find_structure(const struct worker *w, uint64_t structure_hash);
 /* One whose environment is this file. */
 const struct worker_scene *worker_find_image(const struct worker *w, const char *image);
 /* Tells the front what has become drawable, or never will. */
 void worker_announce(struct worker *w);
 /* renderer_params.on_compile; `data` is the worker. */
-void worker_on_compile(void *data, uint64_t shape);
+void worker_on_compile(void *data, uint64_t structure_hash);
 /* The same of renderer_params.on_read. */
 void worker_on_read(void *data, const char *image);
 /* What its document is to be opened as. Borrowed. */

@@ -16,7 +16,7 @@
  * scene drawn, the worker names it, and an empty one afterwards; it waits until the front has that.
  * So it is known whose code, file or document ended it. A compiler that may never end (limits.h)
  * ends the worker, which says so first (`slow`), as does reading a picture that takes too long. The
- * front tells the next worker what to make of such a shape or file (`judge`).
+ * front tells the next worker what to make of such a structure or file (`judge`).
  *
  * A request in rounds is answered by a frame for each round of samples; the last one's `more` is
  * false. A request of a scene that is not known, or a malformed packet, is answered by `failed`.
@@ -86,9 +86,9 @@ struct packet_edit {
     cJSON *ops;
 };
 
-/* Of a shape, or of a file: how many times the usual time it may take, or that it is refused. */
+/* Of a structure or a file: how many times the usual time it may take, or that it is refused. */
 struct packet_judge {
-    uint64_t shape; /* 0: of a file */
+    uint64_t structure_hash; /* 0: of a file */
     const char *asset;
     enum error_kind refused;
     int measured_ms, limit_ms, times;
@@ -125,15 +125,15 @@ struct packet_state {
     uint64_t revision;
     enum warning_kind warning; /* of `warned` */
     struct error error;        /* of `broken` and `warned` */
-    uint64_t shape;            /* that is refused; 0: none */
+    uint64_t structure_hash;   /* that is refused; 0: none */
 };
 
 /* What may end the worker. scene "": nothing any more. */
 struct packet_suspect {
     const char *scene;
     uint64_t revision;
-    uint64_t shape;    /* 0: it is a file, or is drawn */
-    const char *asset; /* "": it is none */
+    uint64_t structure_hash; /* 0: it is a file, or is drawn */
+    const char *asset;       /* "": it is none */
     uint32_t job;
     bool still;
     int measured_ms, limit_ms; /* of `slow` */

@@ -18,11 +18,11 @@ struct worker_scene **worker_find_scene(struct worker *w, const char *name)
     return at;
 }
 
-const struct worker_scene *worker_find_shape(const struct worker *w, uint64_t shape)
+const struct worker_scene *worker_find_structure(const struct worker *w, uint64_t structure_hash)
 {
     const struct worker_scene *entry = w->scenes;
 
-    while (entry && resident_shape(entry->resident) != shape) {
+    while (entry && resident_structure_hash(entry->resident) != structure_hash) {
         entry = entry->next;
     }
     return entry;
@@ -80,27 +80,27 @@ void worker_announce(struct worker *w)
         }
         if (err->kind != ERROR_NONE && entry->told_broken != revision) {
             worker_send_broken(w, entry->name, revision, err,
-                               resident_refused_shape(entry->resident));
+                               resident_refused_structure(entry->resident));
             entry->told_broken = revision;
         }
         announce_warning(w, entry);
     }
 }
 
-void worker_on_compile(void *data, uint64_t shape)
+void worker_on_compile(void *data, uint64_t structure_hash)
 {
     struct worker *w = data;
     const struct worker_scene *entry = w->scenes;
     const struct worker_job *job = w->jobs;
 
-    while (entry && resident_shape_with_code(entry->resident) != shape) {
+    while (entry && resident_structure_with_code(entry->resident) != structure_hash) {
         entry = entry->next;
     }
     /* It may be left to a picture of an older state. */
-    while (job && !(job->drawing && job_shape_with_code(job->drawing) == shape)) {
+    while (job && !(job->drawing && job_structure_with_code(job->drawing) == structure_hash)) {
         job = job->next;
     }
-    if (shape == 0 || (!entry && !job)) {
+    if (structure_hash == 0 || (!entry && !job)) {
         worker_send_suspect(w, TO_FRONT_COMPILING, &(struct packet_suspect){0});
         return;
     }
@@ -108,7 +108,7 @@ void worker_on_compile(void *data, uint64_t shape)
                         &(struct packet_suspect){
                             .scene = entry ? entry->name : job->scene,
                             .revision = entry ? resident_revision(entry->resident) : job->revision,
-                            .shape = shape});
+                            .structure_hash = structure_hash});
     worker_flush_all(w);
 }
 
@@ -220,7 +220,7 @@ void worker_on_drop(struct worker *w, const char *scene)
 void worker_on_judge(struct worker *w, const struct packet_judge *packet)
 {
     struct renderer_verdict verdict = {
-        .shape = packet->shape,
+        .structure_hash = packet->structure_hash,
         .refused = packet->refused,
         .measured_ms = packet->measured_ms,
         .limit_ms = packet->limit_ms,

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parts.h"
+#include "import_internal.h"
 #include "protocol/memory.h"
 #include "protocol/suggest.h"
 

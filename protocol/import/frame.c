@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "parts.h"
+#include "import_internal.h"
 
 enum { VISITS_MAX = 100000 }; /* models of models can be more nodes than anybody has time for */
 

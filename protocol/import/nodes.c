@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parts.h"
+#include "import_internal.h"
 
 static const char *const node_members[] = {"type",        "model",    "data", "transform",
                                            "material_id", "children", NULL};

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parts.h"
+#include "import_internal.h"
 #include "protocol/memory.h"
 
 enum { RESERVED_IDS = 32, WORD_BYTES = 64 };

@@ -2,15 +2,15 @@
 /* Statements and functions as GLSL. */
 #include "writer.h"
 
-static void write_statement(struct writer *w, const struct stmt *stmt);
+static void write_statement(struct code_writer *w, const struct stmt *stmt);
 
-static void end_line(struct writer *w)
+static void end_line(struct code_writer *w)
 {
     PUT(w, "\n");
     w->line += w->line > 0;
 }
 
-static void begin_line(struct writer *w, struct at at)
+static void begin_line(struct code_writer *w, struct at at)
 {
     if (w->line != at.line && at.line > 0) {
         PUT(w, "#line %d %d\n", at.line, w->source);
@@ -21,14 +21,14 @@ static void begin_line(struct writer *w, struct at at)
 /* --- statements --- */
 
 /* "vec3 NAME_v2", "float NAME_v3[4]" */
-static void write_declared(struct writer *w, const struct variable *variable)
+static void write_declared(struct code_writer *w, const struct variable *variable)
 {
     char name[TYPE_NAME_BYTES];
     PUT(w, "%s ", writer_type(variable->type, name));
     writer_variable(w, variable);
 }
 
-static void write_nothing(struct writer *w, struct type type)
+static void write_nothing(struct code_writer *w, struct type type)
 {
     static const double zeros[LIMIT_CODE_ARRAY * 16];
     PUT(w, " = ");
@@ -37,7 +37,7 @@ static void write_nothing(struct writer *w, struct type type)
     end_line(w);
 }
 
-static void write_declaration(struct writer *w, const struct stmt *stmt)
+static void write_declaration(struct code_writer *w, const struct stmt *stmt)
 {
     begin_line(w, stmt->at);
     write_declared(w, stmt->variable);
@@ -52,7 +52,7 @@ static void write_declaration(struct writer *w, const struct stmt *stmt)
 }
 
 /* The body, in braces of its own, as it may be one declaration. */
-static void write_body(struct writer *w, const struct stmt *stmt)
+static void write_body(struct code_writer *w, const struct stmt *stmt)
 {
     PUT(w, "{");
     end_line(w);
@@ -61,7 +61,7 @@ static void write_body(struct writer *w, const struct stmt *stmt)
     end_line(w);
 }
 
-static void write_if(struct writer *w, const struct stmt *stmt)
+static void write_if(struct code_writer *w, const struct stmt *stmt)
 {
     begin_line(w, stmt->at);
     PUT(w, "if (");
@@ -74,7 +74,7 @@ static void write_if(struct writer *w, const struct stmt *stmt)
     }
 }
 
-static void write_for(struct writer *w, const struct stmt *stmt)
+static void write_for(struct code_writer *w, const struct stmt *stmt)
 {
     const struct variable *variable = stmt->variable;
     char name[TYPE_NAME_BYTES];
@@ -99,7 +99,7 @@ static void write_for(struct writer *w, const struct stmt *stmt)
     end_line(w);
 }
 
-static void write_simple(struct writer *w, const char *word, const struct stmt *stmt)
+static void write_simple(struct code_writer *w, const char *word, const struct stmt *stmt)
 {
     begin_line(w, stmt->at);
     PUT(w, "%s", word);
@@ -111,14 +111,14 @@ static void write_simple(struct writer *w, const char *word, const struct stmt *
     end_line(w);
 }
 
-static void write_list(struct writer *w, const struct stmt *list)
+static void write_list(struct code_writer *w, const struct stmt *list)
 {
     for (; list; list = list->next) {
         write_statement(w, list);
     }
 }
 
-static void write_statement(struct writer *w, const struct stmt *stmt)
+static void write_statement(struct code_writer *w, const struct stmt *stmt)
 {
     switch (stmt->kind) {
     case STMT_BLOCK:
@@ -160,7 +160,7 @@ static void write_statement(struct writer *w, const struct stmt *stmt)
 
 /* --- functions and what they read --- */
 
-static void write_parameters(struct writer *w, const struct function *function)
+static void write_parameters(struct code_writer *w, const struct function *function)
 {
     static const char *const directions[] = {"", "out ", "inout "};
     const char *before = "(";
@@ -174,7 +174,7 @@ static void write_parameters(struct writer *w, const struct function *function)
     PUT(w, "%s)", *before == '(' ? "(" : "");
 }
 
-static void write_function(struct writer *w, const struct function *function)
+static void write_function(struct code_writer *w, const struct function *function)
 {
     char name[TYPE_NAME_BYTES];
     begin_line(w, function->at);
@@ -195,7 +195,7 @@ static void write_function(struct writer *w, const struct function *function)
 }
 
 /* Constants that are not written where they are used, for being several numbers. */
-static void write_globals(struct writer *w)
+static void write_globals(struct code_writer *w)
 {
     for (const struct stmt *stmt = w->tree->top; stmt; stmt = stmt->next) {
         for (const struct stmt *one = stmt->body; one; one = one->next) {
@@ -215,7 +215,7 @@ static void write_globals(struct writer *w)
 }
 
 /* What every function can read, set by the last one. */
-static void write_inputs(struct writer *w)
+static void write_inputs(struct code_writer *w)
 {
     const struct tree *tree = w->tree;
     char name[TYPE_NAME_BYTES];
@@ -235,7 +235,7 @@ static void write_inputs(struct writer *w)
 }
 
 /* The argument as what the code takes it for. */
-static void write_input(struct writer *w, const struct variable *v)
+static void write_input(struct code_writer *w, const struct variable *v)
 {
     int n = v->number;
     char name[TYPE_NAME_BYTES];
@@ -252,7 +252,7 @@ static void write_input(struct writer *w, const struct variable *v)
     }
 }
 
-static void write_data(struct writer *w)
+static void write_data(struct code_writer *w)
 {
     const struct tree *tree = w->tree;
     int next = 0;
@@ -267,7 +267,7 @@ static void write_data(struct writer *w)
     }
 }
 
-static void write_entry(struct writer *w, enum code_use use)
+static void write_entry(struct code_writer *w, enum code_use use)
 {
     const struct tree *tree = w->tree;
     bool shade = use == CODE_SHADE, surface = shade && type_is_surface(tree->entry->result);
@@ -307,7 +307,7 @@ static void write_entry(struct writer *w, enum code_use use)
 void writer_write(const struct tree *tree, enum code_use use, const char *name, int source_number,
                   FILE *out)
 {
-    struct writer w = {.out = out, .tree = tree, .name = name, .source = source_number};
+    struct code_writer w = {.out = out, .tree = tree, .name = name, .source = source_number};
     write_inputs(&w);
     write_globals(&w);
     for (const struct function *f = tree->called; f; f = f->next_called) {

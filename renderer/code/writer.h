@@ -18,7 +18,7 @@ void writer_write(const struct tree *tree, enum code_use use, const char *name, 
 
 /* --- between the files of the writer --- */
 
-struct writer {
+struct code_writer {
     FILE *out;
     const struct tree *tree;
     const char *name;
@@ -28,11 +28,11 @@ struct writer {
 
 #define PUT(w, ...) fprintf((w)->out, __VA_ARGS__)
 
-void writer_expr(struct writer *w, const struct expr *expr);
+void writer_expr(struct code_writer *w, const struct expr *expr);
 /* The name that it has in GLSL; returns `out` or a text that stays. */
 const char *writer_type(struct type type, char out[TYPE_NAME_BYTES]);
-void writer_variable(struct writer *w, const struct variable *variable);
-void writer_constant(struct writer *w, struct type type, const double *value);
-void writer_number(struct writer *w, enum base base, double number);
+void writer_variable(struct code_writer *w, const struct variable *variable);
+void writer_constant(struct code_writer *w, struct type type, const double *value);
+void writer_number(struct code_writer *w, enum base base, double number);
 
 #endif

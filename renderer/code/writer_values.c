@@ -10,7 +10,7 @@
 /* --- constants --- */
 
 /* Nine digits are enough for every float. */
-static void write_float(struct writer *w, double number)
+static void write_float(struct code_writer *w, double number)
 {
     char text[40];
     snprintf(text, sizeof text, "%.9g", number);
@@ -18,7 +18,7 @@ static void write_float(struct writer *w, double number)
     PUT(w, number < 0 || signbit(number) ? "(%s%s)" : "%s%s", text, whole ? ".0" : "");
 }
 
-void writer_number(struct writer *w, enum base base, double number)
+void writer_number(struct code_writer *w, enum base base, double number)
 {
     switch (base) {
     case BASE_FLOAT:
@@ -45,7 +45,7 @@ const char *writer_type(struct type type, char out[TYPE_NAME_BYTES])
 }
 
 /* Members from `first` on. */
-static void write_members(struct writer *w, int first, const double *value)
+static void write_members(struct code_writer *w, int first, const double *value)
 {
     for (int i = first; i < SURFACE_MEMBERS; i++) {
         const struct surface_member *member = &surface_members[i];
@@ -54,7 +54,7 @@ static void write_members(struct writer *w, int first, const double *value)
     }
 }
 
-void writer_constant(struct writer *w, struct type type, const double *value)
+void writer_constant(struct code_writer *w, struct type type, const double *value)
 {
     char name[TYPE_NAME_BYTES];
     int count = type_components(type);
@@ -80,13 +80,13 @@ void writer_constant(struct writer *w, struct type type, const double *value)
 
 /* --- expressions --- */
 
-void writer_variable(struct writer *w, const struct variable *variable)
+void writer_variable(struct code_writer *w, const struct variable *variable)
 {
     bool declared = variable->storage == STORAGE_DECLARED;
     PUT(w, "%s_%c%d", w->name, declared ? 'd' : 'v', variable->number);
 }
 
-static void write_value(struct writer *w, const struct expr *expr)
+static void write_value(struct code_writer *w, const struct expr *expr)
 {
     bool named = expr->kind == EXPR_VARIABLE && type_components(expr->type) > 1;
     if (named) {
@@ -96,7 +96,7 @@ static void write_value(struct writer *w, const struct expr *expr)
     }
 }
 
-static void write_arguments(struct writer *w, const struct expr *args)
+static void write_arguments(struct code_writer *w, const struct expr *args)
 {
     const char *before = "(";
     for (; args; args = args->next) {
@@ -110,7 +110,7 @@ static void write_arguments(struct writer *w, const struct expr *args)
 }
 
 /* What is divided by, if it may be 0. */
-static void write_divisor(struct writer *w, const struct expr *expr)
+static void write_divisor(struct code_writer *w, const struct expr *expr)
 {
     bool guarded = !expr->value && !type_is_matrix(expr->type);
     PUT(w, guarded ? "code_nonzero(" : "");
@@ -119,7 +119,7 @@ static void write_divisor(struct writer *w, const struct expr *expr)
 }
 
 /* code_div(a, b), or (a << (b & 31)): what GLSL leaves open. */
-static bool write_guarded(struct writer *w, const struct expr *expr)
+static bool write_guarded(struct code_writer *w, const struct expr *expr)
 {
     const char *mask = expr->b->type.base == BASE_UINT ? "31u" : "31";
     bool shifts = expr->op == OP_SHIFT_LEFT || expr->op == OP_SHIFT_RIGHT;
@@ -138,7 +138,7 @@ static bool write_guarded(struct writer *w, const struct expr *expr)
     return true;
 }
 
-static void write_joined(struct writer *w, const struct expr *expr, const char *op)
+static void write_joined(struct code_writer *w, const struct expr *expr, const char *op)
 {
     PUT(w, "(");
     writer_expr(w, expr->a);
@@ -151,7 +151,7 @@ static void write_joined(struct writer *w, const struct expr *expr, const char *
     PUT(w, ")");
 }
 
-static void write_assign(struct writer *w, const struct expr *expr)
+static void write_assign(struct code_writer *w, const struct expr *expr)
 {
     bool whole = type_is_integer(expr->type);
     bool guarded = whole && (expr->op == OP_DIVIDE || expr->op == OP_REMAINDER ||
@@ -170,7 +170,7 @@ static void write_assign(struct writer *w, const struct expr *expr)
 }
 
 /* Scalars have no members in all drivers. */
-static void write_swizzle(struct writer *w, const struct expr *expr)
+static void write_swizzle(struct code_writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     if (type_is_scalar(expr->a->type)) {
@@ -187,7 +187,7 @@ static void write_swizzle(struct writer *w, const struct expr *expr)
     }
 }
 
-static void write_index(struct writer *w, const struct expr *expr)
+static void write_index(struct code_writer *w, const struct expr *expr)
 {
     const char *suffix = expr->b->type.base == BASE_UINT ? "u" : "";
     writer_expr(w, expr->a);
@@ -201,7 +201,7 @@ static void write_index(struct writer *w, const struct expr *expr)
 }
 
 /* Floats become whole numbers in code_int(), which knows what these hold. */
-static void write_construct(struct writer *w, const struct expr *expr)
+static void write_construct(struct code_writer *w, const struct expr *expr)
 {
     char name[TYPE_NAME_BYTES];
     bool whole = type_is_integer(expr->type);
@@ -218,7 +218,7 @@ static void write_construct(struct writer *w, const struct expr *expr)
     PUT(w, ")");
 }
 
-static void write_builtin(struct writer *w, const struct expr *expr)
+static void write_builtin(struct code_writer *w, const struct expr *expr)
 {
     const char *text = expr->builtin->glsl ? expr->builtin->glsl : expr->builtin->name;
     if (!strchr(text, '$')) {
@@ -239,13 +239,13 @@ static void write_builtin(struct writer *w, const struct expr *expr)
     }
 }
 
-static void write_field(struct writer *w, const struct expr *expr)
+static void write_field(struct code_writer *w, const struct expr *expr)
 {
     PUT(w, "%s_s.%s", w->name, expr->name->text); /* one of five names, which are ours */
 }
 
 /* What names a place or a part of one. */
-static void write_place(struct writer *w, const struct expr *expr)
+static void write_place(struct code_writer *w, const struct expr *expr)
 {
     switch (expr->kind) {
     case EXPR_VARIABLE:
@@ -272,7 +272,7 @@ static void write_place(struct writer *w, const struct expr *expr)
     }
 }
 
-void writer_expr(struct writer *w, const struct expr *expr)
+void writer_expr(struct code_writer *w, const struct expr *expr)
 {
     if (expr->value) {
         write_value(w, expr);

@@ -408,9 +408,9 @@ struct field *job_field(const struct job *job)
     return job->snapshot->field;
 }
 
-uint64_t job_shape_with_code(const struct job *job)
+uint64_t job_structure_with_code(const struct job *job)
 {
-    return snapshot_shape_with_code(job->snapshot);
+    return snapshot_structure_with_code(job->snapshot);
 }
 
 struct picture_rounds job_rounds(const struct job *job)

@@ -30,7 +30,7 @@ struct renderer {
     bool shared; /* see renderer_share */
     struct renderer_verdict *verdicts;
     size_t verdict_count;
-    bool told_compile; /* on_compile was called with a shape, and not yet with 0 */
+    bool told_compile; /* on_compile was called with a structure, and not yet with 0 */
     bool told_read;    /* the same of on_read */
 };
 
@@ -53,17 +53,17 @@ struct resident {
     bool stale;                 /* the newest was made before edits of more than numbers */
     struct snapshot *newest;    /* NULL while the scene is no field */
     struct snapshot *drawable;  /* the newest whose program is ready; NULL: none yet */
-    struct upload_pool uploads; /* of the newest's shape */
+    struct upload_pool uploads; /* of the newest's structure */
     struct error error;
     struct pace *pace;
-    uint64_t refused_shape;  /* why there is no newest, if that is it; else 0 */
-    uint64_t renewals, uses; /* counted */
+    uint64_t refused_structure; /* why there is no newest, if that is it; else 0 */
+    uint64_t renewals, uses;    /* counted */
     struct isolated_view isolated[ISOLATIONS_KEPT];
 };
 
-/* Of a shape, or with an id of a file; NULL: nothing is known of it. */
-struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer, uint64_t shape,
-                                               const char *image);
+/* Of a structure, or with an id of a file; NULL: nothing is known of it. */
+struct renderer_verdict *renderer_find_verdict(const struct renderer *renderer,
+                                               uint64_t structure_hash, const char *image);
 
 /* What a picture shows: the newest state, or unless that is asked for (`exact`) the newest that can
  * be drawn. Borrowed until the resident changes. NULL and `err`: nothing. */

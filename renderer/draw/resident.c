@@ -48,7 +48,7 @@ struct field *resident_drawn_field(const struct resident *resident)
                : NULL;
 }
 
-/* Takes the newest snapshot; NULL: the scene cannot be drawn, for `err` or a refused shape. */
+/* Takes the newest snapshot; NULL: the scene cannot be drawn, for `err` or a refused structure. */
 static void take_newest(struct resident *resident, struct snapshot *snapshot,
                         const struct error *err, uint64_t refused)
 {
@@ -56,7 +56,7 @@ static void take_newest(struct resident *resident, struct snapshot *snapshot,
 
     resident->renewals++;
     resident->error = *err;
-    resident->refused_shape = refused;
+    resident->refused_structure = refused;
     snapshot_unref(renderer, resident->newest);
     resident->newest = snapshot;
     if (snapshot && snapshot->fewer_steps) {
@@ -227,19 +227,19 @@ const struct scene *resident_scene(const struct resident *resident)
     return resident->scene;
 }
 
-uint64_t resident_shape_with_code(const struct resident *resident)
+uint64_t resident_structure_with_code(const struct resident *resident)
 {
-    return resident->newest ? snapshot_shape_with_code(resident->newest) : 0;
+    return resident->newest ? snapshot_structure_with_code(resident->newest) : 0;
 }
 
-uint64_t resident_shape(const struct resident *resident)
+uint64_t resident_structure_hash(const struct resident *resident)
 {
-    return resident->newest ? resident->newest->shape : 0;
+    return resident->newest ? resident->newest->structure_hash : 0;
 }
 
-uint64_t resident_refused_shape(const struct resident *resident)
+uint64_t resident_refused_structure(const struct resident *resident)
 {
-    return resident->refused_shape;
+    return resident->refused_structure;
 }
 
 uint64_t resident_revision(const struct resident *resident)
@@ -284,7 +284,7 @@ static void allow_next(struct renderer *renderer)
         return;
     }
     if (params->on_compile && (next || (renderer->told_compile && !busy))) {
-        params->on_compile(params->on_compile_data, next ? program_shape(next) : 0);
+        params->on_compile(params->on_compile_data, next ? program_structure_hash(next) : 0);
         renderer->told_compile = next != NULL;
     }
     if (next) {

@@ -62,7 +62,7 @@ static struct snapshot *make_snapshot(struct resident *resident, const struct jo
         .isolated = desc->isolated,
         .isolated_count = desc->isolated_count,
     };
-    uint64_t refused; /* the scene itself is of that shape, or not drawn for it */
+    uint64_t refused; /* the scene itself is of that structure, or not drawn for it */
     struct field *field = snapshot_field(resident->scene, &options, err);
 
     return field ? snapshot_create(resident->renderer, resident->scene, resident->revision, NULL,

@@ -80,7 +80,7 @@ char *renderer_shader(const struct scene *scene, size_t pass, struct error *err)
 }
 
 /* Of the program that the device has for it. */
-static uint64_t shape_of(const struct field *field, const struct scene *scene, bool fragment)
+static uint64_t structure_of(const struct field *field, const struct scene *scene, bool fragment)
 {
     const size_t kind = (scene->volumes.count > 0 ? 1 : 0) + (fragment ? 2 : 0);
 
@@ -278,12 +278,13 @@ static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
                           const struct scene *scene, const struct snapshot *before,
                           uint64_t *out_refused, struct error *err)
 {
-    const struct renderer_verdict *verdict = renderer_find_verdict(renderer, snapshot->shape, "");
+    const struct renderer_verdict *verdict =
+        renderer_find_verdict(renderer, snapshot->structure_hash, "");
     const bool compiles =
         renderer->info.stage != RENDER_ENGINE && field_can_be_compiled(snapshot->field);
 
     if (verdict && verdict->refused != ERROR_NONE) {
-        *out_refused = snapshot->shape;
+        *out_refused = snapshot->structure_hash;
         refuse(snapshot->field, scene, verdict, err);
         return false;
     }
@@ -291,7 +292,7 @@ static bool find_back_end(struct renderer *renderer, struct snapshot *snapshot,
         snapshot->engine = engine_program_ref(before->engine);
         snapshot->trial = trial_follow(&renderer->trials, before->trial, snapshot->field);
     } else if (compiles) {
-        snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->shape,
+        snapshot->program = get_program(renderer, snapshot->field, scene, snapshot->structure_hash,
                                         &snapshot->warning.error, err);
     } else {
         snapshot->engine = engine_program_create(snapshot->field, renderer->params.lanes,
@@ -313,7 +314,7 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     snapshot->revision = revision;
     snapshot->upload = upload;
     snapshot->field = field;
-    snapshot->shape = shape_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
+    snapshot->structure_hash = structure_of(field, scene, renderer->info.stage == RENDER_FRAGMENT);
     if (!find_back_end(renderer, snapshot, scene, before, out_refused, err)) {
         snapshot_unref(renderer, snapshot);
         return NULL;
@@ -326,9 +327,9 @@ struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *
     return snapshot;
 }
 
-uint64_t snapshot_shape_with_code(const struct snapshot *snapshot)
+uint64_t snapshot_structure_with_code(const struct snapshot *snapshot)
 {
-    return snapshot->field->user_code ? snapshot->shape : 0;
+    return snapshot->field->user_code ? snapshot->structure_hash : 0;
 }
 
 /* Besides its program. */

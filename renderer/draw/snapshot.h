@@ -14,7 +14,7 @@ struct snapshot {
     uint64_t revision;
     struct upload *upload;
     struct field *field;         /* that of `upload` */
-    uint64_t shape;              /* of the program that the device has, or would have */
+    uint64_t structure_hash;     /* of the program that the device has, or would have */
     struct program *program;     /* NULL: the engine draws it */
     struct record camera;        /* the document's */
     struct record render;        /* the document's */
@@ -40,7 +40,7 @@ struct field *snapshot_field(const struct scene *scene, const struct field_optio
                              struct error *err);
 /* Finds or starts the program; takes the reference of `upload`. `before`: the snapshot before a
  * numeric edit, by which `upload` was patched; NULL: there is none. NULL and `err` when code of it
- * fails, or its shape is refused: then that is in `*out_refused`. */
+ * fails, or its structure is refused: then that is in `*out_refused`. */
 struct snapshot *snapshot_create(struct renderer *renderer, const struct scene *scene,
                                  uint64_t revision, const struct snapshot *before,
                                  struct upload *upload, uint64_t *out_refused, struct error *err);
@@ -55,8 +55,8 @@ const struct error *snapshot_error(const struct snapshot *snapshot); /* PROGRAM_
 struct warning snapshot_warning(const struct snapshot *snapshot);
 /* Makes the environments of those whose pictures were read. */
 void snapshots_settle(struct renderer *renderer);
-/* The shape of its program where there is code of users in it; else 0. */
-uint64_t snapshot_shape_with_code(const struct snapshot *snapshot);
+/* The structure of its program where there is code of users in it; else 0. */
+uint64_t snapshot_structure_with_code(const struct snapshot *snapshot);
 void snapshot_unref(struct renderer *renderer, struct snapshot *snapshot); /* NULL: nothing */
 /* Uploads what is not yet on the device. */
 const struct param_buffer *snapshot_params(struct renderer *renderer, struct snapshot *snapshot);

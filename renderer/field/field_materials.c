@@ -95,9 +95,9 @@ static void put_standard(float *to, const struct record *record)
 {
     const double *base = record_vector(record, "base_color");
     double metallic = record_number(record, "metallic"), ior = record_number(record, "ior");
-    double mirrored = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), most = 0;
+    double reflected = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), most = 0;
     for (int i = 0; i < 3; i++) {
-        double specular = mirrored + (base[i] - mirrored) * metallic;
+        double specular = reflected + (base[i] - reflected) * metallic;
         to[FIELD_DIFFUSE + i] = (float)(base[i] * (1 - metallic));
         to[FIELD_SPECULAR + i] = (float)specular;
         most = fmax(most, specular);
@@ -174,13 +174,13 @@ void field_put_surface(double to[FIELD_MATERIAL_NUMBERS], const struct code_surf
     }
     double most = 0;
     for (int i = 0; i < 3; i++) {
-        double mirrored = f0 + (surface->color[i] - f0) * surface->metallic;
+        double reflected = f0 + (surface->color[i] - f0) * surface->metallic;
         to[FIELD_DIFFUSE + i] = surface->color[i] * (1 - surface->metallic);
-        to[FIELD_SPECULAR + i] = mirrored;
+        to[FIELD_SPECULAR + i] = reflected;
         to[FIELD_EMISSION + i] = surface->emission[i];
         to[FIELD_AMBIENT + i] = 1;
         to[FIELD_ABSORPTION + i] = surface->absorption[i];
-        most = fmax(most, mirrored);
+        most = fmax(most, reflected);
     }
     to[FIELD_GLOSS] = surface->roughness;
     to[FIELD_REFLECTIVITY] = most;

@@ -12,15 +12,15 @@ enum { FIRST_CODE = 1000, FIRST_SHADER = 2000 };
 
 /* Surfaces that were never mixed are vec3 h (distance, leaf, slot); mixed ones are m. Where there
  * are shaders, o is the point in the space of the shape that h is of. */
-struct writer {
+struct shader_writer {
     FILE *out;
     const struct field *field;
     bool surface;
     bool mixed[FIELD_SLOTS_MAX]; /* slot holds m, not h */
 };
 
-static void write_params(const struct writer *w, const struct field_instruction *in, uint32_t vec4,
-                         int used)
+static void write_params(const struct shader_writer *w, const struct field_instruction *in,
+                         uint32_t vec4, int used)
 {
     struct param_slot places[SDF_PARAMS_MAX];
     const struct param *params = in->type->record.params;
@@ -40,8 +40,8 @@ static void write_params(const struct writer *w, const struct field_instruction 
 }
 
 /* What a code declares, in the block that starts at vec4 `first` of what `base` begins to read. */
-static void write_places(const struct writer *w, const struct field_code *code, const char *base,
-                         uint32_t first)
+static void write_places(const struct shader_writer *w, const struct field_code *code,
+                         const char *base, uint32_t first)
 {
     for (int i = 0; i < code->place_count; i++) {
         const struct param_slot *place = &code->places[i];
@@ -50,7 +50,7 @@ static void write_places(const struct writer *w, const struct field_code *code, 
     }
 }
 
-static void write_vec4s(const struct writer *w, uint32_t first, int count)
+static void write_vec4s(const struct shader_writer *w, uint32_t first, int count)
 {
     for (int i = 0; i < count; i++) {
         fprintf(w->out, ", P(%u)", first + (uint32_t)i);
@@ -58,7 +58,7 @@ static void write_vec4s(const struct writer *w, uint32_t first, int count)
 }
 
 /* "d3", or the distance of the surface in slot 3. */
-static void write_distance(const struct writer *w, uint16_t slot)
+static void write_distance(const struct shader_writer *w, uint16_t slot)
 {
     if (!w->surface) {
         fprintf(w->out, "d%u", slot);
@@ -67,7 +67,7 @@ static void write_distance(const struct writer *w, uint16_t slot)
     }
 }
 
-static void write_local(const struct writer *w, const struct field_instruction *in)
+static void write_local(const struct shader_writer *w, const struct field_instruction *in)
 {
     fprintf(w->out, "local(p%u", in->point);
     write_vec4s(w, in->params, FIELD_MATRIX_VEC4S);
@@ -75,7 +75,7 @@ static void write_local(const struct writer *w, const struct field_instruction *
 }
 
 /* Where a user's function is asked. */
-static void write_code_point(const struct writer *w, const struct field_instruction *in)
+static void write_code_point(const struct shader_writer *w, const struct field_instruction *in)
 {
     fprintf(w->out, "within(");
     write_local(w, in);
@@ -83,7 +83,7 @@ static void write_code_point(const struct writer *w, const struct field_instruct
 }
 
 /* Its answer, cut by its box; without a field that is d. */
-static void write_code(const struct writer *w, const struct field_instruction *in)
+static void write_code(const struct shader_writer *w, const struct field_instruction *in)
 {
     uint32_t head = in->params + FIELD_MATRIX_VEC4S, cut = head + FIELD_HEAD_VEC4S;
     fprintf(w->out, "unless_away(cut(");
@@ -99,7 +99,7 @@ static void write_code(const struct writer *w, const struct field_instruction *i
     fprintf(w->out, ", P(%u)), P(%u).x)", cut, head + 1);
 }
 
-static void write_shape(struct writer *w, const struct field_instruction *in)
+static void write_shape(struct shader_writer *w, const struct field_instruction *in)
 {
     uint32_t head = in->params + FIELD_MATRIX_VEC4S;
     if (w->surface && w->field->shader_count > 0) {
@@ -129,7 +129,7 @@ static void write_shape(struct writer *w, const struct field_instruction *in)
     w->mixed[in->a] = false;
 }
 
-static void write_call(const struct writer *w, const struct field_instruction *in,
+static void write_call(const struct shader_writer *w, const struct field_instruction *in,
                        const char *suffix)
 {
     fprintf(w->out, "%s%s(", in->type->glsl, suffix);
@@ -143,13 +143,13 @@ static void write_call(const struct writer *w, const struct field_instruction *i
 }
 
 /* "P(7).y" */
-static void write_number(const struct writer *w, uint32_t index)
+static void write_number(const struct shader_writer *w, uint32_t index)
 {
     fprintf(w->out, "P(%u).%c", index / 4, "xyzw"[index % 4]);
 }
 
 /* What two distances make. */
-static void write_both(const struct writer *w, const struct field_instruction *in)
+static void write_both(const struct shader_writer *w, const struct field_instruction *in)
 {
     if (!in->seen) {
         write_call(w, in, "");
@@ -167,7 +167,7 @@ static void write_both(const struct writer *w, const struct field_instruction *i
 }
 
 /* The share of the second in that. */
-static void write_share(const struct writer *w, const struct field_instruction *in)
+static void write_share(const struct shader_writer *w, const struct field_instruction *in)
 {
     fprintf(w->out, in->seen ? "sided_share(" : "");
     write_call(w, in, "_share");
@@ -178,7 +178,7 @@ static void write_share(const struct writer *w, const struct field_instruction *
     }
 }
 
-static void write_mixed(struct writer *w, uint16_t slot)
+static void write_mixed(struct shader_writer *w, uint16_t slot)
 {
     if (!w->mixed[slot]) {
         fprintf(w->out,
@@ -189,7 +189,7 @@ static void write_mixed(struct writer *w, uint16_t slot)
 }
 
 /* Both mixed, or one of both chosen. */
-static void write_surfaces(struct writer *w, const struct field_instruction *in)
+static void write_surfaces(struct shader_writer *w, const struct field_instruction *in)
 {
     const bool objects = w->field->shader_count > 0;
     const bool mixed = in->sdf->soft || w->mixed[in->a] || w->mixed[in->b];
@@ -212,7 +212,7 @@ static void write_surfaces(struct writer *w, const struct field_instruction *in)
     fprintf(w->out, ");\n");
 }
 
-static void write_combine(struct writer *w, const struct field_instruction *in)
+static void write_combine(struct shader_writer *w, const struct field_instruction *in)
 {
     if (w->surface) {
         write_surfaces(w, in);
@@ -223,7 +223,7 @@ static void write_combine(struct writer *w, const struct field_instruction *in)
     }
 }
 
-static void write_change(const struct writer *w, const struct field_instruction *in)
+static void write_change(const struct shader_writer *w, const struct field_instruction *in)
 {
     write_distance(w, in->a);
     fprintf(w->out, " = ");
@@ -231,7 +231,7 @@ static void write_change(const struct writer *w, const struct field_instruction 
     fprintf(w->out, ";\n");
 }
 
-static void write_after(const struct writer *w, const struct field_instruction *in)
+static void write_after(const struct shader_writer *w, const struct field_instruction *in)
 {
     write_distance(w, in->a);
     fprintf(w->out, " = max(%s_after(", in->type->glsl);
@@ -243,7 +243,7 @@ static void write_after(const struct writer *w, const struct field_instruction *
     fprintf(w->out, ");\n");
 }
 
-static void write_domain_call(const struct writer *w, const struct field_instruction *in,
+static void write_domain_call(const struct shader_writer *w, const struct field_instruction *in,
                               const char *suffix, const char *extra)
 {
     fprintf(w->out, "%s%s(p%u%s", in->type->glsl, suffix, in->point, extra);
@@ -252,7 +252,8 @@ static void write_domain_call(const struct writer *w, const struct field_instruc
 }
 
 /* Which kind of surface a cell gives is known only at the end, so both kinds start empty. */
-static void write_loop(const struct writer *w, const struct field_instruction *in, size_t name)
+static void write_loop(const struct shader_writer *w, const struct field_instruction *in,
+                       size_t name)
 {
     fprintf(w->out, "vec3 first%zu = ", name);
     write_domain_call(w, in, "_first", "");
@@ -273,7 +274,7 @@ static void write_loop(const struct writer *w, const struct field_instruction *i
     write_domain_call(w, in, "_cell", cell);
 }
 
-static void write_loop_end(struct writer *w, const struct field_instruction *in, size_t name)
+static void write_loop_end(struct shader_writer *w, const struct field_instruction *in, size_t name)
 {
     if (w->surface) {
         const char *kind = w->mixed[in->b] ? "m" : "h";
@@ -290,7 +291,7 @@ static void write_loop_end(struct writer *w, const struct field_instruction *in,
             name);
 }
 
-static void write_empty(struct writer *w, uint16_t slot)
+static void write_empty(struct shader_writer *w, uint16_t slot)
 {
     fprintf(w->out, w->surface ? "h%u = vec3(FAR, 0.0, 0.0);\n" : "d%u = FAR;\n", slot);
     w->mixed[slot] = false;
@@ -298,7 +299,8 @@ static void write_empty(struct writer *w, uint16_t slot)
 
 /* A loop of at most one round: llvmpipe, which runs both sides of every branch, runs the loops
  * inside of it but once when no lane is there. */
-static void write_guard(const struct writer *w, const struct field_instruction *in, size_t name)
+static void write_guard(const struct shader_writer *w, const struct field_instruction *in,
+                        size_t name)
 {
     if (!w->surface) {
         fprintf(w->out,
@@ -308,14 +310,15 @@ static void write_guard(const struct writer *w, const struct field_instruction *
     }
 }
 
-static void write_guard_end(const struct writer *w, const struct field_instruction *in, size_t name)
+static void write_guard_end(const struct shader_writer *w, const struct field_instruction *in,
+                            size_t name)
 {
     if (!w->surface) {
         fprintf(w->out, "d%u = guarded(d%u, g%zu);\n}\n", in->a, in->a, name);
     }
 }
 
-static void write_instructions(struct writer *w)
+static void write_instructions(struct shader_writer *w)
 {
     size_t loops[3 * LIMIT_NODE_DEPTH]; /* names of the loops and guards that are open */
     int depth = 0;
@@ -364,8 +367,8 @@ static void write_instructions(struct writer *w)
     }
 }
 
-static void write_slots(const struct writer *w, const char *type, const char *name, int first,
-                        int count)
+static void write_slots(const struct shader_writer *w, const char *type, const char *name,
+                        int first, int count)
 {
     for (int i = first; i < count; i++) {
         fprintf(w->out, "%s %s%d;\n", type, name, i);
@@ -373,7 +376,7 @@ static void write_slots(const struct writer *w, const char *type, const char *na
 }
 
 /* What the material in a slot is by its shader. */
-static void write_apply_shader(const struct writer *w)
+static void write_apply_shader(const struct shader_writer *w)
 {
     const struct field *field = w->field;
     fprintf(w->out,
@@ -391,7 +394,7 @@ static void write_apply_shader(const struct writer *w)
     fprintf(w->out, "}\n");
 }
 
-static void write_codes(const struct writer *w, const struct field_code *codes, size_t count,
+static void write_codes(const struct shader_writer *w, const struct field_code *codes, size_t count,
                         const char *prefix, int first_source)
 {
     for (size_t i = 0; i < count; i++) {
@@ -402,7 +405,7 @@ static void write_codes(const struct writer *w, const struct field_code *codes, 
 }
 
 /* The same functions serve map and surface, in one program or in two. */
-static void write_functions(const struct writer *w)
+static void write_functions(const struct shader_writer *w)
 {
     fprintf(w->out, "#ifndef USER_FUNCTIONS\n#define USER_FUNCTIONS\n");
     write_codes(w, w->field->codes, w->field->code_count, "user", FIRST_CODE);
@@ -410,7 +413,7 @@ static void write_functions(const struct writer *w)
 }
 
 /* Materials are read here alone, and each shader stands here alone. */
-static void write_materials(const struct writer *w)
+static void write_materials(const struct shader_writer *w)
 {
     fprintf(w->out,
             "s = surface_begin(m0);\nwhile (m0.shares.x > 0.0) {\n"
@@ -426,7 +429,7 @@ static void write_materials(const struct writer *w)
     fputs("surface_add(s, m0, values);\nmixture_next(m0);\n}\n", w->out);
 }
 
-static void write_map(struct writer *w)
+static void write_map(struct shader_writer *w)
 {
     fputs("#include \"field.glsl\"\n", w->out);
     write_functions(w);
@@ -437,7 +440,7 @@ static void write_map(struct writer *w)
     fprintf(w->out, "return d0;\n}\n");
 }
 
-static void write_surface(struct writer *w)
+static void write_surface(struct shader_writer *w)
 {
     const struct field *field = w->field;
     fputs("#include \"field.glsl\"\n#include \"mixture.glsl\"\n", w->out);
@@ -461,7 +464,7 @@ static char *write_text(const struct field *field, bool surface)
 {
     char *text = NULL;
     size_t length = 0;
-    struct writer w = {.field = field, .surface = surface};
+    struct shader_writer w = {.field = field, .surface = surface};
     w.out = open_memstream(&text, &length);
     if (!w.out) {
         abort();
@@ -514,7 +517,7 @@ void shader_code_kernels(FILE *out)
 {
     const struct field none = {0};
     const struct field_instruction in = {.op = FIELD_SHAPE};
-    struct writer w = {.out = out, .field = &none};
+    struct shader_writer w = {.out = out, .field = &none};
     fprintf(out, "vec3 kernel_code_point(vec3 p0)\n{\nreturn ");
     write_code_point(&w, &in);
     fprintf(out, ";\n}\nfloat kernel_code_shape(float d, vec3 p0)\n{\nfloat ");
@@ -541,7 +544,7 @@ void shader_kernel(FILE *out, const char *name, const struct node_type *type, ui
     const struct field none = {0};
     const struct sdf *sdf = type->kind == KIND_EQUATION ? &sdf_polynomial : sdf_find(type);
     struct field_instruction in = {.type = type, .sdf = sdf, .b = 1, .choices = choices};
-    struct writer w = {.out = out, .field = &none};
+    struct shader_writer w = {.out = out, .field = &none};
     in.op = kernel == KERNEL_COMBINE || kernel == KERNEL_SHARE ? FIELD_COMBINE : FIELD_DISTANCE;
     fprintf(out, "%s %s(%s)\n{\n", rows[kernel].result, name, rows[kernel].parameters);
     if (kernel == KERNEL_SHAPE) {

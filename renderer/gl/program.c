@@ -208,7 +208,7 @@ void program_unref(struct program_cache *cache, struct program *program)
     pthread_mutex_unlock(&cache->lock);
 }
 
-uint64_t program_shape(const struct program *program)
+uint64_t program_structure_hash(const struct program *program)
 {
     return program->structure_hash;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Linked GL programs, one for each stage and shape of a field, kept by shape hash.
+/* Linked GL programs, one for each stage and structure of a field, kept by structure hash.
  *
  * Threads with contexts of their own compile, link and run one work group, because drivers do most
  * of their work at the first use. The drawing thread never waits for them. */
@@ -15,7 +15,7 @@ enum { PROGRAMS_KEPT = 64 }; /* without a user, the least recently used go beyon
 
 enum program_state { PROGRAM_PENDING, PROGRAM_READY, PROGRAM_FAILED };
 
-/* What is compiled for each shape: glsl/NAME_pass.glsl. */
+/* What is compiled for each structure: glsl/NAME_pass.glsl. */
 enum program_stage {
     STAGE_MARCH,
     STAGE_MATERIAL,
@@ -60,7 +60,7 @@ struct program_cache *program_cache_create(struct egl *egl, const struct gl *gl,
 bool program_cache_start(struct program_cache *cache, struct error *err);
 void program_cache_destroy(struct program_cache *cache);
 
-/* A new reference, or NULL where the shape is not known yet. */
+/* A new reference, or NULL where the structure is not known yet. */
 struct program *program_cache_find(struct program_cache *cache, uint64_t structure_hash);
 /* Starts compiling. A new reference. */
 struct program *program_cache_add(struct program_cache *cache, const struct program_source *source);
@@ -72,7 +72,7 @@ void program_cache_allow(struct program_cache *cache, struct program *program);
 
 /* A program whose compiler may never end. */
 struct program_stuck {
-    uint64_t shape;
+    uint64_t structure_hash;
     bool still;                /* a deadlock; else it took too much */
     int measured_ms, limit_ms; /* of the processors, by all compilers together */
 };
@@ -90,7 +90,7 @@ int64_t program_cache_cpu_us(const struct program_cache *cache);
 struct program *program_ref(struct program *program);
 void program_unref(struct program_cache *cache, struct program *program);
 
-uint64_t program_shape(const struct program *program);
+uint64_t program_structure_hash(const struct program *program);
 bool program_is_fragment(const struct program *program);
 bool program_has_user_code(const struct program *program);
 enum program_state program_state(const struct program *program);

@@ -5,13 +5,13 @@
 
 enum {
     AT_ONE_MOST = EGL_COMPILERS - 1,
-    /* All stages of one shape, and what LIMIT_COMPILED_SHAPES of them take more: measured with
+    /* All stages of one structure, and what LIMIT_COMPILED_SHAPES of them take more: measured with
      * llvmpipe without a cache. It grows with their square. */
     ONE_SHAPE_MS = 900,
     ALL_SHAPES_MS = 29000,
     ONE_CODE_MS = 450, /* of LIMIT_CODE_SIZE; as much again times how often that is there */
     /* A whole sample has march and material twice, the second time for light through transmissive
-     * objects. One shape: 3.2 s, where compute shaders take 0.9 s. */
+     * objects. One structure: 3.2 s, where compute shaders take 0.9 s. */
     FRAGMENT_TIMES = 4,
 };
 

@@ -94,10 +94,10 @@ vec3 microfacet_specular(Surface s, vec3 n, vec3 view, vec3 towards)
 vec3 microfacet_brdf(Surface s, vec3 n, vec3 view, vec3 towards)
 {
     Microfacets f = microfacets(s);
-    DirectionalAlbedo to = directional_albedo(f, dot(n, view)),
-                      from = directional_albedo(f, dot(n, towards));
-    vec3 multi_bounce = f.multi_bounce * (to.lost * from.lost / f.lost);
-    vec3 body = f.spread * (1.0 - to.all) * (1.0 - from.all) / f.left;
+    DirectionalAlbedo to_eye = directional_albedo(f, dot(n, view)),
+                      to_light = directional_albedo(f, dot(n, towards));
+    vec3 multi_bounce = f.multi_bounce * (to_eye.lost * to_light.lost / f.lost);
+    vec3 body = f.spread * (1.0 - to_eye.all) * (1.0 - to_light.all) / f.left;
     return microfacet_specular(s, n, view, towards) + multi_bounce + body;
 }
 

@@ -105,11 +105,11 @@ float occlusion_place(int i, float start)
 
 /* A straight way from a place. */
 struct Sight {
-    vec3 from, direction; /* direction, of length 1 */
-    float near, far;      /* what is not between does not count */
-    float footprint;      /* so much is as good as nothing */
-    float sharpness;      /* of a soft shadow */
-    float lambert, lift;  /* cosine to the surface's normal, and the place's height over it */
+    vec3 origin, direction; /* direction, of length 1 */
+    float near, far;        /* what is not between does not count */
+    float footprint;        /* so much is as good as nothing */
+    float sharpness;        /* of a soft shadow */
+    float lambert, lift;    /* cosine to the surface's normal, and the place's height over it */
 };
 
 /* Of a sight whose openness is asked for, along a normal. */
@@ -124,7 +124,7 @@ float visible(Sight sight, int kind, int steps)
     float x = kind == SIGHT_OPEN ? occlusion_place(0, sight.near) : sight.near, dark = 0.0;
 
     for (int i = zero; i < steps; i++) {
-        float d = field_bound(sight.from + sight.direction * x, x, true);
+        float d = field_bound(sight.origin + sight.direction * x, x, true);
         if (field_waits(d)) {
             i--;
             continue;

@@ -21,27 +21,27 @@ struct Smoke {
 /* Where a ray is inside of a volume: entry and exit; exit < entry where it misses it. */
 vec2 volume_span(Volume volume, vec3 origin, vec3 direction)
 {
-    vec3 from = origin - volume.center;
+    vec3 local = origin - volume.center;
     if (volume.kind == VOLUME_BOX) {
-        return box_span(-volume.extent, volume.extent, from, direction);
+        return box_span(-volume.extent, volume.extent, local, direction);
     }
     /* In lengths of the radii it is the unit ball. */
-    vec3 place = from / volume.extent, scaled = direction / volume.extent;
+    vec3 place = local / volume.extent, scaled = direction / volume.extent;
     float part = 1.0 / dot(scaled, scaled), middle = -dot(place, scaled) * part;
     vec3 aside = place + middle * scaled;
     float half_way = (1.0 - dot(aside, aside)) * part;
     return half_way > 0.0 ? middle + vec2(-1.0, 1.0) * sqrt(half_way) : vec2(1.0, -1.0);
 }
 
-/* How far inside of it a place is, `from` its centre. Of an ellipsoid: true at the rim (Quilez:
+/* How far inside of it a place is, `local` to its centre. Of an ellipsoid: true at the rim (Quilez:
  * ellipsoid SDF, 2008) and in the middle, and between them something between. */
-float volume_rim(Volume volume, vec3 from)
+float volume_rim(Volume volume, vec3 local)
 {
     if (volume.kind == VOLUME_BOX) {
-        vec3 sides = volume.extent - abs(from);
+        vec3 sides = volume.extent - abs(local);
         return min(sides.x, min(sides.y, sides.z));
     }
-    vec3 radii = volume.extent, place = from / radii;
+    vec3 radii = volume.extent, place = local / radii;
     float k = length(place), slope = length(place / radii);
     float smallest = min(radii.x, min(radii.y, radii.z));
     return (1.0 - k) * (slope > 0.0 ? mix(smallest, k / slope, min(k, 1.0)) : smallest);
@@ -65,12 +65,12 @@ float waves_at(vec3 p, int octaves, uint seed)
 /* Density at p, which is d from the scene. */
 float volume_density(Volume volume, vec3 p, float d)
 {
-    vec3 from = p - volume.center;
-    float rim = volume_rim(volume, from);
+    vec3 local = p - volume.center;
+    float rim = volume_rim(volume, local);
     float density = volume.density * smoothstep(0.0, max(volume.falloff, 1e-6), rim);
     int source = volume.source;
     int octaves = source == DENSITY_NOISE && rim > 0.0 ? volume.octaves : 0;
-    float waves = waves_at(from * volume.frequency, octaves, uint(volume.seed));
+    float waves = waves_at(local * volume.frequency, octaves, uint(volume.seed));
     float part = source == DENSITY_NOISE   ? smoothstep(0.0, 0.6, waves - volume.threshold)
                  : source == DENSITY_FIELD ? exp(-max(d, 0.0) / volume.reach)
                                            : 1.0;

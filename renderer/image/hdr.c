@@ -12,7 +12,7 @@
 
 enum { RUN_LEAST = 4, RUN_MOST = 127, OTHERS_MOST = 128 };
 
-struct writer {
+struct hdr_writer {
     FILE *out;
     uint8_t *row; /* one component after the other */
 };
@@ -20,7 +20,7 @@ struct writer {
 static void *begin(const struct image *shape, const struct encode_params *params, FILE *out,
                    struct error *err)
 {
-    struct writer *w;
+    struct hdr_writer *w;
 
     (void)params;
     if (shape->format != PIXEL_FLOAT || shape->channels != 4) {
@@ -69,7 +69,7 @@ static int run_length(const uint8_t *bytes, int count)
 }
 
 /* Equal bytes as 128 + their number and one of them, others as their number and them. */
-static void write_component(const struct writer *w, const uint8_t *bytes, int count)
+static void write_component(const struct hdr_writer *w, const uint8_t *bytes, int count)
 {
     while (count > 0) {
         const int run = run_length(bytes, count);
@@ -91,7 +91,7 @@ static void write_component(const struct writer *w, const uint8_t *bytes, int co
     }
 }
 
-static void write_row(const struct writer *w, const float *pixels, int width)
+static void write_row(const struct hdr_writer *w, const float *pixels, int width)
 {
     const bool in_runs = width >= RGBE_RUNS_LEAST && width <= RGBE_RUNS_MOST;
     const size_t step = in_runs ? (size_t)width : 1;
@@ -129,7 +129,7 @@ static bool end(void *state, struct error *err)
 
 static void destroy(void *state)
 {
-    struct writer *w = state;
+    struct hdr_writer *w = state;
 
     free(w->row);
     free(w);

@@ -11,7 +11,7 @@
 
 enum { QUALITY_DEFAULT = 90 };
 
-struct writer {
+struct jpeg_writer {
     struct jpeg_error_mgr errors; /* the first, for the way back from the library's pointer to it */
     struct jpeg_compress_struct jpeg;
     jmp_buf back;
@@ -20,7 +20,7 @@ struct writer {
 
 static void on_error(j_common_ptr jpeg)
 {
-    longjmp(((struct writer *)(void *)jpeg->err)->back, 1);
+    longjmp(((struct jpeg_writer *)(void *)jpeg->err)->back, 1);
 }
 
 static void on_message(j_common_ptr jpeg)
@@ -28,7 +28,7 @@ static void on_message(j_common_ptr jpeg)
     (void)jpeg;
 }
 
-static bool fail(struct writer *w, struct error *err)
+static bool fail(struct jpeg_writer *w, struct error *err)
 {
     char text[JMSG_LENGTH_MAX];
 
@@ -52,8 +52,8 @@ static bool accepts(const struct image *shape, const struct encode_params *param
     return true;
 }
 
-static bool start(struct writer *w, const struct image *shape, const struct encode_params *params,
-                  FILE *out, struct error *err)
+static bool start(struct jpeg_writer *w, const struct image *shape,
+                  const struct encode_params *params, FILE *out, struct error *err)
 {
     if (setjmp(w->back)) {
         return fail(w, err);
@@ -76,7 +76,7 @@ static bool start(struct writer *w, const struct image *shape, const struct enco
 
 static void destroy(void *state)
 {
-    struct writer *w = state;
+    struct jpeg_writer *w = state;
 
     jpeg_destroy_compress(&w->jpeg);
     free(w->grays);
@@ -86,7 +86,7 @@ static void destroy(void *state)
 static void *begin(const struct image *shape, const struct encode_params *params, FILE *out,
                    struct error *err)
 {
-    struct writer *w;
+    struct jpeg_writer *w;
 
     if (!accepts(shape, params, err)) {
         return NULL;
@@ -103,7 +103,7 @@ static void *begin(const struct image *shape, const struct encode_params *params
     return w;
 }
 
-static JSAMPROW row_of(const struct writer *w, const struct image *rows, int y)
+static JSAMPROW row_of(const struct jpeg_writer *w, const struct image *rows, int y)
 {
     const size_t width = (size_t)rows->width;
     const uint16_t *from = (const uint16_t *)rows->pixels + (size_t)y * width;
@@ -119,7 +119,7 @@ static JSAMPROW row_of(const struct writer *w, const struct image *rows, int y)
 
 static bool add(void *state, const struct image *rows, struct error *err)
 {
-    struct writer *w = state;
+    struct jpeg_writer *w = state;
 
     if (setjmp(w->back)) {
         return fail(w, err);
@@ -133,7 +133,7 @@ static bool add(void *state, const struct image *rows, struct error *err)
 
 static bool end(void *state, struct error *err)
 {
-    struct writer *w = state;
+    struct jpeg_writer *w = state;
 
     if (setjmp(w->back)) {
         return fail(w, err);

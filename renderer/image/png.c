@@ -7,7 +7,7 @@
 #include "encode.h"
 #include "protocol/memory.h"
 
-struct writer {
+struct png_writer {
     png_structp png;
     png_infop info;
     struct error error; /* what libpng says */
@@ -15,7 +15,7 @@ struct writer {
 
 static void on_error(png_structp png, png_const_charp message)
 {
-    struct writer *w = png_get_error_ptr(png);
+    struct png_writer *w = png_get_error_ptr(png);
 
     error_set(&w->error, ERROR_INTERNAL, "png", "%s", message);
     longjmp(png_jmpbuf(png), 1);
@@ -27,7 +27,7 @@ static void on_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-static bool fail(const struct writer *w, struct error *err)
+static bool fail(const struct png_writer *w, struct error *err)
 {
     if (err) {
         *err = w->error;
@@ -35,7 +35,7 @@ static bool fail(const struct writer *w, struct error *err)
     return false;
 }
 
-static bool write_head(struct writer *w, const struct image *shape,
+static bool write_head(struct png_writer *w, const struct image *shape,
                        const struct encode_params *params, FILE *out, struct error *err)
 {
     const bool gray = shape->format == PIXEL_GRAY16, alpha = shape->channels == 4;
@@ -69,7 +69,7 @@ static bool write_head(struct writer *w, const struct image *shape,
 
 static void destroy(void *state)
 {
-    struct writer *w = state;
+    struct png_writer *w = state;
 
     png_destroy_write_struct(&w->png, &w->info);
     free(w);
@@ -78,7 +78,7 @@ static void destroy(void *state)
 static void *begin(const struct image *shape, const struct encode_params *params, FILE *out,
                    struct error *err)
 {
-    struct writer *w;
+    struct png_writer *w;
 
     if (shape->format != PIXEL_RGBA8 && shape->format != PIXEL_GRAY16) {
         error_set(err, ERROR_INVALID, "format", "PNG holds no raw values; npy does");
@@ -96,7 +96,7 @@ static void *begin(const struct image *shape, const struct encode_params *params
 
 static bool add(void *state, const struct image *rows, struct error *err)
 {
-    struct writer *w = state;
+    struct png_writer *w = state;
     const size_t stride = rows->bytes / (size_t)rows->height;
 
     if (setjmp(png_jmpbuf(w->png))) {
@@ -110,7 +110,7 @@ static bool add(void *state, const struct image *rows, struct error *err)
 
 static bool end(void *state, struct error *err)
 {
-    struct writer *w = state;
+    struct png_writer *w = state;
 
     if (setjmp(png_jmpbuf(w->png))) {
         return fail(w, err);

@@ -92,7 +92,7 @@ static bool is_waited_for(const struct room *room)
 static void tell_lost(struct hub *hub, const struct supervisor_end *end)
 {
     const char *slow = hub->quarantine->slow.scene;
-    const bool too_slow = *hub->quarantine->slow.shape || end->kind == SUPERVISOR_BUSY;
+    const bool too_slow = *hub->quarantine->slow.key || end->kind == SUPERVISOR_BUSY;
 
     for (struct room *room = hub->rooms; room; room = room->next) {
         if (is_waited_for(room) && strcmp(room->id, slow) != 0) {
@@ -148,7 +148,7 @@ static void compiled(struct hub *hub, const struct packet_state *state, bool bro
         room->settled = revision;
     }
     if (broken) {
-        quarantine_shape(state->shape, room->refused_shape);
+        quarantine_key(state->structure_hash, room->refused_key);
         scene_error_set(room, &state->error, revision);
     } else {
         room->shown = revision;

@@ -12,18 +12,18 @@
 #include "scene_error.h"
 #include "server/log.h"
 
-/* --- what is known of shapes --- */
+/* --- what is known of keys --- */
 
 /* And not what is compiled. */
-static bool is_image(const char *shape)
+static bool is_image(const char *key)
 {
-    return strlen(shape) == ASSET_ID_CHARACTERS;
+    return strlen(key) == ASSET_ID_CHARACTERS;
 }
 
-static struct quarantine_case *find_case(struct quarantine *quarantine, const char *shape)
+static struct quarantine_case *find_case(struct quarantine *quarantine, const char *key)
 {
-    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
-        if (strcmp(quarantine->cases[i].shape, shape) == 0) {
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_CASES; i++) {
+        if (strcmp(quarantine->cases[i].key, key) == 0) {
             return &quarantine->cases[i];
         }
     }
@@ -33,12 +33,12 @@ static struct quarantine_case *find_case(struct quarantine *quarantine, const ch
 static struct quarantine_case *get_case(struct quarantine *quarantine,
                                         const struct suspect *suspect)
 {
-    struct quarantine_case *known = find_case(quarantine, suspect->shape);
+    struct quarantine_case *known = find_case(quarantine, suspect->key);
 
     if (!known) {
-        known = &quarantine->cases[quarantine->count++ % QUARANTINE_SHAPES];
+        known = &quarantine->cases[quarantine->count++ % QUARANTINE_CASES];
         *known = (struct quarantine_case){.times = 1};
-        memcpy(known->shape, suspect->shape, sizeof known->shape);
+        memcpy(known->key, suspect->key, sizeof known->key);
     }
     memcpy(known->scene, suspect->scene, sizeof known->scene);
     return known;
@@ -52,25 +52,26 @@ static void give_more_time(struct quarantine_case *known)
 
 static void send_case(struct hub *hub, const struct quarantine_case *known)
 {
-    const bool image = is_image(known->shape);
+    const bool image = is_image(known->key);
 
-    supervisor_send(hub->supervisor,
-                    &(struct packet){.kind = TO_WORKER_JUDGE,
-                                     .judge = {
-                                         .shape = image ? 0 : strtoull(known->shape, NULL, 16),
-                                         .asset = image ? known->shape : "",
-                                         .refused = known->refused,
-                                         .measured_ms = known->measured_ms,
-                                         .limit_ms = known->limit_ms,
-                                         .times = known->times,
-                                     }});
+    supervisor_send(
+        hub->supervisor,
+        &(struct packet){.kind = TO_WORKER_JUDGE,
+                         .judge = {
+                             .structure_hash = image ? 0 : strtoull(known->key, NULL, 16),
+                             .asset = image ? known->key : "",
+                             .refused = known->refused,
+                             .measured_ms = known->measured_ms,
+                             .limit_ms = known->limit_ms,
+                             .times = known->times,
+                         }});
 }
 
 void quarantine_worker_ready(struct hub *hub)
 {
     const struct quarantine *quarantine = hub->quarantine;
 
-    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_CASES; i++) {
         send_case(hub, &quarantine->cases[i]);
     }
     if (quarantine->pace > 0) {
@@ -81,11 +82,11 @@ void quarantine_worker_ready(struct hub *hub)
 
 /* --- what the worker says --- */
 
-void quarantine_shape(uint64_t shape, char out[QUARANTINE_SHAPE_BYTES])
+void quarantine_key(uint64_t structure_hash, char out[QUARANTINE_KEY_BYTES])
 {
     *out = '\0';
-    if (shape) {
-        snprintf(out, QUARANTINE_SHAPE_BYTES, "%016" PRIx64, shape);
+    if (structure_hash) {
+        snprintf(out, QUARANTINE_KEY_BYTES, "%016" PRIx64, structure_hash);
     }
 }
 
@@ -94,9 +95,9 @@ static struct suspect read_suspect(const struct packet_suspect *named)
     struct suspect suspect = {.revision = named->revision, .job = named->job};
 
     snprintf(suspect.scene, sizeof suspect.scene, "%s", named->scene);
-    quarantine_shape(named->shape, suspect.shape);
+    quarantine_key(named->structure_hash, suspect.key);
     if (named->asset && *named->asset) {
-        snprintf(suspect.shape, sizeof suspect.shape, "%s", named->asset);
+        snprintf(suspect.key, sizeof suspect.key, "%s", named->asset);
     }
     return suspect;
 }
@@ -105,9 +106,9 @@ static struct suspect read_suspect(const struct packet_suspect *named)
 static void go_on(struct quarantine *quarantine, struct suspect *suspect,
                   const struct suspect *next)
 {
-    struct quarantine_case *before = find_case(quarantine, suspect->shape);
+    struct quarantine_case *before = find_case(quarantine, suspect->key);
 
-    if (before && strcmp(before->shape, next->shape) != 0) {
+    if (before && strcmp(before->key, next->key) != 0) {
         before->tried = false;
     }
     *suspect = *next;
@@ -170,17 +171,17 @@ static const char *place_of(const struct room *room, const struct scene *good,
     return place;
 }
 
-static void tell(struct room *room, const struct error *err, const char *shape, uint64_t revision)
+static void tell(struct room *room, const struct error *err, const char *key, uint64_t revision)
 {
     scene_error_set(room, err, revision);
-    snprintf(room->refused_shape, sizeof room->refused_shape, "%s", shape);
+    snprintf(room->refused_key, sizeof room->refused_key, "%s", key);
 }
 
 /* `what`: "code" or the like. `shown`: what is seen instead. */
 static void describe_refusal(const struct quarantine_case *known, const char *place,
                              const char *what, const char *shown, struct error *out)
 {
-    const bool image = is_image(known->shape);
+    const bool image = is_image(known->key);
 
     if (known->refused == ERROR_TOO_SLOW) {
         error_set_slow(out, place, "", known->measured_ms, known->limit_ms);
@@ -201,8 +202,8 @@ static void seclude_image(const struct hub *hub, const struct quarantine_case *k
 
     describe_refusal(known, "/environment/image", "picture", "The sky is drawn without it.", &err);
     for (struct room *room = hub->rooms; room; room = room->next) {
-        if (strcmp(record_text(&room->scene->environment, "image"), known->shape) == 0) {
-            tell(room, &err, known->shape, room->revision);
+        if (strcmp(record_text(&room->scene->environment, "image"), known->key) == 0) {
+            tell(room, &err, known->key, room->revision);
         }
     }
 }
@@ -218,7 +219,7 @@ static void seclude(struct room *room, const struct quarantine_case *known, uint
     describe_refusal(known, place_of(room, good, place),
                      code_text_in_scene(room->scene) ? "code" : "scene",
                      good ? "The last picture stays." : "It is not shown.", &err);
-    tell(room, &err, known->shape, revision);
+    tell(room, &err, known->key, revision);
 }
 
 void quarantine_keeps_image(struct room *room, const struct error *err, uint64_t revision)
@@ -232,7 +233,7 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
     struct quarantine *quarantine = hub->quarantine;
     struct quarantine_case *known = get_case(quarantine, suspect);
     struct room *room = find_room(hub, suspect->scene);
-    const bool image = is_image(suspect->shape);
+    const bool image = is_image(suspect->key);
 
     if (!known->tried && !quarantine->sure) {
         known->tried = true;
@@ -261,7 +262,7 @@ static void judge(struct hub *hub, const struct suspect *suspect, bool slow)
 static void find_suspects(struct quarantine *quarantine, const struct supervisor_end *end,
                           struct suspect *compiled, struct suspect *read)
 {
-    const bool sure = end->crash != CRASH_ANYWHERE, slow = *quarantine->slow.shape;
+    const bool sure = end->crash != CRASH_ANYWHERE, slow = *quarantine->slow.key;
     const bool busy = end->kind == SUPERVISOR_BUSY;
 
     if (slow) {
@@ -272,7 +273,7 @@ static void find_suspects(struct quarantine *quarantine, const struct supervisor
     if (sure ? end->crash == CRASH_READING : !(slow && quarantine->limit_ms > 0) && !busy) {
         *read = quarantine->reading;
     }
-    const bool other = end->kind == SUPERVISOR_STILL || (!*compiled->shape && !*read->shape);
+    const bool other = end->kind == SUPERVISOR_STILL || (!*compiled->key && !*read->key);
 
     if (sure ? end->crash == CRASH_DRAWING : other) {
         quarantine->drawn = quarantine->drawing;
@@ -286,18 +287,18 @@ bool quarantine_worker_down(struct hub *hub, const struct supervisor_end *end)
 {
     struct quarantine *quarantine = hub->quarantine;
     const struct suspect none = {.scene = ""};
-    const bool slow = *quarantine->slow.shape && quarantine->limit_ms > 0;
+    const bool slow = *quarantine->slow.key && quarantine->limit_ms > 0;
     struct suspect compiled = none, read = none;
 
     quarantine->drawn = quarantine->opened = none;
     find_suspects(quarantine, end, &compiled, &read);
     quarantine->named =
-        *compiled.shape || *read.shape || *quarantine->opening.scene || *quarantine->drawing.scene;
+        *compiled.key || *read.key || *quarantine->opening.scene || *quarantine->drawing.scene;
     quarantine->sure = end->crash != CRASH_ANYWHERE && quarantine->named;
-    if (*compiled.shape) {
+    if (*compiled.key) {
         judge(hub, &compiled, slow);
     }
-    if (*read.shape) {
+    if (*read.key) {
         judge(hub, &read, false);
     }
     quarantine->compiling = quarantine->reading = quarantine->opening = none;
@@ -320,7 +321,7 @@ bool quarantine_is_tried_again(const struct hub *hub, const struct room *room)
 {
     const struct quarantine *quarantine = hub->quarantine;
 
-    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_SHAPES; i++) {
+    for (size_t i = 0; i < quarantine->count && i < QUARANTINE_CASES; i++) {
         const struct quarantine_case *known = &quarantine->cases[i];
 
         if (known->tried && known->refused == ERROR_NONE && strcmp(known->scene, room->id) == 0) {
@@ -330,9 +331,9 @@ bool quarantine_is_tried_again(const struct hub *hub, const struct room *room)
     return false;
 }
 
-bool quarantine_pardon(struct hub *hub, const char *shape)
+bool quarantine_pardon(struct hub *hub, const char *key)
 {
-    struct quarantine_case *known = find_case(hub->quarantine, shape);
+    struct quarantine_case *known = find_case(hub->quarantine, key);
 
     if (!known || known->refused == ERROR_NONE) {
         return false;

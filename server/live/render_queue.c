@@ -386,7 +386,7 @@ void render_queue_worker_ready(struct hub *hub)
 }
 
 /* A picture was begun and cannot be drawn. The scene is suspended for viewers; a
- * picture that was ordered may have been a larger wish. */
+ * picture that was ordered may have been for a larger one. */
 static void undrawn(const struct render_entry *entry, struct error *err)
 {
     struct room *room = entry->order.room;

@@ -20,7 +20,7 @@ static bool retry_refused(struct room *room)
 {
     const struct error old = room->scene_error;
 
-    if (!quarantine_pardon(room->hub, room->refused_shape)) {
+    if (!quarantine_pardon(room->hub, room->refused_key)) {
         return false;
     }
     room->scene_error = (struct error){0};

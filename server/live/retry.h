@@ -9,7 +9,7 @@
 
 struct room;
 
-/* Tries a refused shape or a suspended scene again, with more time. `place` is the place of the
+/* Tries a refused key or a suspended scene again, with more time. `place` is the place of the
  * error; NULL means any place. False and `err` where nothing waits for a retry. */
 bool retry_place(struct room *room, const char *place, struct error *err);
 

@@ -15,7 +15,7 @@
 #include "protocol/json.h"
 #include "protocol/memory.h"
 #include "room_authors.h"
-#include "room_log.h"
+#include "room_history.h"
 #include "room_snapshot.h"
 #include "room_store.h"
 #include "room_sync.h"
@@ -60,7 +60,7 @@ void room_destroy(struct room *room)
     if (!room) {
         return;
     }
-    room_log_clear(room);
+    room_history_clear(room);
     last_good_finish(room);
     poster_finish(room);
     picker_finish_room(room);
@@ -177,7 +177,7 @@ static void commit_change(struct room *room, const struct room_change *change, c
     if (change->by) {
         authors_edited(&room->authors, change->by, change->edit, room->revision);
     }
-    room_log_add(room, change, text);
+    room_history_add(room, change, text);
     tell_others(room, change, text);
     scene_error_resume(room); /* it may have helped */
     room_sync_edit(room, ops, text);
@@ -315,7 +315,7 @@ struct scene *room_replace(struct room *room, const struct room_document *docume
     room->edits_since_snapshot = 0;
     room_keep_text(room, text);
     scene_error_resume(room); /* it may have helped */
-    room_log_clear(room);
+    room_history_clear(room);
     room_sync_replace(room);
     tell_document(room, text);
     room_store_push(room, STORE_REPLACE, change, text, NULL);

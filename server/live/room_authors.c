@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "hub.h"
-#include "room_log.h"
+#include "room_history.h"
 #include "room_store.h"
 
 void room_authors_load(struct room *room, const struct store_loaded *loaded)
@@ -110,7 +110,7 @@ enum room_outcome room_authors_check_number(const struct room *room,
     if (!change->by || change->edit > change->by->edit) {
         return ROOM_APPLIED;
     }
-    const struct room_entry *entry = room_log_find(room, change->author, change->edit);
+    const struct room_entry *entry = room_history_find(room, change->author, change->edit);
     if (!entry) {
         return ask_store(room, change, out_revision, err);
     }

@@ -99,8 +99,8 @@ struct room {
     struct shared_buffer *poster; /* the last picture; NULL: none since the room was opened */
     bool poster_stored;
     struct error scene_error; /* why the newest state cannot be drawn; ERROR_NONE: no error known */
-    uint64_t scene_error_revision;               /* revision with that error */
-    char refused_shape[ASSET_ID_CHARACTERS + 1]; /* shape that was too slow or crashed */
+    uint64_t scene_error_revision;             /* revision with that error */
+    char refused_key[ASSET_ID_CHARACTERS + 1]; /* in quarantine, too slow or crashed */
 };
 
 struct room_change {

@@ -11,7 +11,7 @@
 #include "protocol/code_text.h"
 #include "protocol/json.h"
 #include "quarantine.h"
-#include "room_log.h"
+#include "room_history.h"
 #include "room_state.h"
 
 /* The file that the environment names, which the worker keeps as long as its scene does. */
@@ -95,7 +95,7 @@ void room_sync_done(struct room *room, uint64_t revision)
         send_scene(room, room->scene, room->revision);
         return;
     }
-    send_edit(room, room_log_since(room, room->sent));
+    send_edit(room, room_history_since(room, room->sent));
 }
 
 void room_sync_edit(struct room *room, const cJSON *ops, const char *text)

@@ -63,7 +63,7 @@ void scene_error_set(struct room *room, const struct error *err, uint64_t revisi
 static bool is_of_image(const struct room *room)
 {
     return scene_error_is_refusal(&room->scene_error) &&
-           strcmp(record_text(&room->scene->environment, "image"), room->refused_shape) == 0;
+           strcmp(record_text(&room->scene->environment, "image"), room->refused_key) == 0;
 }
 
 void scene_error_cure(struct room *room, uint64_t revision)

@@ -467,9 +467,9 @@ static void watch_over(struct supervisor *supervisor, int64_t now)
     }
 }
 
-static int wait_ms(const struct supervisor *supervisor, int64_t wish)
+static int wait_ms(const struct supervisor *supervisor, int64_t tick)
 {
-    int64_t next = clock_earlier(wish, supervisor->fd < 0  ? supervisor->next_start
+    int64_t next = clock_earlier(tick, supervisor->fd < 0  ? supervisor->next_start
                                        : supervisor->ready ? supervisor->next_ping
                                                            : clock_ms() + PING_MS);
     int64_t left = next - clock_ms();
@@ -515,9 +515,9 @@ static void *run(void *data)
 
     while (!atomic_load(&supervisor->stopping)) {
         watch_over(supervisor, clock_ms());
-        int64_t wish = supervisor->params.on_tick(supervisor->params.data, clock_ms());
+        int64_t tick = supervisor->params.on_tick(supervisor->params.data, clock_ms());
 
-        wait_and_receive(supervisor, wait_ms(supervisor, wish));
+        wait_and_receive(supervisor, wait_ms(supervisor, tick));
     }
     if (supervisor->fd >= 0) {
         take_down(supervisor, &(struct supervisor_end){.text = "stopped"});

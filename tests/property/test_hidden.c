@@ -168,9 +168,9 @@ static struct field *compile_after(const struct scene *scene, const struct field
                                    const struct isolated *isolated)
 {
     struct error err = {0};
-    const struct field_options wish = {
+    const struct field_options options = {
         .drawn = drawn, .isolated = isolated->ids, .isolated_count = isolated->count};
-    struct field *field = field_compile_as(scene, &wish, &err);
+    struct field *field = field_compile_as(scene, &options, &err);
     if (!field) {
         fail_msg("%s: %s", err.place, err.message);
     }

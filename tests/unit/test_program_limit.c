@@ -51,7 +51,7 @@ static int bound(void)
     program.spent_ms = INT32_MAX / 2;
     assert_true(look(&stuck));
     assert_false(stuck.still);
-    assert_int_equal(stuck.shape, program.structure_hash);
+    assert_int_equal(stuck.structure_hash, program.structure_hash);
     program.spent_ms = stuck.limit_ms / 2;
     assert_false(look(&stuck));
     program.spent_ms = stuck.limit_ms + 1;

@@ -251,7 +251,7 @@ static void a_lost_frame_takes_its_dependants(void **state)
     viewer.number++;
     send_queue_skip(&viewer.send_queue);
     assert_true(send_queue_wants_key(&viewer.send_queue));
-    for (int i = 0; i < 3; i++) { /* made before the wish for a key came */
+    for (int i = 0; i < 3; i++) { /* made before the request for a key came */
         bytes = push(viewer.stream, &packet);
         const struct frame_header header = {.number = ++viewer.number, .payload_bytes = 4};
 

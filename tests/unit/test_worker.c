@@ -870,7 +870,7 @@ static void members_to_worker(void **state)
 
     (void)state;
     got = there(PACKET_TO_WORKER, &(struct packet){.kind = TO_WORKER_JUDGE, .judge = judge});
-    assert_true(got.judge.shape == judge.shape);
+    assert_true(got.judge.structure_hash == judge.structure_hash);
     assert_string_equal(got.judge.asset, "a");
     assert_int_equal(got.judge.refused, ERROR_CRASHED);
     assert_int_equal(got.judge.measured_ms, 7);
@@ -925,13 +925,13 @@ static void members_to_front(void **state)
     sent = (struct packet){.kind = TO_FRONT_SLOW,
                            .suspect = {.scene = "s",
                                        .revision = 5,
-                                       .shape = 0xfedcba9876543210,
+                                       .structure_hash = 0xfedcba9876543210,
                                        .asset = "a",
                                        .still = true,
                                        .measured_ms = 1,
                                        .limit_ms = 2}};
     got = there(PACKET_TO_FRONT, &sent);
-    assert_true(got.suspect.shape == sent.suspect.shape && got.suspect.still);
+    assert_true(got.suspect.structure_hash == sent.suspect.structure_hash && got.suspect.still);
     assert_string_equal(got.suspect.asset, "a");
     assert_int_equal(got.suspect.limit_ms, 2);
     packet_finish(&got);

@@ -35,7 +35,7 @@ export interface Asset {
 }
 
 /* What a picture asks for; what is absent, the scene says. */
-export interface PictureWish {
+export interface PictureRequest {
     readonly width: number;
     readonly height: number;
     readonly format: Format;
@@ -133,7 +133,7 @@ export interface Rest {
     listAssets(): Promise<readonly Asset[]>;
     uploadAsset(file: Blob): Promise<Asset>;
     /* Addresses for <img> and links. Of several outputs a ZIP comes. */
-    imageUrl(id: string, wish: PictureWish): string;
+    imageUrl(id: string, picture: PictureRequest): string;
     /* The last picture that somebody has seen of a scene. */
     posterUrl(id: string): string;
     assetUrl(id: string): string;
@@ -145,7 +145,7 @@ export interface Rest {
     /* The same as an object URL, which the caller revokes. */
     fetchImage(url: string): Promise<string>;
     /* A picture of a document that is stored nowhere; the object URL is revoked by the caller. */
-    renderImage(document: Json, wish: PictureWish, signal: AbortSignal): Promise<string>;
+    renderImage(document: Json, picture: PictureRequest, signal: AbortSignal): Promise<string>;
     readonly token: string | null;
     readonly library: LibraryRest;
     /* For what is loaded later. */
@@ -176,8 +176,8 @@ async function problemOf(response: Response): Promise<RestError> {
 
 const segment = encodeURIComponent;
 
-function queryOf(wish: PictureWish): string {
-    const { width, height, region, outputs, level, transparent, camera } = wish;
+function queryOf(picture: PictureRequest): string {
+    const { width, height, region, outputs, level, transparent, camera } = picture;
     const query = new URLSearchParams({ width: String(width), height: String(height) });
     if (region) {
         query.set("region", region.join(","));
@@ -311,15 +311,15 @@ export function createRest(base: string, token: string | null): Rest {
             return readAsset(isObject(json) ? json : {});
         },
         readSchema: async () => readSchema(await get("/v1/schema.json")),
-        imageUrl: (id, wish) =>
-            `${base}/v1/scenes/${segment(id)}/image.${wish.format}?${queryOf(wish)}`,
+        imageUrl: (id, picture) =>
+            `${base}/v1/scenes/${segment(id)}/image.${picture.format}?${queryOf(picture)}`,
         posterUrl: (id) => `${base}/v1/scenes/${segment(id)}/poster.jpg`,
         assetUrl: (id) => `${base}/v1/assets/${segment(id)}`,
         exampleImageUrl: (id) => `${base}/v1/examples/${segment(id)}/card.jpg`,
         referenceImageUrl: (type) => `${base}/v1/reference/${segment(type)}.jpg`,
         fetchFile,
-        renderImage: async (scene, { outputs: _outputs, ...wish }, signal) => {
-            const body = JSON.stringify({ scene, ...wish });
+        renderImage: async (scene, { outputs: _outputs, ...picture }, signal) => {
+            const body = JSON.stringify({ scene, ...picture });
             const response = await request("/v1/render", { method: "POST", body, signal });
             return URL.createObjectURL(await response.blob());
         },

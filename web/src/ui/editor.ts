@@ -44,7 +44,7 @@ export function createEditor(): Editor {
         download: () => void saveDocument(editor),
         upload: (folder = false) => upload(editor, folder),
         saveToLibrary: (node) =>
-            void import("./library/acts.ts").then(({ saveNode }) => saveNode(editor, node)),
+            void import("./library/actions.ts").then(({ saveNode }) => saveNode(editor, node)),
         open: (scene) => void openScene(editor, scene, author),
         show: (subject) =>
             stores.view.setState(

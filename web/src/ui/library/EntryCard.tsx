@@ -9,7 +9,7 @@ import { useDocument, useEditor } from "../state.ts";
 import { t } from "../texts.ts";
 import { IconButton } from "../widgets/Button.tsx";
 import { Menu, MenuItem, MenuLine } from "../widgets/Menu.tsx";
-import { remove, rename, take } from "./acts.ts";
+import { remove, rename, take } from "./actions.ts";
 import { EntryPicture } from "./EntryPicture.tsx";
 
 export function EntryCard({ entry }: { entry: EntryRow }) {

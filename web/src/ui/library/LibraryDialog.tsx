@@ -9,7 +9,7 @@ import { t } from "../texts.ts";
 import { Button } from "../widgets/Button.tsx";
 import { Dialog } from "../widgets/Dialog.tsx";
 import { Filter } from "../widgets/Filter.tsx";
-import { exportLibrary, importLibrary, refreshLibrary } from "./acts.ts";
+import { exportLibrary, importLibrary, refreshLibrary } from "./actions.ts";
 import { EntryCard } from "./EntryCard.tsx";
 import "./library.css";
 

@@ -3,7 +3,7 @@
 import { useEffect } from "react";
 import type { EntryRow } from "../../model/library.ts";
 import { useEditor, useLibrary } from "../state.ts";
-import { refreshLibrary } from "./acts.ts";
+import { refreshLibrary } from "./actions.ts";
 
 const NONE: readonly EntryRow[] = [];
 

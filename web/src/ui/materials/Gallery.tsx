@@ -9,7 +9,7 @@ import { search } from "../../model/search.ts";
 import type { Trial } from "../../model/view.ts";
 import type { Editor } from "../editor.ts";
 import { addResource } from "../insertions.ts";
-import { take } from "../library/acts.ts";
+import { take } from "../library/actions.ts";
 import { EntryPicture } from "../library/EntryPicture.tsx";
 import { useEntries } from "../library/entries.ts";
 import { typeTitle } from "../names.ts";

@@ -19,9 +19,9 @@ export function useBall(preset: Preset): string | null {
         if (drawn.has(preset.name)) {
             return;
         }
-        const wish = { width: SIZE, height: SIZE, format: "png", transparent: true } as const;
+        const request = { width: SIZE, height: SIZE, format: "png", transparent: true } as const;
         return takeTurn(async (signal) => {
-            const address = await rest.renderImage(ballScene(preset), wish, signal);
+            const address = await rest.renderImage(ballScene(preset), request, signal);
             drawn.set(preset.name, address);
             setBall(address);
         });

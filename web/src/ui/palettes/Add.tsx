@@ -11,7 +11,7 @@ import { nodeType } from "../../model/schema.ts";
 import { setPreferences } from "../../model/stores.ts";
 import { carryOffer } from "../drop/carry.ts";
 import { addInput, addNode } from "../insertions.ts";
-import { take } from "../library/acts.ts";
+import { take } from "../library/actions.ts";
 import { EntryPicture } from "../library/EntryPicture.tsx";
 import { useEntries } from "../library/entries.ts";
 import { TypeIcon } from "../scene/ResourceIcon.tsx";

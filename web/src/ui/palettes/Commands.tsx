@@ -13,7 +13,7 @@ import { addNotice } from "../../model/stores.ts";
 import type { Editor } from "../editor.ts";
 import { addNode, addTyped, selectNode } from "../insertions.ts";
 import { keyText } from "../layout/keys.ts";
-import { take } from "../library/acts.ts";
+import { take } from "../library/actions.ts";
 import { useEntries } from "../library/entries.ts";
 import { outputTitle, typeTitle } from "../names.ts";
 import { goTo } from "../route.ts";

@@ -74,7 +74,7 @@ function Common({ list, resource }: Props) {
                 <MenuItem
                     icon={<BookmarkPlus size={14} />}
                     onSelect={() =>
-                        void import("../library/acts.ts").then(({ saveResource }) =>
+                        void import("../library/actions.ts").then(({ saveResource }) =>
                             saveResource(editor, list, resource),
                         )
                     }

@@ -5,7 +5,7 @@ import { useEffect, useState } from "react";
 import { printCamera } from "../../model/camera.ts";
 import { printDocument } from "../../model/documentJson.ts";
 import { apply } from "../../model/operations.ts";
-import type { Trial as Wish } from "../../model/view.ts";
+import type { Trial as TrialRequest } from "../../model/view.ts";
 import type { Editor } from "../editor.ts";
 import { useEditor, useView } from "../state.ts";
 import "./view.css";
@@ -15,13 +15,17 @@ const REST_MS = 120;
 /* Of the view's pixels. */
 const SCALE = 0.6;
 
-async function draw(editor: Editor, wish: Wish, signal: AbortSignal): Promise<string | null> {
+async function draw(
+    editor: Editor,
+    request: TrialRequest,
+    signal: AbortSignal,
+): Promise<string | null> {
     const { document, schema } = editor.stores.document.getState();
     const box = window.document.querySelector(".view-picture")?.getBoundingClientRect();
     if (document === null || !box) {
         return null;
     }
-    const tried = apply(document, wish.ops, schema);
+    const tried = apply(document, request.ops, schema);
     if (!tried.ok) {
         return null;
     }
@@ -41,17 +45,17 @@ async function draw(editor: Editor, wish: Wish, signal: AbortSignal): Promise<st
 
 export function Trial() {
     const editor = useEditor();
-    const wish = useView((view) => view.trial);
-    const [shown, setShown] = useState<{ wish: Wish; address: string } | null>(null);
+    const request = useView((view) => view.trial);
+    const [shown, setShown] = useState<{ request: TrialRequest; address: string } | null>(null);
     useEffect(() => {
-        if (wish === null) {
+        if (request === null) {
             setShown(null);
             return;
         }
         const stop = new AbortController();
         const timer = setTimeout(() => {
-            draw(editor, wish, stop.signal).then(
-                (address) => address !== null && setShown({ wish, address }),
+            draw(editor, request, stop.signal).then(
+                (address) => address !== null && setShown({ request, address }),
                 () => undefined /* another is asked for, or the server says why elsewhere */,
             );
         }, REST_MS);
@@ -59,15 +63,15 @@ export function Trial() {
             clearTimeout(timer);
             stop.abort();
         };
-    }, [editor, wish]);
+    }, [editor, request]);
     useEffect(() => () => URL.revokeObjectURL(shown?.address ?? ""), [shown]);
-    if (shown === null || wish === null) {
+    if (shown === null || request === null) {
         return null;
     }
     return (
-        <div className="view-trial" data-testid="trial" data-shown={shown.wish.name}>
+        <div className="view-trial" data-testid="trial" data-shown={shown.request.name}>
             <img src={shown.address} alt="" />
-            {shown.wish.words !== "" && <p className="glass view-hint">{shown.wish.words}</p>}
+            {shown.request.words !== "" && <p className="glass view-hint">{shown.request.words}</p>}
         </div>
     );
 }

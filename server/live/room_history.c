@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "room_log.h"
+#include "room_history.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static struct room_entry *entry_at(struct room *room, uint64_t revision)
     return &room->log[revision % ROOM_LOG];
 }
 
-void room_log_clear(struct room *room)
+void room_history_clear(struct room *room)
 {
     for (size_t i = 0; i < ROOM_LOG; i++) {
         free(room->log[i].ops);
@@ -33,7 +33,7 @@ static void forget_oldest(struct room *room)
     memset(entry, 0, sizeof *entry);
 }
 
-void room_log_add(struct room *room, const struct room_change *change, const char *ops)
+void room_history_add(struct room *room, const struct room_change *change, const char *ops)
 {
     size_t length = strlen(ops);
 
@@ -50,7 +50,8 @@ void room_log_add(struct room *room, const struct room_change *change, const cha
     room->log_bytes += length;
 }
 
-const struct room_entry *room_log_find(const struct room *room, const char *author, int64_t edit)
+const struct room_entry *room_history_find(const struct room *room, const char *author,
+                                           int64_t edit)
 {
     for (uint64_t r = room->revision; r > room->log_from; r--) {
         const struct room_entry *entry = room_entry_of(room, r);
@@ -62,7 +63,7 @@ const struct room_entry *room_log_find(const struct room *room, const char *auth
     return NULL;
 }
 
-cJSON *room_log_since(const struct room *room, uint64_t from)
+cJSON *room_history_since(const struct room *room, uint64_t from)
 {
     cJSON *all = cJSON_CreateArray();
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the files of this folder share and nobody else includes. */
-#ifndef PROTOCOL_IMPORT_PARTS_H
-#define PROTOCOL_IMPORT_PARTS_H
+#ifndef PROTOCOL_IMPORT_INTERNAL_H
+#define PROTOCOL_IMPORT_INTERNAL_H
 
 #include "import.h"
 #include "protocol/limits.h"
