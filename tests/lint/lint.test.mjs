@@ -8,6 +8,8 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, describe, test } from 'node:test';
 
+import { INCLUDES } from './arrows.mjs';
+
 const here = path.dirname(new URL(import.meta.url).pathname);
 const C = '/* SPDX-License-Identifier: MIT */\n';
 const TS = '// SPDX-License-Identifier: MIT\n';
@@ -90,6 +92,14 @@ const BREAKS = [
     ['tidy', 'server/live/room.c', `${C}int f(int a)\n{\n    if (a > 0);\n    return a;\n}\n`],
     ['shellcheck', 'deploy/run.sh', `#!/bin/sh\n# SPDX-License-Identifier: MIT\necho $1\n`],
 ];
+
+// Of each row of the table: a header of a folder that it may not use.
+for (const [layer, may] of Object.entries(INCLUDES)) {
+    const headers = ['protocol/scene.h', ...Object.keys(INCLUDES).map((folder) => `${folder}/any.h`)];
+    const allowed = (header) => [layer, ...may].some((place) => header === place || header.startsWith(`${place}/`));
+    const forbidden = headers.findLast((header) => !allowed(header));
+    BREAKS.push(['arrow', `${layer}/row.c`, `${C}#include "${forbidden}"\n`]);
+}
 
 const trees = [];
 after(() => trees.forEach((tree) => fs.rmSync(tree, { recursive: true, force: true })));

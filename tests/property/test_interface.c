@@ -173,7 +173,7 @@ static void each_file_is_whole_by_itself(void **state)
     (void)state;
     for (const struct glsl_file *file = glsl_files; file->name; file++) {
         char text[256];
-        const bool pass = strstr(file->name, "_pass.glsl") || strstr(file->name, "environment_");
+        const bool pass = strstr(file->name, "_pass.glsl");
         const bool main =
             pass || strcmp(file->name, "resolve.glsl") == 0 || strcmp(file->name, "full.glsl") == 0;
         const bool browser = strstr(file->name, "webgl_"); /* another language: e2e/webgl */
