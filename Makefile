@@ -214,6 +214,9 @@ $(test_programs): %: %.o $(support) $(library) $(OUT)/link-flags
 $(OUT)/tests/unit/test_groebner: tested_libs := -lflint -lgmp
 $(OUT)/tests/unit/test_groebner: $(filter-out %/main.o,$(call object,$(algebra)))
 
+# The one test that counts allocations.
+$(OUT)/tests/property/test_patch: tested_libs := $(foreach f,malloc calloc realloc,-Wl,--wrap=$(f))
+
 # Loaded in front of everything else, so without the sanitizers' own libraries.
 $(preloaded): $(OUT)/%.so: $(S)/%.c
 	$(call say,CC,$<)
