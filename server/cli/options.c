@@ -161,9 +161,9 @@ static const struct option_row table[OPTION_COUNT] = {
                "a part of that; `strict` does not; `off` is for drivers that need more."},
     [OPTION_DEVICE] = {"device", 0, "KIND", OPTION_CHOICE, .choice = device_choice,
         .fallback = "auto", .commands = DRAWING, .stored = true,
-        .doc = "What draws. `auto` prefers a GPU, and does without a device where none can be "
-               "opened; `gpu` fails where there is none; `none` opens no device: the engine "
-               "draws."},
+        .doc = "What draws. `auto` prefers a GPU, which is used from OpenGL 4.3 on; below that, "
+               "and where none can be opened, the engine draws; `gpu` fails where there is none; "
+               "`none` opens no device: the engine draws."},
     [OPTION_DEVICE_INDEX] = {"device-index", 0, "N", OPTION_INT, .fallback = "-1",
         .min = -1, .max = 255, .commands = DRAWING, .stored = true,
         .doc = "Which device, counted as `fieldcast doctor` lists them; -1 takes the best."},
