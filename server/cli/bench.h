@@ -65,8 +65,9 @@ bool bench_edits(struct resident *resident, cJSON *row, struct error *err);
 
 /* A document of `nodes` nodes, named node-I, in groups of a hundred; caller frees. */
 char *bench_document(size_t nodes, size_t *out_length);
-/* Times of reading, copying, printing and editing documents of 1,000 to 100,000 nodes. */
-cJSON *bench_documents(struct error *err);
+/* Times of reading, copying, printing and editing documents of 1,000 to 100,000 nodes. The row of
+ * 10,000 nodes has bench_edits too, in `drawn`. */
+cJSON *bench_documents(const struct renderer_params *params, struct error *err);
 
 /* Times of edits that are applied and committed, in scenes of one and of 10,000 nodes. The store is
  * a new one below `directory`. */

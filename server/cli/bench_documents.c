@@ -10,7 +10,7 @@
 #include "protocol/memory.h"
 #include "server/clock.h"
 
-enum { GROUP = 100, EDITS = 1000 };
+enum { GROUP = 100, EDITS = 1000, DRAWN_NODES = 10000 };
 
 char *bench_document(size_t nodes, size_t *out_length)
 {
@@ -99,14 +99,34 @@ static cJSON *measure(size_t nodes, struct error *err)
     return row;
 }
 
-cJSON *bench_documents(struct error *err)
+/* The same document in the render process: adds bench_edits. Nothing is drawn, so no device is
+ * opened. */
+static bool measure_drawn(const struct renderer_params *params, cJSON *row, struct error *err)
+{
+    struct renderer_params engine = *params;
+    size_t length;
+    char *text = bench_document(DRAWN_NODES, &length);
+    engine.device.kind = DEVICE_NONE;
+    engine.stage = RENDER_ENGINE;
+    struct renderer *renderer = renderer_create(&engine, err);
+    struct scene *scene = renderer ? scene_parse(text, length, err) : NULL;
+    struct resident *resident = scene ? resident_create(renderer, scene, 1) : NULL;
+    const bool ok = resident && bench_edits(resident, cJSON_AddObjectToObject(row, "drawn"), err);
+    resident_destroy(resident);
+    renderer_destroy(renderer);
+    free(text);
+    return ok;
+}
+
+cJSON *bench_documents(const struct renderer_params *params, struct error *err)
 {
     static const size_t sizes[] = {1000, 10000, 100000};
     cJSON *rows = cJSON_CreateArray();
     fprintf(stderr, "fieldcast: reading scenes of up to 100000 nodes\n");
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         cJSON *row = measure(sizes[i], err);
-        if (!row) {
+        if (!row || (sizes[i] == DRAWN_NODES && !measure_drawn(params, row, err))) {
+            cJSON_Delete(row);
             cJSON_Delete(rows);
             return NULL;
         }

@@ -63,7 +63,7 @@ static cJSON *measure(const struct options *options, enum bench_part part, struc
     case BENCH_GROWTH:
         return bench_growth(&params, &effort, err);
     case BENCH_DOCUMENTS:
-        return bench_documents(err);
+        return bench_documents(&params, err);
     case BENCH_EDITS:
         return bench_store(option_text(options, OPTION_DATA), err);
     default:

@@ -498,6 +498,8 @@ test('bench prints JSON of drawing, compiling, encoding and storing', () => {
     );
     // The sanitizers' allocator does not count.
     assert.ok(documents.every(({ parse_ms, memory_mib }) => parse_ms > 0 && memory_mib >= 0));
+    const { edit_us: edit, edit_p95_us: slow } = documents[1].drawn;
+    assert.ok(edit > 0 && slow >= edit);
     assert.deepEqual(fs.readdirSync(path.join(folder, 'bench')), [], 'nothing is left');
     assert.equal(run(['bench', '--only', 'nothing']).status, 2);
 });
