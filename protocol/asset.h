@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Files that scenes name by their SHA-256. What is said here comes from a file's first bytes alone;
- * only the render process reads the rest (renderer/image/decode.h). */
+/* Files that scenes name by their SHA-256. This module reads only a file's first bytes. The rest is
+ * read by the render process alone (renderer/image/decode.h). */
 #ifndef PROTOCOL_ASSET_H
 #define PROTOCOL_ASSET_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where users' code stands: in documents and edits as JSON, and in scenes. */
+/* Finds users' code in documents and edits as JSON, and in scenes. */
 #ifndef PROTOCOL_CODE_TEXT_H
 #define PROTOCOL_CODE_TEXT_H
 
@@ -7,7 +7,7 @@
 
 /* The first code that a document, or an array of operations, brings: its place, and true. */
 bool code_text_find(const cJSON *json, char out_place[ERROR_PLACE_BYTES]);
-/* Makes all of it empty. */
+/* Replaces all code by empty texts. */
 void code_text_remove(cJSON *json);
 
 bool code_text_in_scene(const struct scene *scene);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the bytes of a picture are: what may be asked for, and what an answer and a frame say. */
+/* Encodings of a picture: those of requests, answers and frames. */
 #ifndef PROTOCOL_CODEC_H
 #define PROTOCOL_CODEC_H
 

@@ -29,8 +29,8 @@ size_t edit_weight(const struct scene *scene, const cJSON *ops, size_t most);
 /* Undo and redo of one scene, a pair of stacks of steps per author. A redo is built when its undo
  * happens, so n undos and n redos give back what was there, others' edits included.
  *
- * A step knows the values that its edits left. Where there is another one now, somebody else has
- * set it, and undo and redo leave it alone. */
+ * A step records the values that its edits left. A value that differs now was set by another
+ * author; undo and redo do not change it. */
 struct history;
 struct step;
 

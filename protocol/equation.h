@@ -109,7 +109,7 @@ struct equation_error {
 enum { EQUATION_ERRORS = 8 };
 struct equation_errors {
     struct equation_error list[EQUATION_ERRORS];
-    int count; /* of those told */
+    int count; /* of those in the list */
 };
 
 /* The letters of a node `implicit`, which are numbers of it; NULL at the end. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What can be asked of a picture: outputs, quality levels, and the stages whose time is told.
- * Tables; messages, options, REST, the schema and the docs are derived from them. */
+/* The tables of a picture: outputs, quality levels, and the stages whose time is reported.
+ * Messages, options, REST, the schema and the docs are derived from them. */
 #ifndef PROTOCOL_PICTURE_H
 #define PROTOCOL_PICTURE_H
 
@@ -95,8 +95,8 @@ int quality_find(const char *name);       /* -1: none */
 
 /* --- a request --- */
 
-/* What may be asked of one picture besides its scene, camera and format. The table of a message:
- * what is absent has no default here. */
+/* The members of a request for one picture, without scene, camera and format. As in a message, an
+ * absent member has no default here. */
 extern const struct record_type picture_type;
 enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720 }; /* where they are absent */
 

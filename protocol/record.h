@@ -14,7 +14,7 @@ struct record_type {
     const struct param *params;
 };
 
-/* Owned by whatever contains it. values[i] belongs to type->params[i] and always holds something
+/* Owned by its container. values[i] belongs to type->params[i] and always holds something
  * valid, the default where the document is silent. */
 struct record {
     const struct record_type *type;

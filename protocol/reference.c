@@ -175,12 +175,12 @@ char *reference_markdown(void)
         {"Volumes", "Up to `volumes` of them, which may overlap: their densities add up.",
          volume_types},
         {"Shaders",
-         "Light goes through a surface where `transmission` is above 0, or `opacity` below 1: what "
-         "is not mirrored is bent, dyed by the colour of `standard`, by no colour of the others, "
-         "and dimmed on its way inside by the attenuation. Whatever a row does not say of light "
-         "that goes through, it does nothing to it. The face of a cut has the material of what "
-         "cuts: a solid cuts faces into glass that light does not go through, and glass none that "
-         "it goes through into a solid.",
+         "A surface transmits light where `transmission` is above 0, or `opacity` is below 1. "
+         "Light that is not reflected is refracted. The colour of `standard` tints it; other "
+         "shaders do not. Inside, the attenuation absorbs a part of it. A property whose row does "
+         "not mention transmitted light does not change it. The face of a cut has the material of "
+         "the cutting node: an opaque node cuts opaque faces into glass, and glass cuts no "
+         "transmissive face into an opaque node.",
          shader_types}};
     static const struct record_type *const records[] = {
         &node_common_type, &transform_type, &camera_type, &environment_type,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* One picture that is asked for. REST reads it from a query or from JSON, the command line from
- * options, a live view makes it; the worker gets it in a packet. What is asked of a picture is a
- * row of picture_type: whoever reads or prints a request then knows it. */
+/* A request for one picture. REST reads it from a query or from JSON, the command line from
+ * options. A live view builds it. A packet carries it to the worker. Each member of a picture is a
+ * row of picture_type, from which requests are read and printed. */
 #ifndef PROTOCOL_RENDER_REQUEST_H
 #define PROTOCOL_RENDER_REQUEST_H
 
@@ -19,7 +19,7 @@ struct render_request {
     enum codec codec;
 };
 
-/* Switches of the way from the renderer to who asked; nobody outside can set them:
+/* Switches of the delivery from renderer to client. They are internal:
  * `exact`: wait for the newest revision's shader, else draw the newest drawable state;
  * `in_rounds`: of ever more samples, each a whole picture;
  * `sparse`: of fewer rays than pixels, for a picture that moves;

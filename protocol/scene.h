@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The scene document in memory: a tree of nodes plus named resources, every value checked.
- * Not thread-safe; whoever owns a scene is the only one that touches it. */
+ * Not thread-safe; only the owner of a scene uses it. */
 #ifndef PROTOCOL_SCENE_H
 #define PROTOCOL_SCENE_H
 

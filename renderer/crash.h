@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a thread was at when it crashed, told by the exit status of its process: the cause is known
- * for sure. Signals that a process sends say nothing of that. Neither does abort(), by which
- * allocations fail: anybody may have taken the memory. */
+/* The work of a thread that crashed, encoded in the exit status of its process. The cause is then
+ * certain. It is not after a signal sent by a process, nor after abort(), which follows a failed
+ * allocation: any thread may have used up the memory. */
 #ifndef RENDERER_CRASH_H
 #define RENDERER_CRASH_H
 
@@ -15,11 +15,11 @@ enum crash_work {
 };
 enum { CRASH_STATUS = 64 }; /* exit status, added to an enum crash_work */
 
-/* From here on, in the whole process; where a sanitizer looks at a signal, that signal is its. */
+/* Installs handlers for the whole process. Signals that a sanitizer handles are left to it. */
 void crash_watch(void);
-/* What this thread is at from here on. */
+/* Sets the work of this thread. */
 void crash_thread(enum crash_work work);
-/* That of an exit status. */
+/* The work that an exit status encodes. */
 enum crash_work crash_of(int exit_status);
 
 #endif

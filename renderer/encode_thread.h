@@ -17,7 +17,7 @@ struct encoding {
     int priority; /* the lowest goes first, then the smallest picture, then the oldest */
     void *data;   /* the owner's */
     struct stream_packet packet; /* where it is ok */
-    bool ok;                     /* else `error` says why, or nobody wanted it */
+    bool ok;                     /* else `error` says why, or it was cancelled */
     uint8_t *bytes;
     size_t length;
     uint32_t encode_us;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes seen by cameras become pixels. With worker.h and pick.h the only header of this layer that
- * others include. Knows nothing of HTTP, clients, sessions or users.
+/* The renderer: draws scenes as seen by cameras. Other layers include only this header, worker.h
+ * and pick.h. The renderer does not depend on HTTP, clients, sessions or users.
  *
- * Threads: one thread owns a renderer and everything made from it. (Inside, other threads
- * compile; nobody sees them.) Nothing here logs but through renderer_params.log. */
+ * Threads: one thread owns a renderer and everything made from it. Internal threads compile.
+ * Messages are logged through renderer_params.log alone. */
 #ifndef RENDERER_RENDERER_H
 #define RENDERER_RENDERER_H
 
@@ -97,7 +97,7 @@ struct renderer_verdict {
     int measured_ms, limit_ms; /* of ERROR_TOO_SLOW */
     int times;                 /* of the usual time that it may take; 0: once */
 };
-/* It holds from here on, for scenes that are there already too. */
+/* Applies to existing scenes too. */
 void renderer_judge(struct renderer *renderer, const struct renderer_verdict *verdict);
 /* How slow this machine compiles: program_cache_pace. */
 double renderer_pace(const struct renderer *renderer);
@@ -105,11 +105,11 @@ double renderer_pace(const struct renderer *renderer);
 void renderer_share(struct renderer *renderer, bool shared);
 void renderer_set_pace(struct renderer *renderer, double pace);
 
-/* A file that scenes name by its SHA-256, copied; it stays while a scene names it, and for some
- * others after it. Before the first scene that does, or those are looked at anew. */
+/* Adds a file that scenes name by its SHA-256. It is copied, and kept while a scene names it and
+ * for some time after. Call it before the first such scene, or scenes that name it are reopened. */
 void renderer_asset(struct renderer *renderer, const char *id, const void *bytes, size_t length);
 
-/* Whether the scene can be drawn, as far as that can be told without a device: its code is read,
+/* Whether the scene can be drawn, as far as that is known without a device: its code is read,
  * checked, bounded and run in C, and every limit of drawing holds. False and `err` with the place
  * that drawing names. `*out_warning` is a WARNING_LIPSCHITZ, or a pole of an equation. Any
  * thread, no renderer. */
@@ -154,15 +154,15 @@ void resident_replace_opened(struct resident *resident, const struct opened_scen
 bool resident_edit(struct resident *resident, const cJSON *ops, uint64_t revision,
                    struct error *err);
 /* The same, but after an edit of more than numbers it is stale, until it is replaced by itself,
- * opened anew. */
+ * reopened. */
 bool resident_apply(struct resident *resident, const cJSON *ops, uint64_t revision,
                     struct error *err);
 bool resident_is_stale(const struct resident *resident);
-void resident_renew(struct resident *resident); /* opens it anew at once */
+void resident_renew(struct resident *resident); /* reopens it at once */
 const struct scene *resident_scene(const struct resident *resident);
 /* The newest structure where there is code of users in it; else 0. */
 uint64_t resident_structure_with_code(const struct resident *resident);
-uint64_t resident_revision(const struct resident *resident);       /* newest told */
+uint64_t resident_revision(const struct resident *resident);       /* newest received */
 uint64_t resident_shown_revision(const struct resident *resident); /* newest that can be drawn */
 /* ERROR_NONE while all is well; else why the newest structure cannot be drawn. */
 const struct error *resident_error(const struct resident *resident);
@@ -174,7 +174,7 @@ enum warning_kind {
     WARNING_LIPSCHITZ, /* a function of a user is steeper than it says */
     WARNING_ASSET,     /* the picture around the scene is not there, or is none */
 };
-/* What is not right with the newest state, and yet drawn; ERROR_NONE: nothing. */
+/* A fault of the newest state that does not prevent drawing; ERROR_NONE: none. */
 struct warning {
     enum warning_kind kind;
     struct error error;

@@ -13,7 +13,7 @@ struct scene_document {
     const void *text;
     size_t length;
     bool portrait;       /* only its nodes count (portrait.h) */
-    struct scene *scene; /* instead of a text: it has been read, and its field is compiled anew */
+    struct scene *scene; /* instead of a text: it has been read, and its field is recompiled */
     struct field *drawn; /* as opened_scene_make has it */
 };
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* An encoder of pictures that follow each other, beside that of single ones (image/encode.h): a
- * picture may be told as what has changed since the one before. Those that hold no earlier
- * pictures are streams too, of keys alone.
+/* An encoder of a sequence of pictures; image/encode.h encodes single ones. A packet may hold the
+ * difference from the picture before. An encoder that keeps no earlier picture is a stream of key
+ * packets alone.
  *
- * A picture comes as rows, so that a large one needs no memory. Touches no GL; one thread at a
+ * A picture is passed in rows, so that its size needs no memory. Uses no GL. One thread at a
  * time. */
 #ifndef RENDERER_STREAM_ENCODER_H
 #define RENDERER_STREAM_ENCODER_H
 
 #include "renderer/image/image.h"
 
-/* What is said of the bytes of a picture. */
+/* Describes the bytes of a picture. */
 struct stream_packet {
     enum codec codec;
     bool key; /* it decodes alone; else with all since the last key */

@@ -9,7 +9,7 @@
 #include "turns.h"
 #include "worker.h"
 
-/* A scene, and what the front was told of it. */
+/* A scene, and the last state of it that was sent to the front. */
 struct worker_scene {
     char *name;
     struct resident *resident;
@@ -43,7 +43,7 @@ struct worker_job {
     struct encoding *encoding;
     bool between; /* a round is drawn and being encoded; there are more */
     bool newest;
-    bool answered; /* failed or cancelled: nobody waits for what is encoded */
+    bool answered; /* failed or cancelled: its encoded bytes are dropped */
     uint64_t received_us, begun_us, told_us;
     uint64_t revision;
     int width, height;
@@ -132,7 +132,7 @@ struct scene_document worker_document_of(struct worker *w, const struct packet *
 /* It was opened. Takes what is in it. */
 void worker_on_scene(struct worker *w, const struct packet_scene *packet,
                      const struct opened_scene *opened);
-/* The same of a scene whose field was compiled anew. */
+/* The same of a scene whose field was recompiled. */
 void worker_on_field(struct worker *w, const char *scene, const struct opened_scene *opened);
 /* The scene whose field has to be compiled beside the drawing; NULL: this one's has not. */
 const struct scene *worker_stale_scene(struct worker *w, const char *scene);

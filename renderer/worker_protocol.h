@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* What front and worker say to each other: an enum of packets each way, a struct for the members
- * of each, one table each way (worker_protocol.c) that packs and unpacks them. Used by both ends,
- * which are one program.
+/* The protocol between front and worker. Each direction has an enum of packets, a struct for the
+ * members of each packet, and a table (worker_protocol.c) by which they are packed and unpacked.
+ * Both ends are the same program.
  *
  * A packet is: u32 kind, u32 json_length, u32 payload_length (native byte order, same machine), the
  * JSON object, the payload (a file, a document, or an encoded picture). Bytes go through the socket
- * rather than through shared memory: a copy of 200 kB costs tens of microseconds, and nothing is
- * left behind when a worker is killed in the middle.
+ * instead of shared memory. A copy of 200 kB costs tens of microseconds, and a worker that is
+ * killed leaves nothing behind.
  *
- * Packets of a scene are handled in order, after its document has been read. A large document is
- * read beside the drawing, as the field of a large scene is compiled after an edit of more than
- * numbers, and packets of other scenes do not wait for it.
+ * Packets of a scene are handled in order, after its document has been read. Another thread reads a
+ * large document. After a structural edit of a large scene it also compiles the field. Packets of
+ * other scenes do not wait for that.
  *
- * Before code of users is compiled, the picture of an environment or a large document read, or any
- * scene drawn, the worker names it, and an empty one afterwards; it waits until the front has that.
- * So it is known whose code, file or document ended it. A compiler that may never end (limits.h)
- * ends the worker, which says so first (`slow`), as does reading a picture that takes too long. The
- * front tells the next worker what to make of such a structure or file (`judge`).
+ * The worker reports the subject of each dangerous step before it begins, and an empty one
+ * afterwards. These steps are: compilation of users' code, reading the picture of an environment or
+ * a large document, and drawing. The worker waits until the front has received the report. When a
+ * worker ends, the front therefore knows the code, file or document that was at work. A compiler
+ * that may never end (limits.h) ends the worker, and so does a picture that takes too long to read.
+ * The worker reports this first (`slow`). The front sends its verdict on such a structure or file
+ * to the next worker (`judge`).
  *
- * A request in rounds is answered by a frame for each round of samples; the last one's `more` is
- * false. A request of a scene that is not known, or a malformed packet, is answered by `failed`.
+ * A request in rounds is answered by a frame for each round of samples. `more` is false in the last
+ * one. A request for an unknown scene, or a malformed packet, is answered by `failed`.
  *
- * A second socketpair carries ping and pong. A thread that does not draw answers there (pulse.h).
- * What it says of the drawing thread is what counts: one that neither goes on (`steps`) nor has
- * nothing to do (`idle`) hangs, however fast the pongs come. */
+ * A second socketpair carries ping and pong. A thread that does not draw answers (pulse.h). A pong
+ * describes the drawing thread, and only this description counts. The drawing thread hangs if
+ * `steps` does not increase and `idle` is false. */
 #ifndef RENDERER_WORKER_PROTOCOL_H
 #define RENDERER_WORKER_PROTOCOL_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the files of this folder share and nobody else includes. */
+/* Declarations that the files of this folder share; no other file includes them. */
 #ifndef PROTOCOL_IMPORT_INTERNAL_H
 #define PROTOCOL_IMPORT_INTERNAL_H
 

@@ -11,7 +11,7 @@
 
 /* `asked`: ideal_type. Prints a line of JSON for each step to `steps`: {"pair": [i, j], "outcome",
  * "degree", "sugar", "divisions", "waiting"}, for a pair that was added also "element", "leading"
- * and "terms"; elements count from 0, the generators first. The first 2,000 are told, then one
+ * and "terms"; elements count from 0, the generators first. The first 2,000 are reported, then one
  * in a hundred. The answer is {"letters", "basis", "counts", "cpu_ms"}, with
  * "elimination" where letters are eliminated, and with "quotients", "rest" and "scale" of a
  * dividend. NULL: `err`. */

@@ -82,7 +82,7 @@ uint16_t lower_increment(struct lower *lower, const struct expr *expr, bool want
 /* lower_values.c: where the expression's value is, which may be a variable's own place: parts of an
  * expression do not assign to what others use (check_order). */
 uint16_t lower_value(struct lower *lower, const struct expr *expr);
-/* Of a statement, whose value nobody reads. */
+/* Of a statement, whose value is not used. */
 void lower_effect(struct lower *lower, const struct expr *expr);
 
 #endif

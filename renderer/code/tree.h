@@ -2,7 +2,7 @@
 /* Users' code as a tree: what parser.h reads, check.h fills in, lower.h and writer.h read.
  *
  * All of it lies in the tree's arena. No path down an expression is longer than TREE_DEPTH, no path
- * down statements longer than LIMIT_CODE_DEPTH: whoever walks it may recurse. */
+ * down statements longer than LIMIT_CODE_DEPTH, so that functions over it may recurse. */
 #ifndef RENDERER_CODE_TREE_H
 #define RENDERER_CODE_TREE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Files that scenes name by their SHA-256, as the renderer was given them: bytes, not yet read.
+/* Files that scenes name by their SHA-256: the bytes that the renderer received, not yet decoded.
  * Belongs to the drawing thread. */
 #ifndef RENDERER_ASSET_H
 #define RENDERER_ASSET_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Draws tiles: the passes over their samples, and the way of the pixels back. Knows no scenes.
+/* Draws tiles: runs the passes over their samples and reads the pixels back. Independent of scenes.
  *
  * A tile's pixels are fetched while the next one is drawn: draw_tile starts, draw_collect waits.
  * Several outputs of one tile are drawn at once and collected one by one. */

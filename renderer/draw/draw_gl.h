@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What both kinds of shaders have in common: the objects of a picture, and the way of its pixels
- * back. Private to draw_compute.c and draw_fragment.c. */
+/* Shared by compute and fragment shaders: the objects of a picture, and reading its pixels back.
+ * Private to draw_compute.c and draw_fragment.c. */
 #ifndef RENDERER_DRAW_GL_H
 #define RENDERER_DRAW_GL_H
 

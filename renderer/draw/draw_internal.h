@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Between the files that draw tiles: draw.c, and the two ways to draw one. */
+/* Shared by the files that draw tiles: draw.c and its back ends. */
 #ifndef RENDERER_DRAW_INTERNAL_H
 #define RENDERER_DRAW_INTERNAL_H
 

@@ -2,10 +2,9 @@
 /* The light of what is around a scene, made ready for the passes: the picture itself where there is
  * one, what a surface of each roughness reflects, and what falls on a diffuse one (glsl/sky.glsl).
  *
- * Belongs to the drawing thread. Counted; the same surroundings are made ready once, and those used
- * last are kept within LIMIT_PANORAMA_BYTES. What is made: radiance without the sun's disc, before
- * `intensity`, and before the turn and brightness of a picture, so that none of these makes it
- * anew. */
+ * Belongs to the drawing thread, which counts references. Equal environments are prepared once. The
+ * last ones are kept, up to LIMIT_PANORAMA_BYTES. They hold radiance without the sun's disc, before
+ * `intensity`, rotation and brightness are applied. A change of these prepares nothing. */
 #ifndef RENDERER_ENVIRONMENT_H
 #define RENDERER_ENVIRONMENT_H
 
@@ -31,8 +30,8 @@ void environments_destroy(struct environments *environments); /* NULL: nothing *
 
 /* The same without its picture: one colour. */
 void environment_leave_out(struct frame_uniforms *block);
-/* Whether it was made already: then nobody has to read its picture. `image`: the id of the file of
- * a block with SKY_IMAGE; else it means nothing. */
+/* Whether it is prepared already, so that its picture need not be read. `image`: the file id of a
+ * block with SKY_IMAGE; else it means nothing. */
 bool environments_have(struct environments *environments, const struct frame_uniforms *block,
                        const char *image);
 /* What is around a scene with this frame block; a new reference. `maps`: those of its picture,

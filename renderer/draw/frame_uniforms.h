@@ -8,7 +8,7 @@
 #include "camera.h"
 #include "renderer/glsl/interface.h"
 
-/* What the field says about where it is. */
+/* The bounds of the field. */
 struct scene_bounds {
     double min[3], max[3];                           /* may be infinite */
     double transmissive_min[3], transmissive_max[3]; /* of what light goes through */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* How large the tiles of a scene are: as large as can be drawn in a moment, so that others get
- * their turn. Learned from tile to tile, for each quality level, and kept as long as the scene is
- * held. Small tiles take more time in all (a third more on a software driver), so they are for
- * times when others wait. Pixels do not depend on it. Pure; one thread. */
+/* The tile size of a scene. A tile is as large as can be drawn within a short time, so that other
+ * pictures get their turn. The size is estimated from tile to tile for each quality level, and kept
+ * with the scene. Small tiles cost more in total (a third more on a software driver), so they are
+ * used only while others wait. Pixels do not depend on the size. Pure; one thread. */
 #ifndef RENDERER_PACE_H
 #define RENDERER_PACE_H
 

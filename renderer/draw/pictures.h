@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures of environments: a thread of their own reads them from their files and makes them ready
- * for the passes, one at a time. Who draws never waits for one. Every function belongs to the
- * drawing thread. */
+/* Pictures of environments. A separate thread decodes their files and prepares them for the passes,
+ * one at a time. Drawing never waits for it. Every function is called by the drawing thread. */
 #ifndef RENDERER_PICTURES_H
 #define RENDERER_PICTURES_H
 
@@ -12,10 +11,10 @@ struct pictures;
 struct picture; /* a file that is read, or was; counted */
 
 struct pictures *pictures_create(void); /* starts the thread; dies without one (aborts) */
-/* Waits for what is being read. Nobody holds a picture any more. */
+/* Waits for the picture being read. No reference to a picture is left. */
 void pictures_destroy(struct pictures *pictures);
 
-/* The file is read when its turn comes, and forgotten when nobody wants it before. A new
+/* Queues the file for reading; it is dropped if its last reference goes before. Returns a new
  * reference. */
 struct picture *pictures_want(struct pictures *pictures, struct asset *asset);
 void picture_unref(struct pictures *pictures, struct picture *picture); /* NULL: nothing */

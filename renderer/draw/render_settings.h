@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a picture takes, out of its quality level, the scene's render settings, and what the driver
- * allows. */
+/* The settings of one picture, derived from its quality level, the scene's render settings and the
+ * limits of the driver. */
 #ifndef RENDERER_RENDER_SETTINGS_H
 #define RENDERER_RENDER_SETTINGS_H
 

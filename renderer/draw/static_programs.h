@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The passes that know nothing of a scene's shape: compiled once for a context. */
+/* The passes that do not depend on a scene's structure. Compiled once per context. */
 #ifndef RENDERER_STATIC_PROGRAMS_H
 #define RENDERER_STATIC_PROGRAMS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Users' code is tried out before it is drawn, a while at a time, so that no other picture waits
- * for it. Snapshots of one program share a trial. Belongs to the drawing thread. */
+/* Trial runs of users' code before it is drawn, in short slices, so that no other picture waits.
+ * Snapshots of one program share a trial. Belongs to the drawing thread. */
 #ifndef RENDERER_TRIAL_H
 #define RENDERER_TRIAL_H
 

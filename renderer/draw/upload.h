@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A field with its numbers on the device, shared by the snapshots that show it. After a numeric
- * edit both are patched, into the field and the numbers of a snapshot that nobody draws any more:
- * nothing as large as a field is allocated or copied. Counted, by the drawing thread. */
+/* A field with its numbers on the device, shared by the snapshots that show it. A numeric edit
+ * patches both into the field and the numbers of a snapshot that is no longer drawn. No memory of
+ * the size of a field is allocated or copied. References are counted by the drawing thread. */
 #ifndef RENDERER_UPLOAD_H
 #define RENDERER_UPLOAD_H
 
@@ -19,8 +19,8 @@ struct upload {
 struct upload *upload_create(struct field *field);
 struct upload *upload_ref(struct upload *upload);
 void upload_unref(struct upload *upload, const struct gl *gl); /* NULL: nothing */
-/* As field_patch: NULL where the field has to be compiled. `spare` (may be NULL) is one that nobody
- * but the caller holds. */
+/* As field_patch: NULL where the field has to be compiled. `spare` (may be NULL): the caller
+ * holds its only reference. */
 struct upload *upload_patch(struct upload *from, struct upload *spare, const struct scene *scene,
                             const cJSON *ops);
 /* On the device as in the field. `capacity`: vec4s that programs declare. */
@@ -32,7 +32,7 @@ enum { UPLOADS_KEPT = 3 };
 struct upload_pool {
     struct upload *kept[UPLOADS_KEPT];
 };
-/* One that nobody else holds; NULL: none. */
+/* One without other references; NULL: none. */
 struct upload *upload_pool_spare(const struct upload_pool *pool);
 /* Keeps it in the place of one that is not held, or of the first. */
 void upload_pool_keep(struct upload_pool *pool, struct upload *upload, const struct gl *gl);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Between the files of the engine that are compiled for a width of vectors. */
+/* Shared by the files of the engine that are compiled for each vector width. */
 #ifndef RENDERER_ENGINE_INTERNAL_H
 #define RENDERER_ENGINE_INTERNAL_H
 

@@ -43,7 +43,7 @@ struct builder {
     bool hiding;            /* a node around is hidden */
     bool within;            /* what comes is not to be looked for in `isolation` */
     size_t depth;           /* nodes around, through models */
-    size_t emitted;         /* nodes so far, in models each time anew */
+    size_t emitted;         /* nodes so far; those of models count for each use */
     uint64_t trips;         /* loop iterations so far, in the current loop */
     size_t loops;           /* whose iterations these are, and of which something is seen */
     bool failed;            /* what follows may be left out */
@@ -51,7 +51,7 @@ struct builder {
 
     /* Where nodes stand (field_sites.h); NULL: that is not kept. */
     struct field_sites *sites;
-    /* The program is there: what is added is found in its place, and numbers are written anew. The
+    /* The program is there: what is added is found in its place, and numbers are overwritten. The
      * counts of `field` are places in it. What is not as it was fails, without an error. */
     bool again;
     bool whole;         /* again: all nodes from here on, not only those that have changed */

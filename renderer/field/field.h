@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /* The field program: a scene's tree of nodes as a flat list of typed instructions in post-order,
- * and one buffer with every number in it. Its evaluators are field_distance and its kin (C, double
- * precision) and the GLSL text of shader.h.
+ * and one buffer with every number. It is evaluated in C by field_distance and related functions
+ * (double precision), and in GLSL by the text of shader.h.
  *
- * The shape (instructions, hence GLSL) depends on the types of the nodes and on how they are
- * nested. All else is numbers: transforms, parameters, ids, materials and which node has which, and
- * which nodes are seen. Equal structure_hash: the same GLSL serves both.
+ * The structure (instructions, hence GLSL) depends on the types of the nodes and on their nesting.
+ * Everything else is numbers: transforms, parameters, ids, materials and their assignment, and the
+ * visibility of nodes. Two fields of equal structure_hash share one GLSL program.
  *
- * A node that is not seen changes nothing of the field, of its boxes and of what GLSL answers: its
- * shapes are FIELD_FAR away, and operations that would tell that from nothing are told their side.
- * The C evaluator passes it over. Hidden nodes that no program has had are left out.
+ * A hidden node has no effect on the field, its bounds or the answers of GLSL. Its shapes are at
+ * the distance FIELD_FAR. An operation whose result would differ from that without the operand
+ * takes the visible side alone (enum field_side). The C evaluator skips hidden nodes. A hidden node
+ * that no program contains yet is left out.
  *
- * Transforms are folded: a shape stands in the space of the domain modifier around it (or of the
- * scene), with its distance scaled to lengths of the scene by the least scale on every level.
- * Fields never change faster than the distance and are negative inside.
+ * Transforms are folded: a shape lies in the space of the domain modifier around it, or of the
+ * scene. Its distance is scaled to the scene by the smallest scale of each level. A field
+ * never changes faster than the distance, and is negative inside.
  *
- * Immutable after field_compile: an edit makes another one, by field_patch where it can. The
- * references are counted by one thread; another may read as long as the owner holds one for it. */
+ * Immutable after field_compile. An edit makes another field, by field_patch where possible. One
+ * thread counts the references. Another thread may read while the owner holds one for it. */
 #ifndef RENDERER_FIELD_H
 #define RENDERER_FIELD_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A field after an edit, out of the one before: what a numeric edit changes is written into a copy
- * of the numbers, and all else is shared. It is what compiling the scene anew would give, to the
- * last bit.
+/* A field after an edit, made from the field before. The changed numbers are written into a copy of
+ * all numbers; everything else is shared. The result equals that of a full compilation, bit for
+ * bit.
  *
  * A patch applies to operations that set
  * - a number, vector, switch or list of as many points as before among a node's parameters,
@@ -11,7 +11,7 @@
  * - something of the environment, its floor too, unless that comes or goes,
  * - what is not of the field: names of nodes, the camera, rendering, and all about lights and
  *   volumes.
- * All else is compiled anew: choices, code, materials of nodes, what is hidden and shown, types,
+ * All else is recompiled: choices, code, materials of nodes, what is hidden and shown, types,
  * nodes that come, go or move, models, primitives and shaders. So is a number that changes more
  * than numbers: whether there is a guard around a subtree, or whether the scene is a field at all.
  *
@@ -35,12 +35,12 @@ struct field_span {
  * where nothing of the field has changed. NULL: it has to be compiled, and so have those after it
  * until one is `patchable` again.
  *
- * `spare` (may be NULL) is an older field that nobody but the caller holds. Where it is of use it
- * is written over, and returned. `*out_changed` is where the numbers are others than they were in
- * it; all, where it was of no use. */
+ * `spare` (may be NULL) is an older field of which the caller holds the only reference. If usable,
+ * it is overwritten and returned. `*out_changed` is the range of numbers that differ from those in
+ * `spare`; all numbers if it was not usable. */
 struct field *field_patch(struct field *from, struct field *spare, const struct scene *scene,
                           const cJSON *ops, struct field_span *out_changed);
-/* Nothing can be patched on from this one: an edit was refused, which may have made nodes anew. */
+/* Ends patching from this field. A refused edit may have replaced nodes. */
 void field_end_patches(struct field *from);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which graphics device is asked for, and what was found of each. */
+/* The requested graphics device, and the results of trying each. */
 #ifndef RENDERER_DEVICE_H
 #define RENDERER_DEVICE_H
 

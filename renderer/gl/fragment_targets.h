@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What fragment shaders draw a tile with: glsl/starts_pass.glsl, sample_pass.glsl, mask_pass.glsl,
- * rays_pass.glsl. */
+/* Render targets of the fragment shaders of a tile: glsl/starts_pass.glsl, sample_pass.glsl,
+ * mask_pass.glsl, rays_pass.glsl. */
 #ifndef RENDERER_FRAGMENT_TARGETS_H
 #define RENDERER_FRAGMENT_TARGETS_H
 

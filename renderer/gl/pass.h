@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* One pass over a tile: a program made of a file of glsl/ and what that includes. Drivers' messages
- * are turned back into file and line.
+/* One pass over a tile: a program made of a file of glsl/ and its includes. Messages of the driver
+ * are mapped back to file and line.
  *
- * A pass is a compute shader or a fragment shader. llvmpipe may find lane 0 unused in a fragment
- * shader, and therefore fetches even what is the same for all lanes lane by lane there: programs
- * are four times as large. */
+ * A pass is a compute shader or a fragment shader. In a fragment shader, llvmpipe may find lane 0
+ * inactive. It then fetches uniform values for each lane, and programs are four times as large. */
 #ifndef RENDERER_PASS_H
 #define RENDERER_PASS_H
 
@@ -12,14 +11,14 @@
 #include "renderer/glsl/include.h"
 #include "renderer/glsl/interface.h"
 
-/* What a pass is told of where it is at. */
+/* The tile that a pass computes. */
 struct dispatch_args {
     int x, y, width, height; /* of the tile with its margin, in pixels of the picture */
     enum pass_mode mode;
     GLuint list; /* PASS_LIST: buffer of glsl/group.glsl, with the arguments of the dispatch */
 };
 
-/* What a pass is told besides: one of the structs of glsl/interface.h, as its whole numbers. */
+/* The arguments of one pass: a struct of glsl/interface.h, as an array of integers. */
 struct pass_args {
     const int32_t *values;
     int count;
@@ -38,7 +37,7 @@ struct pass_source {
     bool compute;                /* else a fragment shader over the whole target */
     const char *defines;         /* lines for above everything else; NULL: none */
     const char *file;            /* the one with main() */
-    const struct glsl_file *own; /* texts besides those of glsl/: glsl/include.h */
+    const struct glsl_file *own; /* further texts beside those of glsl/: glsl/include.h */
 };
 
 /* In the calling thread; ERROR_COMPILE with the place `file:line` when the driver refuses it. */

@@ -32,7 +32,7 @@ struct program {
     struct error error;
 };
 
-/* A thread and what it is at. */
+/* A thread and the program that it compiles. */
 struct compiler {
     pthread_t thread;
     struct program_cache *cache;
@@ -62,9 +62,9 @@ struct program_cache {
 };
 
 /* program_order.c, under the lock: the stage to compile next, with a reference to its program, or
- * NULL. A program has at most two threads at it, so that one is left for others; one that nobody
- * is at goes first, then the one that is due first: when it was added, and what it takes. Of those
- * with code of users one at a time is compiled, so that there is one suspect. */
+ * NULL. At most two threads compile one program, so that one is left for others. Programs without a
+ * thread go first, ordered by the time of their addition plus their expected duration. Only one
+ * program with users' code is compiled at a time, so that there is one suspect. */
 struct program *program_order_take(struct program_cache *cache, enum program_stage *out_stage);
 /* Processor time of all its stages: a rough number, for llvmpipe without a cache; program_limit.c
  * measures how this machine stands to it. */

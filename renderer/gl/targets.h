@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the passes read and write: textures, lists and framebuffers of one size, made once and used
- * for every tile. The formats stand here alone, because a program that draws into another format is
- * compiled again by some drivers. */
+/* Textures, lists and framebuffers of the passes, all of one size, created once and used for every
+ * tile. Their formats are defined only here, because some drivers recompile a program that draws
+ * into another format. */
 #ifndef RENDERER_TARGETS_H
 #define RENDERER_TARGETS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a thread that compiles runs programs with for the first time, because drivers do most of
- * their work then. Made when a program of its kind is first compiled. */
+/* Targets for the first run of a program on a compiling thread. Drivers do most of their work in
+ * that run. Created when a program of its kind is first compiled. */
 #ifndef RENDERER_WARM_TARGETS_H
 #define RENDERER_WARM_TARGETS_H
 

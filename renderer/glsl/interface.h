@@ -195,14 +195,14 @@
     X(int, light_count)                                                                            \
     X(int, volume_count)
 
-/* --- what a dispatch is told --- */
+/* --- arguments of a dispatch --- */
 
 #define DISPATCH_MEMBERS(X)                                                                        \
     X(ivec2, origin) /* first pixel of the tile, with its margin */                                \
     X(int, mode)     /* PASS_... */                                                                \
     X(int, zero)     /* always 0, so that loops starting there are not unrolled */
 
-/* Of each pass: what it is told besides, all of it whole numbers. X(name). */
+/* The arguments of each pass, all of them integers. X(name). */
 #define SAMPLE_ARGS(X)                                                                             \
     X(sample_index) /* of its pixel */                                                             \
     X(first)        /* the rays come from the camera */
@@ -304,7 +304,7 @@ struct trace_args {
 
 /* The text of "interface.glsl". */
 void interface_write(FILE *out);
-/* The same for a program that nobody gives anything: `frame` is a constant, `camera` and `dispatch`
+/* The same for a program without uniforms: `frame` is a constant, `camera` and `dispatch`
  * are variables that begin with this picture's values. */
 void interface_write_constant(FILE *out, const struct frame_uniforms *row);
 /* A number as GLSL writes it; TYPE(a, b, ...). */

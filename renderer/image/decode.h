@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures out of files that strangers made: PNG and Radiance HDR. Every byte is checked, and a
- * file that is not as it should be is refused. It is read row by row; a picture larger than a
- * panorama needs is averaged while it is read, so that the whole of it is never in memory. */
+/* Decoders of untrusted files: PNG and Radiance HDR. Every byte is checked, and a malformed file is
+ * refused. A file is read row by row. A picture larger than an environment map is averaged while it
+ * is read, so that it is never in memory as a whole. */
 #ifndef RENDERER_DECODE_H
 #define RENDERER_DECODE_H
 

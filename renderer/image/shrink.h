@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A picture that comes row by row becomes one that is small enough for a panorama: each pixel is
- * the mean of what lies in it of the file's, by area. A picture that is small enough stays as it
- * is, bit by bit. */
+/* Scales a picture down to the size of an environment map, row by row. Each pixel is the mean of
+ * the file's pixels, weighted by area. A picture that is small enough is unchanged, bit for bit. */
 #ifndef RENDERER_SHRINK_H
 #define RENDERER_SHRINK_H
 
